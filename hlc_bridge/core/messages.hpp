@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "planner/geometry/pose.hpp"
+
+/// The lab's messages as plain data, field for field what a controller, a middleware and a vehicle need of
+/// them (cpm lab wire contract). Times are nanoseconds of the run's clock. `hlc_bridge/dds` converts.
+namespace hlc {
+
+using Nanoseconds = std::uint64_t;
+
+/// next_start of a SystemTrigger that means "stop".
+inline constexpr Nanoseconds kStopSymbol = 0xFFFF'FFFF'FFFF'FFFFULL;
+/// A vehicle's state is valid this long after it was created.
+inline constexpr Nanoseconds kStateDelay = 60'000'000;
+/// Period of the vehicle's ticks.
+inline constexpr Nanoseconds kVehiclePeriod = 20'000'000;
+
+struct VehicleState {
+  std::uint8_t vehicle_id{};
+  Nanoseconds create_stamp{};
+  Nanoseconds valid_after_stamp{};
+  Pose pose;                     ///< heading_rad is the vehicle's yaw
+  Nanoseconds ips_update_age{};
+  double odometer_distance_m{};
+  double imu_acceleration_forward_mps2{};
+  double imu_acceleration_left_mps2{};
+  double imu_acceleration_up_mps2{};
+  double imu_yaw_rad{};
+  double imu_yaw_rate_radps{};
+  double speed_mps{};
+  double battery_voltage_v{};
+  double motor_current_a{};
+  double motor_throttle{};
+  double steering_servo{};
+  bool is_real{};
+};
+
+struct VehicleObservation {
+  std::uint8_t vehicle_id{};
+  Nanoseconds create_stamp{};
+  Nanoseconds valid_after_stamp{};
+  Pose pose;
+};
+
+struct VehicleStateList {
+  Nanoseconds t_now{};
+  std::uint64_t period_ms{};
+  std::vector<VehicleState> states;
+  std::vector<VehicleObservation> observations;
+  std::vector<std::int32_t> active_vehicle_ids;
+};
+
+struct TrajectoryPoint {
+  Nanoseconds t{};
+  double x_m{};
+  double y_m{};
+  double vx_mps{};
+  double vy_mps{};
+};
+
+struct TrajectoryCommand {
+  std::uint8_t vehicle_id{};
+  Nanoseconds create_stamp{};
+  Nanoseconds valid_after_stamp{};
+  std::vector<TrajectoryPoint> points;
+};
+
+struct ReadyStatus {
+  std::string source_id;
+  Nanoseconds next_start{};
+};
+
+struct SystemTrigger {
+  Nanoseconds next_start{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planner/geometry/pose.hpp"
+
+namespace hlc {
+
+/// A convex polygon: vertices counter-clockwise, no three in a row on a line, not closed (the last
+/// vertex is not repeated). At least 3 vertices, or 0: the empty polygon, which holds no point.
+struct ConvexPolygon {
+  std::vector<Point> vertices_m;
+
+  [[nodiscard]] bool empty() const { return vertices_m.empty(); }
+  friend bool operator==(const ConvexPolygon&, const ConvexPolygon&) = default;
+};
+
+/// A straight piece of a boundary [m].
+struct Segment {
+  Point from_m{Point::Zero()};
+  Point to_m{Point::Zero()};
+};
+
+/// An axis-parallel box; the box of the empty polygon is empty (min > max).
+struct Box {
+  Point min_m{Point::Constant(1e300)};
+  Point max_m{Point::Constant(-1e300)};
+};
+
+[[nodiscard]] Box bounding_box(const ConvexPolygon& polygon);
+[[nodiscard]] Box bounding_box(const Segment& segment);
+[[nodiscard]] bool overlap(const Box& a, const Box& b);
+
+/// The smallest convex polygon that holds all points (monotone chain, O(n log n)).
+[[nodiscard]] ConvexPolygon convex_hull(std::vector<Point> points_m);
+
+/// The polygon, given in `frame`, in the frame that `frame` itself is given in.
+[[nodiscard]] ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame);
+
+/// A polygon that contains every point within `distance_m` of `polygon`: each edge moved outwards by
+/// that distance, corners mitred (so it is larger than the rounded Minkowski sum at the corners).
+/// @pre distance_m >= 0
+[[nodiscard]] ConvexPolygon inflated(const ConvexPolygon& polygon, double distance_m);
+
+/// A polygon with at most `max_vertices` vertices that contains `polygon`, made by removing edges and
+/// extending their neighbours, the one that adds least area first. @pre max_vertices >= 4
+[[nodiscard]] ConvexPolygon simplified_outwards(const ConvexPolygon& polygon,
+                                                std::size_t max_vertices);
+
+/// True if the point lies in the polygon or on its border, with `tolerance_m` to spare outside.
+[[nodiscard]] bool contains(const ConvexPolygon& polygon, const Point& point_m,
+                            double tolerance_m = 0.0);
+
+/// Separating axis test: true if the two share a point that is inside at least one of them (polygons
+/// that only touch do not intersect).
+[[nodiscard]] bool intersects(const ConvexPolygon& a, const ConvexPolygon& b);
+[[nodiscard]] bool intersects(const ConvexPolygon& polygon, const Segment& segment);
+
+/// Smallest distance between two polygons [m]; 0 if they intersect; infinite if one is empty.
+[[nodiscard]] double distance_m(const ConvexPolygon& a, const ConvexPolygon& b);
+
+}  // namespace hlc

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/geometry/polygon.hpp"
+
+namespace hlc {
+
+/// The drivable area along a route as its boundary: straight pieces left and right of the route, each with
+/// the piece of the route's arc length that it belongs to. Where a neighbour lane begins or ends, a piece
+/// closes the step across. A footprint that crosses no piece and starts inside stays inside.
+class Corridor {
+ public:
+  struct Piece {
+    Segment segment;
+    double from_s_m{};
+    double to_s_m{};
+  };
+
+  Corridor() = default;  ///< no boundary: everything is drivable
+  /// @param route_length_m  arc length after which s repeats; 0 for an open route
+  Corridor(std::vector<Piece> pieces, double route_length_m);
+
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  /// The pieces that belong to s in [from_s_m, to_s_m] (wrapped on a closed route): only what lies along
+  /// the way counts, a strand of the same route that passes close by does not.
+  [[nodiscard]] std::vector<Segment> boundary_m(double from_s_m, double to_s_m) const;
+
+ private:
+  std::vector<Piece> pieces_;
+  double route_length_m_{};
+};
+
+}  // namespace hlc

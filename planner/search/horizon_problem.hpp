@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/geometry/polygon.hpp"
+
+namespace hlc {
+
+/// The receding-horizon problem: find n maneuvers (or trims' own steps) from the start that end in an
+/// equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
+///
+///     sum_{j=1}^{n} || p_j - r_j ||^2   [m^2]
+///
+/// with p_j the position after step j and r_j the reference point of that step (paper, Section 4).
+struct HorizonProblem {
+  Pose start;
+  TrimId start_trim;
+  std::vector<Point> reference_m;            ///< r_1 ... r_n; its size is the horizon n
+  std::vector<double> reference_speed_mps;   ///< one per step; used by the cost-to-go `k2022` only
+  /// Areas that are occupied during step j (index j - 1); may be empty. Any number of polygons per step.
+  std::vector<std::vector<ConvexPolygon>> obstacles_m;
+  std::vector<Segment> boundary_m;           ///< of the drivable area, the same for all steps
+
+  [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
+};
+
+enum class CostToGo {
+  /// Admissible: from the largest distance that the automaton can reach (ReachableSets::max_distance_m).
+  kReachable,
+  /// The authors' of 2022, sum (|| p - r_j || - v_ref step_s m)^2 without a floor at 0: inadmissible, for
+  /// the comparison with the paper only.
+  k2022,
+};
+
+struct SearchOptions {
+  CostToGo cost_to_go{CostToGo::kReachable};
+  /// Expansions after which the search gives up; a number, never a time, so that two runs agree.
+  std::size_t max_expansions{1'000'000};
+};
+
+enum class SearchStatus {
+  kOptimal,     ///< a path of least cost (with k2022: a path; its cost-to-go is inadmissible)
+  kInfeasible,  ///< no path exists
+  kBudget,      ///< max_expansions reached before a path was found
+};
+
+struct SearchResult {
+  SearchStatus status{SearchStatus::kInfeasible};
+  double cost{};                            ///< [m^2]; only if kOptimal
+  std::vector<const Maneuver*> maneuvers;   ///< n of them; empty unless kOptimal
+  std::vector<Pose> poses;                  ///< pose after each, n; empty unless kOptimal
+  std::size_t generated{};                  ///< vertices generated, the root included
+  std::size_t expanded{};                   ///< vertices taken from the open list and expanded
+};
+
+}  // namespace hlc
