@@ -1,0 +1,60 @@
+#include "planner/coordination/coupling.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace hlc {
+
+CouplingGraph::CouplingGraph(std::vector<Traffic> traffic) {
+  std::ranges::sort(traffic, {}, &Traffic::vehicle);
+  neighbours_.resize(traffic.size());
+  for (const Traffic& one : traffic) vehicles_.push_back(one.vehicle);
+  for (std::size_t i = 0; i < traffic.size(); ++i) {
+    for (std::size_t j = i + 1; j < traffic.size(); ++j) {
+      if (intersects(traffic[i].reachable_area_m, traffic[j].reachable_area_m)) {
+        neighbours_[i].push_back(j);
+        neighbours_[j].push_back(i);
+      }
+    }
+  }
+}
+
+std::size_t CouplingGraph::index(VehicleId vehicle) const {
+  const auto found = std::ranges::lower_bound(vehicles_, vehicle);
+  assert(found != vehicles_.end() && *found == vehicle);
+  return static_cast<std::size_t>(found - vehicles_.begin());
+}
+
+bool CouplingGraph::are_coupled(VehicleId a, VehicleId b) const {
+  return std::ranges::find(neighbours_[index(a)], index(b)) != neighbours_[index(a)].end();
+}
+
+std::vector<VehicleId> CouplingGraph::neighbours(VehicleId vehicle) const {
+  std::vector<VehicleId> result;
+  for (const std::size_t i : neighbours_[index(vehicle)]) result.push_back(vehicles_[i]);
+  std::ranges::sort(result);
+  return result;
+}
+
+std::vector<VehicleId> CouplingGraph::component(VehicleId vehicle) const {
+  std::vector<bool> seen(vehicles_.size(), false);
+  std::vector<std::size_t> open{index(vehicle)};
+  seen[open.front()] = true;
+  while (!open.empty()) {
+    const std::size_t i = open.back();
+    open.pop_back();
+    for (const std::size_t j : neighbours_[i]) {
+      if (!seen[j]) {
+        seen[j] = true;
+        open.push_back(j);
+      }
+    }
+  }
+  std::vector<VehicleId> result;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i]) result.push_back(vehicles_[i]);
+  }
+  return result;
+}
+
+}  // namespace hlc

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/coordination/messages.hpp"
+
+namespace hlc {
+
+/// Which vehicles may meet within the horizon: i and j are coupled if what they can reach
+/// intersects (undirected). The answer is the same in every controller that heard the same traffic.
+class CouplingGraph {
+ public:
+  /// @param traffic  of the same step, every vehicle once; sorted by vehicle on return
+  explicit CouplingGraph(std::vector<Traffic> traffic);
+
+  [[nodiscard]] const std::vector<VehicleId>& vehicles() const { return vehicles_; }
+  [[nodiscard]] bool are_coupled(VehicleId a, VehicleId b) const;
+  /// Coupled vehicles of `vehicle`, sorted.
+  [[nodiscard]] std::vector<VehicleId> neighbours(VehicleId vehicle) const;
+  /// All vehicles that hang together with `vehicle` over any number of couplings, itself included,
+  /// sorted.
+  [[nodiscard]] std::vector<VehicleId> component(VehicleId vehicle) const;
+
+ private:
+  [[nodiscard]] std::size_t index(VehicleId vehicle) const;
+
+  std::vector<VehicleId> vehicles_;
+  std::vector<std::vector<std::size_t>> neighbours_;
+};
+
+}  // namespace hlc

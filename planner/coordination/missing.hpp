@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/coordination/messages.hpp"
+
+namespace hlc {
+
+/// A vehicle as the state list shows it.
+struct MeasuredVehicle {
+  VehicleId vehicle;
+  Pose pose;  ///< heading_rad is the vehicle's yaw, not the planner's heading
+  double speed_mps{};
+  double age_s{};  ///< t(k) minus the time at which the state was measured
+};
+
+/// What a silent vehicle may occupy.
+struct MissingVehicleRules {
+  double max_speed_mps{};           ///< no vehicle of the lab drives faster under its controller
+  double circumradius_m{};          ///< of the footprint with its safety margin
+  double standing_speed_mps{0.02};  ///< slower counts as standing
+  double max_age_s{0.2};            ///< a state older than this shows nothing
+  Footprint footprint;
+  double safety_margin_m{};
+};
+
+/// An octagon around the disc of everything that a vehicle measured at `measured` can occupy until
+/// `horizon_s` after t(k): radius = max_speed (age + horizon) + circumradius.
+[[nodiscard]] ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
+                                           const MissingVehicleRules& rules);
+
+/// Whether a silent vehicle is a standing obstacle and no longer missing: a fresh state shows it
+/// standing, and every plan that it can have agreed to has run out (`last_heard` is the last step
+/// it spoke in; a plan of that step ends `horizon_steps` + 1 steps later).
+[[nodiscard]] bool stands_for_good(const MeasuredVehicle& measured, StepIndex now,
+                                   StepIndex last_heard, std::size_t horizon_steps,
+                                   const MissingVehicleRules& rules);
+
+/// The footprint of a standing vehicle with its margin.
+[[nodiscard]] ConvexPolygon standing_area(const MeasuredVehicle& measured,
+                                          const MissingVehicleRules& rules);
+
+}  // namespace hlc

@@ -1,0 +1,58 @@
+#include "planner/coordination/plan.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace hlc {
+
+Plan::Plan(StepIndex first, const Pose& pose, const Maneuver& standstill)
+    : first_(first), standstill_(&standstill), poses_{pose} {}
+
+StepIndex Plan::end() const { return {first_.value + maneuvers_.size()}; }
+
+const Pose& Plan::pose_at(StepIndex step) const {
+  assert(step >= first_);
+  return poses_[std::min<std::size_t>(step.value - first_.value, poses_.size() - 1)];
+}
+
+const Maneuver& Plan::maneuver_during(StepIndex step) const {
+  assert(step >= first_);
+  const std::size_t i = step.value - first_.value;
+  return i < maneuvers_.size() ? *maneuvers_[i] : *standstill_;
+}
+
+TrimId Plan::trim_at(StepIndex step) const { return maneuver_during(step).from; }
+
+State Plan::state_at(StepIndex step, double time_s, const VehicleParameters& vehicle) const {
+  State state = hlc::state_at(maneuver_during(step), time_s, vehicle);
+  state.pose = compose(pose_at(step), state.pose);
+  return state;
+}
+
+OccupiedAreas Plan::areas_from(StepIndex from) const {
+  OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = {}};
+  for (StepIndex step = from; step < end(); ++step.value) {
+    areas.areas_m.push_back(transformed(maneuver_during(step).swept_area_m, pose_at(step)));
+  }
+  areas.final_area_m = transformed(standstill_->swept_area_m, poses_.back());
+  return areas;
+}
+
+Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation) const {
+  const StepIndex keep_from{
+      std::max(first_.value, step.value < 2 ? std::uint64_t{0} : step.value - 2)};
+  Plan result(keep_from, pose_at(keep_from), *standstill_);
+  const auto append = [&result](const Maneuver& maneuver) {
+    result.maneuvers_.push_back(&maneuver);
+    result.poses_.push_back(compose(result.poses_.back(), maneuver.displacement));
+  };
+  for (StepIndex kept = keep_from; kept < step; ++kept.value) append(maneuver_during(kept));
+  for (const Maneuver* maneuver : continuation) {
+    assert(maneuver->from ==
+           (result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to));
+    append(*maneuver);
+  }
+  return result;
+}
+
+}  // namespace hlc

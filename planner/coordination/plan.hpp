@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/coordination/messages.hpp"
+
+namespace hlc {
+
+/// A plan of one vehicle: maneuvers (and trims' own steps) one after the other, step by step from
+/// t(first) on, then standing at the last pose for ever. Because steps are numbered by time, the
+/// same plan one step later is the same object: nothing is shifted, the past is only no longer
+/// asked for.
+class Plan {
+ public:
+  /// Standing at `pose` from t(first) on. `standstill` is the equilibrium trim's own step and, like
+  /// every maneuver of a plan, must outlive the plan (the automaton owns it).
+  Plan(StepIndex first, const Pose& pose, const Maneuver& standstill);
+
+  /// This plan until t(step), then `continuation`; what lies before t(step - 2) is forgotten.
+  /// @pre continuation starts with the trim of this plan at t(step) and ends in the equilibrium
+  /// trim
+  [[nodiscard]] Plan continued(StepIndex step,
+                               const std::vector<const Maneuver*>& continuation) const;
+
+  [[nodiscard]] StepIndex first() const { return first_; }
+  /// First step index at whose time the plan stands for good.
+  [[nodiscard]] StepIndex end() const;
+  /// Planned pose at t(step); standing beyond the end. @pre step >= first()
+  [[nodiscard]] const Pose& pose_at(StepIndex step) const;
+  [[nodiscard]] TrimId trim_at(StepIndex step) const;
+  /// The maneuver driven in [t(step), t(step + 1)].
+  [[nodiscard]] const Maneuver& maneuver_during(StepIndex step) const;
+  /// Planned state at t(step) + time_s, 0 <= time_s <= one step. @pre step >= first()
+  [[nodiscard]] State state_at(StepIndex step, double time_s,
+                               const VehicleParameters& vehicle) const;
+  /// Areas from t(from) on, and of standing at the end. @pre from >= first()
+  [[nodiscard]] OccupiedAreas areas_from(StepIndex from) const;
+
+ private:
+  StepIndex first_;
+  const Maneuver* standstill_;
+  std::vector<const Maneuver*> maneuvers_;
+  std::vector<Pose> poses_;  ///< at t(first_ + i), one more than maneuvers
+};
+
+}  // namespace hlc

@@ -1,0 +1,28 @@
+#include "planner/coordination/settle.hpp"
+
+namespace hlc {
+namespace {
+
+template <class AreaAt>
+bool free_step_by_step(const OccupiedAreas& a, AreaAt area_at, StepIndex from, std::size_t steps) {
+  for (std::size_t i = 0; i < steps; ++i) {
+    const StepIndex step{from.value + i};
+    if (intersects(a.during(step), area_at(step))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool are_free(const OccupiedAreas& a, const OccupiedAreas& b, StepIndex from, std::size_t steps) {
+  return free_step_by_step(
+      a, [&b](StepIndex step) -> const ConvexPolygon& { return b.during(step); }, from, steps);
+}
+
+bool are_free(const OccupiedAreas& a, const ConvexPolygon& area_m, StepIndex from,
+              std::size_t steps) {
+  return free_step_by_step(
+      a, [&area_m](StepIndex) -> const ConvexPolygon& { return area_m; }, from, steps);
+}
+
+}  // namespace hlc

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "planner/coordination/messages.hpp"
+
+namespace hlc {
+
+/// When a new plan comes into force.
+///
+/// Messages can be lost, so agreement cannot be assumed. Let old_i be the plan of vehicle i in
+/// force when step k begins, new_i the one it plans in step k (old_i if it finds none); each
+/// vehicle drives one of the two.
+///
+/// `kStrict`: new_i comes into force only if it is free of old_j and of new_j of every coupled j,
+/// both heard. Then whatever subset of the step's messages is lost, the plans in force are free of
+/// each other pair by pair, provided that they were so before:
+///   * old_i, old_j: free before the step;
+///   * new_i, old_j: i has checked new_i against old_j;
+///   * new_i, new_j: i has checked new_i against new_j.
+/// A vehicle that did not hear both of j keeps old_i, unless new_i stays out of everything j can
+/// reach. No vehicle needs to know what another one decided, so no third round of messages is
+/// needed for safety. Because every vehicle also plans around the old plans of those that plan
+/// after it, old_i stays a solution of its own problem: without a fault the search is never
+/// infeasible.
+///
+/// `kAgreed` (the authors', profile `2022`): a new plan respects the new plans of predecessors and
+/// the footprints of standing successors only. Who finds none wants to fall back, and then all of
+/// its weakly connected component do, trusting that everybody hears of it. Safe only while no
+/// message is lost.
+enum class SettleRule { kStrict, kAgreed };
+
+/// True if, step by step from t(from) until t(from + steps) and standing at the end, the two share
+/// no point. Plans that end standing within that time stay free for ever after, since the last area
+/// holds the standing footprint. @pre both begin at or before `from`
+[[nodiscard]] bool are_free(const OccupiedAreas& a, const OccupiedAreas& b, StepIndex from,
+                            std::size_t steps);
+
+/// The same against one area that does not move.
+[[nodiscard]] bool are_free(const OccupiedAreas& a, const ConvexPolygon& area_m, StepIndex from,
+                            std::size_t steps);
+
+}  // namespace hlc
