@@ -32,19 +32,36 @@ struct Box {
 [[nodiscard]] Box bounding_box(const Segment& segment);
 [[nodiscard]] bool overlap(const Box& a, const Box& b);
 
-/// The smallest convex polygon that holds all points (monotone chain, O(n log n)).
+/// A hull leaves out vertices that stand out by less than this from the line of their neighbours,
+/// so that no three vertices in a row lie on a line. Far below every length that matters, far above
+/// rounding.
+inline constexpr double kHullTolerance_m = 1e-12;
+
+/// Added where a polygon must contain another for certain, so that rounding cannot spoil it.
+inline constexpr double kRoundingAllowance_m = 1e-12;
+
+/// The smallest convex polygon that holds all points (monotone chain, O(n log n)), up to
+/// kHullTolerance_m. Duplicate and collinear points are allowed; the empty polygon if all points
+/// lie on one line.
 [[nodiscard]] ConvexPolygon convex_hull(std::vector<Point> points_m);
+
+/// Vertices of the same hull, counter-clockwise, also where it has no area: both ends of a line, a
+/// single point, nothing.
+[[nodiscard]] std::vector<Point> hull_vertices(std::vector<Point> points_m);
 
 /// The polygon, given in `frame`, in the frame that `frame` itself is given in.
 [[nodiscard]] ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame);
 
-/// A polygon that contains every point within `distance_m` of `polygon`: each edge moved outwards by
-/// that distance, corners mitred (so it is larger than the rounded Minkowski sum at the corners).
-/// @pre distance_m >= 0
+/// A polygon that contains every point within `distance_m` of `polygon`: each edge moved outwards
+/// by that distance (and kRoundingAllowance_m), corners mitred (so it is larger than the rounded
+/// Minkowski sum at the corners). Corners sharper than 60 degrees are cut at that distance by one
+/// more edge. The empty polygon stays empty. @pre distance_m >= 0
 [[nodiscard]] ConvexPolygon inflated(const ConvexPolygon& polygon, double distance_m);
 
-/// A polygon with at most `max_vertices` vertices that contains `polygon`, made by removing edges and
-/// extending their neighbours, the one that adds least area first. @pre max_vertices >= 4
+/// A polygon with at most `max_vertices` vertices that contains `polygon`, made by removing edges
+/// and extending their neighbours, the one that adds least area first (greedy). A polygon that is
+/// small enough is returned as it is; every remaining edge of another lies on an edge of `polygon`,
+/// up to kRoundingAllowance_m outside. @pre max_vertices >= 4
 [[nodiscard]] ConvexPolygon simplified_outwards(const ConvexPolygon& polygon,
                                                 std::size_t max_vertices);
 
@@ -52,8 +69,10 @@ struct Box {
 [[nodiscard]] bool contains(const ConvexPolygon& polygon, const Point& point_m,
                             double tolerance_m = 0.0);
 
-/// Separating axis test: true if the two share a point that is inside at least one of them (polygons
-/// that only touch do not intersect).
+/// Separating axis test: true if the two share a point that is inside at least one of them
+/// (polygons that only touch do not intersect; the empty polygon intersects nothing). Does not
+/// allocate; compares no boxes, because a caller that asks often keeps them and asks `overlap`
+/// first.
 [[nodiscard]] bool intersects(const ConvexPolygon& a, const ConvexPolygon& b);
 [[nodiscard]] bool intersects(const ConvexPolygon& polygon, const Segment& segment);
 
