@@ -2,30 +2,33 @@
 
 namespace hlc {
 
-/// Parameters p1 ... p10 of the lab's identified vehicle model and what follows from them. State: px, py,
-/// yaw, speed v; inputs throttle f and steering s in [-1, 1], battery voltage V. With delta = s + p9:
+/// Parameters p1 ... p10 of the lab's identified vehicle model and what follows from them. State:
+/// px, py, yaw, speed v; inputs throttle f and steering s in [-1, 1], battery voltage V. With delta
+/// = s + p9:
 ///
 ///     px'  = p1 v (1 + p2 delta^2) cos(yaw + p3 delta + p10)      (py' the same with sin)
 ///     yaw' = p4 v delta
 ///     v'   = p5 v + (p6 + p7 V) sign(f) |f|^p8
 ///
-/// `vehicle_sim/plant` integrates it; the planner needs only the slip, because the lab's vehicle points in
-/// another direction than the single-track model when it drives the same path.
+/// `vehicle_sim/plant` integrates it; the planner needs only the slip, because the lab's vehicle
+/// points in another direction than the single-track model when it drives the same path.
 struct IdentifiedVehicle {
-  double path_speed_gain{1.004582};         ///< p1
-  double path_speed_steering{-0.142938};    ///< p2 [1/steering^2]
-  double slip_gain_rad{0.195236};           ///< p3
-  double yaw_rate_gain_per_m{3.560576};     ///< p4
-  double drag_per_s{-2.190728};             ///< p5
-  double thrust_offset_mps2{-9.726828};     ///< p6
-  double thrust_per_volt{2.515565};         ///< p7 [m/s^2/V]
-  double throttle_exponent{1.321199};       ///< p8
-  double steering_offset{0.032208};         ///< p9
-  double slip_offset_rad{-0.012863};        ///< p10
+  double path_speed_gain{1.004582};       ///< p1
+  double path_speed_steering{-0.142938};  ///< p2 [1/steering^2]
+  double slip_gain_rad{0.195236};         ///< p3
+  double yaw_rate_gain_per_m{3.560576};   ///< p4
+  double drag_per_s{-2.190728};           ///< p5
+  double thrust_offset_mps2{-9.726828};   ///< p6
+  double thrust_per_volt{2.515565};       ///< p7 [m/s^2/V]
+  double throttle_exponent{1.321199};     ///< p8
+  double steering_offset{0.032208};       ///< p9
+  double slip_offset_rad{-0.012863};      ///< p10
 };
 
-/// delta (= s + p9) at which the identified vehicle drives a path of this curvature in steady state:
-/// the solution of curvature = p4 delta / (p1 (1 + p2 delta^2)) nearest to 0. Not limited to |s| <= 1.
+/// delta (= s + p9) at which the identified vehicle drives a path of this curvature in steady
+/// state: the solution of curvature = p4 delta / (p1 (1 + p2 delta^2)) nearest to 0. Not limited to
+/// |s| <= 1.
+/// @pre p4 > 0, p2 <= 0 (then every curvature has a solution)
 [[nodiscard]] double steady_steering(double curvature_per_m, const IdentifiedVehicle& vehicle);
 
 /// p3 delta + p10 [rad]: angle from the vehicle's yaw to its course on a path of this curvature.

@@ -18,18 +18,18 @@ struct State {
 
 /// Input of the model: u = (u_v, u_delta).
 struct Input {
-  double acceleration_mps2{};     ///< u_v
-  double steering_rate_radps{};   ///< u_delta
+  double acceleration_mps2{};    ///< u_v
+  double steering_rate_radps{};  ///< u_delta
 
   friend bool operator==(const Input&, const Input&) = default;
 };
 
 /// Geometry of the vehicle. Defaults: the µCar (1:18).
 struct VehicleParameters {
-  double wheelbase_m{0.150};            ///< L
-  double rear_axle_to_cg_m{0.075};      ///< l_r
+  double wheelbase_m{0.150};        ///< L
+  double rear_axle_to_cg_m{0.075};  ///< l_r
   Footprint footprint{0.220, 0.107};
-  double safety_margin_m{0.010};        ///< added to the footprint on every side, vehicle to vehicle
+  double safety_margin_m{0.010};  ///< added to the footprint on every side, vehicle to vehicle
 };
 
 /// Bounds on inputs and states; |u_v|, |u_delta| and |delta| are symmetric, 0 <= v.

@@ -1,0 +1,22 @@
+#include "planner/vehicle/identified_vehicle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hlc {
+
+// curvature p1 p2 delta^2 - p4 delta + curvature p1 = 0. The root nearest to 0 is written so that
+// nothing cancels (and curvature 0 needs no case of its own).
+double steady_steering(double curvature_per_m, const IdentifiedVehicle& vehicle) {
+  const double c = curvature_per_m * vehicle.path_speed_gain;
+  const double b = vehicle.yaw_rate_gain_per_m;
+  const double discriminant = b * b - 4.0 * c * c * vehicle.path_speed_steering;
+  return 2.0 * c / (b + std::sqrt(std::max(0.0, discriminant)));
+}
+
+double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle) {
+  return vehicle.slip_gain_rad * steady_steering(curvature_per_m, vehicle) +
+         vehicle.slip_offset_rad;
+}
+
+}  // namespace hlc
