@@ -6,15 +6,17 @@
 
 namespace hlc {
 
-/// The drivable area along a route as its boundary: straight pieces left and right of the route, each with
-/// the piece of the route's arc length that it belongs to. Where a neighbour lane begins or ends, a piece
-/// closes the step across. A footprint that crosses no piece and starts inside stays inside.
+/// The drivable area along a route as its boundary: straight pieces left and right of the route,
+/// each with the piece of the route's arc length that it belongs to. Where a neighbour lane begins
+/// or ends, a piece closes the step across. A footprint that crosses no piece and starts inside
+/// stays inside; the two ends of an open route are open.
 class Corridor {
  public:
   struct Piece {
     Segment segment;
-    double from_s_m{};
-    double to_s_m{};
+    double
+        from_s_m{};   ///< may be below 0 or above the route's length: s is meant modulo the length
+    double to_s_m{};  ///< >= from_s_m
   };
 
   Corridor() = default;  ///< no boundary: everything is drivable
@@ -22,8 +24,10 @@ class Corridor {
   Corridor(std::vector<Piece> pieces, double route_length_m);
 
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
-  /// The pieces that belong to s in [from_s_m, to_s_m] (wrapped on a closed route): only what lies along
-  /// the way counts, a strand of the same route that passes close by does not.
+  /// The pieces that belong to s in [from_s_m, to_s_m] (wrapped on a closed route), each once, in
+  /// the order of pieces(): only what lies along the way counts, a strand of the same route that
+  /// passes close by does not. s is that of a point on the route: for a footprint, extend the
+  /// window by its half length and some centimetres on both sides. @pre from_s_m <= to_s_m
   [[nodiscard]] std::vector<Segment> boundary_m(double from_s_m, double to_s_m) const;
 
  private:

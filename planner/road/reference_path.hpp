@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "planner/geometry/pose.hpp"
@@ -9,7 +10,9 @@ namespace hlc {
 /// A polyline, parametrised by arc length s [m]; closed paths continue at s = length with s = 0.
 class ReferencePath {
  public:
-  /// @param points_m  at least 2, no two neighbours equal; a closed path does not repeat its first point
+  /// @param points_m  at least 2, no two neighbours equal, all finite; a closed path does not
+  /// repeat
+  ///                  its first point
   /// @throws std::invalid_argument otherwise
   ReferencePath(std::vector<Point> points_m, bool closed);
 
@@ -19,23 +22,31 @@ class ReferencePath {
 
   /// Point at arc length s: wrapped on a closed path, clamped to the ends of an open one.
   [[nodiscard]] Point at(double s_m) const;
-  /// Direction of travel there [rad].
+  /// Direction of travel there [rad], in (-pi, pi]: that of the segment; at a joint, of the later
+  /// one.
   [[nodiscard]] double heading_rad_at(double s_m) const;
 
   struct Projection {
-    double s_m{};        ///< in [0, length)
-    double distance_m{}; ///< to the path
+    double s_m{};         ///< in [0, length) on a closed path, [0, length] on an open one
+    double distance_m{};  ///< to the path; infinite if the point is not finite
   };
   /// Exact nearest point of the whole polyline (the smallest s among equals).
   [[nodiscard]] Projection project(const Point& point_m) const;
-  /// Exact nearest point among s in [from_s_m, to_s_m] (wrapped on a closed path): for a vehicle whose
-  /// place is known, where another piece of the path runs close by. @pre from_s_m <= to_s_m
-  [[nodiscard]] Projection project_within(const Point& point_m, double from_s_m, double to_s_m) const;
+  /// Exact nearest point among s in [from_s_m, to_s_m] (wrapped on a closed path, clamped to an
+  /// open one; the first on the way among equals): for a vehicle whose place is known, where
+  /// another piece of the path runs close by. @pre from_s_m <= to_s_m
+  [[nodiscard]] Projection project_within(const Point& point_m, double from_s_m,
+                                          double to_s_m) const;
 
  private:
+  [[nodiscard]] double on_path(double s_m) const;
+  [[nodiscard]] std::size_t segment_at(double s_m) const;
+  /// Nearest point in 0 <= from_s_m <= s <= to_s_m <= length, if nearer than `best`.
+  void improve(Projection& best, const Point& point_m, double from_s_m, double to_s_m) const;
+
   std::vector<Point> points_m_;
   bool closed_;
-  std::vector<double> s_m_;
+  std::vector<double> s_m_;  ///< arc length at each joint, the end included
 };
 
 }  // namespace hlc

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "planner/road/reference_path.hpp"
 
 namespace hlc {
 
-/// How the reference points of a plan are spaced (`k2022`: the rule under which the paper's numbers arose).
+/// How the reference points of a plan are spaced (`k2022`: the rule under which the paper's numbers
+/// arose).
 enum class ReferenceRule {
   kDefault,  ///< first step with the mean of current and reference speed, then the reference speed
   k2022,     ///< reference speed for all steps but the last, which is halved; current speed ignored

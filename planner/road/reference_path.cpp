@@ -1,0 +1,110 @@
+#include "planner/road/reference_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace hlc {
+namespace {
+
+/// The representative of s in [0, length).
+double wrapped(double s_m, double length_m) {
+  const double rest_m = std::fmod(s_m, length_m);
+  const double positive_m = rest_m < 0.0 ? rest_m + length_m : rest_m;
+  return positive_m < length_m ? positive_m : 0.0;  // -1e-20 + length rounds to length
+}
+
+}  // namespace
+
+ReferencePath::ReferencePath(std::vector<Point> points_m, bool closed)
+    : points_m_(std::move(points_m)), closed_(closed) {
+  if (points_m_.size() < 2) {
+    throw std::invalid_argument("reference path: " + std::to_string(points_m_.size()) +
+                                " points, must be at least 2");
+  }
+  const std::size_t segments = closed_ ? points_m_.size() : points_m_.size() - 1;
+  s_m_.reserve(segments + 1);
+  s_m_.push_back(0.0);
+  for (std::size_t i = 0; i < segments; ++i) {
+    const double length = (points_m_[(i + 1) % points_m_.size()] - points_m_[i]).norm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      throw std::invalid_argument("reference path: distance of point " + std::to_string(i) +
+                                  " to the next is " + std::to_string(length) +
+                                  " m, must be finite and larger than 0");
+    }
+    s_m_.push_back(s_m_.back() + length);
+  }
+}
+
+double ReferencePath::length_m() const { return s_m_.back(); }
+
+std::size_t ReferencePath::segment_at(double s_m) const {
+  const auto above = std::upper_bound(s_m_.begin() + 1, s_m_.end() - 1, s_m);
+  return static_cast<std::size_t>(above - s_m_.begin()) - 1;
+}
+
+double ReferencePath::on_path(double s_m) const {
+  return closed_ ? wrapped(s_m, length_m()) : std::clamp(s_m, 0.0, length_m());
+}
+
+Point ReferencePath::at(double s_m) const {
+  const double s = on_path(s_m);
+  const std::size_t i = segment_at(s);
+  const double t = (s - s_m_[i]) / (s_m_[i + 1] - s_m_[i]);
+  return (1.0 - t) * points_m_[i] + t * points_m_[(i + 1) % points_m_.size()];
+}
+
+double ReferencePath::heading_rad_at(double s_m) const {
+  const std::size_t i = segment_at(on_path(s_m));
+  const Point along_m = points_m_[(i + 1) % points_m_.size()] - points_m_[i];
+  return std::atan2(along_m.y(), along_m.x());
+}
+
+void ReferencePath::improve(Projection& best, const Point& point_m, double from_s_m,
+                            double to_s_m) const {
+  for (std::size_t i = segment_at(from_s_m); i + 1 < s_m_.size() && s_m_[i] <= to_s_m; ++i) {
+    const Point& a = points_m_[i];
+    const Point& b = points_m_[(i + 1) % points_m_.size()];
+    const double length = s_m_[i + 1] - s_m_[i];
+    const double t_min = std::max(0.0, (from_s_m - s_m_[i]) / length);
+    const double t_max = std::min(1.0, (to_s_m - s_m_[i]) / length);
+    const double t =
+        std::clamp((point_m - a).dot(b - a) / (b - a).squaredNorm(), t_min, std::max(t_min, t_max));
+    // Both ends without rounding: at a joint the two segments then agree, and the smaller s stays.
+    const Point foot_m = t == 0.0 ? a : t == 1.0 ? b : Point((1.0 - t) * a + t * b);
+    const double distance_m = (point_m - foot_m).norm();
+    if (distance_m < best.distance_m) {
+      best = {.s_m = t == 1.0 ? s_m_[i + 1] : s_m_[i] + t * length, .distance_m = distance_m};
+    }
+  }
+}
+
+ReferencePath::Projection ReferencePath::project(const Point& point_m) const {
+  return project_within(point_m, 0.0, length_m());
+}
+
+ReferencePath::Projection ReferencePath::project_within(const Point& point_m, double from_s_m,
+                                                        double to_s_m) const {
+  const double length = length_m();
+  Projection best{.s_m = on_path(from_s_m), .distance_m = std::numeric_limits<double>::infinity()};
+  if (!closed_) {
+    improve(best, point_m, on_path(from_s_m), on_path(to_s_m));
+    return best;
+  }
+  if (to_s_m - from_s_m >= length) {
+    improve(best, point_m, 0.0, length);
+  } else {
+    const double from = on_path(from_s_m);
+    const double to = from + (to_s_m - from_s_m);
+    improve(best, point_m, from, std::min(to, length));
+    if (to > length) {
+      improve(best, point_m, 0.0, to - length);
+    }
+  }
+  best.s_m = on_path(best.s_m);
+  return best;
+}
+
+}  // namespace hlc
