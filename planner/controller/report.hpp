@@ -16,13 +16,13 @@ enum class StepStatus : std::uint8_t {
 
 enum class FallbackReason : std::uint8_t {
   kNone,
-  kInfeasible,    ///< the search found that no plan exists
-  kBudget,        ///< the search used up its expansions
-  kMissing,       ///< a coupled vehicle said nothing and its reachable set leaves no room
-  kConflict,      ///< the new plan meets another vehicle's new or running plan
-  kNeighbour,     ///< settle rule `agreed`: a vehicle of the same component fell back
-  kDeviation,     ///< the measured pose is too far from the planned one
-  kLate,          ///< a deadline of the step had passed
+  kInfeasible,  ///< the search found that no plan exists
+  kBudget,      ///< the search used up its expansions
+  kMissing,     ///< a coupled vehicle said nothing and its reachable set leaves no room
+  kConflict,    ///< the new plan meets another vehicle's new or running plan
+  kNeighbour,   ///< settle rule `agreed`: a vehicle of the same component fell back
+  kDeviation,   ///< the measured pose is too far from the planned one
+  kLate,        ///< a deadline of the step had passed
 };
 
 [[nodiscard]] const char* to_string(StepStatus status);
@@ -31,18 +31,18 @@ enum class FallbackReason : std::uint8_t {
 /// What happened in one step of one vehicle. Nothing in it comes from a clock.
 struct Report {
   VehicleId vehicle;
-  StepIndex step;                        ///< k
+  StepIndex step;  ///< k
   StepStatus status{StepStatus::kStandby};
   FallbackReason reason{FallbackReason::kNone};
-  Pose planned_pose;                     ///< of the plan in force at t(k)
+  Pose planned_pose;  ///< of the plan in force at t(k)
   TrimId planned_trim;
-  double cost_m2{};                      ///< of the plan found in this step; 0 if none
-  std::uint64_t generated{};             ///< vertices
+  double cost_m2{};           ///< of the plan found in this step; 0 if none
+  std::uint64_t generated{};  ///< vertices
   std::uint64_t expanded{};
-  std::uint32_t level{};                 ///< computation level, 0 plans first
-  std::vector<VehicleId> coupled;        ///< vehicles coupled with this one
-  std::vector<VehicleId> missing;        ///< vehicles that said nothing
-  double deviation_m{};                  ///< measured from planned position, at the measured state's time
+  std::uint32_t level{};           ///< computation level, 0 plans first
+  std::vector<VehicleId> coupled;  ///< vehicles coupled with this one
+  std::vector<VehicleId> missing;  ///< vehicles that said nothing
+  double deviation_m{};            ///< measured from planned position, at the measured state's time
 };
 
 }  // namespace hlc

@@ -44,8 +44,8 @@ struct Traffic {
   /// Contains everything that the vehicle can occupy from t(k) until t(k + 1 + horizon_steps),
   /// whatever it plans; safety margin included.
   ConvexPolygon reachable_area_m;
-  /// Vehicles that the sender has not heard for several steps. Who finds itself here keeps its running plan:
-  /// the sender may soon take it for a standing obstacle (missing.hpp).
+  /// Vehicles that the sender has not heard for several steps. Who finds itself here keeps its
+  /// running plan: the sender may soon take it for a standing obstacle (missing.hpp).
   std::vector<VehicleId> silent;
 };
 

@@ -23,7 +23,7 @@ bool stands_for_good(const MeasuredVehicle& measured, StepIndex now, StepIndex l
                      std::size_t horizon_steps, const MissingVehicleRules& rules) {
   return measured.age_s <= rules.max_age_s &&
          std::abs(measured.speed_mps) <= rules.standing_speed_mps &&
-         now.value > last_heard.value + horizon_steps + 1;
+         now.value > last_heard.value + kSilentSteps + horizon_steps + 1;
 }
 
 ConvexPolygon standing_area(const MeasuredVehicle& measured, const MissingVehicleRules& rules) {

@@ -29,9 +29,17 @@ struct MissingVehicleRules {
 [[nodiscard]] ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                                            const MissingVehicleRules& rules);
 
+/// A vehicle that was not heard for this many steps in a row is listed in Traffic::silent.
+inline constexpr std::uint64_t kSilentSteps = 3;
+
 /// Whether a silent vehicle is a standing obstacle and no longer missing: a fresh state shows it
-/// standing, and every plan that it can have agreed to has run out (`last_heard` is the last step
-/// it spoke in; a plan of that step ends `horizon_steps` + 1 steps later).
+/// standing, and every plan that it can have agreed to has run out.
+///
+/// `last_heard` is the last step it spoke in. Messages may be lost in one direction only, so it may
+/// have heard us and gone on planning; but from step last_heard + kSilentSteps on our traffic lists
+/// it as silent, and who hears that (or hears nothing of us) agrees to nothing new near us. The
+/// last plan it can have agreed to is that of step last_heard + kSilentSteps; it stands
+/// `horizon_steps` + 1 steps later.
 [[nodiscard]] bool stands_for_good(const MeasuredVehicle& measured, StepIndex now,
                                    StepIndex last_heard, std::size_t horizon_steps,
                                    const MissingVehicleRules& rules);

@@ -1,0 +1,332 @@
+#include "planner/controller/controller.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "planner/coordination/priority.hpp"
+
+namespace hlc {
+namespace {
+
+/// The path is searched this far behind the last projection, for a vehicle that was moved a little.
+constexpr double kProjectionBack_m = 0.3;
+/// Boundary pieces this far beyond what the plan can reach are kept, so that no footprint looks
+/// past them.
+constexpr double kBoundaryReserve_m = 0.4;
+
+double top_speed_mps(const Subgraph& subgraph) {
+  double result = 0.0;
+  for (const TrimId trim : subgraph.spec().trims) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      for (const State& state : edge.maneuver->states) result = std::max(result, state.speed_mps);
+    }
+  }
+  return result;
+}
+
+const Maneuver* standing_step(const Subgraph& subgraph) {
+  for (const Edge& edge : subgraph.successors(subgraph.standstill())) {
+    if (edge.to == subgraph.standstill()) return edge.maneuver;
+  }
+  assert(false && "every trim that is on has its own step");
+  return nullptr;
+}
+
+MissingVehicleRules rules_for_missing(const Subgraph& subgraph) {
+  const VehicleParameters& vehicle = subgraph.automaton().vehicle;
+  return {
+      .max_speed_mps = top_speed_mps(subgraph),
+      .circumradius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m) +
+                        std::sqrt(2.0) * vehicle.safety_margin_m,
+      .footprint = vehicle.footprint,
+      .safety_margin_m = vehicle.safety_margin_m};
+}
+
+template <class Message>
+const Message* find_message(std::span<const Message> messages, VehicleId vehicle, StepIndex step) {
+  for (const Message& message : messages) {
+    if (message.vehicle == vehicle && message.step == step) return &message;
+  }
+  return nullptr;
+}
+
+bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
+  return std::ranges::find(vehicles, vehicle) != vehicles.end();
+}
+
+}  // namespace
+
+Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
+                       ReferencePath path, Corridor corridor)
+    : options_(options),
+      subgraph_(std::move(subgraph)),
+      path_(std::move(path)),
+      corridor_(std::move(corridor)),
+      reachable_(*subgraph_, options.horizon_steps + 1),
+      planner_(make_best_first_planner(*subgraph_, reachable_, options.search)),
+      standstill_(standing_step(*subgraph_)),
+      missing_rules_(rules_for_missing(*subgraph_)) {}
+
+const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
+  const auto& states = step_.observation.states;
+  const auto found = std::ranges::find(states, vehicle, &MeasuredVehicle::vehicle);
+  return found == states.end() ? nullptr : &*found;
+}
+
+void Controller::anchor(const MeasuredVehicle& measured, StepIndex step) {
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  Pose pose = measured.pose;
+  pose.heading_rad -= yaw_minus_heading_rad(0.0, automaton.vehicle, automaton.identified);
+  plan_.emplace(step, pose, *standstill_);
+  path_s_m_.reset();
+}
+
+Report Controller::stand_by(const Observation& observation) {
+  step_ = Step{};
+  step_.observation = observation;
+  if (const MeasuredVehicle* own = measured(options_.vehicle)) anchor(*own, observation.step);
+  Report report{.vehicle = options_.vehicle, .step = observation.step};
+  if (plan_) {
+    report.planned_pose = plan_->pose_at(observation.step);
+    report.planned_trim = plan_->trim_at(observation.step);
+  }
+  return report;
+}
+
+/// Compares the measured position with the plan at the time of the measurement.
+void Controller::watch_deviation() {
+  const MeasuredVehicle* own = measured(options_.vehicle);
+  const StepIndex now = step_.observation.step;
+  const double step_s = subgraph_->automaton().step_s;
+  if (own == nullptr || own->age_s < 0.0) return;
+  const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
+  if (now.value < plan_->first().value + steps_back) return;
+  const State planned = plan_->state_at({now.value - steps_back},
+                                        static_cast<double>(steps_back) * step_s - own->age_s,
+                                        subgraph_->automaton().vehicle);
+  step_.report.deviation_m = (own->pose.position_m() - planned.pose.position_m()).norm();
+  if (step_.report.deviation_m <= options_.max_deviation_m) return;
+  const bool stands = plan_->end().value + steps_back <= now.value &&
+                      std::abs(own->speed_mps) <= missing_rules_.standing_speed_mps;
+  if (stands) {
+    anchor(*own, now);
+  } else {
+    step_.obstacle = FallbackReason::kDeviation;
+  }
+}
+
+Traffic Controller::observe(const Observation& observation) {
+  assert(plan_.has_value());
+  const StepIndex now = observation.step;
+  step_ = Step{};
+  step_.observation = observation;
+  step_.report = {.vehicle = options_.vehicle, .step = now};
+  watch_deviation();
+  step_.report.planned_pose = plan_->pose_at(now);
+  step_.report.planned_trim = plan_->trim_at(now);
+
+  const StepIndex next{now.value + 1};
+  Traffic& traffic = step_.traffic;
+  traffic.vehicle = options_.vehicle;
+  traffic.step = now;
+  traffic.next_pose = plan_->pose_at(next);
+  traffic.next_trim = plan_->trim_at(next);
+  traffic.running = plan_->areas_from(now);
+  const ConvexPolygon reach =
+      transformed(reachable_.swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
+                  traffic.next_pose);
+  std::vector<Point> points = reach.vertices_m;
+  const ConvexPolygon& first_area = traffic.running.during(now);
+  points.insert(points.end(), first_area.vertices_m.begin(), first_area.vertices_m.end());
+  traffic.reachable_area_m = convex_hull(std::move(points));
+  for (const VehicleId other : observation.active) {
+    if (other == options_.vehicle) continue;
+    const auto heard = last_heard_.try_emplace(other, now).first->second;
+    if (now.value >= heard.value + kSilentSteps) traffic.silent.push_back(other);
+  }
+  return traffic;
+}
+
+void Controller::couple(std::span<const Traffic> heard) {
+  const StepIndex now = step_.observation.step;
+  std::vector<Traffic> traffic{step_.traffic};
+  for (const VehicleId other : step_.observation.active) {
+    if (other == options_.vehicle) continue;
+    const Traffic* message = find_message(heard, other, now);
+    if (message == nullptr) {
+      step_.report.missing.push_back(other);
+      continue;
+    }
+    step_.heard[other] = *message;
+    last_heard_[other] = now;
+    traffic.push_back(*message);
+  }
+  const CouplingGraph graph(std::move(traffic));
+  step_.coupled = graph.neighbours(options_.vehicle);
+  step_.predecessors = hlc::predecessors(graph, options_.vehicle);
+  step_.component = graph.component(options_.vehicle);
+  step_.report.coupled = step_.coupled;
+  step_.report.level = computation_level(graph, options_.vehicle);
+  // A coupled vehicle that does not hear us may soon drive as if we stood for good (missing.hpp).
+  for (const VehicleId other : step_.coupled) {
+    if (holds(step_.heard.at(other).silent, options_.vehicle) &&
+        step_.obstacle == FallbackReason::kNone) {
+      step_.obstacle = FallbackReason::kMissing;
+    }
+  }
+}
+
+void Controller::add_coupled_obstacles(HorizonProblem& problem) const {
+  const std::uint64_t now = step_.observation.step.value;
+  const bool strict = options_.settle_rule == SettleRule::kStrict;
+  for (const VehicleId other : step_.coupled) {
+    const Traffic& traffic = step_.heard.at(other);
+    const auto respected = step_.respected.find(other);
+    const bool is_predecessor = plans_before(other, options_.vehicle);
+    const bool is_silent = is_predecessor && respected == step_.respected.end();
+    const bool stands = traffic.running.areas_m.size() <= 1;  // nothing but the step under way
+    for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
+      const StepIndex step{now + j};
+      auto& areas = problem.obstacles_m[j - 1];
+      if (is_silent) areas.push_back(traffic.reachable_area_m);
+      if (respected != step_.respected.end() && (respected->second.is_new || !strict)) {
+        areas.push_back(respected->second.areas.during(step));
+      }
+      if (strict || (!is_predecessor && stands)) areas.push_back(traffic.running.during(step));
+    }
+  }
+}
+
+void Controller::add_missing_obstacles(HorizonProblem& problem) const {
+  const double step_s = subgraph_->automaton().step_s;
+  for (const VehicleId other : step_.report.missing) {
+    const MeasuredVehicle& state = *measured(other);
+    const bool stands = stands_for_good(state, step_.observation.step, last_heard_.at(other),
+                                        options_.horizon_steps, missing_rules_);
+    for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
+      problem.obstacles_m[j - 1].push_back(
+          stands ? standing_area(state, missing_rules_)
+                 : reachable_disc(state, static_cast<double>(j + 1) * step_s, missing_rules_));
+    }
+  }
+}
+
+HorizonProblem Controller::pose_problem() {
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const Traffic& own = step_.traffic;
+  const double reach_m = reachable_.max_distance_m(own.next_trim, options_.horizon_steps, 0);
+  const Point position = own.next_pose.position_m();
+  const auto projection = path_s_m_ ? path_.project_within(position, *path_s_m_ - kProjectionBack_m,
+                                                           *path_s_m_ + reach_m + kProjectionBack_m)
+                                    : path_.project(position);
+  path_s_m_ = projection.s_m;
+
+  HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
+  Reference reference =
+      reference_points(path_, projection.s_m, automaton.trims[own.next_trim.index].speed_mps,
+                       options_.reference_speed_mps, options_.horizon_steps, automaton.step_s,
+                       options_.reference_rule);
+  problem.reference_m = std::move(reference.points_m);
+  problem.reference_speed_mps = std::move(reference.speeds_mps);
+  problem.obstacles_m.resize(options_.horizon_steps);
+  add_coupled_obstacles(problem);
+  add_missing_obstacles(problem);
+  problem.boundary_m = corridor_.boundary_m(projection.s_m - kBoundaryReserve_m,
+                                            projection.s_m + reach_m + kBoundaryReserve_m);
+  return problem;
+}
+
+Prediction Controller::plan(std::span<const Prediction> heard) {
+  const StepIndex now = step_.observation.step;
+  const StepIndex next{now.value + 1};
+  for (const VehicleId other : step_.predecessors) {
+    if (const Prediction* message = find_message(heard, other, now))
+      step_.respected[other] = *message;
+  }
+  for (const VehicleId other : step_.report.missing) {
+    // Nothing at all is known of it: it may be anywhere.
+    if (measured(other) == nullptr) step_.obstacle = FallbackReason::kMissing;
+  }
+  if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
+    step_.problem = pose_problem();
+    const SearchResult result = planner_->plan(*step_.problem);
+    step_.report.generated = result.generated;
+    step_.report.expanded = result.expanded;
+    if (result.status == SearchStatus::kOptimal) {
+      step_.report.cost_m2 = result.cost;
+      step_.candidate = plan_->continued(next, result.maneuvers);
+    } else {
+      step_.obstacle = result.status == SearchStatus::kBudget ? FallbackReason::kBudget
+                                                              : FallbackReason::kInfeasible;
+    }
+  }
+  const Plan& told = step_.candidate ? *step_.candidate : *plan_;
+  step_.prediction = {.vehicle = options_.vehicle,
+                      .step = now,
+                      .is_new = step_.candidate.has_value(),
+                      .areas = told.areas_from(next)};
+  return step_.prediction;
+}
+
+Outcome Controller::vote() const {
+  return {.vehicle = options_.vehicle,
+          .step = step_.observation.step,
+          .wants_fallback = !step_.candidate.has_value()};
+}
+
+/// Settle rule `strict`; the search has already kept the candidate free of everything in its
+/// problem.
+bool Controller::is_new_plan_safe(std::span<const Prediction> predictions) {
+  const StepIndex now = step_.observation.step;
+  const StepIndex next{now.value + 1};
+  for (const VehicleId other : step_.coupled) {
+    if (step_.respected.contains(other)) continue;
+    if (const Prediction* message = find_message(predictions, other, now)) {
+      if (!are_free(step_.prediction.areas, message->areas, next, options_.horizon_steps)) {
+        step_.obstacle = FallbackReason::kConflict;
+        return false;
+      }
+    } else if (!are_free(step_.prediction.areas, step_.heard.at(other).reachable_area_m, next,
+                         options_.horizon_steps)) {
+      step_.obstacle = FallbackReason::kMissing;
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Controller::has_component_agreed(std::span<const Outcome> outcomes) const {
+  return std::ranges::all_of(step_.component, [&](VehicleId other) {
+    if (other == options_.vehicle) return true;
+    const Outcome* outcome = find_message(outcomes, other, step_.observation.step);
+    return outcome != nullptr && !outcome->wants_fallback;
+  });
+}
+
+Report Controller::settle(std::span<const Prediction> predictions,
+                          std::span<const Outcome> outcomes) {
+  if (!step_.candidate) return finish(false, step_.obstacle);
+  if (options_.settle_rule == SettleRule::kStrict) {
+    return finish(is_new_plan_safe(predictions), step_.obstacle);
+  }
+  return finish(has_component_agreed(outcomes), FallbackReason::kNeighbour);
+}
+
+Report Controller::give_up(FallbackReason reason) { return finish(false, reason); }
+
+Report Controller::finish(bool accepted, FallbackReason reason) {
+  Report& report = step_.report;
+  if (accepted) {
+    plan_ = std::move(*step_.candidate);
+    report.status = StepStatus::kPlanned;
+  } else {
+    report.status = drives_out_ ? StepStatus::kDriveOut : StepStatus::kFallback;
+    report.reason = drives_out_ ? FallbackReason::kNone : reason;
+  }
+  step_.candidate.reset();
+  return report;
+}
+
+}  // namespace hlc

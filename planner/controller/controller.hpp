@@ -1,0 +1,143 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/controller/report.hpp"
+#include "planner/coordination/coupling.hpp"
+#include "planner/coordination/messages.hpp"
+#include "planner/coordination/missing.hpp"
+#include "planner/coordination/plan.hpp"
+#include "planner/coordination/settle.hpp"
+#include "planner/road/corridor.hpp"
+#include "planner/road/reference_path.hpp"
+#include "planner/road/reference_points.hpp"
+#include "planner/search/planner.hpp"
+
+namespace hlc {
+
+struct ControllerOptions {
+  VehicleId vehicle;
+  std::size_t horizon_steps{8};
+  double reference_speed_mps{0.8};
+  ReferenceRule reference_rule{ReferenceRule::kDefault};
+  SettleRule settle_rule{SettleRule::kStrict};
+  SearchOptions search;
+  /// Distance between the measured and the planned position beyond which the vehicle drives its
+  /// running plan to the end; once both stand, the plan is anchored anew at the measured pose.
+  double max_deviation_m{0.05};
+};
+
+/// What a state list tells a controller at step k.
+struct Observation {
+  StepIndex step;                       ///< k
+  std::vector<VehicleId> active;        ///< vehicles that take part, this one included
+  std::vector<MeasuredVehicle> states;  ///< of the vehicles that have a usable one
+};
+
+/// The high-level controller of one vehicle, as a pure state machine: no clock, no thread, no
+/// waiting.
+///
+/// One control step is the sequence
+///
+///     observe -> couple -> plan -> vote -> settle
+///
+/// Between the calls the owner sends what the last one returned and waits, until a deadline, for
+/// the messages that the next one needs; each call works with whatever has arrived. A vehicle that
+/// said nothing is missing and may be anywhere in its reachable set. After `settle` the plan in
+/// force holds from t(k) on.
+///
+/// The plan of step k is for what happens from t(k+1) on: the search starts where the plan in force
+/// will be then. If no new plan comes into force, the one in force stays: every plan ends in
+/// standstill.
+class Controller {
+ public:
+  /// @param path      what the vehicle shall follow
+  /// @param corridor  where it may drive
+  Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
+             ReferencePath path, Corridor corridor);
+
+  [[nodiscard]] const ControllerOptions& options() const { return options_; }
+  [[nodiscard]] const Subgraph& subgraph() const { return *subgraph_; }
+
+  /// A step before the start: the plan in force is to stand at the measured pose. Without a
+  /// measurement of the own vehicle the former plan, if any, stays.
+  [[nodiscard]] Report stand_by(const Observation& observation);
+
+  /// From now on nothing new is planned; the plan in force is driven to its end.
+  void drive_out() { drives_out_ = true; }
+
+  /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
+  [[nodiscard]] Traffic observe(const Observation& observation);
+  /// Second phase. `heard` may hold messages of other steps and senders: they are ignored.
+  void couple(std::span<const Traffic> heard);
+  /// Third phase. Needs the predictions of `predecessors`.
+  [[nodiscard]] Prediction plan(std::span<const Prediction> heard);
+  /// Fourth phase, settle rule `agreed` only: what the others need to know before they settle.
+  [[nodiscard]] Outcome vote() const;
+  /// Last phase. Needs the predictions of `coupled` (strict) or the outcomes of `component`
+  /// (agreed).
+  [[nodiscard]] Report settle(std::span<const Prediction> predictions,
+                              std::span<const Outcome> outcomes);
+  /// Instead of the phases that are left: a deadline has passed, the plan in force stays.
+  [[nodiscard]] Report give_up(FallbackReason reason);
+
+  /// Valid after `couple`: whom the phases need.
+  [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
+  [[nodiscard]] const std::vector<VehicleId>& coupled() const { return step_.coupled; }
+  [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
+  /// The problem that `plan` gave to the search, if it came to that.
+  [[nodiscard]] const std::optional<HorizonProblem>& problem() const { return step_.problem; }
+
+  [[nodiscard]] bool has_plan() const { return plan_.has_value(); }
+  [[nodiscard]] const Plan& plan_in_force() const { return *plan_; }
+
+ private:
+  /// All that one step gathers; reset by `observe`.
+  struct Step {
+    Observation observation;
+    Report report;
+    Traffic traffic;                     ///< own
+    std::map<VehicleId, Traffic> heard;  ///< of this step
+    std::vector<VehicleId> coupled;
+    std::vector<VehicleId> predecessors;
+    std::vector<VehicleId> component;
+    std::optional<HorizonProblem> problem;
+    std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
+    std::optional<Plan> candidate;
+    Prediction prediction;                           ///< own
+    FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
+  };
+
+  void anchor(const MeasuredVehicle& measured, StepIndex step);
+  void watch_deviation();
+  [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
+  [[nodiscard]] HorizonProblem pose_problem();
+  void add_coupled_obstacles(HorizonProblem& problem) const;
+  void add_missing_obstacles(HorizonProblem& problem) const;
+  [[nodiscard]] bool is_new_plan_safe(std::span<const Prediction> predictions);
+  [[nodiscard]] bool has_component_agreed(std::span<const Outcome> outcomes) const;
+  [[nodiscard]] Report finish(bool accepted, FallbackReason reason);
+
+  ControllerOptions options_;
+  std::shared_ptr<const Subgraph> subgraph_;
+  ReferencePath path_;
+  Corridor corridor_;
+  ReachableSets reachable_;
+  std::unique_ptr<HorizonPlanner> planner_;
+  const Maneuver* standstill_;
+  MissingVehicleRules missing_rules_;
+
+  std::optional<Plan> plan_;
+  std::optional<double> path_s_m_;  ///< where the vehicle was on its path
+  std::map<VehicleId, StepIndex> last_heard_;
+  bool drives_out_{false};
+  Step step_;
+};
+
+}  // namespace hlc

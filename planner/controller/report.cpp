@@ -1,0 +1,41 @@
+#include "planner/controller/report.hpp"
+
+namespace hlc {
+
+const char* to_string(StepStatus status) {
+  switch (status) {
+    case StepStatus::kStandby:
+      return "standby";
+    case StepStatus::kPlanned:
+      return "planned";
+    case StepStatus::kFallback:
+      return "fallback";
+    case StepStatus::kDriveOut:
+      return "drive_out";
+  }
+  return "unknown";
+}
+
+const char* to_string(FallbackReason reason) {
+  switch (reason) {
+    case FallbackReason::kNone:
+      return "none";
+    case FallbackReason::kInfeasible:
+      return "infeasible";
+    case FallbackReason::kBudget:
+      return "budget";
+    case FallbackReason::kMissing:
+      return "missing";
+    case FallbackReason::kConflict:
+      return "conflict";
+    case FallbackReason::kNeighbour:
+      return "neighbour";
+    case FallbackReason::kDeviation:
+      return "deviation";
+    case FallbackReason::kLate:
+      return "late";
+  }
+  return "unknown";
+}
+
+}  // namespace hlc

@@ -1,0 +1,88 @@
+#include "planner/rollout/rollout.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "planner/coordination/priority.hpp"
+
+namespace hlc {
+namespace {
+
+VehicleId id(const std::unique_ptr<Controller>& controller) {
+  return controller->options().vehicle;
+}
+
+/// What `state` looks like in a state list: the vehicle's yaw is not the planner's heading.
+MeasuredVehicle seen(VehicleId vehicle, const State& state, const UniversalAutomaton& automaton,
+                     double age_s) {
+  MeasuredVehicle result{
+      .vehicle = vehicle, .pose = state.pose, .speed_mps = state.speed_mps, .age_s = age_s};
+  result.pose.heading_rad +=
+      yaw_minus_heading_rad(state.steering_rad, automaton.vehicle, automaton.identified);
+  return result;
+}
+
+}  // namespace
+
+Rollout::Rollout(std::vector<std::unique_ptr<Controller>> controllers,
+                 const std::vector<Pose>& starts)
+    : controllers_(std::move(controllers)) {
+  assert(controllers_.size() == starts.size());
+  for (std::size_t i = 0; i < controllers_.size(); ++i) {
+    Controller& controller = *controllers_[i];
+    const State standing{.pose = starts[i]};
+    static_cast<void>(controller.stand_by(
+        {.step = next_step_,
+         .active = {id(controllers_[i])},
+         .states = {seen(id(controllers_[i]), standing, controller.subgraph().automaton(), 0.0)}}));
+  }
+  std::ranges::sort(controllers_, plans_before, id);
+  ++next_step_.value;
+}
+
+bool Rollout::arrives(MessageKind kind, VehicleId from, VehicleId to) const {
+  return from != to && !(is_lost_ && is_lost_({kind, next_step_, from, to}));
+}
+
+std::vector<MeasuredVehicle> Rollout::measure(StepIndex step) const {
+  std::vector<MeasuredVehicle> states;
+  for (const auto& controller : controllers_) {
+    const UniversalAutomaton& automaton = controller->subgraph().automaton();
+    states.push_back(seen(id(controller),
+                          controller->plan_in_force().state_at(step, 0.0, automaton.vehicle),
+                          automaton, 0.0));
+  }
+  return states;
+}
+
+std::vector<Report> Rollout::step() {
+  Observation observation{.step = next_step_, .states = measure(next_step_)};
+  for (const auto& controller : controllers_) observation.active.push_back(id(controller));
+  std::ranges::sort(observation.active);
+
+  const auto heard = [this](MessageKind kind, const auto& messages, VehicleId receiver) {
+    auto result = messages;
+    std::erase_if(result,
+                  [&](const auto& message) { return !arrives(kind, message.vehicle, receiver); });
+    return result;
+  };
+
+  std::vector<Traffic> traffic;
+  std::vector<Prediction> predictions;
+  std::vector<Outcome> outcomes;
+  std::vector<Report> reports;
+  for (const auto& one : controllers_) traffic.push_back(one->observe(observation));
+  for (const auto& one : controllers_) one->couple(heard(MessageKind::kTraffic, traffic, id(one)));
+  for (const auto& one : controllers_) {
+    predictions.push_back(one->plan(heard(MessageKind::kPrediction, predictions, id(one))));
+  }
+  for (const auto& one : controllers_) outcomes.push_back(one->vote());
+  for (const auto& one : controllers_) {
+    reports.push_back(one->settle(heard(MessageKind::kPrediction, predictions, id(one)),
+                                  heard(MessageKind::kOutcome, outcomes, id(one))));
+  }
+  ++next_step_.value;
+  return reports;
+}
+
+}  // namespace hlc
