@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "planner/geometry/pose.hpp"
@@ -76,6 +77,38 @@ struct ReadyStatus {
 
 struct SystemTrigger {
   Nanoseconds next_start{};
+};
+
+/// Value of a lab parameter; the alternatives stand in the order of the lab's ParameterType. The first one
+/// (Invalid) is what an unknown parameter has.
+using ParameterValue = std::variant<std::monostate, bool, std::int32_t, std::uint64_t, double, std::string,
+                                    std::vector<std::int32_t>, std::vector<double>>;
+
+struct Parameter {
+  std::string name;
+  ParameterValue value;
+};
+
+struct ParameterRequest {
+  std::string name;
+};
+
+/// Asks the lab control to stop everybody.
+struct StopRequest {
+  std::uint8_t vehicle_id{};
+};
+
+/// One line of a program for the operator. Level 1 is critical, 3 is verbose.
+struct Log {
+  std::string id;       ///< of the program
+  std::string content;
+  Nanoseconds stamp{};
+  std::uint16_t level{1};
+};
+
+/// Programs send the lines whose level is not above this.
+struct LogLevel {
+  std::uint16_t level{1};
 };
 
 }  // namespace hlc

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "hlc_bridge/core/messages.hpp"
+#include "planner/controller/report.hpp"
+
+/// What controllers and lab control tell each other about the run, beside what the lab's messages
+/// say.
+namespace hlc {
+
+/// A controller's report with what its process measured by the clock.
+struct ReportRecord {
+  Report report;
+  Nanoseconds planning_ns{};  ///< time that the search took
+  bool deadline_missed{};     ///< an answer of this step came after its deadline
+  Nanoseconds late_ns{};      ///< by how much
+};
+
+enum class RunPhase : std::uint8_t {
+  kRunning,
+  kDriveOut,  ///< plan nothing new; drive the running plan to its end
+};
+
+/// Said by lab control to all controllers.
+struct RunState {
+  RunPhase phase{RunPhase::kRunning};
+};
+
+}  // namespace hlc

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "hlc_bridge/dds/transport.hpp"
+
+namespace hlc {
+
+class ParticipantCore;  // Fast DDS lives behind this
+
+struct ParticipantOptions {
+  std::string name;  ///< the process's node id: others see its presence under this name
+  int domain_id{};
+  DomainRole role{DomainRole::kLab};
+  Transport transport{Transport::kLoopback};
+  bool logical_time{};  ///< lease of 10 s instead of 2 s: that long after its death others see it
+                        ///< as lost
+  std::optional<DiscoveryServer> discovery_server;  ///< none: simple discovery (multicast)
+};
+
+/// One process on one domain: the entry to DDS, and who else is there.
+///
+/// The first participant of a process registers the lab's types. Processes have at most one
+/// participant per domain. Topics that the process itself writes are not heard by its own readers
+/// on the same participant.
+///
+/// Writers and readers keep what they need of the participant alive: any order of destruction is
+/// good.
+class Participant {
+ public:
+  /// `on_presence_change` is called on a DDS thread after a change of alive() or lost(), possibly
+  /// before the constructor has returned, and never after the destructor. It must only notify.
+  /// Throws std::invalid_argument for a bad option, std::runtime_error if the library refuses.
+  explicit Participant(const ParticipantOptions& options,
+                       std::function<void()> on_presence_change = {});
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  /// Names of the other participants now on the domain.
+  [[nodiscard]] std::set<std::string> alive() const;
+  [[nodiscard]] bool is_alive(const std::string& name) const;
+  /// Names that were there and are not any more: left, or silent for their lease. A name that comes
+  /// back is alive and no longer lost.
+  [[nodiscard]] std::set<std::string> lost() const;
+  [[nodiscard]] bool is_lost(const std::string& name) const;
+
+  /// Waits until all these names are alive; false if `deadline` passes first.
+  [[nodiscard]] bool wait_for(const std::set<std::string>& names,
+                              std::chrono::steady_clock::time_point deadline) const;
+
+  [[nodiscard]] const ParticipantOptions& options() const;
+
+  /// For Writer and Reader.
+  [[nodiscard]] const std::shared_ptr<ParticipantCore>& core() const { return core_; }
+
+ private:
+  std::shared_ptr<ParticipantCore> core_;
+};
+
+}  // namespace hlc

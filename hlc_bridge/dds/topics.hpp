@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/run_messages.hpp"
+#include "planner/coordination/messages.hpp"
+
+namespace hlc {
+
+/// Which row of the table of quality of service (endpoint_qos.hpp) holds for a topic.
+enum class TopicId : std::uint8_t {
+  kVehicleState,
+  kVehicleObservation,
+  kVehicleStateList,
+  kTrajectoryCommand,
+  kReadyStatus,
+  kSystemTrigger,
+  kParameter,
+  kParameterRequest,
+  kStopRequest,
+  kLog,
+  kLogLevel,
+  kTraffic,
+  kPrediction,
+  kOutcome,
+  kReport,
+  kRunState,
+};
+
+/// A topic and what is said on it: writers and readers of anything else do not compile.
+template <class Message>
+struct Topic {
+  TopicId id;
+  std::string name;
+};
+
+namespace topics {
+
+// Lab domain, one topic per vehicle: vehicle/<id>/...
+[[nodiscard]] Topic<VehicleState> vehicle_state(std::uint8_t vehicle_id);
+[[nodiscard]] Topic<VehicleObservation> vehicle_observation(std::uint8_t vehicle_id);
+[[nodiscard]] Topic<TrajectoryCommand> vehicle_command(std::uint8_t vehicle_id);
+
+// Local domain
+[[nodiscard]] Topic<VehicleStateList> vehicle_state_list();
+[[nodiscard]] Topic<TrajectoryCommand> command();
+
+// Lab and local domain
+[[nodiscard]] Topic<ReadyStatus> ready_status();
+[[nodiscard]] Topic<SystemTrigger> system_trigger();
+
+// Lab domain
+[[nodiscard]] Topic<Parameter> parameter();
+[[nodiscard]] Topic<ParameterRequest> parameter_request();
+[[nodiscard]] Topic<StopRequest> stop_request();
+[[nodiscard]] Topic<Log> log();
+[[nodiscard]] Topic<LogLevel> log_level();
+
+// Controller domain; all but the last keyed by the vehicle
+[[nodiscard]] Topic<Traffic> traffic();
+[[nodiscard]] Topic<Prediction> prediction();
+[[nodiscard]] Topic<Outcome> outcome();
+[[nodiscard]] Topic<ReportRecord> report();  ///< late joiners get all reports of a run
+[[nodiscard]] Topic<RunState> run_state();   ///< late joiners get the last one
+
+}  // namespace topics
+}  // namespace hlc

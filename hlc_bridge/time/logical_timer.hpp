@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+#include "hlc_bridge/time/timer.hpp"
+
+namespace hlc {
+
+/// Ticks released one by one by the lab control (lab wire contract, 5.3): the timer says which tick
+/// it wants next (ReadyStatus), waits for a SystemTrigger with exactly that time, gives the tick,
+/// and so on. Time starts at the offset. Knows no DDS: the owner writes the ready status and passes
+/// on the triggers.
+///
+/// Calling wait_next says that everything which the previous tick had to do is done.
+class LogicalTimer : public Timer {
+ public:
+  /// `send_ready(t)` writes ReadyStatus{node id, t}; it is called from wait_next with no lock held,
+  /// at once and then again every `repeat` of wall time until the trigger comes, since a ready
+  /// status can be lost. Throws std::invalid_argument unless 0 <= offset < period.
+  LogicalTimer(Nanoseconds period, Nanoseconds offset, std::function<void(Nanoseconds)> send_ready,
+               std::chrono::milliseconds repeat = std::chrono::seconds{1});
+
+  [[nodiscard]] std::optional<Nanoseconds> wait_next() override;
+  void stop() override;
+
+  /// To be called with next_start of every SystemTrigger, from any thread. Triggers for other times
+  /// than the one waited for have no effect. The stop symbol ends the timer; a process that goes on
+  /// ticking after the stop (a vehicle that brakes) does not pass it on.
+  void on_trigger(Nanoseconds next_start);
+
+ private:
+  Nanoseconds period_;
+  Nanoseconds wanted_;
+  std::function<void(Nanoseconds)> send_ready_;
+  std::chrono::milliseconds repeat_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool released_{};  ///< the trigger for wanted_ has come
+  bool stopped_{};
+};
+
+}  // namespace hlc

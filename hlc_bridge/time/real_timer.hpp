@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+
+#include "hlc_bridge/time/timer.hpp"
+
+namespace hlc {
+
+/// Now, nanoseconds since the Unix epoch (CLOCK_REALTIME): the time of runs in real time.
+[[nodiscard]] Nanoseconds real_time_now();
+
+/// The same instant as a deadline for Signal::wait_until.
+[[nodiscard]] std::chrono::system_clock::time_point real_time_point(Nanoseconds time);
+
+/// The tick that a real timer gives at time `now` after the tick `previous`.
+struct RealTick {
+  Nanoseconds time{};      ///< in the future: wait for it; now or before: give it at once
+  std::uint64_t missed{};  ///< ticks between `previous` and it that are skipped
+};
+
+/// The latest tick not after `now` if it comes after `previous` (a tick that is late by less than a
+/// period is given late, older ones are skipped), else previous + period. @pre period > 0
+[[nodiscard]] RealTick next_real_tick(Nanoseconds previous, Nanoseconds now, Nanoseconds period);
+
+/// The first k * period + offset after `now`. @pre period > 0, offset < period
+[[nodiscard]] Nanoseconds first_real_tick(Nanoseconds now, Nanoseconds period, Nanoseconds offset);
+
+/// Ticks by the computer's clock. The first tick is the first after construction.
+///
+/// Ticks never repeat or go back. If the computer's clock is set back, the timer waits until it has
+/// caught up.
+class RealTimer : public Timer {
+ public:
+  /// Throws std::invalid_argument unless 0 <= offset < period.
+  RealTimer(Nanoseconds period, Nanoseconds offset);
+
+  [[nodiscard]] std::optional<Nanoseconds> wait_next() override;
+  void stop() override;
+
+  /// Ticks skipped so far because the caller came back too late. For the thread that calls
+  /// wait_next.
+  [[nodiscard]] std::uint64_t missed() const { return missed_; }
+
+ private:
+  Nanoseconds period_;
+  Nanoseconds previous_;
+  std::uint64_t missed_{};
+  std::mutex mutex_;
+  std::condition_variable stopped_changed_;
+  bool stopped_{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+namespace hlc {
+
+/// The one place where a process's control thread waits. Callbacks of other threads (messages,
+/// matches, presence, signals) put what they have under the signal's lock; the control thread waits
+/// until what it needs is there, or until a deadline.
+///
+///     Signal signal;
+///     std::vector<TrajectoryCommand> inbox;                                     // guarded by
+///     signal Reader<TrajectoryCommand> reader{participant, topic,
+///         [&](const TrajectoryCommand& c) { signal.post([&] { inbox.push_back(c); }); }};
+///     bool there = signal.wait_until(deadline, [&] { return !inbox.empty(); });
+///     auto commands = signal.locked([&] { return std::exchange(inbox, {}); });
+///
+/// Rules: nothing blocks while the lock is held - no write to a topic, no creation or destruction
+/// of an endpoint or participant. Asking what Participant, Writer and Reader know (alive, matched
+/// ...) is allowed.
+class Signal {
+ public:
+  /// Runs `change` under the lock, then wakes the waiting threads.
+  template <class Change>
+  void post(Change&& change) {
+    {
+      const std::lock_guard lock{mutex_};
+      std::forward<Change>(change)();
+    }
+    changed_.notify_all();
+  }
+
+  /// Wakes the waiting threads, so that they look again: for changes of state that is guarded
+  /// elsewhere.
+  void notify() {
+    post([] {});
+  }
+
+  /// Runs `access` under the lock and returns its result.
+  template <class Access>
+  decltype(auto) locked(Access&& access) const {
+    const std::lock_guard lock{mutex_};
+    return std::forward<Access>(access)();
+  }
+
+  /// Waits until `condition` (evaluated under the lock) holds, at most until `deadline`; the
+  /// condition's last value. Deadlines of the run's real time are std::chrono::system_clock's,
+  /// watchdogs those of steady_clock.
+  template <class TimePoint, class Condition>
+  [[nodiscard]] bool wait_until(const TimePoint& deadline, Condition&& condition) const {
+    std::unique_lock lock{mutex_};
+    return changed_.wait_until(lock, deadline, std::forward<Condition>(condition));
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+};
+
+}  // namespace hlc
