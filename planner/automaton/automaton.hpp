@@ -27,23 +27,27 @@ struct Trim {
   friend bool operator==(const Trim&, const Trim&) = default;
 };
 
-/// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step, the trim
-/// driven for one step, for every label).
+/// Label of every trim's own step.
+inline const std::string kOwnStepLabel = "trim";
+
+/// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step,
+/// the trim driven for one step, for every label).
 ///
 /// Everything is given in the frame of the start pose (start at the origin, heading 0).
 struct Maneuver {
   TrimId from;
   TrimId to;
-  std::string label;           ///< the criterion it is optimal for ("J2"); "trim" for a trim's own step
+  std::string label;  ///< the criterion it is optimal for ("J2"); "trim" for a trim's own step
   double duration_s{};
-  std::vector<Input> inputs;   ///< N intervals of equal length of constant input
-  std::vector<State> states;   ///< N + 1 states at the interval bounds, the first at the origin
-  Pose displacement;           ///< pose of states.back()
-  /// Convex area that contains the footprint, grown by the safety margin, at every time of the motion, for
-  /// the planned heading and for the heading of a vehicle with the identified slip on the same path.
+  std::vector<Input> inputs;  ///< N intervals of equal length of constant input
+  std::vector<State> states;  ///< N + 1 states at the interval bounds, the first at the origin
+  Pose displacement;          ///< pose of states.back()
+  /// Convex area that contains the footprint, grown by the safety margin, at every time of the
+  /// motion, for the planned heading and for the heading of a vehicle with the identified slip on
+  /// the same path.
   ConvexPolygon swept_area_m;
-  /// Convex area that contains the footprint itself (planned heading, no margin) at every time: for the
-  /// test against lane bounds.
+  /// Convex area that contains the footprint itself (planned heading, no margin) at every time: for
+  /// the test against lane bounds.
   ConvexPolygon lane_area_m;
 };
 
@@ -56,17 +60,19 @@ struct UniversalAutomaton {
   std::vector<Trim> trims;
   std::vector<Maneuver> maneuvers;
 
-  /// nullptr if the automaton does not hold that edge.
+  /// nullptr if the automaton does not hold that edge. A trim's own step is found under every
+  /// label.
   [[nodiscard]] const Maneuver* find(TrimId from, TrimId to, const std::string& label) const;
 };
 
-/// Angle from a planned heading to the yaw at which the identified vehicle drives the same path: course =
-/// heading + beta(delta) = yaw + slip(curvature(delta)), so yaw - heading = beta(delta) - slip [rad].
+/// Angle from a planned heading to the yaw at which the identified vehicle drives the same path:
+/// course = heading + beta(delta) = yaw + slip(curvature(delta)), so yaw - heading = beta(delta) -
+/// slip [rad].
 [[nodiscard]] double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
                                            const IdentifiedVehicle& identified);
 
-/// State of the motion at `time_s` in [0, duration], in the maneuver's frame: the model integrated from the
-/// last interval bound before (exact arc for a trim's own step).
+/// State of the motion at `time_s` in [0, duration], in the maneuver's frame: the model integrated
+/// from the last interval bound before (exact arc for a trim's own step).
 [[nodiscard]] State state_at(const Maneuver& maneuver, double time_s,
                              const VehicleParameters& vehicle);
 

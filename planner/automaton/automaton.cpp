@@ -1,0 +1,38 @@
+#include "planner/automaton/automaton.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace hlc {
+
+const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::string& label) const {
+  const std::string& wanted = from == to ? kOwnStepLabel : label;
+  const auto found = std::find_if(maneuvers.begin(), maneuvers.end(), [&](const Maneuver& m) {
+    return m.from == from && m.to == to && m.label == wanted;
+  });
+  return found == maneuvers.end() ? nullptr : &*found;
+}
+
+double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
+                             const IdentifiedVehicle& identified) {
+  return slip_angle_rad(steering_rad, vehicle) -
+         steady_slip_rad(curvature_per_m(steering_rad, vehicle), identified);
+}
+
+State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters& vehicle) {
+  assert(!maneuver.inputs.empty() && maneuver.states.size() == maneuver.inputs.size() + 1);
+  const double time = std::clamp(time_s, 0.0, maneuver.duration_s);
+  if (maneuver.from == maneuver.to) {
+    State state = maneuver.states.front();
+    state.pose = trim_motion(state.pose, state.speed_mps, state.steering_rad, time, vehicle);
+    return state;
+  }
+  const std::size_t intervals = maneuver.inputs.size();
+  const double interval_s = maneuver.duration_s / static_cast<double>(intervals);
+  const std::size_t interval = std::min(static_cast<std::size_t>(time / interval_s), intervals - 1);
+  return integrated(maneuver.states[interval], maneuver.inputs[interval],
+                    time - static_cast<double>(interval) * interval_s, vehicle);
+}
+
+}  // namespace hlc

@@ -1,0 +1,156 @@
+#include "planner/automaton/reachable_sets.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc {
+namespace {
+
+using SetPerTrim = std::vector<std::vector<Point>>;
+
+/// Kept vertices of a swept area's hull; the recursion itself uses all of them.
+constexpr std::size_t kMaxVertices = 16;
+
+void append_transformed(const std::vector<Point>& points_m, const Pose& frame,
+                        std::vector<Point>& out_m) {
+  const ConvexPolygon moved = transformed(ConvexPolygon{points_m}, frame);
+  out_m.insert(out_m.end(), moved.vertices_m.begin(), moved.vertices_m.end());
+}
+
+/// Vertices of the hull of what the successors hold, each seen through its edge:
+/// hull of union over successors u of T_tu * sets[u].
+std::vector<Point> hull_over_successors(const Subgraph& subgraph, TrimId trim,
+                                        const SetPerTrim& sets_m) {
+  std::vector<Point> points_m;
+  for (const Edge& edge : subgraph.successors(trim)) {
+    append_transformed(sets_m[edge.to.index], edge.maneuver->displacement, points_m);
+  }
+  return hull_vertices(std::move(points_m));
+}
+
+double largest_norm(const std::vector<Point>& points_m) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const Point& point : points_m) {
+    largest = std::max(largest, point.norm());
+  }
+  return largest;
+}
+
+/// Footprint with margin at the origin, for the planned heading and for the driven yaw.
+std::vector<Point> standing_area_m(const UniversalAutomaton& automaton, TrimId trim) {
+  const double yaw_rad = yaw_minus_heading_rad(automaton.trims[trim.index].steering_rad,
+                                               automaton.vehicle, automaton.identified);
+  const Footprint& footprint = automaton.vehicle.footprint;
+  const double margin_m = automaton.vehicle.safety_margin_m;
+  std::vector<Point> points_m = footprint_area(footprint, {}, margin_m).vertices_m;
+  const ConvexPolygon turned = footprint_area(footprint, {0.0, 0.0, yaw_rad}, margin_m);
+  points_m.insert(points_m.end(), turned.vertices_m.begin(), turned.vertices_m.end());
+  return hull_vertices(std::move(points_m));
+}
+
+/// Swept areas of the first step, over all successors.
+std::vector<Point> first_step_area_m(const Subgraph& subgraph, TrimId trim) {
+  std::vector<Point> points_m;
+  for (const Edge& edge : subgraph.successors(trim)) {
+    const auto& vertices = edge.maneuver->swept_area_m.vertices_m;
+    points_m.insert(points_m.end(), vertices.begin(), vertices.end());
+  }
+  return hull_vertices(std::move(points_m));
+}
+
+/// What the hulls of so many steps may have left out (kHullTolerance_m each, a few at a time).
+double allowance_m(std::size_t steps) {
+  return 10.0 * kHullTolerance_m * static_cast<double>(steps);
+}
+
+ConvexPolygon containing(std::vector<Point> points_m, std::size_t steps) {
+  const ConvexPolygon hull = convex_hull(std::move(points_m));
+  return simplified_outwards(inflated(hull, allowance_m(steps + 1)), kMaxVertices);
+}
+
+}  // namespace
+
+ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
+    : max_steps_(max_steps), num_trims_(subgraph.automaton().trims.size()) {
+  for (const TrimId trim : subgraph.spec().trims) {
+    max_steps_left_ = std::max(max_steps_left_, subgraph.distance_to_standstill(trim));
+  }
+  const std::size_t rows = (max_steps_ + 1) * (max_steps_left_ + 1);
+  max_distance_m_.assign(rows * num_trims_, -std::numeric_limits<double>::infinity());
+  for (std::size_t steps_left = 0; steps_left <= max_steps_left_; ++steps_left) {
+    compute_distances(subgraph, steps_left);
+  }
+  compute_swept_areas(subgraph);
+}
+
+void ReachableSets::compute_distances(const Subgraph& subgraph, std::size_t steps_left) {
+  SetPerTrim sets_m(num_trims_);
+  for (std::size_t steps = 0; steps <= max_steps_; ++steps) {
+    SetPerTrim next_m(num_trims_);
+    for (const TrimId trim : subgraph.spec().trims) {
+      if (steps > 0) {
+        next_m[trim.index] = hull_over_successors(subgraph, trim, sets_m);
+      } else if (subgraph.distance_to_standstill(trim) <= steps_left) {
+        next_m[trim.index] = {Point::Zero()};
+      }
+      max_distance_m_[distance_index(trim, steps, steps_left)] =
+          largest_norm(next_m[trim.index]) + allowance_m(steps);
+    }
+    sets_m = std::move(next_m);
+  }
+}
+
+void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
+  swept_area_m_.resize((max_steps_ + 1) * num_trims_);
+  swept_area_until_m_.resize(swept_area_m_.size());
+  SetPerTrim sets_m(num_trims_);
+  SetPerTrim until_m(num_trims_);
+  for (std::size_t step = 0; step <= max_steps_; ++step) {
+    SetPerTrim next_m(num_trims_);
+    for (const TrimId trim : subgraph.spec().trims) {
+      std::vector<Point>& set_m = next_m[trim.index];
+      if (step == 0) {
+        set_m = standing_area_m(subgraph.automaton(), trim);
+      } else if (step == 1) {
+        set_m = first_step_area_m(subgraph, trim);
+      } else {
+        set_m = hull_over_successors(subgraph, trim, sets_m);
+      }
+      std::vector<Point>& all_m = until_m[trim.index];
+      all_m.insert(all_m.end(), set_m.begin(), set_m.end());
+      all_m = hull_vertices(std::move(all_m));
+      swept_area_m_[area_index(trim, step)] = containing(set_m, step);
+      swept_area_until_m_[area_index(trim, step)] = containing(all_m, step);
+    }
+    sets_m = std::move(next_m);
+  }
+}
+
+double ReachableSets::max_distance_m(TrimId trim, std::size_t steps, std::size_t steps_left) const {
+  assert(trim.index < num_trims_ && steps <= max_steps_);
+  return max_distance_m_[distance_index(trim, steps, std::min(steps_left, max_steps_left_))];
+}
+
+const ConvexPolygon& ReachableSets::swept_area_m(TrimId trim, std::size_t step) const {
+  assert(trim.index < num_trims_ && step <= max_steps_);
+  return swept_area_m_[area_index(trim, step)];
+}
+
+const ConvexPolygon& ReachableSets::swept_area_until_m(TrimId trim, std::size_t steps) const {
+  assert(trim.index < num_trims_ && steps <= max_steps_);
+  return swept_area_until_m_[area_index(trim, steps)];
+}
+
+std::size_t ReachableSets::distance_index(TrimId trim, std::size_t steps,
+                                          std::size_t steps_left) const {
+  return (steps_left * (max_steps_ + 1) + steps) * num_trims_ + trim.index;
+}
+
+std::size_t ReachableSets::area_index(TrimId trim, std::size_t step) const {
+  return step * num_trims_ + trim.index;
+}
+
+}  // namespace hlc
