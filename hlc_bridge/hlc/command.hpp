@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "hlc_bridge/core/messages.hpp"
+#include "planner/coordination/plan.hpp"
+
+namespace hlc {
+
+/// A vehicle drops a command this long after its valid_after stamp (wire contract 6.1).
+inline constexpr Nanoseconds kCommandLifetime = 1'000'000'000;
+/// The second copy of a command becomes valid this long after the first, so that the vehicle can
+/// drive the whole plan even if its controller dies at once.
+inline constexpr Nanoseconds kCopyDelay = 800'000'000;
+
+/// The plan as the lab's timed trajectory command, in answer to the state list of `t_now` and valid
+/// at once: points every 50 ms from one before t(step), standing at the end, long enough for the
+/// vehicle's look-ahead of 360 ms as long as the copy is usable. Without a plan: no points, which
+/// no vehicle follows.
+[[nodiscard]] TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step,
+                                           Nanoseconds t_now, Nanoseconds period,
+                                           const VehicleParameters& parameters);
+
+/// The same command again, usable after the first has expired: same create_stamp, valid_after later
+/// by kCopyDelay.
+[[nodiscard]] TrajectoryCommand copy_for_later(const TrajectoryCommand& command);
+
+}  // namespace hlc

@@ -1,0 +1,321 @@
+#include "hlc_bridge/hlc/hlc_process.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "hlc_bridge/hlc/command.hpp"
+#include "hlc_bridge/hlc/observation.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
+
+namespace hlc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kReadyRepeat{500};
+constexpr std::chrono::seconds kSilence{10};
+constexpr std::chrono::milliseconds kCopyPause{50};
+/// Logical time starts the experiment no earlier: vehicles are trusted after 1 s.
+constexpr Nanoseconds kEarliestStart = 1'000'000'000;
+constexpr int kExitGood = 0;
+constexpr int kExitNotThere = 3;
+constexpr int kExitDied = 4;
+
+ParticipantOptions on_domain(const HlcProcessOptions& options, std::optional<int> domain,
+                             DomainRole role) {
+  return {.name = options.node_id,
+          .domain_id = domain.value(),
+          .role = role,
+          .transport = options.transport,
+          .logical_time = options.logical_time,
+          .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt};
+}
+
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+Nanoseconds share_of_period(const VehicleStateList& list, double share) {
+  return list.t_now + static_cast<Nanoseconds>(share * 1e6 * static_cast<double>(list.period_ms));
+}
+
+}  // namespace
+
+std::string controller_node_id(VehicleId vehicle) {
+  return "high_level_controller_" + std::to_string(vehicle.value);
+}
+
+HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller)
+    : options_(std::move(options)),
+      controller_(std::move(controller)),
+      started_at_(Clock::now()),
+      lab_(on_domain(options_, options_.domains.lab, DomainRole::kLab)),
+      local_(on_domain(options_, options_.domains.local, DomainRole::kLocal),
+             [this] { signal_.notify(); }),
+      controllers_(on_domain(options_, options_.domains.controller, DomainRole::kController),
+                   [this] { signal_.notify(); }),
+      command_writer_(local_, topics::command(), [this] { signal_.notify(); }),
+      ready_writer_(local_, topics::ready_status()),
+      traffic_writer_(controllers_, topics::traffic(), [this] { signal_.notify(); }),
+      prediction_writer_(controllers_, topics::prediction(), [this] { signal_.notify(); }),
+      outcome_writer_(controllers_, topics::outcome(), [this] { signal_.notify(); }),
+      report_writer_(controllers_, topics::report()),
+      traffic_reader_(controllers_, topics::traffic(),
+                      [this](const Traffic& message) {
+                        signal_.post([&] {
+                          traffic_inbox_.put(message);
+                          given_up_.erase(message.vehicle);
+                        });
+                      }),
+      prediction_reader_(controllers_, topics::prediction(),
+                         [this](const Prediction& message) {
+                           signal_.post([&] { prediction_inbox_.put(message); });
+                         }),
+      outcome_reader_(
+          controllers_, topics::outcome(),
+          [this](const Outcome& message) { signal_.post([&] { outcome_inbox_.put(message); }); }),
+      run_state_reader_(controllers_, topics::run_state(),
+                        [this](const RunState& state) {
+                          signal_.post([&] { drive_out_ |= state.phase == RunPhase::kDriveOut; });
+                        }),
+      trigger_reader_(local_, topics::system_trigger(),
+                      [this](const SystemTrigger& trigger) {
+                        signal_.post([&] {
+                          if (trigger.next_start == kStopSymbol) {
+                            stop_ = true;
+                          } else if (!start_) {
+                            start_ = trigger.next_start;
+                          }
+                        });
+                      }),
+      list_reader_(local_, topics::vehicle_state_list(), [this](const VehicleStateList& list) {
+        signal_.post([&] { lists_.push_back(list); });
+      }) {}
+
+void HlcProcess::stop() {
+  signal_.post([this] { stop_ = true; });
+}
+
+std::vector<VehicleId> HlcProcess::others(const Observation& observation) const {
+  std::vector<VehicleId> result = observation.active;
+  std::erase(result, controller_->options().vehicle);
+  return result;
+}
+
+std::set<std::string> HlcProcess::peer_names() const {
+  std::set<std::string> names;
+  for (const VehicleId vehicle : active_) {
+    if (vehicle != controller_->options().vehicle) names.insert(controller_node_id(vehicle));
+  }
+  return names;
+}
+
+/// Nothing that this process says may be lost: every writer has its readers matched.
+bool HlcProcess::has_everybody() {
+  if (is_ready_) return true;
+  const std::set<std::string> peers = peer_names();
+  const auto reaches = [&peers](const auto& writer) {
+    return std::ranges::includes(writer.matched_names(), peers);
+  };
+  is_ready_ = command_writer_.matched() > 0 && reaches(traffic_writer_) &&
+              reaches(prediction_writer_) && reaches(outcome_writer_);
+  return is_ready_;
+}
+
+std::string HlcProcess::who_is_missing() const {
+  if (active_.empty()) return "no state list came from the middleware";
+  std::set<std::string> names;
+  if (command_writer_.matched() == 0) names.insert("the middleware's reader of commands");
+  const std::set<std::string> heard = outcome_writer_.matched_names();
+  for (const std::string& name : peer_names()) {
+    if (!heard.contains(name)) names.insert(name);
+  }
+  return "not there: " + joined(names);
+}
+
+/// In logical time the first list is answered only when everybody is there, since nobody waits for
+/// messages that were sent before.
+bool HlcProcess::wait_for_everybody() {
+  return signal_.wait_until(started_at_ + options_.startup_timeout,
+                            [this] { return stop_ || has_everybody(); });
+}
+
+void HlcProcess::send_ready_now_and_then() {
+  const bool triggered = signal_.locked([this] { return start_.has_value(); });
+  if (!is_ready_ || triggered || Clock::now() < next_ready_at_) return;
+  ready_writer_.write({.source_id = "hlc_" + std::to_string(controller_->options().vehicle.value)});
+  next_ready_at_ = Clock::now() + kReadyRepeat;
+}
+
+void HlcProcess::send_copy_when_due() {
+  if (!copy_due_ || Clock::now() < copy_due_->first) return;
+  command_writer_.write(copy_due_->second);
+  copy_due_.reset();
+}
+
+HlcProcess::Event HlcProcess::wait_for_event() {
+  while (true) {
+    send_copy_when_due();
+    static_cast<void>(has_everybody());
+    send_ready_now_and_then();
+    Clock::time_point wake = Clock::now() + kReadyRepeat;
+    if (copy_due_) wake = std::min(wake, copy_due_->first);
+    const bool happened = signal_.wait_until(
+        wake, [this] { return stop_ || !lists_.empty() || !local_.lost().empty(); });
+    if (signal_.locked([this] { return stop_; })) return Event::kStop;
+    if (!active_.empty() && !local_.lost().empty()) return Event::kMiddlewareLost;
+    if (happened && signal_.locked([this] { return !lists_.empty(); })) return Event::kList;
+    if (!is_ready_ && Clock::now() > started_at_ + options_.startup_timeout) return Event::kTimeout;
+  }
+}
+
+int HlcProcess::run() {
+  while (true) {
+    switch (wait_for_event()) {
+      case Event::kStop:
+        return kExitGood;
+      case Event::kMiddlewareLost:
+        spdlog::error("{}: {} is gone; nothing reaches the vehicle any more", options_.node_id,
+                      joined(local_.lost()));
+        return kExitDied;
+      case Event::kTimeout:
+        spdlog::error("{}: {} within {} s", options_.node_id, who_is_missing(),
+                      options_.startup_timeout.count());
+        return kExitNotThere;
+      case Event::kList:
+        break;
+    }
+    const VehicleStateList list = signal_.locked([this] {
+      // In real time only the newest list is worth an answer.
+      if (!options_.logical_time) lists_.erase(lists_.begin(), lists_.end() - 1);
+      VehicleStateList next = std::move(lists_.front());
+      lists_.pop_front();
+      return next;
+    });
+    answer(list);
+  }
+}
+
+bool HlcProcess::starts_with(const VehicleStateList& list, const Observation& observation) {
+  if (!controller_->has_plan() || !is_ready_) return false;
+  if (options_.logical_time) return list.t_now >= kEarliestStart && is_complete(observation);
+  const std::optional<Nanoseconds> start = signal_.locked([this] { return start_; });
+  return start && list.t_now >= *start;
+}
+
+void HlcProcess::answer(const VehicleStateList& list) {
+  const double step_s = controller_->subgraph().automaton().step_s;
+  if (list.period_ms == 0 || std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) > 1e-9) {
+    spdlog::error("{}: the middleware's period is {} ms, the automaton's step is {} s",
+                  options_.node_id, list.period_ms, step_s);
+    return;
+  }
+  const Observation observation = observation_of(list);
+  if (last_step_ && observation.step <= *last_step_) return;  // heard twice
+  active_ = observation.active;
+  if (options_.logical_time && !wait_for_everybody()) return;
+
+  signal_.locked([&] {
+    traffic_inbox_.begin(observation.step);
+    prediction_inbox_.begin(observation.step);
+    outcome_inbox_.begin(observation.step);
+  });
+  ReportRecord record;
+  if (is_started_ || starts_with(list, observation)) {
+    if (is_started_) lists_skipped_ += observation.step.value - last_step_->value - 1;
+    is_started_ = true;
+    record = run_step(list, observation);
+  } else {
+    record.report = controller_->stand_by(observation);
+    send_command(list, observation.step);
+  }
+  last_step_ = observation.step;
+  report_writer_.write(record);
+}
+
+bool HlcProcess::is_awaited(VehicleId vehicle) const {
+  return !given_up_.contains(vehicle) && controllers_.is_alive(controller_node_id(vehicle));
+}
+
+template <class Message>
+void HlcProcess::wait_for(const StepMailbox<Message>& mailbox, const std::vector<VehicleId>& from,
+                          const VehicleStateList& list, double deadline_share) {
+  const auto all_in = [&] {
+    return stop_ || std::ranges::all_of(from, [&](VehicleId vehicle) {
+             return mailbox.holds(vehicle) || !is_awaited(vehicle);
+           });
+  };
+  if (!options_.logical_time) {
+    static_cast<void>(
+        signal_.wait_until(real_time_point(share_of_period(list, deadline_share)), all_in));
+    return;
+  }
+  if (signal_.wait_until(Clock::now() + kSilence, all_in)) return;
+  for (const VehicleId vehicle : from) {
+    if (signal_.locked([&] { return mailbox.holds(vehicle); })) continue;
+    spdlog::warn("{}: {} has said nothing for {} s and is not waited for any more",
+                 options_.node_id, controller_node_id(vehicle), kSilence.count());
+    signal_.locked([&] { given_up_.insert(vehicle); });
+  }
+}
+
+ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observation& observation) {
+  ReportRecord record;
+  Controller& controller = *controller_;
+  if (signal_.locked([this] { return drive_out_; })) controller.drive_out();
+
+  traffic_writer_.write(controller.observe(observation));
+  wait_for(traffic_inbox_, others(observation), list, options_.deadlines.traffic);
+  controller.couple(signal_.locked([this] { return traffic_inbox_.all(); }));
+
+  wait_for(prediction_inbox_, controller.predecessors(), list, options_.deadlines.predecessors);
+  const std::vector<Prediction> heard = signal_.locked([this] { return prediction_inbox_.all(); });
+  const Clock::time_point planning_from = Clock::now();
+  const Prediction prediction = controller.plan(heard);
+  record.planning_ns =
+      static_cast<Nanoseconds>(std::chrono::nanoseconds(Clock::now() - planning_from).count());
+  prediction_writer_.write(prediction);
+
+  const bool strict = controller.options().settle_rule == SettleRule::kStrict;
+  if (strict) {
+    wait_for(prediction_inbox_, controller.coupled(), list, options_.deadlines.settle);
+  } else {
+    outcome_writer_.write(controller.vote());
+    wait_for(outcome_inbox_, controller.component(), list, options_.deadlines.settle);
+  }
+  const auto [predictions, outcomes] = signal_.locked([this] {
+    return std::pair{prediction_inbox_.all(), outcome_inbox_.all()};
+  });
+  const Nanoseconds deadline = share_of_period(list, options_.deadlines.command);
+  const Nanoseconds now = options_.logical_time ? list.t_now : real_time_now();
+  if (now > deadline) {
+    record.deadline_missed = true;
+    record.late_ns = now - deadline;
+    record.report = controller.give_up(FallbackReason::kLate);
+  } else {
+    record.report = controller.settle(predictions, outcomes);
+  }
+  send_command(list, observation.step);
+  return record;
+}
+
+void HlcProcess::send_command(const VehicleStateList& list, StepIndex step) {
+  const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
+  const TrajectoryCommand command =
+      command_of(controller_->options().vehicle, plan, step, list.t_now, list.period_ms * 1'000'000,
+                 controller_->subgraph().automaton().vehicle);
+  command_writer_.write(command);
+  copy_due_.reset();
+  if (command.points.empty()) return;
+  if (options_.transport == Transport::kLoopback) {
+    command_writer_.write(copy_for_later(command));
+  } else if (!options_.logical_time) {
+    copy_due_.emplace(Clock::now() + kCopyPause, copy_for_later(command));
+  }
+}
+
+}  // namespace hlc

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/hlc/step_mailbox.hpp"
+#include "hlc_bridge/time/signal.hpp"
+#include "planner/controller/controller.hpp"
+
+namespace hlc {
+
+/// When the waits of a step end in real time, as shares of the period after t_now. In logical time
+/// a wait ends when everybody alive has answered.
+struct StepDeadlines {
+  double traffic{0.20};
+  double predecessors{0.55};
+  double settle{0.75};
+  double command{0.90};  ///< later than this the plan in force stays, and the miss is counted
+};
+
+struct HlcProcessOptions {
+  std::string node_id;  ///< high_level_controller_<id>
+  Transport transport{Transport::kLab};
+  Domains domains;
+  std::optional<DiscoveryServer> discovery_server;
+  bool logical_time{};
+  std::chrono::seconds startup_timeout{30};
+  StepDeadlines deadlines;
+};
+
+/// Node ids of a run, by which processes know each other's presence.
+[[nodiscard]] std::string controller_node_id(VehicleId vehicle);
+
+/// The process of one controller: takes state lists from the middleware, steps the controller,
+/// exchanges messages with the other controllers between its phases, answers every list with a
+/// command.
+///
+/// All waiting is in this class, and every wait ends: at a deadline (real time), when whom it waits
+/// for is gone from the domain, or after 10 s of silence (logical time).
+class HlcProcess {
+ public:
+  /// @param controller  of the vehicle that this process drives
+  /// @throws std::invalid_argument, std::runtime_error if an endpoint cannot be made
+  HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller);
+
+  /// Runs until the stop symbol or `stop`. Exit code: 0 good, 3 somebody did not appear, 4 the
+  /// middleware died.
+  int run();
+
+  /// Ends `run` soon; from any thread.
+  void stop();
+
+ private:
+  enum class Event { kList, kStop, kMiddlewareLost, kTimeout };
+
+  [[nodiscard]] Event wait_for_event();
+  void send_ready_now_and_then();
+  void send_copy_when_due();
+  [[nodiscard]] bool has_everybody();
+  [[nodiscard]] std::string who_is_missing() const;
+  [[nodiscard]] std::set<std::string> peer_names() const;
+  [[nodiscard]] bool wait_for_everybody();
+
+  void answer(const VehicleStateList& list);
+  [[nodiscard]] bool starts_with(const VehicleStateList& list, const Observation& observation);
+  [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
+  /// Waits until all of `from` are in the mailbox, or need not be waited for any more.
+  template <class Message>
+  void wait_for(const StepMailbox<Message>& mailbox, const std::vector<VehicleId>& from,
+                const VehicleStateList& list, double deadline_share);
+  [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
+  void send_command(const VehicleStateList& list, StepIndex step);
+  [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;
+
+  HlcProcessOptions options_;
+  std::unique_ptr<Controller> controller_;
+  std::chrono::steady_clock::time_point started_at_;
+
+  Signal signal_;
+  // Guarded by signal_:
+  std::deque<VehicleStateList> lists_;
+  StepMailbox<Traffic> traffic_inbox_;
+  StepMailbox<Prediction> prediction_inbox_;
+  StepMailbox<Outcome> outcome_inbox_;
+  std::optional<Nanoseconds> start_;  ///< next_start of the trigger
+  bool stop_{};
+  bool drive_out_{};
+  std::set<VehicleId> given_up_;  ///< silent for 10 s in logical time: not waited for until heard
+
+  Participant lab_;
+  Participant local_;
+  Participant controllers_;
+  Writer<TrajectoryCommand> command_writer_;
+  Writer<ReadyStatus> ready_writer_;
+  Writer<Traffic> traffic_writer_;
+  Writer<Prediction> prediction_writer_;
+  Writer<Outcome> outcome_writer_;
+  Writer<ReportRecord> report_writer_;
+
+  std::vector<VehicleId> active_;
+  bool is_ready_{};
+  bool is_started_{};
+  std::optional<StepIndex> last_step_;
+  std::uint64_t lists_skipped_{};
+  std::chrono::steady_clock::time_point next_ready_at_{};
+  std::optional<std::pair<std::chrono::steady_clock::time_point, TrajectoryCommand>> copy_due_;
+
+  // Readers last: their callbacks use everything above, and they end first.
+  Reader<Traffic> traffic_reader_;
+  Reader<Prediction> prediction_reader_;
+  Reader<Outcome> outcome_reader_;
+  Reader<RunState> run_state_reader_;
+  Reader<SystemTrigger> trigger_reader_;
+  Reader<VehicleStateList> list_reader_;
+};
+
+}  // namespace hlc

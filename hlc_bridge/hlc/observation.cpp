@@ -1,0 +1,59 @@
+#include "hlc_bridge/hlc/observation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hlc {
+namespace {
+
+constexpr Nanoseconds kMaxStateAge = 200'000'000;
+constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
+constexpr std::int32_t kMaxVehicleId = 255;
+
+bool is_finite(const VehicleState& state) {
+  return std::isfinite(state.pose.x_m) && std::isfinite(state.pose.y_m) &&
+         std::isfinite(state.pose.heading_rad) && std::isfinite(state.speed_mps);
+}
+
+}  // namespace
+
+StepIndex step_of(const VehicleStateList& list) {
+  return {list.t_now / (list.period_ms * kNanosecondsPerMillisecond)};
+}
+
+bool is_usable(const VehicleState& state, Nanoseconds t_now) {
+  return state.vehicle_id != 0 && is_finite(state) && state.valid_after_stamp <= t_now &&
+         state.create_stamp <= t_now && t_now - state.create_stamp <= kMaxStateAge;
+}
+
+Observation observation_of(const VehicleStateList& list) {
+  Observation observation{.step = step_of(list)};
+  const Nanoseconds step_start =
+      observation.step.value * list.period_ms * kNanosecondsPerMillisecond;
+  for (const std::int32_t id : list.active_vehicle_ids) {
+    if (id > 0 && id <= kMaxVehicleId) {
+      observation.active.push_back({static_cast<std::uint8_t>(id)});
+    }
+  }
+  std::ranges::sort(observation.active);
+  for (const VehicleState& state : list.states) {
+    if (!is_usable(state, list.t_now)) continue;
+    const double age_s =
+        1e-9 * static_cast<double>(static_cast<std::int64_t>(step_start - state.create_stamp));
+    observation.states.push_back({.vehicle = {state.vehicle_id},
+                                  .pose = state.pose,
+                                  .speed_mps = state.speed_mps,
+                                  .age_s = std::max(age_s, 0.0)});
+  }
+  std::ranges::sort(observation.states, {}, &MeasuredVehicle::vehicle);
+  return observation;
+}
+
+bool is_complete(const Observation& observation) {
+  return std::ranges::all_of(observation.active, [&](VehicleId vehicle) {
+    return std::ranges::find(observation.states, vehicle, &MeasuredVehicle::vehicle) !=
+           observation.states.end();
+  });
+}
+
+}  // namespace hlc
