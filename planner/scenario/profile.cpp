@@ -1,0 +1,23 @@
+#include "planner/scenario/profile.hpp"
+
+#include <stdexcept>
+
+namespace hlc {
+
+Profile profile_from_name(const std::string& name) {
+  if (name == "default") {
+    return {.name = name,
+            .reference_rule = ReferenceRule::kDefault,
+            .cost_to_go = CostToGo::kReachable,
+            .settle_rule = SettleRule::kStrict};
+  }
+  if (name == "2022") {
+    return {.name = name,
+            .reference_rule = ReferenceRule::k2022,
+            .cost_to_go = CostToGo::k2022,
+            .settle_rule = SettleRule::kAgreed};
+  }
+  throw std::invalid_argument("--profile = " + name + ", allowed default, 2022");
+}
+
+}  // namespace hlc

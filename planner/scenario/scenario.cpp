@@ -1,0 +1,227 @@
+#include "planner/scenario/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/automaton/automaton_configuration.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+#include "planner/geometry/footprint.hpp"
+#include "planner/maneuver_design/build_automaton.hpp"
+#include "planner/road/lanelet_map.hpp"
+#include "planner/road/route.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::size_t kMaxVehicleId = 30;
+constexpr std::size_t kMaxCars = 20;
+
+std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
+  return (file.parent_path() / path).lexically_normal();
+}
+
+VehicleId vehicle_id(const YamlNode& node) {
+  return {static_cast<std::uint8_t>(
+      node.required<std::size_t>("id", between(1.0, static_cast<double>(kMaxVehicleId))))};
+}
+
+/// Routes by name, for the map that is driven on.
+std::map<std::string, Route> read_routes(const YamlNode& scenario, const LaneletMap& map) {
+  std::map<std::string, Route> routes;
+  for (const YamlNode& node : scenario.list("routes")) {
+    const auto name = node.required<std::string>("name");
+    const bool closed = node.optional<bool>("closed", true);
+    const YamlNode by_map = node.map("lanelets");
+    if (!by_map.has(map.benchmark_id)) {
+      node.fail("lanelets", "a list for the map with benchmarkID " + map.benchmark_id);
+    }
+    std::vector<LaneletId> lanelets;
+    for (const YamlNode& lanelet : by_map.list(map.benchmark_id)) {
+      lanelets.push_back(lanelet.as<int>(at_least(1.0)));
+    }
+    node.check_no_unknown_keys();
+    try {
+      routes.emplace(name, build_route(map, lanelets, closed));
+    } catch (const std::runtime_error& error) {
+      node.fail("lanelets." + map.benchmark_id,
+                std::string("a route that can be driven: ") + error.what());
+    }
+  }
+  return routes;
+}
+
+void read_vehicles(const YamlNode& node, const ScenarioChoices& choices, Scenario& scenario) {
+  if (choices.cars) {
+    throw std::invalid_argument("--cars: " + choices.file.string() +
+                                " has named vehicles; allowed for scenarios with `circle`");
+  }
+  scenario.map_file = choices.map_file ? *choices.map_file
+                                       : beside(choices.file, node.required<std::string>("map"));
+  static_cast<void>(node.optional<std::string>("map", ""));
+  const std::map<std::string, Route> routes =
+      read_routes(node, read_lanelet_map(*scenario.map_file));
+  for (const YamlNode& entry : node.list("vehicles")) {
+    const VehicleId id = vehicle_id(entry);
+    const auto route = routes.find(entry.required<std::string>("route"));
+    if (route == routes.end()) entry.fail("route", "the name of an entry of `routes`");
+    const double start_m =
+        entry.required<double>("start_m", between(0.0, route->second.path.length_m()));
+    const Point position = route->second.path.at(start_m);
+    scenario.vehicles.push_back(
+        {.id = id,
+         .name = entry.optional<std::string>("name", "vehicle " + std::to_string(id.value)),
+         .start = {position.x(), position.y(), route->second.path.heading_rad_at(start_m)},
+         .start_s_m = start_m,
+         .path = route->second.path,
+         .corridor = route->second.corridor});
+    entry.check_no_unknown_keys();
+  }
+}
+
+/// Cars evenly on a circle, each on the straight line to the opposite point; no lanes.
+void read_circle(const YamlNode& node, const ScenarioChoices& choices, Scenario& scenario) {
+  if (choices.map_file) {
+    throw std::invalid_argument("--map: " + choices.file.string() +
+                                " is a scenario without lanes; allowed for scenarios with `map`");
+  }
+  const YamlNode circle = node.map("circle");
+  const auto configured = circle.required<std::size_t>("cars", between(1.0, kMaxCars));
+  const std::size_t cars = choices.cars.value_or(configured);
+  if (cars < 1 || cars > kMaxCars) {
+    throw std::invalid_argument("--cars = " + std::to_string(cars) + ", allowed 1 ... " +
+                                std::to_string(kMaxCars));
+  }
+  const double radius = circle.required<double>("radius_m", above(0.0));
+  const Point centre{circle.required<double>("centre_x_m"), circle.required<double>("centre_y_m")};
+  circle.check_no_unknown_keys();
+  for (std::size_t i = 0; i < cars; ++i) {
+    const double angle =
+        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(cars);
+    const Point offset = radius * Point(std::cos(angle), std::sin(angle));
+    const Point start = centre + offset;
+    scenario.vehicles.push_back(
+        {.id = {static_cast<std::uint8_t>(i + 1)},
+         .name = "car " + std::to_string(i + 1),
+         .start = {start.x(), start.y(), wrap_angle(angle + std::numbers::pi)},
+         .start_s_m = 0.0,
+         .path = ReferencePath({start, centre - offset}, false),
+         .corridor = {}});
+  }
+}
+
+void check_vehicles(const YamlNode& node, const Scenario& scenario) {
+  const VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
+  const auto area = [&](const ScenarioVehicle& vehicle) {
+    return footprint_area(parameters.footprint, vehicle.start, parameters.safety_margin_m);
+  };
+  if (scenario.vehicles.empty()) node.fail("vehicles", "at least one");
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const ScenarioVehicle& a = scenario.vehicles[j];
+      const ScenarioVehicle& b = scenario.vehicles[i];
+      if (a.id == b.id) node.fail("vehicles", "every id once");
+      if (intersects(area(a), area(b))) {
+        node.fail(node.has("circle") ? "circle" : "vehicles",
+                  "start poses whose footprints with margin do not overlap: those of vehicles " +
+                      std::to_string(a.id.value) + " and " + std::to_string(b.id.value) + " do");
+      }
+    }
+  }
+}
+
+std::shared_ptr<const Subgraph> choose_subgraph(const YamlNode& node,
+                                                const ScenarioChoices& choices,
+                                                std::shared_ptr<const UniversalAutomaton> automaton,
+                                                const std::vector<SubgraphSpec>& subgraphs) {
+  const auto configured = node.required<std::string>("subgraph");
+  const std::string name = choices.subgraph.value_or(configured);
+  const auto spec = std::ranges::find(subgraphs, name, &SubgraphSpec::name);
+  if (spec != subgraphs.end()) return std::make_shared<Subgraph>(std::move(automaton), *spec);
+  std::string known;
+  for (const SubgraphSpec& one : subgraphs) known += (known.empty() ? "" : ", ") + one.name;
+  if (choices.subgraph) {
+    throw std::invalid_argument("--subgraph = " + name + ", allowed " + known);
+  }
+  node.fail("subgraph", known);
+}
+
+Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
+                   std::shared_ptr<const UniversalAutomaton> automaton,
+                   const std::vector<SubgraphSpec>& subgraphs) {
+  Scenario scenario;
+  scenario.file = choices.file;
+  scenario.name = node.required<std::string>("name");
+  scenario.automaton_file = beside(choices.file, node.required<std::string>("automaton"));
+  const auto steps = node.required<std::size_t>("steps", between(1.0, 100000.0));
+  scenario.steps = choices.steps.value_or(steps);
+  scenario.seed = node.optional<std::size_t>("seed", 0);
+  scenario.horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0));
+  scenario.reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0));
+  scenario.max_expansions =
+      node.optional<std::size_t>("max_expansions", SearchOptions{}.max_expansions, at_least(1.0));
+  scenario.profile = profile_from_name(choices.profile);
+  scenario.subgraph = choose_subgraph(node, choices, std::move(automaton), subgraphs);
+  if (node.has("circle")) {
+    read_circle(node, choices, scenario);
+  } else {
+    read_vehicles(node, choices, scenario);
+  }
+  node.check_no_unknown_keys();
+  check_vehicles(node, scenario);
+  std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);
+  return scenario;
+}
+
+}  // namespace
+
+Scenario read_scenario(const ScenarioChoices& choices) {
+  const YamlNode node = YamlNode::read_file(choices.file);
+  const AutomatonConfiguration configuration =
+      read_automaton_configuration(beside(choices.file, node.required<std::string>("automaton")));
+  return read_with(node, choices,
+                   std::make_shared<const UniversalAutomaton>(build_automaton(configuration)),
+                   configuration.subgraphs);
+}
+
+Scenario read_scenario(const ScenarioChoices& choices,
+                       std::shared_ptr<const UniversalAutomaton> automaton,
+                       const std::vector<SubgraphSpec>& subgraphs) {
+  return read_with(YamlNode::read_file(choices.file), choices, std::move(automaton), subgraphs);
+}
+
+const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
+  const auto found = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
+  if (found != scenario.vehicles.end()) return *found;
+  std::string known;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    known += (known.empty() ? "" : ", ") + std::to_string(vehicle.id.value);
+  }
+  throw std::invalid_argument(scenario.file.string() +
+                              ": vehicle id = " + std::to_string(id.value) + ", allowed " + known);
+}
+
+std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id) {
+  const ScenarioVehicle& vehicle = vehicle_of(scenario, id);
+  return std::make_unique<Controller>(
+      ControllerOptions{.vehicle = id,
+                        .horizon_steps = scenario.horizon_steps,
+                        .reference_speed_mps = scenario.reference_speed_mps,
+                        .reference_rule = scenario.profile.reference_rule,
+                        .settle_rule = scenario.profile.settle_rule,
+                        .search = {.cost_to_go = scenario.profile.cost_to_go,
+                                   .max_expansions = scenario.max_expansions}},
+      scenario.subgraph, vehicle.path, vehicle.corridor);
+}
+
+Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle) {
+  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  Pose pose = vehicle.start;
+  pose.heading_rad = wrap_angle(
+      pose.heading_rad + yaw_minus_heading_rad(0.0, automaton.vehicle, automaton.identified));
+  return pose;
+}
+
+}  // namespace hlc

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/controller/controller.hpp"
+#include "planner/road/corridor.hpp"
+#include "planner/road/reference_path.hpp"
+#include "planner/scenario/profile.hpp"
+
+namespace hlc {
+
+/// One vehicle of a scenario.
+struct ScenarioVehicle {
+  VehicleId id;
+  std::string name;
+  Pose start;          ///< planned pose at the start, standing
+  double start_s_m{};  ///< its arc length on the path
+  ReferencePath path;  ///< closed: a lap can be driven
+  Corridor corridor;
+};
+
+/// What a run is: who drives where, on which automaton, by which rules.
+struct Scenario {
+  std::string name;
+  std::filesystem::path file;
+  std::filesystem::path automaton_file;
+  std::optional<std::filesystem::path> map_file;  ///< none: open ground without lanes
+  std::size_t steps{};
+  std::uint64_t seed{};
+  std::size_t horizon_steps{};
+  double reference_speed_mps{};
+  std::size_t max_expansions{};
+  Profile profile;
+  std::shared_ptr<const Subgraph> subgraph;
+  std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
+};
+
+/// What the command line chooses instead of the file.
+struct ScenarioChoices {
+  std::filesystem::path file;
+  std::string profile{"default"};
+  std::optional<std::string> subgraph;
+  std::optional<std::filesystem::path> map_file;
+  std::optional<std::size_t> steps;
+  std::optional<std::size_t> cars;  ///< scenarios on a circle only
+};
+
+/// Reads the scenario, its map and its automaton's configuration, builds the automaton (maneuvers
+/// are solved) and checks that it can be driven: routes exist and close, start poses do not
+/// overlap.
+/// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is
+/// allowed
+[[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices);
+
+/// The same with the automaton's subgraph at hand: for programs that read many scenarios.
+[[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices,
+                                     std::shared_ptr<const UniversalAutomaton> automaton,
+                                     const std::vector<SubgraphSpec>& subgraphs);
+
+/// @throws std::invalid_argument if the scenario has no such vehicle
+[[nodiscard]] const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id);
+
+/// The controller of one vehicle of the scenario.
+[[nodiscard]] std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id);
+
+/// Yaw of the vehicle that stands at a planned pose (the lab's vehicles point a little aside of
+/// their course).
+[[nodiscard]] Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle);
+
+}  // namespace hlc
