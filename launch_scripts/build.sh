@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Configures and builds one preset. Prints one line per stage; the compiler's output only if it fails.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: build.sh [--preset release|debug|asan|tsan] [--programs]
+  --preset NAME   what to build (default release), into build/NAME
+  --programs      only the programs of a run, no tests
+Exit codes: 0 good, 1 the build failed, 2 bad input
+TEXT
+}
+
+preset=release
+targets=()
+while (($#)); do
+  case "$1" in
+    --preset) preset=${2:-}; shift ;;
+    --preset=*) preset=${1#*=} ;;
+    --programs)
+      targets=(--target vehicle_sim middleware high_level_controller lab_control summarize show_scenario)
+      ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "build.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
+  esac
+  shift
+done
+case "$preset" in
+  release | debug | asan | tsan) ;;
+  *) echo "build.sh: --preset = $preset, allowed release, debug, asan, tsan" >&2; exit 2 ;;
+esac
+
+mkdir -p "$root/build/$preset"
+log=$root/build/$preset/build.log
+run() {
+  if ! "$@" >>"$log" 2>&1; then
+    tail -n 40 "$log" >&2
+    echo "build.sh: preset $preset failed; the whole log is $log" >&2
+    exit 1
+  fi
+}
+
+cd "$root"
+: >"$log"
+start=$SECONDS
+run cmake --preset "$preset"
+if [[ -t 1 ]]; then # one line that is rewritten
+  progress() { awk '/^\[/ {printf "\r\033[KBuilding %s", $1; fflush()} END {printf "\r\033[K"}'; }
+  build() { cmake --build --preset "$preset" "${targets[@]}" 2>&1 | tee -a "$log" | progress >&3; }
+  run build 3>&1
+else
+  echo "Building ($preset), the first time takes a few minutes ..."
+  run cmake --build --preset "$preset" "${targets[@]}"
+fi
+if ((SECONDS - start > 5)); then echo "Built ($preset) in $((SECONDS - start)) s"; fi

@@ -1,0 +1,170 @@
+#!/usr/bin/env bash
+# Drives a scenario: one simulated car, middleware and high-level controller per vehicle and one lab control,
+# each its own process, over DDS. Prints the result table.
+set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: run_lab.sh [flags]      (every flag also as --name=value)
+Installs what is missing, builds, drives three cars for 30 s, prints the result table.
+  --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
+                          (default paper_three_cars; also paper_red_alone, circle)
+  --profile NAME          default: every plan optimal, safe whatever message is lost
+                          2022: the rules under which the paper's numbers arose
+  --subgraph NAME         of the automaton, instead of the scenario's
+  --map FILE              CommonRoad XML instead of the scenario's map
+  --cars N                number of cars (scenario circle)
+  --steps N               control steps of 0.2 s, instead of the scenario's
+  --simulated_time BOOL   true: logical time, as fast as the machine can (default); false: real time
+  --noise_seed N          measurement noise of the simulated cars from this seed (default: none)
+  --gains_scale X         gains of the simulated cars' followers (default 1)
+  --transport NAME        loopback (default) or lab
+  --dds_domain N          lab domain; the vehicles take the next ones, the controllers N + 50
+                          (default: a free block)
+  --out DIR               run folder (default: a new one in runs/)
+  --preset NAME           build preset (default release)
+  --startup_timeout_s N   how long to wait for processes that do not appear (default 20)
+  --no_build              take the programs as they are
+Exit codes: 0 good, 1 setup or build failed, 2 bad input, 3 somebody did not appear,
+            4 somebody died during the run, 130 interrupted
+TEXT
+}
+
+fail() { echo "run_lab.sh: $1" >&2; exit 2; }
+
+scenario=paper_three_cars profile=default subgraph="" map="" cars="" steps="" simulated_time=true
+noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release build=true
+startup_timeout_s=20
+while (($#)); do
+  case "$1" in
+    -h | --help) usage; exit 0 ;;
+    --no_build) build=false; shift; continue ;;
+    --*=*) name=${1%%=*} value=${1#*=} ;;
+    --*) name=$1 value=${2-}
+      (($# >= 2)) || fail "$1 needs a value"
+      shift ;;
+    *) fail "unexpected argument $1 (see --help)" ;;
+  esac
+  shift
+  name=${name#--}
+  case "$name" in
+    scenario | profile | subgraph | map | cars | steps | simulated_time | noise_seed | gains_scale | \
+      transport | dds_domain | out | preset | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+    *) fail "unknown flag --$name (see --help)" ;;
+  esac
+done
+[[ $simulated_time == true || $simulated_time == false ]] ||
+  fail "--simulated_time = $simulated_time, allowed true, false"
+[[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
+[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
+[[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
+
+if $build; then
+  "$root/launch_scripts/setup.sh" || exit 1
+  "$root/launch_scripts/build.sh" --preset "$preset" --programs || exit 1
+fi
+bin=$root/build/$preset/bin
+[[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build"
+
+choices=(--scenario "$scenario" --profile "$profile")
+[[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
+[[ -z $map ]] || choices+=(--map "$map")
+[[ -z $cars ]] || choices+=(--cars "$cars")
+check=("${choices[@]}")
+[[ -z $steps ]] || check+=(--steps "$steps")
+starts=$("$bin/show_scenario" "${check[@]}" --starts) || exit 2
+steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
+mapfile -t ids < <(awk '{print $1}' <<<"$starts")
+
+# A block of DDS domains that no other run on this machine uses: the lab's and one per vehicle, 50 higher
+# the controllers'. The locks are held by this shell and its children.
+largest_id=${ids[-1]}
+block_is_free() { # first domain
+  local domain fds=()
+  for ((domain = $1; domain <= $1 + largest_id; domain++)); do
+    local fd
+    exec {fd}>"${TMPDIR:-/tmp}/hlc_dds_domain_$domain.lock" || return 1
+    fds+=("$fd")
+    if ! flock -n "$fd"; then
+      for fd in "${fds[@]}"; do exec {fd}>&-; done
+      return 1
+    fi
+  done
+}
+if [[ -z $dds_domain ]]; then
+  for ((first = 1; first + largest_id <= 50; first++)); do
+    if block_is_free "$first"; then
+      dds_domain=$first
+      break
+    fi
+  done
+  [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
+fi
+[[ $dds_domain =~ ^[0-9]+$ ]] || fail "--dds_domain = $dds_domain, allowed 0 ... 232"
+
+if [[ -z $out ]]; then
+  out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
+  base=$out
+  for ((i = 2; ; i++)); do
+    mkdir -p "$root/runs" && mkdir "$out" 2>/dev/null && break
+    out=${base}_$i
+    ((i < 1000)) || fail "cannot make a run folder in $root/runs"
+  done
+elif [[ -e $out && -n $(ls -A "$out" 2>/dev/null) ]]; then
+  fail "--out = $out is not empty, allowed a new or an empty folder"
+else
+  mkdir -p "$out" || exit 2
+fi
+out=$(cd "$out" && pwd)
+mkdir -p "$out/logs"
+
+children=()
+# shellcheck disable=SC2317 # called by the trap
+interrupted() {
+  trap '' INT TERM
+  ((${#children[@]} == 0)) || kill -TERM "${children[@]}" 2>/dev/null
+  local pid
+  for pid in "${children[@]}"; do wait "$pid" 2>/dev/null; done
+  exit 130
+}
+trap interrupted INT TERM
+
+flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
+for id in "${ids[@]}"; do
+  vehicle=("${flags[@]}" --id "$id" --bin "$bin" "${choices[@]}" --startup_timeout_s $((startup_timeout_s + 10))
+    --pose "$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")")
+  [[ -z $noise_seed ]] || vehicle+=(--noise_seed $((noise_seed + id)))
+  [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
+  "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
+  children+=($!)
+done
+"$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
+  --startup_timeout_s "$startup_timeout_s" </dev/null &
+lab_control=$!
+children+=("$lab_control")
+
+wait "$lab_control"
+code=$?
+
+# The others end by themselves once lab control has said stop; whoever does not, is ended.
+deadline=$((SECONDS + 8))
+running() {
+  local pid
+  for pid in "${children[@]}"; do kill -0 "$pid" 2>/dev/null && return 0; done
+  return 1
+}
+((code == 0 || code == 4)) || kill -TERM "${children[@]}" 2>/dev/null
+while running && ((SECONDS < deadline)); do sleep 0.05; done
+kill -TERM "${children[@]}" 2>/dev/null
+for pid in "${children[@]}"; do
+  wait "$pid"
+  child=$?
+  [[ $pid == "$lab_control" ]] || ((code != 0 || child == 0)) || code=$child
+done
+((code == 0)) || cat "$out/logs/vehicles.log" >&2
+
+if [[ -s $out/reports.csv ]]; then
+  "$bin/summarize" --run "$out" "${choices[@]}" || ((code != 0)) || code=$?
+fi
+exit "$code"

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that building and running need. Does nothing, quickly, when all are there.
+set -euo pipefail
+
+packages=(
+  cmake ninja-build g++ ccache git ca-certificates
+  libfastrtps-dev libfastcdr-dev fastddsgen
+  libeigen3-dev libnlopt-dev libnlopt-cxx-dev libompl-dev libboost-dev
+  libspdlog-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev libssl-dev
+  libgtest-dev libgmock-dev
+  procps util-linux
+)
+
+usage() {
+  echo "usage: setup.sh [--help]"
+  echo "Installs missing packages (as root, or with sudo): ${packages[*]}"
+  echo "Exit codes: 0 good, 1 a package could not be installed, 2 bad input"
+}
+
+case "${1:-}" in
+  "") ;;
+  -h | --help) usage; exit 0 ;;
+  *) echo "setup.sh: unknown flag $1, allowed --help" >&2; exit 2 ;;
+esac
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
+  [[ $status == "install ok installed" ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then exit 0; fi
+
+echo "Installing packages: ${missing[*]}"
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "setup.sh: these packages are missing, and neither root nor sudo is at hand: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+log=$(mktemp)
+install() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y --no-install-recommends "${missing[@]}"
+}
+if ! install >"$log" 2>&1; then
+  tail -n 20 "$log" >&2
+  echo "setup.sh: installation failed; the whole log is $log" >&2
+  exit 1
+fi
+rm -f "$log"

@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# One vehicle: its simulated car, its middleware and its high-level controller, as one machine of the lab
+# runs them. Ends when all three have ended.
+set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name=value)
+  --id N                  vehicle, 1 ... 30
+  --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
+  --profile NAME          default or 2022 (default: default)
+  --subgraph NAME         instead of the scenario's
+  --map FILE              CommonRoad XML instead of the scenario's map
+  --cars N                number of cars (scenarios on a circle)
+  --simulated_time BOOL   true: logical time (default), false: real time
+  --transport NAME        loopback (default) or lab
+  --dds_domain N          lab domain (default 1)
+  --middleware_domain N   local domain of this vehicle (default: lab domain + id)
+  --controller_domain N   domain of the controllers (default: lab domain + 50)
+  --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
+  --noise_seed N          measurement noise from this seed (default: none)
+  --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
+  --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
+  --bin DIR               folder of the programs (default: build/release/bin)
+  --startup_timeout_s N   how long to wait for the others (default 30)
+Exit code: the first failing one of the three; 2 bad input
+TEXT
+}
+
+fail() { echo "vehicle.sh: $1" >&2; exit 2; }
+
+id="" scenario="" profile=default subgraph="" map="" cars="" simulated_time=true transport=loopback
+dds_domain=1 middleware_domain="" controller_domain="" pose="" noise_seed="" gains_scale="" out=""
+bin=$root/build/release/bin startup_timeout_s=30
+while (($#)); do
+  case "$1" in
+    -h | --help) usage; exit 0 ;;
+    --*=*) name=${1%%=*} value=${1#*=} ;;
+    --*) name=$1 value=${2-}
+      (($# >= 2)) || fail "$1 needs a value"
+      shift ;;
+    *) fail "unexpected argument $1 (see --help)" ;;
+  esac
+  shift
+  name=${name#--}
+  case "$name" in
+    id | scenario | profile | subgraph | map | cars | simulated_time | transport | dds_domain | \
+      middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
+      startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+    *) fail "unknown flag --$name (see --help)" ;;
+  esac
+done
+[[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, allowed 1 ... 30"
+[[ $dds_domain =~ ^[0-9]+$ ]] || fail "--dds_domain = $dds_domain, allowed 0 ... 232"
+[[ -n $scenario ]] || fail "--scenario is missing"
+[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
+[[ -e $scenario ]] || fail "--scenario: no file $scenario"
+[[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + id))
+[[ -n $out ]] || out=$root/runs/vehicle_$id
+mkdir -p "$out/logs" || exit 2
+
+choices=(--scenario "$scenario" --profile "$profile")
+[[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
+[[ -z $map ]] || choices+=(--map "$map")
+[[ -z $cars ]] || choices+=(--cars "$cars")
+if [[ -z $pose ]]; then
+  starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
+  pose=$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
+  [[ -n $pose ]] || fail "--id = $id, allowed $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts")"
+fi
+
+common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
+  --startup_timeout_s="$startup_timeout_s")
+vehicle=(--vehicle_id="$id" --pose="$pose" --record="$out/vehicle_$id.csv")
+[[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
+[[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
+controller=("${choices[@]}")
+[[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
+
+pids=()
+# shellcheck disable=SC2317 # called by the trap
+end_all() {
+  trap '' INT TERM
+  ((${#pids[@]} == 0)) || kill -TERM "${pids[@]}" 2>/dev/null
+}
+trap end_all INT TERM
+
+start() { # name, program and flags
+  local name=$1
+  shift
+  "$@" >"$out/logs/$name.log" 2>&1 </dev/null &
+  pids+=($!)
+  names[$!]=$name
+}
+declare -A names=()
+start "vehicle_$id" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
+start "middleware_$id" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
+  --middleware_domain="$middleware_domain"
+start "high_level_controller_$id" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$id" \
+  --middleware_domain="$middleware_domain" "${controller[@]}"
+printf '%s\n' "${!names[@]}" | while read -r pid; do echo "$pid ${names[$pid]}"; done \
+  >"$out/logs/vehicle_$id.pids"
+
+first=0
+while ((${#names[@]})); do
+  ended=""
+  wait -n -p ended "${!names[@]}"
+  code=$?
+  [[ -n $ended ]] || continue # a trap interrupted the wait
+  if ((code != 0)); then
+    echo "${names[$ended]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$ended]}.log")" >&2
+    ((first != 0)) || first=$code
+  fi
+  unset "names[$ended]"
+done
+exit "$first"

@@ -1,0 +1,72 @@
+// Checks a scenario and prints who drives where; with --starts in a form for scripts.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "planner/scenario/scenario.hpp"
+
+namespace {
+
+void print_table(const hlc::Scenario& scenario) {
+  std::printf("scenario   %s, %zu steps of %g s, horizon %zu steps\n", scenario.name.c_str(),
+              scenario.steps, scenario.subgraph->automaton().step_s, scenario.horizon_steps);
+  std::printf("map        %s\n",
+              scenario.map_file ? scenario.map_file->c_str() : "none (no lanes)");
+  std::printf("automaton  %s, subgraph %s\n", scenario.automaton_file.c_str(),
+              scenario.subgraph->spec().name.c_str());
+  std::printf("profile    %s\n", scenario.profile.name.c_str());
+  std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
+              "y [m]");
+  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
+    std::printf("%4d  %-10s %9.3f %9.3f %9.3f %11.3f\n", vehicle.id.value, vehicle.name.c_str(),
+                vehicle.path.length_m(), vehicle.start_s_m, vehicle.start.x_m, vehicle.start.y_m);
+  }
+}
+
+/// One line per vehicle: id and the pose at which its vehicle stands (yaw), for `vehicle_sim
+/// --pose`.
+void print_starts(const hlc::Scenario& scenario) {
+  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
+    const hlc::Pose pose = hlc::measured_start(scenario, vehicle);
+    std::printf("%d %.17g,%.17g,%.17g\n", vehicle.id.value, pose.x_m, pose.y_m, pose.heading_rad);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Checks a scenario file and prints what a run of it is."};
+  hlc::ScenarioChoices choices;
+  bool starts = false;
+  bool steps = false;
+  app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
+  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
+  app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
+  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
+  app.add_option("--steps", choices.steps, "instead of the scenario's")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
+  app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
+  app.add_flag("--print_steps", steps, "print only the number of steps");
+  app.footer("Exit codes: 0 good, 2 bad input.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    const hlc::Scenario scenario = hlc::read_scenario(choices);
+    if (starts) {
+      print_starts(scenario);
+    } else if (steps) {
+      std::printf("%zu\n", scenario.steps);
+    } else {
+      print_table(scenario);
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
