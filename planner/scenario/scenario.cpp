@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/automaton/automaton_configuration.hpp"
 #include "planner/automaton/yaml_reader.hpp"
 #include "planner/geometry/footprint.hpp"
-#include "planner/maneuver_design/build_automaton.hpp"
+#include "planner/maneuver_design/automaton_builder.hpp"
+#include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
 

@@ -1,0 +1,57 @@
+#include "planner/coordination/priority.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc {
+namespace {
+
+Traffic reaching(std::uint8_t vehicle, double x, double y) {
+  Traffic traffic;
+  traffic.vehicle = {vehicle};
+  traffic.reachable_area_m = footprint_area({1.0, 1.0}, {x, y, 0.0});
+  return traffic;
+}
+
+TEST(Priority, TheSmallerIdPlansEarlier) {
+  EXPECT_TRUE(plans_before({1}, {2}));
+  EXPECT_FALSE(plans_before({2}, {1}));
+  EXPECT_FALSE(plans_before({2}, {2}));
+}
+
+TEST(Priority, PredecessorsAreTheCoupledVehiclesThatPlanEarlier) {
+  const CouplingGraph graph(
+      {reaching(1, 0.0, 0.0), reaching(2, 0.5, 0.0), reaching(3, 1.0, 0.5), reaching(4, 9.0, 9.0)});
+  EXPECT_EQ(predecessors(graph, {1}), std::vector<VehicleId>{});
+  EXPECT_EQ(predecessors(graph, {2}), std::vector<VehicleId>{{1}});
+  EXPECT_EQ(predecessors(graph, {4}), std::vector<VehicleId>{});
+}
+
+// The directed coupling has no cycle, so nobody waits for somebody who waits for him.
+TEST(Priority, EveryPredecessorIsOnALowerLevel) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0.0, 4.0);
+    std::vector<Traffic> traffic;
+    for (std::uint8_t id = 1; id <= 12; ++id) {
+      const double x = place(random);
+      traffic.push_back(reaching(id, x, place(random)));
+    }
+    const CouplingGraph graph(traffic);
+    for (const VehicleId vehicle : graph.vehicles()) {
+      const std::uint32_t level = computation_level(graph, vehicle);
+      std::uint32_t expected = 0;
+      for (const VehicleId other : predecessors(graph, vehicle)) {
+        expected = std::max(expected, computation_level(graph, other) + 1);
+      }
+      EXPECT_EQ(level, expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hlc
