@@ -179,6 +179,11 @@ YamlNode YamlNode::parse(const std::string& text, const std::string& name) {
   return {node, name, "", 1};
 }
 
+bool YamlNode::is_value(const std::string& key) const {
+  const std::optional<YamlNode> found = find(key);
+  return found && found->node_.IsScalar();
+}
+
 template <typename T>
 T YamlNode::required(const std::string& key, const Allowed& allowed) const {
   const YamlNode found = child(key, description<T>(allowed));

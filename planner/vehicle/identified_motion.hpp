@@ -65,10 +65,15 @@ struct VehicleMotion {
              std::copysign(std::pow(std::abs(throttle), vehicle.throttle_exponent), throttle);
 }
 
+/// The steering (not clamped) with this slip: the inverse of `identified_slip_rad`.
+[[nodiscard]] inline double steering_for_slip(double slip_rad, const IdentifiedVehicle& vehicle) {
+  return (slip_rad - vehicle.slip_offset_rad) / vehicle.slip_gain_rad - vehicle.steering_offset;
+}
+
 /// Throttle in [-1, 1] whose acceleration is nearest to the given one at this speed.
-[[nodiscard]] inline double throttle_for(double acceleration_mps2, double speed_mps,
-                                         const IdentifiedVehicle& vehicle,
-                                         double voltage_v = kBatteryVoltage_v) {
+[[nodiscard]] inline double throttle_for_acceleration(double acceleration_mps2, double speed_mps,
+                                                      const IdentifiedVehicle& vehicle,
+                                                      double voltage_v = kBatteryVoltage_v) {
   const double full_thrust_mps2 = vehicle.thrust_offset_mps2 + vehicle.thrust_per_volt * voltage_v;
   const double share = (acceleration_mps2 - vehicle.drag_per_s * speed_mps) / full_thrust_mps2;
   const double throttle =

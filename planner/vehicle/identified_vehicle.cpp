@@ -15,8 +15,9 @@ double steady_steering(double curvature_per_m, const IdentifiedVehicle& vehicle)
 }
 
 double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle) {
-  return vehicle.slip_gain_rad * steady_steering(curvature_per_m, vehicle) +
-         vehicle.slip_offset_rad;
+  const double delta = std::clamp(steady_steering(curvature_per_m, vehicle),
+                                  vehicle.steering_offset - 1.0, vehicle.steering_offset + 1.0);
+  return vehicle.slip_gain_rad * delta + vehicle.slip_offset_rad;
 }
 
 }  // namespace hlc
