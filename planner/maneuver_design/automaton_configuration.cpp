@@ -1,0 +1,153 @@
+#include "planner/maneuver_design/automaton_configuration.hpp"
+
+#include <algorithm>
+
+#include "planner/automaton/yaml_reader.hpp"
+#include "planner/maneuver_design/criteria.hpp"
+
+namespace hlc {
+namespace {
+
+IdentifiedVehicle read_identified(const YamlNode& node) {
+  IdentifiedVehicle v;
+  v.path_speed_gain = node.optional("path_speed_gain", v.path_speed_gain, above(0.0));
+  v.path_speed_steering =
+      node.optional("path_speed_steering", v.path_speed_steering, between(-1.0, 0.0));
+  v.slip_gain_rad = node.optional("slip_gain_rad", v.slip_gain_rad);
+  v.yaw_rate_gain_per_m = node.optional("yaw_rate_gain_per_m", v.yaw_rate_gain_per_m, above(0.0));
+  v.drag_per_s = node.optional("drag_per_s", v.drag_per_s);
+  v.thrust_offset_mps2 = node.optional("thrust_offset_mps2", v.thrust_offset_mps2);
+  v.thrust_per_volt = node.optional("thrust_per_volt", v.thrust_per_volt);
+  v.throttle_exponent = node.optional("throttle_exponent", v.throttle_exponent, above(0.0));
+  v.steering_offset = node.optional("steering_offset", v.steering_offset);
+  v.slip_offset_rad = node.optional("slip_offset_rad", v.slip_offset_rad);
+  node.check_no_unknown_keys();
+  return v;
+}
+
+VehicleParameters read_vehicle(const YamlNode& node) {
+  VehicleParameters v;
+  v.wheelbase_m = node.required<double>("wheelbase_m", above(0.0));
+  v.rear_axle_to_cg_m = node.required<double>("rear_axle_to_cg_m", between(0.0, v.wheelbase_m));
+  v.footprint.length_m = node.required<double>("length_m", above(0.0));
+  v.footprint.width_m = node.required<double>("width_m", above(0.0));
+  v.safety_margin_m = node.optional("safety_margin_m", v.safety_margin_m, at_least(0.0));
+  return v;
+}
+
+VehicleLimits read_limits(const YamlNode& node) {
+  VehicleLimits limits;
+  limits.acceleration_mps2 = node.required<double>("acceleration_mps2", above(0.0));
+  limits.steering_rate_radps = node.required<double>("steering_rate_radps", above(0.0));
+  limits.speed_min_mps = node.required<double>("speed_min_mps", at_least(0.0));
+  limits.speed_max_mps = node.required<double>("speed_max_mps", above(limits.speed_min_mps));
+  Allowed steering = above(0.0);
+  steering.max = 1.5;  // the model has no curvature at pi / 2
+  limits.steering_max_rad = node.required<double>("steering_max_rad", steering);
+  node.check_no_unknown_keys();
+  return limits;
+}
+
+std::vector<Trim> read_trims(const YamlNode& file, const VehicleLimits& limits) {
+  std::vector<Trim> trims;
+  for (const YamlNode& entry : file.list("trims")) {
+    Trim trim;
+    trim.speed_mps =
+        entry.required<double>("speed_mps", between(limits.speed_min_mps, limits.speed_max_mps));
+    trim.steering_rad = entry.required<double>(
+        "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
+    entry.check_no_unknown_keys();
+    if (std::find(trims.begin(), trims.end(), trim) != trims.end()) {
+      entry.fail("trims that differ from each other");
+    }
+    trims.push_back(trim);
+  }
+  if (std::none_of(trims.begin(), trims.end(),
+                   [](const Trim& trim) { return trim.is_equilibrium(); })) {
+    file.fail("trims", "at least one trim of speed 0");
+  }
+  return trims;
+}
+
+std::vector<std::string> read_criteria(const YamlNode& file) {
+  std::vector<std::string> criteria;
+  for (const YamlNode& entry : file.list("criteria")) {
+    const auto name = entry.as<std::string>(one_of(criterion_names()));
+    if (std::find(criteria.begin(), criteria.end(), name) != criteria.end()) {
+      entry.fail("each criterion once");
+    }
+    criteria.push_back(name);
+  }
+  if (criteria.empty()) {
+    file.fail("criteria", "at least one criterion");
+  }
+  return criteria;
+}
+
+std::vector<TrimId> read_trim_numbers(const YamlNode& subgraph, const std::vector<Trim>& trims) {
+  std::vector<TrimId> result;
+  if (subgraph.is_value("trims")) {
+    (void)subgraph.required<std::string>("trims", one_of({"all"}));
+    for (std::size_t i = 0; i < trims.size(); ++i) {
+      result.push_back(TrimId{i});
+    }
+    return result;
+  }
+  for (const YamlNode& entry : subgraph.list("trims")) {
+    const auto number = entry.as<std::size_t>(between(1.0, static_cast<double>(trims.size())));
+    const TrimId trim{number - 1};
+    if (std::find(result.begin(), result.end(), trim) != result.end()) {
+      entry.fail("each trim once");
+    }
+    result.push_back(trim);
+  }
+  if (std::none_of(result.begin(), result.end(),
+                   [&trims](TrimId id) { return trims[id.index].is_equilibrium(); })) {
+    subgraph.fail("trims", "a list that holds a trim of speed 0");
+  }
+  return result;
+}
+
+std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const std::vector<Trim>& trims,
+                                         const std::vector<std::string>& criteria) {
+  std::vector<SubgraphSpec> subgraphs;
+  for (const YamlNode& entry : file.list("subgraphs")) {
+    SubgraphSpec spec;
+    spec.name = entry.required<std::string>("name");
+    spec.label = entry.required<std::string>("label", one_of(criteria));
+    spec.trims = read_trim_numbers(entry, trims);
+    entry.check_no_unknown_keys();
+    if (std::any_of(subgraphs.begin(), subgraphs.end(),
+                    [&spec](const SubgraphSpec& other) { return other.name == spec.name; })) {
+      entry.fail("name", "a name that no other subgraph has");
+    }
+    subgraphs.push_back(std::move(spec));
+  }
+  if (subgraphs.empty()) {
+    file.fail("subgraphs", "at least one subgraph");
+  }
+  return subgraphs;
+}
+
+}  // namespace
+
+AutomatonConfiguration read_automaton_configuration(const std::filesystem::path& path) {
+  const YamlNode file = YamlNode::read_file(path);
+  AutomatonConfiguration configuration;
+  configuration.source = path.string();
+  const YamlNode vehicle = file.map("vehicle");
+  configuration.vehicle = read_vehicle(vehicle);
+  configuration.identified = read_identified(vehicle.optional_map("identified"));
+  vehicle.check_no_unknown_keys();
+  configuration.limits = read_limits(file.map("limits"));
+  configuration.trims = read_trims(file, configuration.limits);
+  configuration.step_s = file.required<double>("step_s", above(0.0));
+  configuration.intervals =
+      file.optional("intervals", configuration.intervals, between(10.0, 1000.0));
+  configuration.criteria = read_criteria(file);
+  configuration.subgraphs = read_subgraphs(file, configuration.trims, configuration.criteria);
+  file.check_no_unknown_keys();
+  return configuration;
+}
+
+}  // namespace hlc

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "planner/vehicle/single_track.hpp"
+
+namespace hlc {
+
+/// Derivatives of a running cost at one state and input.
+struct CostGradient {
+  StateVector state{StateVector::Zero()};          ///< dl/dx
+  Eigen::Vector2d input{Eigen::Vector2d::Zero()};  ///< dl/du, u = (u_v, u_delta)
+};
+
+/// Running cost l(x, u) of a criterion J = integral_0^T l(x, u) dt (paper, Section 3); J is
+/// minimised.
+///
+/// A further criterion is one file that implements this, and one line in criteria.cpp.
+class RunningCost {
+ public:
+  virtual ~RunningCost() = default;
+  [[nodiscard]] virtual double value(const StateVector& x, const Input& u) const = 0;
+  [[nodiscard]] virtual CostGradient gradient(const StateVector& x, const Input& u) const = 0;
+};
+
+}  // namespace hlc

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/maneuver_design/running_cost.hpp"
+
+namespace hlc {
+
+/// A motion with intervals of equal length of constant input, and its cost.
+struct Shot {
+  std::vector<State> states;  ///< at the interval bounds: one more than there are inputs
+  double cost{};              ///< J
+  /// dJ/du of each interval, u = (u_v, u_delta); empty if not asked for.
+  std::vector<Eigen::Vector2d> gradient;
+};
+
+enum class WithGradient { kNo, kYes };
+
+/// Simulates the model from `start` and adds up the cost: one step of the classical Runge-Kutta
+/// method per interval, for the cost as for the states (J is a sixth state, J' = l).
+///
+/// The gradient is that of exactly this discretised cost, not an approximation: the derivative is
+/// carried backwards through every stage of every step (the discrete adjoint), at about the price
+/// of two more simulations.
+///
+/// @pre inputs is not empty, duration_s > 0
+[[nodiscard]] Shot shoot(const State& start, const std::vector<Input>& inputs, double duration_s,
+                         const RunningCost& cost, const VehicleParameters& vehicle,
+                         WithGradient with_gradient);
+
+}  // namespace hlc
