@@ -19,6 +19,9 @@ class ReferencePath {
   [[nodiscard]] double length_m() const;
   [[nodiscard]] bool is_closed() const { return closed_; }
   [[nodiscard]] const std::vector<Point>& points_m() const { return points_m_; }
+  /// Arc length of each point; on a closed path one more: the length, where the first point comes
+  /// again.
+  [[nodiscard]] const std::vector<double>& joints_s_m() const { return s_m_; }
 
   /// Point at arc length s: wrapped on a closed path, clamped to the ends of an open one.
   [[nodiscard]] Point at(double s_m) const;
@@ -46,7 +49,7 @@ class ReferencePath {
 
   std::vector<Point> points_m_;
   bool closed_;
-  std::vector<double> s_m_;  ///< arc length at each joint, the end included
+  std::vector<double> s_m_;
 };
 
 }  // namespace hlc

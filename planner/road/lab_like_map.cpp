@@ -1,0 +1,199 @@
+#include "planner/road/lab_like_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include "planner/road/curvature_curve.hpp"
+
+namespace hlc {
+namespace {
+
+using Knots = std::vector<CurvatureCurve::Knot>;
+using Line = std::vector<Pose>;  // the middle of a lane
+
+constexpr double kLaneWidth_m = 0.150;
+constexpr double kSpacing_m = 0.05;
+constexpr double kLeft_m = kLaneWidth_m;
+constexpr double kRight_m = -kLaneWidth_m;
+
+// Half of each circuit; the other half repeats (red) or mirrors (blue, green) it.
+const Knots kRedHalf = {{0.0, -0.2104},    {0.3545, -1.6808}, {0.9615, -1.4246}, {1.9118, 1.4984},
+                        {2.4429, 1.5051},  {2.9120, 0.1848},  {3.6359, -1.0991}, {4.0951, -1.8728},
+                        {4.7648, -0.5395}, {5.1225, -1.5889}, {6.1131, -0.2104}};
+const Knots kBlueHalf = {{0.0, 0.0094},     {1.0083, -0.0278}, {1.9052, -2.5555}, {2.4973, 0.9094},
+                         {2.7242, -2.9061}, {3.3915, -0.3724}, {4.6130, 0.1006}};
+const Knots kGreenHalf = {{0.0, 0.0527},     {0.7267, -0.2477}, {1.4885, -1.4447},
+                          {1.7707, -1.5687}, {1.8874, -3.2604}, {2.2497, 1.7866},
+                          {2.5680, -1.3784}, {2.9340, -2.4020}, {3.6201, -0.0019},
+                          {4.0115, -0.0003}, {4.4409, 0.0002}};
+const Pose kRedStart{.x_m = 1.35, .y_m = 3.739, .heading_rad = 0.045};
+const Pose kBlueStart{.x_m = 2.25, .y_m = 1.775, .heading_rad = 0.0};
+const Pose kGreenStart{.x_m = 4.245, .y_m = 2.0, .heading_rad = -std::numbers::pi / 2.0};
+
+Knots reversed(const Knots& knots) {
+  Knots result;
+  for (auto knot = knots.rbegin(); knot != knots.rend(); ++knot) {
+    result.push_back({knots.back().s_m - knot->s_m, knot->curvature_per_m});
+  }
+  return result;
+}
+
+/// @pre `second` begins with the curvature that `first` ends with
+Knots joined(Knots first, const Knots& second) {
+  const double end_s_m = first.back().s_m;
+  for (std::size_t i = 1; i < second.size(); ++i) {
+    first.push_back({end_s_m + second[i].s_m, second[i].curvature_per_m});
+  }
+  return first;
+}
+
+/// One and a half rounds of a circuit whose second half mirrors the first.
+Knots mirrored_circuit(const Knots& half) { return joined(joined(half, reversed(half)), half); }
+
+Point direction(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+
+Pose shifted(const Pose& pose, double left_m) {
+  const Point along = direction(pose.heading_rad);
+  return {.x_m = pose.x_m - left_m * along.y(),
+          .y_m = pose.y_m + left_m * along.x(),
+          .heading_rad = pose.heading_rad};
+}
+
+/// Turned by pi about the middle of the map.
+Pose turned(const Pose& pose) {
+  return {.x_m = 4.5 - pose.x_m,
+          .y_m = 4.0 - pose.y_m,
+          .heading_rad = pose.heading_rad + std::numbers::pi};
+}
+
+/// The curve from `from_s_m` to `to_s_m`, bent so that it begins at pose `begin` and ends at pose
+/// `end`: a cubic Hermite polynomial in s takes up what position and direction lack there.
+Line stretch(const CurvatureCurve& curve, double from_s_m, double to_s_m, const Pose& begin,
+             const Pose& end) {
+  const double length = to_s_m - from_s_m;
+  const Pose curve_begin = curve.at(from_s_m);
+  const Pose curve_end = curve.at(to_s_m);
+  const Point d0 = begin.position_m() - curve_begin.position_m();
+  const Point d1 = end.position_m() - curve_end.position_m();
+  const Point m0 = length * (direction(begin.heading_rad) - direction(curve_begin.heading_rad));
+  const Point m1 = length * (direction(end.heading_rad) - direction(curve_end.heading_rad));
+
+  const double intervals = std::ceil(length / kSpacing_m);
+  Line line{begin};
+  for (double k = 1.0; k < intervals; ++k) {
+    const double t = k / intervals;
+    const Pose pose = curve.at(from_s_m + t * length);
+    const Point position = pose.position_m() + (2.0 * t * t * t - 3.0 * t * t + 1.0) * d0 +
+                           (t * t * t - 2.0 * t * t + t) * m0 +
+                           (3.0 * t * t - 2.0 * t * t * t) * d1 + (t * t * t - t * t) * m1;
+    const Point along = direction(pose.heading_rad) +
+                        ((6.0 * t * t - 6.0 * t) * (d0 - d1) + (3.0 * t * t - 4.0 * t + 1.0) * m0 +
+                         (3.0 * t * t - 2.0 * t) * m1) /
+                            length;
+    line.push_back({.x_m = position.x(),
+                    .y_m = position.y(),
+                    .heading_rad = std::atan2(along.y(), along.x())});
+  }
+  line.push_back(end);
+  return line;
+}
+
+/// Adds the lane whose middle runs `left_m` to the left of `line`; ids count from 1.
+LaneletId add_lane(LaneletMap& map, const Line& line, double left_m = 0.0) {
+  Lanelet lanelet;
+  lanelet.id = static_cast<LaneletId>(map.lanelets.size()) + 1;
+  for (const Pose& pose : line) {
+    lanelet.left_m.push_back(shifted(pose, left_m + kLaneWidth_m / 2.0).position_m());
+    lanelet.right_m.push_back(shifted(pose, left_m - kLaneWidth_m / 2.0).position_m());
+  }
+  const LaneletId id = lanelet.id;
+  map.lanelets.emplace(id, std::move(lanelet));
+  return id;
+}
+
+bool same(const Point& a, const Point& b) { return (a - b).norm() < 1e-6; }
+
+/// Finds successors, predecessors and neighbours from the bounds.
+void link(LaneletMap& map) {
+  for (auto& [id, lanelet] : map.lanelets) {
+    for (auto& [other_id, other] : map.lanelets) {
+      if (same(lanelet.left_m.back(), other.left_m.front()) &&
+          same(lanelet.right_m.back(), other.right_m.front())) {
+        lanelet.successors.push_back(other_id);
+        other.predecessors.push_back(id);
+      }
+      if (std::equal(lanelet.left_m.begin(), lanelet.left_m.end(), other.right_m.begin(),
+                     other.right_m.end(), same)) {
+        lanelet.adjacent_left = {.id = other_id, .same_direction = true};
+        other.adjacent_right = {.id = id, .same_direction = true};
+      }
+    }
+  }
+}
+
+}  // namespace
+
+RoadNetwork lab_like_map() {
+  RoadNetwork network;
+  LaneletMap& map = network.map;
+
+  // Red is cut where another circuit joins or leaves its lane or the lane beside it.
+  const CurvatureCurve red(kRedStart, kRedHalf);
+  const std::array<double, 6> red_s_m = {0.0, 1.469, 2.904, 4.630, 5.433, red.length_m()};
+  std::array<Pose, 6> red_cut;
+  std::transform(red_s_m.begin(), red_s_m.end(), red_cut.begin(),
+                 [&](double s_m) { return red.at(s_m); });
+  red_cut.back() = turned(red_cut.front());
+  std::array<Line, 10> red_line;
+  for (std::size_t i = 0; i < 5; ++i) {
+    red_line[i] = stretch(red, red_s_m[i], red_s_m[i + 1], red_cut[i], red_cut[i + 1]);
+    std::transform(red_line[i].begin(), red_line[i].end(), std::back_inserter(red_line[i + 5]),
+                   turned);
+  }
+  std::array<LaneletId, 10> red_lane{};
+  std::transform(red_line.begin(), red_line.end(), red_lane.begin(),
+                 [&](const Line& line) { return add_lane(map, line); });
+
+  const CurvatureCurve blue(kBlueStart, mirrored_circuit(kBlueHalf));
+  const Line blue_merge = stretch(blue, 2.266, 3.032, shifted(red_cut[3], kRight_m), red_cut[4]);
+  const Line blue_ring = stretch(blue, 3.713, 6.193, red_cut[5], blue.at(6.193));
+  const Line blue_leave = stretch(blue, 6.193, 6.960, blue.at(6.193), blue.at(6.960));
+  const Line blue_inner =
+      stretch(blue, 6.960, 10.026, blue.at(6.960), shifted(red_cut[2], kRight_m));
+  const LaneletId blue_beside_red = add_lane(map, red_line[2], kRight_m);
+  network.routes.push_back({"red", {red_lane.begin(), red_lane.end()}});
+  network.routes.push_back(
+      {"blue",
+       {blue_beside_red, add_lane(map, blue_merge), red_lane[4], add_lane(map, blue_ring),
+        add_lane(map, blue_leave), add_lane(map, blue_inner)}});
+
+  const CurvatureCurve green(kGreenStart, mirrored_circuit(kGreenHalf));
+  const Line green_leave = stretch(green, 1.735, 2.415, red_cut[4], shifted(red_cut[5], kRight_m));
+  const Line green_inner =
+      stretch(green, 3.641, 6.467, shifted(turned(red_cut[1]), kRight_m), green.at(6.467));
+  const Line green_merge = stretch(green, 6.467, 7.147, green.at(6.467), green.at(7.147));
+  const Line green_ring = stretch(green, 7.147, 9.812, green.at(7.147), red_cut[3]);
+  network.routes.push_back(
+      {"green",
+       {red_lane[3], add_lane(map, green_leave), add_lane(map, red_line[5], kRight_m),
+        add_lane(map, green_inner), add_lane(map, green_merge), add_lane(map, green_ring)}});
+
+  // Second lanes that no circuit uses.
+  for (const std::size_t i : {0U, 1U, 6U, 7U}) {
+    add_lane(map, red_line[i], kRight_m);
+  }
+  for (const std::size_t i : {3U, 4U, 8U, 9U}) {
+    add_lane(map, red_line[i], kLeft_m);
+  }
+  for (const Line& line : {blue_ring, blue_inner, green_inner, green_ring}) {
+    add_lane(map, line, kLeft_m);
+  }
+  link(map);
+  return network;
+}
+
+}  // namespace hlc

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/geometry/pose.hpp"
+
+namespace hlc {
+
+/// Number of a lanelet in its file, at least 1.
+using LaneletId = int;
+
+/// A piece of one lane, driven from the first to the last point of its bounds (map frame).
+struct Lanelet {
+  struct Adjacent {
+    LaneletId id{};
+    bool same_direction{};  ///< drivingDir: true for "same", false for "opposite"
+    friend bool operator==(const Adjacent&, const Adjacent&) = default;
+  };
+
+  LaneletId id{};
+  std::vector<Point> left_m;   ///< left bound, at least 2 points
+  std::vector<Point> right_m;  ///< right bound, as many points as the left one
+  std::vector<LaneletId> predecessors;
+  std::vector<LaneletId> successors;
+  std::optional<Adjacent> adjacent_left;
+  std::optional<Adjacent> adjacent_right;
+
+  friend bool operator==(const Lanelet&, const Lanelet&) = default;
+};
+
+/// Points midway between the i-th points of both bounds.
+[[nodiscard]] std::vector<Point> centre_line_m(const Lanelet& lanelet);
+
+/// The lanelets of a map; every id that one refers to is there.
+struct LaneletMap {
+  std::map<LaneletId, Lanelet> lanelets;
+
+  friend bool operator==(const LaneletMap&, const LaneletMap&) = default;
+};
+
+/// Reads the lanelets of a CommonRoad 2020a file. Everything else in it (intersections, signs,
+/// obstacles, ...) is skipped, so an id that a lanelet shares with another kind of element does no
+/// harm.
+/// @throws std::runtime_error one line, `file:line: what is wrong and what is allowed`: file that
+/// cannot
+///         be read, not XML, other root or version, no lanelet; a lanelet with missing, repeated or
+///         unknown id, a bound missing, with fewer than 2 points or not as long as the other, a
+///         number that is broken or not finite
+[[nodiscard]] LaneletMap read_lanelet_map(const std::filesystem::path& file);
+
+/// The same from a text; `name` stands for the file in error messages.
+[[nodiscard]] LaneletMap parse_lanelet_map(std::string_view xml, const std::string& name);
+
+/// The map as CommonRoad 2020a, elements in the order of the schema, coordinates with 9 decimals,
+/// lanelets by ascending id: equal maps give equal bytes. A planning problem, which the schema asks
+/// of a whole benchmark, is left out.
+[[nodiscard]] std::string to_commonroad_xml(const LaneletMap& map);
+
+/// @throws std::runtime_error if the file cannot be written
+void write_lanelet_map(const LaneletMap& map, const std::filesystem::path& file);
+
+}  // namespace hlc

@@ -1,0 +1,144 @@
+#include "planner/road/route.hpp"
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace hlc {
+namespace {
+
+/// Points closer than this are one point [m]; far below what a footprint could slip through.
+constexpr double kSamePoint_m = 1e-6;
+/// A boundary piece also counts this far before and after the arc length that it projects to [m].
+constexpr double kPieceOverlap_m = 0.05;
+
+std::string in_millimetres(double distance_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * distance_m);
+  return text;
+}
+
+const Lanelet& find_lanelet(const LaneletMap& map, LaneletId id) {
+  const auto found = map.lanelets.find(id);
+  if (found == map.lanelets.end()) {
+    throw std::runtime_error("route: lanelet " + std::to_string(id) + " is not in the map");
+  }
+  return found->second;
+}
+
+void check_joint(const Lanelet& from, const Lanelet& to, const Point& end_m, const Point& begin_m) {
+  const double gap_m = (end_m - begin_m).norm();
+  if (gap_m > kMaxJointGap_m) {
+    throw std::runtime_error("route: lanelet " + std::to_string(to.id) + " begins " +
+                             in_millimetres(gap_m) + " from the end of lanelet " +
+                             std::to_string(from.id) + ", at most " +
+                             in_millimetres(kMaxJointGap_m) + " is allowed");
+  }
+}
+
+/// Centre line of a lanelet without points that repeat the one before.
+std::vector<Point> clean_centre_line(const Lanelet& lanelet) {
+  std::vector<Point> points;
+  for (const Point& point : centre_line_m(lanelet)) {
+    if (points.empty() || (point - points.back()).norm() > kSamePoint_m) {
+      points.push_back(point);
+    }
+  }
+  if (points.size() < 2) {
+    throw std::runtime_error("route: lanelet " + std::to_string(lanelet.id) +
+                             " has no length, must be longer than 0");
+  }
+  return points;
+}
+
+enum class Side { kLeft, kRight };
+
+/// Bound of the outermost lane of the same direction on that side.
+const std::vector<Point>& outer_bound(const LaneletMap& map, const Lanelet& lanelet, Side side) {
+  const Lanelet* outermost = &lanelet;
+  // A map in which lanes are neighbours in a circle must not hold us for ever.
+  for (std::size_t i = 0; i < map.lanelets.size(); ++i) {
+    const auto& next = side == Side::kLeft ? outermost->adjacent_left : outermost->adjacent_right;
+    if (!next || !next->same_direction) {
+      break;
+    }
+    outermost = &find_lanelet(map, next->id);
+  }
+  return side == Side::kLeft ? outermost->left_m : outermost->right_m;
+}
+
+/// The boundary on one side of the route: the bounds of all lanelets, joined into one line.
+void append_boundary(std::vector<Corridor::Piece>& pieces, const LaneletMap& map,
+                     const Route& route, Side side) {
+  std::vector<Point> line;
+  std::vector<double> line_s;  // arc length of each point on the path, ascending
+  for (std::size_t i = 0; i < route.lanelets.size(); ++i) {
+    double s = route.lanelet_s_m[i];
+    for (const Point& point : outer_bound(map, find_lanelet(map, route.lanelets[i]), side)) {
+      const double from = s;
+      s = route.path.project_within(point, from, route.lanelet_s_m[i + 1]).s_m;
+      if (s < from - kSamePoint_m) {
+        s += route.path.length_m();  // the end of a circuit projects to 0
+      }
+      line.push_back(point);
+      line_s.push_back(s);
+    }
+  }
+  if (route.path.is_closed()) {
+    line.push_back(line.front());
+    line_s.push_back(line_s.front() + route.path.length_m());
+  }
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    if ((line[i + 1] - line[i]).norm() > kSamePoint_m) {
+      pieces.push_back({.segment = {.from_m = line[i], .to_m = line[i + 1]},
+                        .from_s_m = line_s[i] - kPieceOverlap_m,
+                        .to_s_m = line_s[i + 1] + kPieceOverlap_m});
+    }
+  }
+}
+
+}  // namespace
+
+Route build_route(const LaneletMap& map, const std::vector<LaneletId>& lanelets, bool closed) {
+  if (lanelets.empty()) {
+    throw std::runtime_error("route: no lanelet, must be at least 1");
+  }
+  std::vector<Point> points;
+  std::vector<std::size_t> begins;  // index of each lanelet's first point
+  for (std::size_t i = 0; i < lanelets.size(); ++i) {
+    const Lanelet& lanelet = find_lanelet(map, lanelets[i]);
+    const std::vector<Point> centre = clean_centre_line(lanelet);
+    if (i > 0) {
+      check_joint(find_lanelet(map, lanelets[i - 1]), lanelet, points.back(), centre.front());
+      points.back() = (points.back() + centre.front()) / 2.0;
+    } else {
+      points.push_back(centre.front());
+    }
+    begins.push_back(points.size() - 1);
+    points.insert(points.end(), centre.begin() + 1, centre.end());
+  }
+  if (closed) {
+    check_joint(find_lanelet(map, lanelets.back()), find_lanelet(map, lanelets.front()),
+                points.back(), points.front());
+    points.front() = (points.front() + points.back()) / 2.0;
+    points.pop_back();
+  }
+
+  Route route{.lanelets = lanelets,
+              .path = ReferencePath(std::move(points), closed),
+              .corridor = {},
+              .lanelet_s_m = {}};
+  for (const std::size_t begin : begins) {
+    route.lanelet_s_m.push_back(route.path.joints_s_m()[begin]);
+  }
+  route.lanelet_s_m.push_back(route.path.length_m());
+
+  std::vector<Corridor::Piece> pieces;
+  append_boundary(pieces, map, route, Side::kLeft);
+  append_boundary(pieces, map, route, Side::kRight);
+  route.corridor = Corridor(std::move(pieces), closed ? route.path.length_m() : 0.0);
+  return route;
+}
+
+}  // namespace hlc

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/road/corridor.hpp"
+#include "planner/road/lanelet_map.hpp"
+#include "planner/road/reference_path.hpp"
+
+namespace hlc {
+
+/// The way of one vehicle: what it follows and where it may drive.
+struct Route {
+  std::vector<LaneletId> lanelets;
+  /// Centre line of the lanelets one after the other.
+  ReferencePath path;
+  /// The route's lanes and their neighbours of the same direction (neighbours of neighbours too):
+  /// for each lanelet of the route, the left bound of the leftmost and the right bound of the
+  /// rightmost of them as the map gives them, joined to those of the next lanelet by a piece across
+  /// where they do not meet. The pieces carry the arc length on `path`.
+  Corridor corridor;
+  /// Arc length on `path` at which each lanelet of the route begins, and the end of the last.
+  std::vector<double> lanelet_s_m;
+};
+
+/// Largest distance between the end of a lanelet and the begin of the next that counts as a joint
+/// [m]; the path then runs through the middle.
+inline constexpr double kMaxJointGap_m = 0.005;
+
+/// @param lanelets  ids in the order of driving
+/// @param closed    true if the last lanelet leads to the first (circuit)
+/// @throws std::runtime_error one line: no lanelet, an unknown id, a lanelet whose end is more than
+///         kMaxJointGap_m away from the begin of the next, a lanelet without length
+[[nodiscard]] Route build_route(const LaneletMap& map, const std::vector<LaneletId>& lanelets,
+                                bool closed);
+
+}  // namespace hlc

@@ -1,0 +1,56 @@
+#include "planner/road/corridor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace hlc {
+namespace {
+
+Corridor::Piece piece(double from_s_m, double to_s_m) {
+  return {.segment = {.from_m = Point(from_s_m, 0.0), .to_m = Point(to_s_m, 0.0)},
+          .from_s_m = from_s_m,
+          .to_s_m = to_s_m};
+}
+
+TEST(Corridor, WithoutPiecesHasNoBoundary) {
+  EXPECT_TRUE(Corridor().boundary_m(-100.0, 100.0).empty());
+}
+
+TEST(Corridor, OpenRouteDoesNotRepeat) {
+  const Corridor corridor({piece(0.0, 1.0), piece(1.0, 2.0)}, 0.0);
+  EXPECT_EQ(corridor.boundary_m(0.2, 0.8).size(), 1U);
+  EXPECT_EQ(corridor.boundary_m(0.2, 1.8).size(), 2U);
+  EXPECT_TRUE(corridor.boundary_m(2.1, 4.0).empty());
+}
+
+TEST(Corridor, ClosedRouteRepeatsAndGivesEachPieceOnce) {
+  const Corridor corridor({piece(-0.1, 1.0), piece(3.0, 4.1)}, 4.0);
+  EXPECT_EQ(corridor.boundary_m(3.95, 4.0).size(), 2U);
+  EXPECT_EQ(corridor.boundary_m(-0.3, -0.2).size(), 1U);
+  EXPECT_EQ(corridor.boundary_m(4.2, 4.3).size(), 1U);
+  EXPECT_EQ(corridor.boundary_m(-20.0, 20.0).size(), 2U);
+  EXPECT_TRUE(corridor.boundary_m(5.5, 6.5).empty());
+}
+
+TEST(Corridor, PieceIsGivenIfAndOnlyIfOneOfItsRepetitionsMeetsTheWindow) {
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const double length_m = std::uniform_real_distribution(1.0, 10.0)(random);
+    const double from = std::uniform_real_distribution(-0.2, length_m)(random);
+    const double to = from + std::uniform_real_distribution(0.0, 0.3)(random);
+    const double window_from = std::uniform_real_distribution(-15.0, 15.0)(random);
+    const double window_to = window_from + std::uniform_real_distribution(0.0, length_m)(random);
+    bool expected = false;
+    for (int k = -40; k <= 40; ++k) {
+      expected = expected || (from + k * length_m <= window_to && to + k * length_m >= window_from);
+    }
+    const Corridor corridor({piece(from, to)}, length_m);
+    EXPECT_EQ(corridor.boundary_m(window_from, window_to).size(), expected ? 1U : 0U);
+  }
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,50 @@
+#include "planner/road/reference_points.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hlc {
+namespace {
+
+const ReferencePath kStraight({{0.0, 0.0}, {10.0, 0.0}}, false);
+const ReferencePath kSquare({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, true);
+
+TEST(ReferencePoints, DefaultRuleStartsWithTheMeanOfCurrentAndReferenceSpeed) {
+  const Reference reference =
+      reference_points(kStraight, 1.0, 0.4, 0.8, 3, 0.2, ReferenceRule::kDefault);
+  ASSERT_EQ(reference.points_m.size(), 3U);
+  EXPECT_NEAR(reference.points_m[0].x(), 1.0 + 0.12, 1e-12);
+  EXPECT_NEAR(reference.points_m[1].x(), 1.0 + 0.28, 1e-12);
+  EXPECT_NEAR(reference.points_m[2].x(), 1.0 + 0.44, 1e-12);
+  ASSERT_EQ(reference.speeds_mps.size(), 3U);
+  EXPECT_DOUBLE_EQ(reference.speeds_mps[0], 0.6);
+  EXPECT_DOUBLE_EQ(reference.speeds_mps[1], 0.8);
+  EXPECT_DOUBLE_EQ(reference.speeds_mps[2], 0.8);
+}
+
+TEST(ReferencePoints, Rule2022HalvesTheLastStepAndIgnoresTheCurrentSpeed) {
+  const Reference reference =
+      reference_points(kStraight, 0.0, 0.1, 0.8, 8, 0.2, ReferenceRule::k2022);
+  ASSERT_EQ(reference.points_m.size(), 8U);
+  EXPECT_NEAR(reference.points_m[0].x(), 0.16, 1e-12);
+  EXPECT_NEAR(reference.points_m[6].x(), 7 * 0.16, 1e-12);
+  EXPECT_NEAR(reference.points_m[7].x(), 7.5 * 0.16, 1e-12);
+  EXPECT_DOUBLE_EQ(reference.speeds_mps[6], 0.8);
+  EXPECT_DOUBLE_EQ(reference.speeds_mps[7], 0.4);
+}
+
+TEST(ReferencePoints, GoRoundACircuit) {
+  const Reference reference =
+      reference_points(kSquare, 3.9, 1.0, 1.0, 2, 0.2, ReferenceRule::kDefault);
+  EXPECT_NEAR((reference.points_m[0] - Point(0.1, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((reference.points_m[1] - Point(0.3, 0.0)).norm(), 0.0, 1e-12);
+}
+
+TEST(ReferencePoints, WaitAtTheEndOfAnOpenPath) {
+  const Reference reference =
+      reference_points(kStraight, 9.9, 1.0, 1.0, 3, 0.2, ReferenceRule::kDefault);
+  EXPECT_EQ(reference.points_m[0], Point(10.0, 0.0));
+  EXPECT_EQ(reference.points_m[2], Point(10.0, 0.0));
+}
+
+}  // namespace
+}  // namespace hlc
