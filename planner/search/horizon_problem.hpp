@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "planner/automaton/reachable_sets.hpp"
@@ -11,8 +9,8 @@
 
 namespace hlc {
 
-/// The receding-horizon problem: find n maneuvers (or trims' own steps) from the start that end in an
-/// equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
+/// The receding-horizon problem: find n maneuvers (or trims' own steps) from the start that end in
+/// an equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
 ///
 ///     sum_{j=1}^{n} || p_j - r_j ||^2   [m^2]
 ///
@@ -20,20 +18,21 @@ namespace hlc {
 struct HorizonProblem {
   Pose start;
   TrimId start_trim;
-  std::vector<Point> reference_m;            ///< r_1 ... r_n; its size is the horizon n
-  std::vector<double> reference_speed_mps;   ///< one per step; used by the cost-to-go `k2022` only
-  /// Areas that are occupied during step j (index j - 1); may be empty. Any number of polygons per step.
+  std::vector<Point> reference_m;  ///< r_1 ... r_n; its size is the horizon n
+  /// Of each step; only the cost-to-go `k2022` needs it, else it may be empty.
+  std::vector<double> reference_speed_mps;
+  /// Areas that are occupied during step j (index j - 1), any number per step; empty: none at all.
   std::vector<std::vector<ConvexPolygon>> obstacles_m;
-  std::vector<Segment> boundary_m;           ///< of the drivable area, the same for all steps
+  std::vector<Segment> boundary_m;  ///< of the drivable area, the same for all steps
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
 };
 
 enum class CostToGo {
-  /// Admissible: from the largest distance that the automaton can reach (ReachableSets::max_distance_m).
+  /// Admissible: what the automaton can reach at most (ReachableSets::max_distance_m).
   kReachable,
-  /// The authors' of 2022, sum (|| p - r_j || - v_ref step_s m)^2 without a floor at 0: inadmissible, for
-  /// the comparison with the paper only.
+  /// The authors' of 2022: sum (|| p - r_j || - v_ref step_s m)^2 without a floor at 0.
+  /// Inadmissible; for the comparison with the paper only.
   k2022,
 };
 
@@ -46,16 +45,16 @@ struct SearchOptions {
 enum class SearchStatus {
   kOptimal,     ///< a path of least cost (with k2022: a path; its cost-to-go is inadmissible)
   kInfeasible,  ///< no path exists
-  kBudget,      ///< max_expansions reached before a path was found
+  kBudget,      ///< gave up (max_expansions reached, or told to stop) before a path was found
 };
 
 struct SearchResult {
   SearchStatus status{SearchStatus::kInfeasible};
-  double cost{};                            ///< [m^2]; only if kOptimal
-  std::vector<const Maneuver*> maneuvers;   ///< n of them; empty unless kOptimal
-  std::vector<Pose> poses;                  ///< pose after each, n; empty unless kOptimal
-  std::size_t generated{};                  ///< vertices generated, the root included
-  std::size_t expanded{};                   ///< vertices taken from the open list and expanded
+  double cost{};                           ///< [m^2]; only if kOptimal
+  std::vector<const Maneuver*> maneuvers;  ///< n of them; empty unless kOptimal
+  std::vector<Pose> poses;                 ///< pose after each, n; empty unless kOptimal
+  std::size_t generated{};                 ///< vertices generated, the root included
+  std::size_t expanded{};                  ///< vertices whose successors were generated
 };
 
 }  // namespace hlc

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "planner/search/horizon_problem.hpp"
 
@@ -16,8 +15,7 @@ class HorizonPlanner {
 };
 
 /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon
-[[nodiscard]] std::unique_ptr<HorizonPlanner> make_best_first_planner(const Subgraph& subgraph,
-                                                                      const ReachableSets& reachable,
-                                                                      SearchOptions options);
+[[nodiscard]] std::unique_ptr<HorizonPlanner> make_best_first_planner(
+    const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
 
 }  // namespace hlc

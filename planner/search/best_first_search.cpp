@@ -1,0 +1,128 @@
+#include "planner/search/best_first_search.hpp"
+
+#include <ompl/datastructures/BinaryHeap.h>
+
+#include <cassert>
+#include <cmath>
+
+namespace hlc {
+namespace {
+
+/// Expansions between two questions to the stop condition.
+constexpr std::size_t kStopInterval = 64;
+
+/// Programmer's mistakes only; see the preconditions in the header.
+[[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const Subgraph& subgraph,
+                                     const ReachableSets& reachable, CostToGo kind) {
+  const std::size_t n = problem.horizon_steps();
+  const bool speeds_match = problem.reference_speed_mps.size() == n ||
+                            (kind == CostToGo::kReachable && problem.reference_speed_mps.empty());
+  const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
+  return n <= reachable.max_steps() && speeds_match && obstacles_match &&
+         subgraph.is_on(problem.start_trim) && problem.start.position_m().allFinite() &&
+         std::isfinite(problem.start.heading_rad);
+}
+
+}  // namespace
+
+bool BestFirstSearch::Before::operator()(const OpenEntry& a, const OpenEntry& b) const {
+  if (a.cost_estimate != b.cost_estimate) return a.cost_estimate < b.cost_estimate;
+  if (a.depth != b.depth) return a.depth > b.depth;
+  return a.vertex < b.vertex;
+}
+
+BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable,
+                                 SearchOptions options)
+    : subgraph_(subgraph),
+      reachable_(reachable),
+      options_(options),
+      collision_(subgraph, reachable),
+      steps_(subgraph.automaton().trims.size()) {
+  for (const TrimId trim : subgraph.spec().trims) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
+                                    subgraph.distance_to_standstill(edge.to)});
+    }
+  }
+}
+
+SearchResult BestFirstSearch::search(const HorizonProblem& problem,
+                                     const std::function<bool()>& stop) {
+  assert(is_well_formed(problem, subgraph_, reachable_, options_.cost_to_go));
+  const std::size_t n = problem.horizon_steps();
+
+  SearchResult result;
+  result.generated = 1;
+  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return result;
+
+  collision_.prepare(problem);
+  const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
+
+  vertices_.clear();
+  vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
+  ompl::BinaryHeap<OpenEntry, Before> open;
+  open.insert({cost_to_go(problem.start_trim, 0, problem.start.position_m()), 0, 0});
+
+  while (!open.empty()) {
+    const VertexId taken = open.top()->data.vertex;
+    open.pop();
+    if (!incoming_edge_is_free(vertices_[taken])) continue;
+    if (vertices_[taken].depth == n) {
+      write_path(taken, problem, result);
+      break;
+    }
+    const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
+    if (result.expanded == options_.max_expansions || is_told_to_stop) {
+      result.status = SearchStatus::kBudget;
+      break;
+    }
+    expand(taken, problem, cost_to_go, open);
+    ++result.expanded;
+  }
+  result.generated = vertices_.size();
+  return result;
+}
+
+template <typename OpenList>
+void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
+                             const CostToGoFunction& cost_to_go, OpenList& open) {
+  const Vertex parent = vertices_[vertex];  // a copy: `vertices_` grows below
+  const std::uint32_t depth = parent.depth + 1;
+  const std::size_t steps_left = problem.horizon_steps() - depth;
+  const Point& reference_m = problem.reference_m[depth - 1];
+
+  for (const Step& step : steps_[parent.trim.index]) {
+    if (step.distance_to_standstill > steps_left) continue;
+    const Frame frame = compose(parent.frame, step.displacement);
+    const double cost_to_come = parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm();
+    const auto child = static_cast<VertexId>(vertices_.size());
+    vertices_.push_back({frame, cost_to_come, step.maneuver, step.to, vertex, depth});
+    open.insert({cost_to_come + cost_to_go(step.to, depth, frame.origin_m), child, depth});
+  }
+}
+
+bool BestFirstSearch::incoming_edge_is_free(const Vertex& vertex) {
+  return vertex.depth == 0 ||
+         collision_.is_free(*vertex.maneuver, vertex.depth, vertices_[vertex.parent].frame);
+}
+
+void BestFirstSearch::write_path(VertexId goal, const HorizonProblem& problem,
+                                 SearchResult& result) const {
+  const std::size_t n = problem.horizon_steps();
+  result.status = SearchStatus::kOptimal;
+  result.cost = vertices_[goal].cost_to_come;
+  result.maneuvers.resize(n);
+  result.poses.resize(n);
+  for (VertexId id = goal; vertices_[id].depth > 0; id = vertices_[id].parent) {
+    const Vertex& vertex = vertices_[id];
+    result.maneuvers[vertex.depth - 1] = vertex.maneuver;
+    result.poses[vertex.depth - 1] = {vertex.frame.origin_m.x(), vertex.frame.origin_m.y(), 0.0};
+  }
+  double heading_rad = problem.start.heading_rad;
+  for (std::size_t j = 0; j < n; ++j) {
+    heading_rad += result.maneuvers[j]->displacement.heading_rad;
+    result.poses[j].heading_rad = heading_rad;
+  }
+}
+
+}  // namespace hlc

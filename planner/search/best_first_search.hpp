@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/collision.hpp"
+#include "planner/search/cost_to_go.hpp"
+#include "planner/search/frame.hpp"
+#include "planner/search/search_engine.hpp"
+
+namespace hlc {
+
+/// Best-first search (A*) over vertices (pose, trim, depth).
+///
+/// The vertices form a tree: the root is the start at depth 0, a vertex of depth j < n has one
+/// child for each edge of the subgraph whose target can still stand at the end,
+///
+///     distance_to_standstill(child's trim) <= n - (j + 1),
+///
+/// so every vertex of depth n stands. The open list is ordered by f = g + h (cost-to-come +
+/// cost-to-go), then deeper first, then in the order of generation; hence two searches of one
+/// problem agree in everything.
+///
+/// Collision checks are lazy: the edge into a vertex is checked when the vertex is taken from the
+/// open list, and the vertex is dropped if the edge is not free. The root has no such edge and is
+/// not checked: where the vehicle is, it is.
+///
+/// The first vertex of depth n that is taken and free ends the search. Its path costs least if h is
+/// admissible (`CostToGo::kReachable`): every other path still has a vertex in the open list whose
+/// f, a lower bound of that path's cost, is not smaller.
+///
+/// Counts: `generated` are all vertices made, with the root and with children never looked at
+/// again; `expanded` are those whose children were made, so neither dropped vertices nor the goal.
+class BestFirstSearch final : public SearchEngine {
+ public:
+  /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
+  BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
+
+  /// @pre the start is finite and its trim on, horizon_steps() <= reachable.max_steps(),
+  ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (with `kReachable`: or 0)
+  [[nodiscard]] SearchResult search(const HorizonProblem& problem,
+                                    const std::function<bool()>& stop) override;
+
+ private:
+  using VertexId = std::uint32_t;
+
+  /// An edge of the subgraph with what the search needs of it.
+  struct Step {
+    const Maneuver* maneuver;
+    Frame displacement;
+    TrimId to;
+    std::size_t distance_to_standstill;
+  };
+
+  struct Vertex {
+    Frame frame;
+    double cost_to_come;
+    const Maneuver* maneuver;  ///< of the edge into this vertex; nullptr for the root
+    TrimId trim;
+    VertexId parent;
+    std::uint32_t depth;
+  };
+
+  struct OpenEntry {
+    double cost_estimate{};
+    VertexId vertex{};
+    std::uint32_t depth{};
+  };
+  struct Before {
+    bool operator()(const OpenEntry& a, const OpenEntry& b) const;
+  };
+
+  template <typename OpenList>
+  void expand(VertexId vertex, const HorizonProblem& problem, const CostToGoFunction& cost_to_go,
+              OpenList& open);
+  [[nodiscard]] bool incoming_edge_is_free(const Vertex& vertex);
+  void write_path(VertexId goal, const HorizonProblem& problem, SearchResult& result) const;
+
+  const Subgraph& subgraph_;
+  const ReachableSets& reachable_;
+  SearchOptions options_;
+  CollisionCheck collision_;
+  std::vector<std::vector<Step>> steps_;  ///< out of each trim
+  std::vector<Vertex> vertices_;          ///< of the current search, in the order of generation
+};
+
+}  // namespace hlc

@@ -1,0 +1,99 @@
+#include "planner/search/collision.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace hlc {
+namespace {
+
+double distance_m(const Box& box, const Point& point_m) {
+  return (point_m - point_m.cwiseMax(box.min_m).cwiseMin(box.max_m)).norm();
+}
+
+double radius_m(const ConvexPolygon& polygon) {
+  double radius = 0.0;
+  for (const Point& vertex_m : polygon.vertices_m) radius = std::max(radius, vertex_m.norm());
+  return radius;
+}
+
+}  // namespace
+
+CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
+    : subgraph_(subgraph), reachable_(reachable) {
+  std::size_t max_vertices = 0;
+  for (const TrimId trim : subgraph.spec().trims) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      for (const ConvexPolygon* area_m :
+           {&edge.maneuver->swept_area_m, &edge.maneuver->lane_area_m}) {
+        area_radius_m_ = std::max(area_radius_m_, radius_m(*area_m));
+        max_vertices = std::max(max_vertices, area_m->vertices_m.size());
+      }
+    }
+  }
+  placed_.vertices_m.reserve(max_vertices);
+}
+
+void CollisionCheck::prepare(const HorizonProblem& problem) {
+  const std::size_t horizon_steps = problem.horizon_steps();
+  assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps);
+
+  // Rounding must not leave out what only just touches.
+  constexpr double kSlackM = 1e-6;
+  const Point start_m = problem.start.position_m();
+  double farthest_m = 0.0;
+  obstacles_.resize(horizon_steps);
+  for (std::size_t step = 1; step <= horizon_steps; ++step) {
+    const double before_m =
+        reachable_.max_distance_m(problem.start_trim, step - 1, horizon_steps - (step - 1));
+    const double reach_m = before_m + area_radius_m_ + kSlackM;
+    farthest_m = std::max(farthest_m, reach_m);
+    obstacles_[step - 1].clear();
+    if (problem.obstacles_m.empty()) continue;
+    for (const ConvexPolygon& polygon_m : problem.obstacles_m[step - 1]) {
+      const Box box = bounding_box(polygon_m);
+      if (!polygon_m.empty() && distance_m(box, start_m) <= reach_m)
+        obstacles_[step - 1].push_back({box, &polygon_m});
+    }
+  }
+  boundary_.clear();
+  for (const Segment& segment : problem.boundary_m) {
+    const Box box = bounding_box(segment);
+    if (distance_m(box, start_m) <= farthest_m) boundary_.push_back({box, segment});
+  }
+}
+
+bool CollisionCheck::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) {
+  return !meets_obstacle(maneuver.swept_area_m, step, start) &&
+         !meets_boundary(maneuver.lane_area_m, start);
+}
+
+bool CollisionCheck::meets_obstacle(const ConvexPolygon& area_m, std::size_t step,
+                                    const Frame& start) {
+  const std::vector<Obstacle>& obstacles = obstacles_[step - 1];
+  if (obstacles.empty()) return false;
+  const Box box = place(area_m, start);
+  return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& obstacle) {
+    return overlap(box, obstacle.box) && intersects(placed_, *obstacle.polygon_m);
+  });
+}
+
+bool CollisionCheck::meets_boundary(const ConvexPolygon& area_m, const Frame& start) {
+  if (boundary_.empty()) return false;
+  const Box box = place(area_m, start);
+  return std::any_of(boundary_.begin(), boundary_.end(), [&](const BoundaryPiece& piece) {
+    return overlap(box, piece.box) && intersects(placed_, piece.segment);
+  });
+}
+
+Box CollisionCheck::place(const ConvexPolygon& area_m, const Frame& start) {
+  placed_.vertices_m.clear();
+  Box box;
+  for (const Point& vertex_m : area_m.vertices_m) {
+    const Point& placed_m = placed_.vertices_m.emplace_back(transformed(vertex_m, start));
+    box.min_m = box.min_m.cwiseMin(placed_m);
+    box.max_m = box.max_m.cwiseMax(placed_m);
+  }
+  return box;
+}
+
+}  // namespace hlc

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/geometry/polygon.hpp"
+#include "planner/search/frame.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+/// Collision check of the edges of one search: a maneuver is free in step j if its swept area meets
+/// no obstacle of that step and its lane area crosses no boundary segment.
+///
+/// `prepare` is called once per plan: it computes the obstacles' boxes and leaves out what no edge
+/// of the plan can meet. Left out are, per step, the obstacles whose box lies farther from the
+/// start than
+///
+///     D + R,   D = ReachableSets::max_distance_m up to the begin of that step,
+///              R = farthest point of any switched-on maneuver's area from the maneuver's start,
+///
+/// and the boundary segments farther than the largest of these; so leaving out changes no answer
+/// for an edge that a plan can hold. A check allocates nothing. Not safe for two threads at once.
+class CollisionCheck {
+ public:
+  /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
+  CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable);
+
+  /// @param problem  must stay unchanged until the last check
+  /// @pre problem.obstacles_m is empty or has one entry per step
+  void prepare(const HorizonProblem& problem);
+
+  /// @param step   1 ... n: the step in which the maneuver is driven
+  /// @param start  pose at the begin of the maneuver
+  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start);
+
+ private:
+  struct Obstacle {
+    Box box;
+    const ConvexPolygon* polygon_m;
+  };
+  struct BoundaryPiece {
+    Box box;
+    Segment segment;
+  };
+
+  [[nodiscard]] bool meets_obstacle(const ConvexPolygon& area_m, std::size_t step,
+                                    const Frame& start);
+  [[nodiscard]] bool meets_boundary(const ConvexPolygon& area_m, const Frame& start);
+  /// Moves `area_m` into `placed_` and returns its box.
+  Box place(const ConvexPolygon& area_m, const Frame& start);
+
+  const Subgraph& subgraph_;
+  const ReachableSets& reachable_;
+  double area_radius_m_{};  ///< farthest point of any maneuver's area from its start
+  std::vector<std::vector<Obstacle>> obstacles_;
+  std::vector<BoundaryPiece> boundary_;
+  ConvexPolygon placed_;  ///< its capacity holds the largest area
+};
+
+}  // namespace hlc

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <ompl/base/Goal.h>
+#include <ompl/base/OptimizationObjective.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+/// A state of the OMPL state space SE(2) x trim x step: pose, trim and number of steps done.
+struct HorizonState {
+  Pose pose;  ///< OMPL keeps the heading in (-pi, pi]
+  TrimId trim;
+  std::size_t step{};
+};
+
+/// Compound of SE2StateSpace, DiscreteStateSpace (trims, from 0) and DiscreteStateSpace (0 ...
+/// max_steps). Nothing is ever sampled from it. Obstacles are a matter of maneuvers, not of states:
+/// every state is valid and `ompl::base::Path::check` says nothing about collision.
+///
+/// Switches OMPL's own console log off, for the whole process.
+[[nodiscard]] ompl::base::SpaceInformationPtr make_space_information(const Subgraph& subgraph,
+                                                                     std::size_t max_steps);
+
+void write_state(const HorizonState& from, ompl::base::State& to);
+[[nodiscard]] HorizonState read_state(const ompl::base::State& state);
+
+/// Goal: the last step of the horizon, in an equilibrium trim.
+class StandstillGoal final : public ompl::base::Goal {
+ public:
+  /// @param subgraph  must outlive this object
+  StandstillGoal(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
+                 std::size_t horizon_steps);
+  bool isSatisfied(const ompl::base::State* state) const override;
+
+ private:
+  const Subgraph& subgraph_;
+  std::size_t horizon_steps_;
+};
+
+/// Cost of a path: sum of squared distances between the position after step j and r_j, j = 1 ... n
+/// [m^2].
+class SquaredDistanceObjective final : public ompl::base::OptimizationObjective {
+ public:
+  /// @param reference_m  must outlive this object
+  SquaredDistanceObjective(const ompl::base::SpaceInformationPtr& si,
+                           const std::vector<Point>& reference_m);
+  /// The term of the state's own step; 0 for the start.
+  ompl::base::Cost stateCost(const ompl::base::State* state) const override;
+  /// The term of the step that ends in `to`.
+  ompl::base::Cost motionCost(const ompl::base::State* from,
+                              const ompl::base::State* to) const override;
+
+ private:
+  const std::vector<Point>& reference_m_;
+};
+
+/// A horizon problem in OMPL's terms: start state, StandstillGoal, SquaredDistanceObjective, and
+/// the problem itself for the obstacles and the boundary.
+class HorizonProblemDefinition final : public ompl::base::ProblemDefinition {
+ public:
+  /// @param subgraph, problem  must outlive this object, `problem` unchanged
+  HorizonProblemDefinition(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
+                           const HorizonProblem& problem);
+  [[nodiscard]] const HorizonProblem& problem() const { return problem_; }
+
+ private:
+  const HorizonProblem& problem_;
+};
+
+}  // namespace hlc

@@ -1,0 +1,334 @@
+#include "planner/search/best_first_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/exhaustive_search.hpp"
+#include "tests/support/plan_check.hpp"
+#include "tests/support/random_problem.hpp"
+#include "tests/support/test_automaton.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::size_t kMaxSteps = 10;
+
+/// Straight on at 0.8 m/s from the paper's pi_7.
+HorizonProblem straight_problem(std::size_t horizon_steps) {
+  HorizonProblem problem;
+  problem.start = {1.0, 2.0, 0.0};
+  problem.start_trim = TrimId{6};
+  for (std::size_t j = 1; j <= horizon_steps; ++j) {
+    problem.reference_m.emplace_back(1.0 + 0.16 * static_cast<double>(j), 2.0);
+  }
+  problem.reference_speed_mps.assign(horizon_steps, 0.8);
+  return problem;
+}
+
+HorizonProblem standing_problem(const Subgraph& subgraph, std::size_t horizon_steps) {
+  HorizonProblem problem = straight_problem(horizon_steps);
+  problem.start_trim = subgraph.standstill();
+  return problem;
+}
+
+ConvexPolygon box(double min_x_m, double max_x_m, double min_y_m, double max_y_m) {
+  return convex_hull(
+      {{min_x_m, min_y_m}, {max_x_m, min_y_m}, {max_x_m, max_y_m}, {min_x_m, max_y_m}});
+}
+
+void expect_same(const SearchResult& a, const SearchResult& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.cost, b.cost);
+  EXPECT_EQ(a.maneuvers, b.maneuvers);
+  EXPECT_EQ(a.poses, b.poses);
+  EXPECT_EQ(a.generated, b.generated);
+  EXPECT_EQ(a.expanded, b.expanded);
+}
+
+/// A subgraph, what it can reach, and a search on it.
+struct Searcher {
+  explicit Searcher(Subgraph switched_on, SearchOptions options = {})
+      : subgraph(std::move(switched_on)),
+        reachable(subgraph, kMaxSteps),
+        engine(subgraph, reachable, options) {}
+
+  [[nodiscard]] SearchResult search(const HorizonProblem& problem) {
+    return engine.search(problem, never_stop);
+  }
+
+  Subgraph subgraph;
+  ReachableSets reachable;
+  BestFirstSearch engine;
+};
+
+struct OptimalityCase {
+  const char* name;
+  double surge_mps2;
+  std::vector<std::size_t> trims;  ///< from 1
+  std::size_t horizon_steps;
+  std::uint64_t problems;
+};
+
+std::ostream& operator<<(std::ostream& out, const OptimalityCase& c) { return out << c.name; }
+
+class BestFirstSearchOptimality : public testing::TestWithParam<OptimalityCase> {};
+
+TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
+  const OptimalityCase& param = GetParam();
+  Searcher searcher(
+      test::make_test_subgraph(test::make_test_automaton(param.surge_mps2), param.trims));
+  std::uint64_t infeasible = 0;
+  std::uint64_t obstructed = 0;
+  for (std::uint64_t seed = 0; seed < param.problems; ++seed) {
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem =
+        test::random_problem(searcher.subgraph, param.horizon_steps, random);
+    const auto truth = test::exhaustive_search(searcher.subgraph, problem);
+    const SearchResult result = searcher.search(problem);
+    if (!truth.feasible) {
+      ++infeasible;
+      ASSERT_EQ(result.status, SearchStatus::kInfeasible) << "seed " << seed;
+      ASSERT_TRUE(result.maneuvers.empty() && result.poses.empty()) << "seed " << seed;
+      continue;
+    }
+    ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "") << "seed " << seed;
+    ASSERT_NEAR(result.cost, truth.cost, 1e-9) << "seed " << seed;
+
+    HorizonProblem open = problem;
+    open.obstacles_m.clear();
+    open.boundary_m.clear();
+    if (searcher.search(open).cost < result.cost - 1e-6) {
+      ++obstructed;
+    }
+  }
+  // The problems must be hard enough to say something.
+  EXPECT_GT(infeasible, param.problems / 50);
+  EXPECT_GT(obstructed, param.problems / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    RandomProblems, BestFirstSearchOptimality,
+    testing::Values(
+        OptimalityCase{"TwelveTrims4", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 4, 800},
+        OptimalityCase{"TwelveTrims5", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 400},
+        OptimalityCase{"TwelveTrims6", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 6, 100},
+        OptimalityCase{"FastManeuvers5", 8.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 400},
+        OptimalityCase{"FewTrims8", 0.0, {1, 4, 7, 10}, 8, 100}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(BestFirstSearch, TwoSearchesOfOneProblemAgreeInEverything) {
+  Searcher first(test::make_test_subgraph());
+  Searcher second(first.subgraph);
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = test::random_problem(first.subgraph, 7, random);
+    const SearchResult result = first.search(problem);
+    expect_same(first.search(problem), result);
+    expect_same(second.search(problem), result);
+  }
+}
+
+TEST(BestFirstSearch, OfTwoPathsOfEqualCostTheFirstGeneratedWins) {
+  // Straight on is blocked; left and right are mirror images, and right has the smaller trims.
+  Searcher searcher(test::make_test_subgraph());
+  for (std::size_t horizon_steps = 4; horizon_steps <= 7; ++horizon_steps) {
+    for (const double half_width_m : {0.01, 0.03, 0.05, 0.07}) {
+      HorizonProblem problem = straight_problem(horizon_steps);
+      problem.start = {};
+      for (Point& point_m : problem.reference_m) {
+        point_m -= Point{1.0, 2.0};
+      }
+      problem.obstacles_m.assign(horizon_steps, {box(0.55, 0.65, -half_width_m, half_width_m)});
+      const SearchResult result = searcher.search(problem);
+      ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+      for (const Pose& pose : result.poses) {
+        EXPECT_LE(pose.y_m, 0.0);
+      }
+      EXPECT_LT(result.poses.back().y_m, 0.0);
+    }
+  }
+}
+
+TEST(BestFirstSearch, OfTwoVerticesOfEqualEstimateTheDeeperIsTakenFirst) {
+  Searcher searcher(test::make_test_subgraph(test::make_test_automaton(), {1, 3, 6, 8}));
+  const auto maneuver = [&](std::size_t from, std::size_t to) {
+    return searcher.subgraph.automaton().find({from - 1}, {to - 1}, test::kTestLabel);
+  };
+  // Right turn, slower, stop. The first reference point lies as near to the left turn; the others
+  // are on the path, and within reach of the left turn.
+  const std::vector<const Maneuver*> path{maneuver(1, 6), maneuver(6, 3), maneuver(3, 1)};
+  HorizonProblem problem;
+  problem.start_trim = searcher.subgraph.standstill();
+  Frame frame = to_frame(problem.start);
+  for (const Maneuver* step : path) {
+    frame = compose(frame, to_frame(step->displacement));
+    problem.reference_m.push_back(frame.origin_m);
+  }
+  problem.reference_m.front().y() = 0.0;
+  const SearchResult result = searcher.search(problem);
+  EXPECT_EQ(result.maneuvers, path);
+  EXPECT_EQ(result.expanded, path.size());
+}
+
+TEST(BestFirstSearch, CountsTheRootAndChildrenNeverExpanded) {
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(1);  // from pi_7 only standstill is left to go to
+  const SearchResult free = searcher.search(problem);
+  EXPECT_EQ(free.status, SearchStatus::kOptimal);
+  EXPECT_EQ(free.generated, 2);
+  EXPECT_EQ(free.expanded, 1);
+
+  problem.obstacles_m = {{box(0.0, 9.0, 0.0, 9.0)}};
+  const SearchResult blocked = searcher.search(problem);
+  EXPECT_EQ(blocked.status, SearchStatus::kInfeasible);
+  EXPECT_EQ(blocked.generated, 2);
+  EXPECT_EQ(blocked.expanded, 1);
+}
+
+TEST(BestFirstSearch, TriesTheWholeTreeBeforeItSaysInfeasible) {
+  // The numbers of vertices of the full tree, and of those that are no leaves, were counted
+  // independently of this search.
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(8);
+  problem.obstacles_m.resize(8);
+  problem.obstacles_m.back() = {box(-99.0, 99.0, -99.0, 99.0)};
+  const SearchResult result = searcher.search(problem);
+  EXPECT_EQ(result.status, SearchStatus::kInfeasible);
+  EXPECT_EQ(result.generated, 236'257);
+  EXPECT_EQ(result.expanded, 130'251);
+}
+
+TEST(BestFirstSearch, ExpandsFewVerticesOnAStraightReference) {
+  Searcher searcher(test::make_test_subgraph());
+  const SearchResult result = searcher.search(straight_problem(8));
+  EXPECT_EQ(result.status, SearchStatus::kOptimal);
+  EXPECT_LT(result.expanded, 1'000);  // of 130'251
+}
+
+TEST(BestFirstSearch, GivesUpAtItsBudget) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  Searcher unlimited(subgraph);
+  const HorizonProblem problem = straight_problem(8);
+  const SearchResult full = unlimited.search(problem);
+  ASSERT_EQ(full.status, SearchStatus::kOptimal);
+  ASSERT_GT(full.expanded, 1);
+
+  Searcher enough(subgraph, {CostToGo::kReachable, full.expanded});
+  expect_same(enough.search(problem), full);
+
+  for (const std::size_t budget : {std::size_t{0}, std::size_t{1}, full.expanded - 1}) {
+    Searcher limited(subgraph, {CostToGo::kReachable, budget});
+    const SearchResult result = limited.search(problem);
+    EXPECT_EQ(result.status, SearchStatus::kBudget);
+    EXPECT_EQ(result.expanded, budget);
+    EXPECT_TRUE(result.maneuvers.empty());
+    EXPECT_TRUE(result.poses.empty());
+  }
+}
+
+TEST(BestFirstSearch, GivesUpWhenToldTo) {
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(8);
+  problem.obstacles_m.resize(8);
+  problem.obstacles_m.back() = {box(-99.0, 99.0, -99.0, 99.0)};
+  int questions = 0;
+  const SearchResult result = searcher.engine.search(problem, [&] { return ++questions == 3; });
+  EXPECT_EQ(result.status, SearchStatus::kBudget);
+  EXPECT_EQ(questions, 3);
+  EXPECT_LT(result.expanded, 1'000);
+  EXPECT_EQ(searcher.engine.search(problem, [] { return true; }).expanded, 0);
+}
+
+TEST(BestFirstSearch, AVehicleThatStandsBetweenObstaclesStandsOn) {
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem problem = standing_problem(searcher.subgraph, 8);
+  problem.start = {1.0, 2.0, 0.0};
+  // 1 mm beyond the footprint of 0.22 m x 0.107 m with its margin of 0.01 m, on all four sides.
+  const double x_m = 0.12 + 0.001;
+  const double y_m = 0.0635 + 0.001;
+  problem.obstacles_m.assign(8, {box(1.0 + x_m, 1.5, 1.0, 3.0), box(0.5, 1.0 - x_m, 1.0, 3.0),
+                                 box(0.5, 1.5, 2.0 + y_m, 3.0), box(0.5, 1.5, 1.0, 2.0 - y_m)});
+  const SearchResult result = searcher.search(problem);
+  ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+  for (const Pose& pose : result.poses) {
+    EXPECT_EQ(pose, problem.start);
+  }
+}
+
+TEST(BestFirstSearch, HeadingRunsOnBeyondPi) {
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(8);
+  problem.start = {0.0, 0.0, 3.1};
+  problem.start_trim = TrimId{11};  // full lock to the left
+  for (std::size_t j = 0; j < 8; ++j) {
+    const double turned_rad = 3.1 + 0.3 * static_cast<double>(j);
+    problem.reference_m[j] = 0.25 * Point{std::cos(turned_rad), std::sin(turned_rad)};
+  }
+  const SearchResult result = searcher.search(problem);
+  ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+  EXPECT_GT(result.poses.back().heading_rad, 3.2);
+}
+
+TEST(BestFirstSearch, MissingObstaclesMeanNone) {
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(6);
+  problem.reference_speed_mps.clear();
+  const SearchResult without = searcher.search(problem);
+  EXPECT_EQ(without.status, SearchStatus::kOptimal);
+  problem.obstacles_m.resize(6);
+  expect_same(searcher.search(problem), without);
+  problem.obstacles_m.assign(6, {ConvexPolygon{}});  // an empty polygon holds no point
+  expect_same(searcher.search(problem), without);
+}
+
+TEST(BestFirstSearch, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
+  Searcher searcher(test::make_test_subgraph());
+  const SearchResult standing = searcher.search(standing_problem(searcher.subgraph, 0));
+  EXPECT_EQ(standing.status, SearchStatus::kOptimal);
+  EXPECT_EQ(standing.cost, 0.0);
+  const SearchResult driving = searcher.search(straight_problem(0));
+  EXPECT_EQ(driving.status, SearchStatus::kInfeasible);
+  EXPECT_EQ(driving.generated, 1);
+}
+
+TEST(BestFirstSearch, The2022CostToGoFindsAValidPathThatMayCostMore) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  Searcher exact(subgraph);
+  Searcher authors(subgraph, {CostToGo::k2022, 1'000'000});
+  std::size_t suboptimal = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = test::random_problem(subgraph, 6, random);
+    const SearchResult best = exact.search(problem);
+    const SearchResult found = authors.search(problem);
+    ASSERT_EQ(found.status, best.status) << "seed " << seed;
+    if (best.status != SearchStatus::kOptimal) {
+      continue;
+    }
+    ASSERT_EQ(test::fault_of(found, subgraph, problem), "") << "seed " << seed;
+    ASSERT_GE(found.cost, best.cost - 1e-9) << "seed " << seed;
+    suboptimal += found.cost > best.cost + 1e-6 ? 1U : 0U;
+  }
+  EXPECT_GT(suboptimal, 0);
+}
+
+TEST(BestFirstSearchDeathTest, SizesThatDoNotMatchAreMistakes) {
+#ifdef NDEBUG
+  GTEST_SKIP() << "assertions are off in this build";
+#else
+  Searcher searcher(test::make_test_subgraph());
+  HorizonProblem obstacles = straight_problem(4);
+  obstacles.obstacles_m.resize(3);
+  EXPECT_DEATH(static_cast<void>(searcher.search(obstacles)), "is_well_formed");
+  HorizonProblem speeds = straight_problem(4);
+  speeds.reference_speed_mps.resize(3);
+  EXPECT_DEATH(static_cast<void>(searcher.search(speeds)), "is_well_formed");
+  EXPECT_DEATH(static_cast<void>(searcher.search(straight_problem(kMaxSteps + 1))),
+               "is_well_formed");
+#endif
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,201 @@
+#include "planner/search/ompl_planner.hpp"
+
+#include <gtest/gtest.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Console.h>
+
+#include "planner/search/best_first_search.hpp"
+#include "tests/support/plan_check.hpp"
+#include "tests/support/random_problem.hpp"
+#include "tests/support/test_automaton.hpp"
+
+namespace ob = ompl::base;
+
+namespace hlc {
+namespace {
+
+constexpr std::size_t kMaxSteps = 8;
+
+class OmplPlannerTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::unique_ptr<SearchEngine> make_engine(SearchOptions options = {}) const {
+    return std::make_unique<BestFirstSearch>(subgraph_, reachable_, options);
+  }
+
+  /// 1.28 m straight ahead.
+  [[nodiscard]] static HorizonProblem straight_problem() {
+    HorizonProblem problem;
+    problem.start = {1.0, 2.0, 0.0};
+    problem.start_trim = TrimId{6};
+    for (std::size_t j = 1; j <= kMaxSteps; ++j) {
+      problem.reference_m.emplace_back(1.0 + 0.16 * static_cast<double>(j), 2.0);
+    }
+    return problem;
+  }
+
+  [[nodiscard]] static HorizonProblem infeasible_problem() {
+    HorizonProblem problem = straight_problem();
+    const ConvexPolygon everything =
+        convex_hull({{-9.0, -9.0}, {9.0, -9.0}, {9.0, 9.0}, {-9.0, 9.0}});
+    problem.obstacles_m.assign(kMaxSteps, {everything});
+    return problem;
+  }
+
+  [[nodiscard]] std::shared_ptr<HorizonProblemDefinition> define(
+      const HorizonProblem& problem) const {
+    return std::make_shared<HorizonProblemDefinition>(si_, subgraph_, problem);
+  }
+
+  Subgraph subgraph_{test::make_test_subgraph()};
+  ReachableSets reachable_{subgraph_, kMaxSteps};
+  ob::SpaceInformationPtr si_{make_space_information(subgraph_, kMaxSteps)};
+};
+
+void expect_path_is_plan(const ompl::geometric::PathGeometric& path, const SearchResult& plan,
+                         const HorizonProblem& problem) {
+  ASSERT_EQ(path.getStateCount(), plan.poses.size() + 1);
+  const HorizonState start = read_state(*path.getState(0));
+  EXPECT_EQ(start.pose.position_m(), problem.start.position_m());
+  EXPECT_EQ(start.trim, problem.start_trim);
+  EXPECT_EQ(start.step, 0);
+  for (std::size_t j = 0; j < plan.poses.size(); ++j) {
+    const HorizonState state = read_state(*path.getState(static_cast<unsigned>(j + 1)));
+    EXPECT_EQ(state.pose.position_m(), plan.poses[j].position_m());
+    EXPECT_EQ(state.pose.heading_rad, wrap_angle(plan.poses[j].heading_rad));
+    EXPECT_EQ(state.trim, plan.maneuvers[j]->to);
+    EXPECT_EQ(state.step, j + 1);
+  }
+}
+
+TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
+  const auto engine = make_engine();
+  std::size_t solved = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = test::random_problem(subgraph_, 6, random);
+    const SearchResult plan = engine->search(problem, never_stop);
+
+    const ob::PlannerPtr planner = std::make_shared<RecedingHorizonPlanner>(si_, make_engine());
+    const ob::ProblemDefinitionPtr definition = define(problem);
+    planner->setProblemDefinition(definition);
+    planner->setup();
+    planner->checkValidity();
+    const ob::PlannerStatus status = planner->solve(ob::plannerNonTerminatingCondition());
+
+    ASSERT_EQ(definition->hasExactSolution(), plan.status == SearchStatus::kOptimal);
+    ASSERT_EQ(static_cast<bool>(status), plan.status == SearchStatus::kOptimal);
+    if (!status) {
+      continue;
+    }
+    ++solved;
+    auto& path = *definition->getSolutionPath()->as<ompl::geometric::PathGeometric>();
+    expect_path_is_plan(path, plan, problem);
+    EXPECT_NEAR(path.cost(definition->getOptimizationObjective()).value(), plan.cost, 1e-9);
+    EXPECT_TRUE(definition->getGoal()->isSatisfied(path.getStates().back()));
+    EXPECT_FALSE(definition->getGoal()->isSatisfied(path.getStates().front()));
+    EXPECT_TRUE(definition->hasOptimizedSolution());
+  }
+  EXPECT_GT(solved, 20);
+}
+
+TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
+  const auto engine = make_engine();
+  const auto planner = make_best_first_planner(subgraph_, reachable_, {});
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const std::size_t horizon_steps = 1 + test::pick(random, kMaxSteps);
+    const HorizonProblem problem = test::random_problem(subgraph_, horizon_steps, random);
+    const SearchResult expected = engine->search(problem, never_stop);
+    const SearchResult planned = planner->plan(problem);
+    EXPECT_EQ(planned.status, expected.status);
+    EXPECT_EQ(planned.cost, expected.cost);
+    EXPECT_EQ(planned.maneuvers, expected.maneuvers);
+    EXPECT_EQ(planned.poses, expected.poses);
+    EXPECT_EQ(planned.generated, expected.generated);
+    EXPECT_EQ(planned.expanded, expected.expanded);
+  }
+}
+
+TEST_F(OmplPlannerTest, ProvesThatNoPathExists) {
+  const HorizonProblem problem = infeasible_problem();
+  const auto definition = define(problem);
+  RecedingHorizonPlanner planner(si_, make_engine());
+  planner.setProblemDefinition(definition);
+  EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::ABORT);
+  EXPECT_FALSE(definition->hasSolution());
+  EXPECT_TRUE(definition->hasSolutionNonExistenceProof());
+  EXPECT_EQ(planner.result().status, SearchStatus::kInfeasible);
+}
+
+TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
+  const HorizonProblem problem = straight_problem();
+  const auto definition = define(problem);
+  RecedingHorizonPlanner planner(si_, make_engine());
+  planner.setProblemDefinition(definition);
+  EXPECT_EQ(planner.solve(ob::plannerAlwaysTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
+  EXPECT_EQ(planner.result().status, SearchStatus::kBudget);
+  EXPECT_EQ(planner.result().expanded, 0);
+  EXPECT_FALSE(definition->hasSolution());
+  EXPECT_FALSE(definition->hasSolutionNonExistenceProof());
+  // The same planner solves the same problem when it may.
+  EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::EXACT_SOLUTION);
+}
+
+TEST_F(OmplPlannerTest, ReportsAUsedUpBudgetAsTimeout) {
+  const HorizonProblem problem = straight_problem();
+  RecedingHorizonPlanner planner(si_, make_engine({CostToGo::kReachable, 1}));
+  planner.setProblemDefinition(define(problem));
+  EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
+}
+
+TEST_F(OmplPlannerTest, RefusesProblemsItDoesNotKnow) {
+  RecedingHorizonPlanner planner(si_, make_engine());
+  planner.setProblemDefinition(std::make_shared<ob::ProblemDefinition>(si_));
+  EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()),
+            ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE);
+}
+
+TEST_F(OmplPlannerTest, RefusesAStartThatIsNotTheProblems) {
+  const HorizonProblem problem = straight_problem();
+  const auto definition = define(problem);
+  RecedingHorizonPlanner planner(si_, make_engine());
+  planner.setProblemDefinition(definition);
+  write_state({{1.0, 2.1, 0.0}, TrimId{6}, 0}, *definition->getStartState(0));
+  EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::INVALID_START);
+  definition->clearStartStates();
+  EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::INVALID_START);
+}
+
+TEST_F(OmplPlannerTest, StatesKeepPoseTrimAndStep) {
+  ob::State* state = si_->allocState();
+  write_state({{1.5, -2.5, 7.0}, TrimId{11}, 5}, *state);
+  const HorizonState read = read_state(*state);
+  EXPECT_TRUE(si_->satisfiesBounds(state));
+  EXPECT_EQ(read.pose, (Pose{1.5, -2.5, wrap_angle(7.0)}));
+  EXPECT_EQ(read.trim, TrimId{11});
+  EXPECT_EQ(read.step, 5);
+  si_->freeState(state);
+}
+
+TEST_F(OmplPlannerTest, GoalIsTheLastStepInStandstill) {
+  const StandstillGoal goal(si_, subgraph_, 4);
+  ob::State* state = si_->allocState();
+  const auto is_satisfied = [&](TrimId trim, std::size_t step) {
+    write_state({{}, trim, step}, *state);
+    return goal.isSatisfied(state);
+  };
+  EXPECT_TRUE(is_satisfied(TrimId{0}, 4));
+  EXPECT_FALSE(is_satisfied(TrimId{0}, 3));
+  EXPECT_FALSE(is_satisfied(TrimId{6}, 4));
+  si_->freeState(state);
+}
+
+TEST_F(OmplPlannerTest, OmplIsSilent) {
+  EXPECT_EQ(ompl::msg::getLogLevel(), ompl::msg::LOG_NONE);
+  EXPECT_EQ(ompl::msg::getOutputHandler(), nullptr);
+}
+
+}  // namespace
+}  // namespace hlc

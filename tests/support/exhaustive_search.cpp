@@ -1,0 +1,61 @@
+#include "tests/support/exhaustive_search.hpp"
+
+#include "tests/support/plan_check.hpp"
+
+namespace hlc::test {
+namespace {
+
+class Enumeration {
+ public:
+  Enumeration(const Subgraph& subgraph, const HorizonProblem& problem)
+      : subgraph_(subgraph), problem_(problem) {}
+
+  ExhaustiveResult run() {
+    try_all(problem_.start, problem_.start_trim, 0.0);
+    return best_;
+  }
+
+ private:
+  void try_all(const Pose& pose, TrimId trim, double cost) {
+    const std::size_t done = path_.size();
+    if (done == problem_.horizon_steps()) {
+      finish(trim, cost);
+      return;
+    }
+    for (const Edge& edge : subgraph_.successors(trim)) {
+      if (!is_free(*edge.maneuver, pose, done + 1, problem_)) {
+        continue;
+      }
+      const Pose next = compose(pose, edge.maneuver->displacement);
+      const double step_cost = (next.position_m() - problem_.reference_m[done]).squaredNorm();
+      path_.push_back(edge.maneuver);
+      try_all(next, edge.to, cost + step_cost);
+      path_.pop_back();
+    }
+  }
+
+  void finish(TrimId trim, double cost) {
+    if (subgraph_.automaton().trims[trim.index].speed_mps != 0.0) {
+      return;
+    }
+    ++best_.complete_paths;
+    if (!best_.feasible || cost < best_.cost) {
+      best_.feasible = true;
+      best_.cost = cost;
+      best_.maneuvers = path_;
+    }
+  }
+
+  const Subgraph& subgraph_;
+  const HorizonProblem& problem_;
+  std::vector<const Maneuver*> path_;
+  ExhaustiveResult best_;
+};
+
+}  // namespace
+
+ExhaustiveResult exhaustive_search(const Subgraph& subgraph, const HorizonProblem& problem) {
+  return Enumeration(subgraph, problem).run();
+}
+
+}  // namespace hlc::test

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc::test {
+
+struct ExhaustiveResult {
+  bool feasible{false};
+  double cost{};                           ///< [m^2]; only if feasible
+  std::vector<const Maneuver*> maneuvers;  ///< of a path of least cost; empty unless feasible
+  std::size_t complete_paths{};            ///< free paths of n steps that end in standstill
+};
+
+/// Solves a horizon problem by trying every path: the reference for the search engines. It shares
+/// no code with them: no bound, no table, no box, no rule for what can still stop. Its time grows
+/// exponentially with the horizon.
+[[nodiscard]] ExhaustiveResult exhaustive_search(const Subgraph& subgraph,
+                                                 const HorizonProblem& problem);
+
+}  // namespace hlc::test

@@ -1,0 +1,77 @@
+#include "tests/support/plan_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hlc::test {
+namespace {
+
+bool is_switched_on(const Maneuver* maneuver, TrimId from, const Subgraph& subgraph) {
+  const auto edges = subgraph.successors(from);
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](const Edge& edge) { return edge.maneuver == maneuver; });
+}
+
+bool are_close(const Pose& a, const Pose& b) {
+  return (a.position_m() - b.position_m()).norm() < 1e-9 &&
+         std::abs(a.heading_rad - b.heading_rad) < 1e-9;
+}
+
+}  // namespace
+
+bool is_free(const Maneuver& maneuver, const Pose& start, std::size_t step,
+             const HorizonProblem& problem) {
+  if (!problem.obstacles_m.empty()) {
+    const ConvexPolygon swept_m = transformed(maneuver.swept_area_m, start);
+    for (const ConvexPolygon& obstacle_m : problem.obstacles_m[step - 1]) {
+      if (intersects(swept_m, obstacle_m)) {
+        return false;
+      }
+    }
+  }
+  if (!problem.boundary_m.empty()) {
+    const ConvexPolygon lane_m = transformed(maneuver.lane_area_m, start);
+    for (const Segment& segment : problem.boundary_m) {
+      if (intersects(lane_m, segment)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
+                     const HorizonProblem& problem) {
+  const std::size_t n = problem.horizon_steps();
+  if (result.status != SearchStatus::kOptimal) {
+    return "no plan";
+  }
+  if (result.maneuvers.size() != n || result.poses.size() != n) {
+    return "size is not the horizon";
+  }
+  Pose pose = problem.start;
+  TrimId trim = problem.start_trim;
+  double cost = 0.0;
+  for (std::size_t step = 1; step <= n; ++step) {
+    const std::string at = " in step " + std::to_string(step);
+    const Maneuver* maneuver = result.maneuvers[step - 1];
+    if (!is_switched_on(maneuver, trim, subgraph)) {
+      return "edge is not switched on" + at;
+    }
+    if (!is_free(*maneuver, pose, step, problem)) {
+      return "collision" + at;
+    }
+    pose = compose(pose, maneuver->displacement);
+    trim = maneuver->to;
+    if (!are_close(pose, result.poses[step - 1])) {
+      return "pose differs" + at;
+    }
+    cost += (pose.position_m() - problem.reference_m[step - 1]).squaredNorm();
+  }
+  if (!subgraph.automaton().trims[trim.index].is_equilibrium()) {
+    return "does not stand at the end";
+  }
+  return std::abs(cost - result.cost) < 1e-9 ? "" : "cost differs";
+}
+
+}  // namespace hlc::test

@@ -1,0 +1,82 @@
+#include "tests/support/test_automaton.hpp"
+
+#include <utility>
+
+namespace hlc::test {
+namespace {
+
+constexpr std::size_t kIntervals = 10;
+
+std::vector<Trim> paper_trims() {
+  return {{0.0, 0.0}, {0.4, -0.60}, {0.5, -0.48}, {0.6, -0.36}, {0.7, -0.24}, {0.8, -0.12},
+          {0.8, 0.0}, {0.8, 0.12},  {0.7, 0.24},  {0.6, 0.36},  {0.5, 0.48},  {0.4, 0.60}};
+}
+
+Maneuver make_maneuver(const UniversalAutomaton& automaton, TrimId from, TrimId to,
+                       double surge_mps2) {
+  const Trim& begin = automaton.trims[from.index];
+  const Trim& end = automaton.trims[to.index];
+  const double interval_s = automaton.step_s / kIntervals;
+  const bool own_step = from == to;
+
+  Maneuver maneuver;
+  maneuver.from = from;
+  maneuver.to = to;
+  maneuver.label = own_step ? kOwnStepLabel : kTestLabel;
+  maneuver.duration_s = automaton.step_s;
+  State state{{}, begin.speed_mps, begin.steering_rad};
+  maneuver.states.push_back(state);
+  for (std::size_t i = 0; i < kIntervals; ++i) {
+    Input input{(end.speed_mps - begin.speed_mps) / automaton.step_s,
+                (end.steering_rad - begin.steering_rad) / automaton.step_s};
+    if (!own_step) {
+      input.acceleration_mps2 += i < kIntervals / 2 ? surge_mps2 : -surge_mps2;
+    }
+    state = integrated(state, input, interval_s, automaton.vehicle);
+    maneuver.inputs.push_back(input);
+    maneuver.states.push_back(state);
+  }
+  maneuver.displacement = state.pose;
+
+  std::vector<Point> swept_m;
+  std::vector<Point> lane_m;
+  for (const State& sample : maneuver.states) {
+    const auto grown =
+        footprint_area(automaton.vehicle.footprint, sample.pose, automaton.vehicle.safety_margin_m);
+    const auto bare = footprint_area(automaton.vehicle.footprint, sample.pose);
+    swept_m.insert(swept_m.end(), grown.vertices_m.begin(), grown.vertices_m.end());
+    lane_m.insert(lane_m.end(), bare.vertices_m.begin(), bare.vertices_m.end());
+  }
+  maneuver.swept_area_m = convex_hull(std::move(swept_m));
+  maneuver.lane_area_m = convex_hull(std::move(lane_m));
+  return maneuver;
+}
+
+}  // namespace
+
+std::shared_ptr<const UniversalAutomaton> make_test_automaton(double surge_mps2) {
+  auto automaton = std::make_shared<UniversalAutomaton>();
+  automaton->trims = paper_trims();
+  for (std::size_t from = 0; from < automaton->trims.size(); ++from) {
+    for (std::size_t to = 0; to < automaton->trims.size(); ++to) {
+      automaton->maneuvers.push_back(make_maneuver(*automaton, {from}, {to}, surge_mps2));
+    }
+  }
+  return automaton;
+}
+
+Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
+                            const std::vector<std::size_t>& trims) {
+  SubgraphSpec spec{"test", kTestLabel, {}};
+  for (const std::size_t number : trims) {
+    spec.trims.push_back({number - 1});
+  }
+  return {std::move(automaton), std::move(spec)};
+}
+
+Subgraph make_test_subgraph(double surge_mps2) {
+  return make_test_subgraph(make_test_automaton(surge_mps2),
+                            {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+}
+
+}  // namespace hlc::test

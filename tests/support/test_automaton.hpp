@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/automaton/automaton.hpp"
+#include "planner/automaton/subgraph.hpp"
+
+namespace hlc::test {
+
+/// Label of the maneuvers of `make_test_automaton`.
+inline constexpr char kTestLabel[] = "test";
+
+/// An automaton for tests, made without an optimiser: the twelve trims of the paper's Table 1, a
+/// maneuver between every two of them, each trim's own step.
+///
+/// The steering of a maneuver ramps linearly. The speed too, if `surge_mps2` is 0 (the optimum of
+/// J2). Otherwise that acceleration is added in the first half and taken away in the second, so
+/// that maneuvers outrun both their trims, as those of J1 do.
+///
+/// The areas are hulls of footprints at some times; they need not contain the whole motion.
+[[nodiscard]] std::shared_ptr<const UniversalAutomaton> make_test_automaton(
+    double surge_mps2 = 0.0);
+
+/// A subgraph with these trims, numbered from 1 as in the paper.
+[[nodiscard]] Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
+                                          const std::vector<std::size_t>& trims);
+
+/// All twelve trims.
+[[nodiscard]] Subgraph make_test_subgraph(double surge_mps2 = 0.0);
+
+}  // namespace hlc::test
