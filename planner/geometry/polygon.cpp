@@ -72,6 +72,32 @@ double distance_from_vertices_m(const ConvexPolygon& a, const ConvexPolygon& b) 
   return smallest;
 }
 
+/// The polygon with every edge moved outwards. Corners whose turn has a cosine below
+/// `sharpest_mitre` are cut by one more edge at the same distance, the others mitred.
+ConvexPolygon with_edges_moved(const ConvexPolygon& polygon, double distance_m,
+                               double sharpest_mitre) {
+  // Where the borders with unit normals n1 and n2, moved outwards, meet: at their corner + this.
+  const auto corner = [distance_m](const Point& n1, const Point& n2) -> Point {
+    return distance_m * (n1 + n2) / std::max(1.0 + n1.dot(n2), 1e-12);
+  };
+  const auto& vertices = polygon.vertices_m;
+  const std::size_t n = vertices.size();
+  ConvexPolygon result;
+  result.vertices_m.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point in = (vertices[i] - vertices[previous(i, n)]).normalized();
+    const Point out = (vertices[next(i, n)] - vertices[i]).normalized();
+    if (in.dot(out) >= sharpest_mitre) {
+      result.vertices_m.push_back(vertices[i] + corner(right_of(in), right_of(out)));
+    } else {
+      const Point tip = (in - out).normalized();
+      result.vertices_m.push_back(vertices[i] + corner(right_of(in), tip));
+      result.vertices_m.push_back(vertices[i] + corner(tip, right_of(out)));
+    }
+  }
+  return result;
+}
+
 /// What comes of removing the edge from vertex i to i + 1: its neighbours meet in `corner_m`.
 struct EdgeRemoval {
   Point corner_m{Point::Zero()};
@@ -150,28 +176,8 @@ ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame) {
 
 ConvexPolygon inflated(const ConvexPolygon& polygon, double distance_m) {
   assert(distance_m >= 0.0);
-  const auto& vertices = polygon.vertices_m;
-  const std::size_t n = vertices.size();
-  const double distance = distance_m + kRoundingAllowance_m;
-  // Where the borders with unit normals n1 and n2, moved outwards, meet: at v + this.
-  const auto corner = [distance](const Point& n1, const Point& n2) -> Point {
-    return distance * (n1 + n2) / (1.0 + n1.dot(n2));
-  };
   constexpr double kSharpestMitre = -0.5;  // cosine of the turn: inner angle of 60 degrees
-  ConvexPolygon result;
-  result.vertices_m.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point in = (vertices[i] - vertices[previous(i, n)]).normalized();
-    const Point out = (vertices[next(i, n)] - vertices[i]).normalized();
-    if (in.dot(out) >= kSharpestMitre) {
-      result.vertices_m.push_back(vertices[i] + corner(right_of(in), right_of(out)));
-    } else {
-      const Point tip = (in - out).normalized();
-      result.vertices_m.push_back(vertices[i] + corner(right_of(in), tip));
-      result.vertices_m.push_back(vertices[i] + corner(tip, right_of(out)));
-    }
-  }
-  return result;
+  return with_edges_moved(polygon, distance_m + kRoundingAllowance_m, kSharpestMitre);
 }
 
 ConvexPolygon simplified_outwards(const ConvexPolygon& polygon, std::size_t max_vertices) {
@@ -195,8 +201,8 @@ ConvexPolygon simplified_outwards(const ConvexPolygon& polygon, std::size_t max_
     vertices[best] = least.corner_m;
     vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(next(best, vertices.size())));
   }
-  ConvexPolygon result{std::move(vertices)};
-  return inflated(result, 0.0);
+  constexpr double kMitreAll = -2.0;  // cutting a corner would add a vertex
+  return with_edges_moved(ConvexPolygon{std::move(vertices)}, kRoundingAllowance_m, kMitreAll);
 }
 
 bool contains(const ConvexPolygon& polygon, const Point& point_m, double tolerance_m) {
