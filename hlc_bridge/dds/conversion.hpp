@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "hlc_bridge/core/messages.hpp"
+
+/// Common to all conversions. Only sources of this folder include this file.
+namespace hlc {
+
+/// What came of a message that was received.
+template <class Message>
+struct Incoming {
+  std::optional<Message> message;  ///< nothing: invalid as a whole
+  std::uint64_t invalid{};         ///< entries left out, or 1 for the whole
+};
+
+template <class Message>
+[[nodiscard]] Incoming<Message> valid_if(bool valid, const Message& message) {
+  return valid ? Incoming<Message>{message, 0} : Incoming<Message>{std::nullopt, 1};
+}
+
+/// More of anything than this is not a message of ours or of the lab.
+inline constexpr std::size_t kMaxEntries = 1000;
+inline constexpr std::size_t kMaxText = 65'536;
+
+template <class... Numbers>
+[[nodiscard]] bool all_finite(Numbers... numbers) {
+  return (std::isfinite(numbers) && ...);
+}
+
+[[nodiscard]] inline bool is_finite(const Pose& pose) {
+  return all_finite(pose.x_m, pose.y_m, pose.heading_rad);
+}
+
+}  // namespace hlc

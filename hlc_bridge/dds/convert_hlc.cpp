@@ -1,0 +1,233 @@
+#include "hlc_bridge/dds/convert_hlc.hpp"
+
+#include <algorithm>
+#include <vector>
+
+// The structured bindings name every field of a plain message, so that a new field does not compile
+// until it is carried over.
+namespace hlc {
+namespace {
+
+constexpr std::uint8_t kMaxVehicleId = 30;  // of the lab
+
+bool is_valid(VehicleId vehicle) { return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId; }
+
+PoseMessage pose_to_wire(const Pose& pose) {
+  PoseMessage result;
+  result.x_m(pose.x_m);
+  result.y_m(pose.y_m);
+  result.heading_rad(pose.heading_rad);
+  return result;
+}
+
+Pose pose_from_wire(const PoseMessage& wire) {
+  return {wire.x_m(), wire.y_m(), wire.heading_rad()};
+}
+
+PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
+  PolygonMessage result;
+  result.vertices_m().reserve(polygon.vertices_m.size());
+  for (const Point& vertex : polygon.vertices_m) {
+    PointMessage point;
+    point.x_m(vertex.x());
+    point.y_m(vertex.y());
+    result.vertices_m().push_back(point);
+  }
+  return result;
+}
+
+bool is_valid(const PolygonMessage& wire) {
+  const auto& vertices = wire.vertices_m();
+  return vertices.size() != 1 && vertices.size() != 2 && vertices.size() <= kMaxEntries &&
+         std::ranges::all_of(vertices, [](const PointMessage& point) {
+           return all_finite(point.x_m(), point.y_m());
+         });
+}
+
+ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {
+  ConvexPolygon result;
+  result.vertices_m.reserve(wire.vertices_m().size());
+  for (const PointMessage& point : wire.vertices_m()) {
+    result.vertices_m.emplace_back(point.x_m(), point.y_m());
+  }
+  return result;
+}
+
+AreasMessage areas_to_wire(const OccupiedAreas& areas) {
+  const auto& [first, areas_m, final_area_m] = areas;
+  AreasMessage result;
+  result.first_step(first.value);
+  for (const ConvexPolygon& area : areas_m) {
+    result.areas_m().push_back(polygon_to_wire(area));
+  }
+  result.final_area_m(polygon_to_wire(final_area_m));
+  return result;
+}
+
+bool is_valid(const AreasMessage& wire) {
+  return wire.areas_m().size() <= kMaxEntries && is_valid(wire.final_area_m()) &&
+         std::ranges::all_of(wire.areas_m(),
+                             [](const PolygonMessage& area) { return is_valid(area); });
+}
+
+OccupiedAreas areas_from_wire(const AreasMessage& wire) {
+  OccupiedAreas result{.first = {wire.first_step()},
+                       .areas_m = {},
+                       .final_area_m = polygon_from_wire(wire.final_area_m())};
+  for (const PolygonMessage& area : wire.areas_m()) {
+    result.areas_m.push_back(polygon_from_wire(area));
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> ids_to_wire(const std::vector<VehicleId>& ids) {
+  std::vector<std::uint8_t> result;
+  for (const VehicleId id : ids) {
+    result.push_back(id.value);
+  }
+  return result;
+}
+
+bool is_valid(const std::vector<std::uint8_t>& ids) {
+  return ids.size() <= kMaxEntries &&
+         std::ranges::all_of(ids, [](std::uint8_t id) { return is_valid(VehicleId{id}); });
+}
+
+std::vector<VehicleId> ids_from_wire(const std::vector<std::uint8_t>& wire) {
+  std::vector<VehicleId> result;
+  for (const std::uint8_t id : wire) {
+    result.push_back({id});
+  }
+  return result;
+}
+
+bool is_valid(const ReportMessage& wire) {
+  return is_valid(VehicleId{wire.vehicle_id()}) &&
+         wire.status() <= static_cast<std::uint8_t>(StepStatus::kDriveOut) &&
+         wire.reason() <= static_cast<std::uint8_t>(FallbackReason::kLate) &&
+         is_finite(pose_from_wire(wire.planned_pose())) &&
+         all_finite(wire.cost_m2(), wire.deviation_m()) && is_valid(wire.coupled()) &&
+         is_valid(wire.missing());
+}
+
+}  // namespace
+
+bool can_be_written(const Traffic& message) { return is_valid(message.vehicle); }
+bool can_be_written(const Prediction& message) { return is_valid(message.vehicle); }
+bool can_be_written(const Outcome& message) { return is_valid(message.vehicle); }
+bool can_be_written(const ReportRecord& message) { return is_valid(message.report.vehicle); }
+
+void to_wire(const Traffic& message, TrafficMessage& wire) {
+  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent] = message;
+  wire.vehicle_id(vehicle.value);
+  wire.step(step.value);
+  wire.next_pose(pose_to_wire(next_pose));
+  wire.next_trim(static_cast<std::uint32_t>(next_trim.index));
+  wire.running(areas_to_wire(running));
+  wire.reachable_area_m(polygon_to_wire(reachable_area_m));
+  wire.silent(ids_to_wire(silent));
+}
+
+Incoming<Traffic> from_wire(const TrafficMessage& wire) {
+  const bool valid = is_valid(VehicleId{wire.vehicle_id()}) &&
+                     is_finite(pose_from_wire(wire.next_pose())) && is_valid(wire.running()) &&
+                     is_valid(wire.reachable_area_m()) && is_valid(wire.silent());
+  if (!valid) {
+    return {std::nullopt, 1};
+  }
+  return {Traffic{.vehicle = {wire.vehicle_id()},
+                  .step = {wire.step()},
+                  .next_pose = pose_from_wire(wire.next_pose()),
+                  .next_trim = {wire.next_trim()},
+                  .running = areas_from_wire(wire.running()),
+                  .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
+                  .silent = ids_from_wire(wire.silent())},
+          0};
+}
+
+void to_wire(const Prediction& message, PredictionMessage& wire) {
+  const auto& [vehicle, step, is_new, areas] = message;
+  wire.vehicle_id(vehicle.value);
+  wire.step(step.value);
+  wire.is_new(is_new);
+  wire.areas(areas_to_wire(areas));
+}
+
+Incoming<Prediction> from_wire(const PredictionMessage& wire) {
+  if (!is_valid(VehicleId{wire.vehicle_id()}) || !is_valid(wire.areas())) {
+    return {std::nullopt, 1};
+  }
+  return {Prediction{.vehicle = {wire.vehicle_id()},
+                     .step = {wire.step()},
+                     .is_new = wire.is_new(),
+                     .areas = areas_from_wire(wire.areas())},
+          0};
+}
+
+void to_wire(const Outcome& message, OutcomeMessage& wire) {
+  const auto& [vehicle, step, wants_fallback] = message;
+  wire.vehicle_id(vehicle.value);
+  wire.step(step.value);
+  wire.wants_fallback(wants_fallback);
+}
+
+Incoming<Outcome> from_wire(const OutcomeMessage& wire) {
+  return valid_if(is_valid(VehicleId{wire.vehicle_id()}),
+                  Outcome{.vehicle = {wire.vehicle_id()},
+                          .step = {wire.step()},
+                          .wants_fallback = wire.wants_fallback()});
+}
+
+void to_wire(const ReportRecord& message, ReportMessage& wire) {
+  const auto& [report, planning_ns, deadline_missed, late_ns] = message;
+  const auto& [vehicle, step, status, reason, planned_pose, planned_trim, cost_m2, generated,
+               expanded, level, coupled, missing, deviation_m] = report;
+  wire.vehicle_id(vehicle.value);
+  wire.step(step.value);
+  wire.status(static_cast<std::uint8_t>(status));
+  wire.reason(static_cast<std::uint8_t>(reason));
+  wire.planned_pose(pose_to_wire(planned_pose));
+  wire.planned_trim(static_cast<std::uint32_t>(planned_trim.index));
+  wire.cost_m2(cost_m2);
+  wire.generated(generated);
+  wire.expanded(expanded);
+  wire.level(level);
+  wire.coupled(ids_to_wire(coupled));
+  wire.missing(ids_to_wire(missing));
+  wire.deviation_m(deviation_m);
+  wire.planning_ns(planning_ns);
+  wire.deadline_missed(deadline_missed);
+  wire.late_ns(late_ns);
+}
+
+Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
+  if (!is_valid(wire)) {
+    return {std::nullopt, 1};
+  }
+  const Report report{.vehicle = {wire.vehicle_id()},
+                      .step = {wire.step()},
+                      .status = static_cast<StepStatus>(wire.status()),
+                      .reason = static_cast<FallbackReason>(wire.reason()),
+                      .planned_pose = pose_from_wire(wire.planned_pose()),
+                      .planned_trim = {wire.planned_trim()},
+                      .cost_m2 = wire.cost_m2(),
+                      .generated = wire.generated(),
+                      .expanded = wire.expanded(),
+                      .level = wire.level(),
+                      .coupled = ids_from_wire(wire.coupled()),
+                      .missing = ids_from_wire(wire.missing()),
+                      .deviation_m = wire.deviation_m()};
+  return {ReportRecord{report, wire.planning_ns(), wire.deadline_missed(), wire.late_ns()}, 0};
+}
+
+void to_wire(const RunState& message, RunStateMessage& wire) {
+  const auto& [phase] = message;
+  wire.phase(static_cast<std::uint8_t>(phase));
+}
+
+Incoming<RunState> from_wire(const RunStateMessage& wire) {
+  return valid_if(wire.phase() <= static_cast<std::uint8_t>(RunPhase::kDriveOut),
+                  RunState{static_cast<RunPhase>(wire.phase())});
+}
+
+}  // namespace hlc

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <OutcomeMessage.h>
+#include <PredictionMessage.h>
+#include <ReportMessage.h>
+#include <RunStateMessage.h>
+#include <TrafficMessage.h>
+
+#include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/dds/conversion.hpp"
+
+/// Our own generated types to and from plain messages. Only sources of this folder (and its tests)
+/// include this file.
+///
+/// from_wire refuses a message with a number that is not finite, an unknown enumeration value, a
+/// polygon of one or two vertices, a vehicle id outside 1 ... 30, or more entries than anybody
+/// sends.
+namespace hlc {
+
+/// False if the vehicle id is outside 1 ... 30: there would be no room for its instance.
+[[nodiscard]] bool can_be_written(const Traffic& message);
+[[nodiscard]] bool can_be_written(const Prediction& message);
+[[nodiscard]] bool can_be_written(const Outcome& message);
+[[nodiscard]] bool can_be_written(const ReportRecord& message);
+
+void to_wire(const Traffic& message, TrafficMessage& wire);
+void to_wire(const Prediction& message, PredictionMessage& wire);
+void to_wire(const Outcome& message, OutcomeMessage& wire);
+void to_wire(const ReportRecord& message, ReportMessage& wire);
+void to_wire(const RunState& message, RunStateMessage& wire);
+
+[[nodiscard]] Incoming<Traffic> from_wire(const TrafficMessage& wire);
+[[nodiscard]] Incoming<Prediction> from_wire(const PredictionMessage& wire);
+[[nodiscard]] Incoming<Outcome> from_wire(const OutcomeMessage& wire);
+[[nodiscard]] Incoming<ReportRecord> from_wire(const ReportMessage& wire);
+[[nodiscard]] Incoming<RunState> from_wire(const RunStateMessage& wire);
+
+}  // namespace hlc

@@ -1,0 +1,299 @@
+#include "hlc_bridge/dds/convert_lab.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+// The structured bindings name every field of a plain message, so that a new field does not compile
+// until it is carried over.
+namespace hlc {
+namespace {
+
+::Header header(Nanoseconds create_stamp, Nanoseconds valid_after_stamp) {
+  ::Header result;
+  result.create_stamp().nanoseconds(create_stamp);
+  result.valid_after_stamp().nanoseconds(valid_after_stamp);
+  return result;
+}
+
+::Pose2D pose_to_wire(const Pose& pose) {
+  ::Pose2D result;
+  result.x(pose.x_m);
+  result.y(pose.y_m);
+  result.yaw(pose.heading_rad);
+  return result;
+}
+
+Pose pose_from_wire(const ::Pose2D& wire) { return {wire.x(), wire.y(), wire.yaw()}; }
+
+template <class Message, class Wire>
+std::vector<Wire> all_to_wire(const std::vector<Message>& messages) {
+  std::vector<Wire> result(messages.size());
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    to_wire(messages[i], result[i]);
+  }
+  return result;
+}
+
+// The valid ones of them; the others are counted in `invalid`.
+template <class Message, class Wire>
+std::vector<Message> valid_ones(const std::vector<Wire>& wire, std::uint64_t& invalid) {
+  std::vector<Message> result;
+  for (const Wire& entry : wire) {
+    const Incoming<Message> incoming = from_wire(entry);
+    if (incoming.message) {
+      result.push_back(*incoming.message);
+    }
+    invalid += incoming.invalid;
+  }
+  return result;
+}
+
+}  // namespace
+
+void to_wire(const VehicleState& message, ::VehicleState& wire) {
+  const auto& [vehicle_id, create_stamp, valid_after_stamp, pose, ips_update_age,
+               odometer_distance_m, imu_acceleration_forward_mps2, imu_acceleration_left_mps2,
+               imu_acceleration_up_mps2, imu_yaw_rad, imu_yaw_rate_radps, speed_mps,
+               battery_voltage_v, motor_current_a, motor_throttle, steering_servo, is_real] =
+      message;
+  wire.vehicle_id(vehicle_id);
+  wire.header(header(create_stamp, valid_after_stamp));
+  wire.pose(pose_to_wire(pose));
+  wire.IPS_update_age_nanoseconds(ips_update_age);
+  wire.odometer_distance(odometer_distance_m);
+  wire.imu_acceleration_forward(imu_acceleration_forward_mps2);
+  wire.imu_acceleration_left(imu_acceleration_left_mps2);
+  wire.imu_acceleration_up(imu_acceleration_up_mps2);
+  wire.imu_yaw(imu_yaw_rad);
+  wire.imu_yaw_rate(imu_yaw_rate_radps);
+  wire.speed(speed_mps);
+  wire.battery_voltage(battery_voltage_v);
+  wire.motor_current(motor_current_a);
+  wire.motor_throttle(motor_throttle);
+  wire.steering_servo(steering_servo);
+  wire.is_real(is_real);
+}
+
+Incoming<VehicleState> from_wire(const ::VehicleState& wire) {
+  const VehicleState message{.vehicle_id = wire.vehicle_id(),
+                             .create_stamp = wire.header().create_stamp().nanoseconds(),
+                             .valid_after_stamp = wire.header().valid_after_stamp().nanoseconds(),
+                             .pose = pose_from_wire(wire.pose()),
+                             .ips_update_age = wire.IPS_update_age_nanoseconds(),
+                             .odometer_distance_m = wire.odometer_distance(),
+                             .imu_acceleration_forward_mps2 = wire.imu_acceleration_forward(),
+                             .imu_acceleration_left_mps2 = wire.imu_acceleration_left(),
+                             .imu_acceleration_up_mps2 = wire.imu_acceleration_up(),
+                             .imu_yaw_rad = wire.imu_yaw(),
+                             .imu_yaw_rate_radps = wire.imu_yaw_rate(),
+                             .speed_mps = wire.speed(),
+                             .battery_voltage_v = wire.battery_voltage(),
+                             .motor_current_a = wire.motor_current(),
+                             .motor_throttle = wire.motor_throttle(),
+                             .steering_servo = wire.steering_servo(),
+                             .is_real = wire.is_real()};
+  const bool valid =
+      is_finite(message.pose) &&
+      all_finite(message.odometer_distance_m, message.imu_acceleration_forward_mps2,
+                 message.imu_acceleration_left_mps2, message.imu_acceleration_up_mps2,
+                 message.imu_yaw_rad, message.imu_yaw_rate_radps, message.speed_mps,
+                 message.battery_voltage_v, message.motor_current_a, message.motor_throttle,
+                 message.steering_servo);
+  return valid_if(valid, message);
+}
+
+void to_wire(const VehicleObservation& message, ::VehicleObservation& wire) {
+  const auto& [vehicle_id, create_stamp, valid_after_stamp, pose] = message;
+  wire.vehicle_id(vehicle_id);
+  wire.header(header(create_stamp, valid_after_stamp));
+  wire.pose(pose_to_wire(pose));
+}
+
+Incoming<VehicleObservation> from_wire(const ::VehicleObservation& wire) {
+  const VehicleObservation message{wire.vehicle_id(), wire.header().create_stamp().nanoseconds(),
+                                   wire.header().valid_after_stamp().nanoseconds(),
+                                   pose_from_wire(wire.pose())};
+  return valid_if(is_finite(message.pose), message);
+}
+
+void to_wire(const VehicleStateList& message, ::VehicleStateList& wire) {
+  const auto& [t_now, period_ms, states, observations, active_vehicle_ids] = message;
+  wire.t_now(t_now);
+  wire.period_ms(period_ms);
+  wire.state_list(all_to_wire<VehicleState, ::VehicleState>(states));
+  wire.vehicle_observation_list(
+      all_to_wire<VehicleObservation, ::VehicleObservation>(observations));
+  wire.active_vehicle_ids(active_vehicle_ids);
+}
+
+Incoming<VehicleStateList> from_wire(const ::VehicleStateList& wire) {
+  const auto& ids = wire.active_vehicle_ids();
+  const bool valid = wire.period_ms() > 0 && wire.state_list().size() <= kMaxEntries &&
+                     wire.vehicle_observation_list().size() <= kMaxEntries &&
+                     ids.size() <= kMaxEntries &&
+                     std::ranges::all_of(ids, [](std::int32_t id) { return 1 <= id && id <= 255; });
+  if (!valid) {
+    return {std::nullopt, 1};
+  }
+  Incoming<VehicleStateList> result;
+  result.message = VehicleStateList{
+      wire.t_now(), wire.period_ms(), valid_ones<VehicleState>(wire.state_list(), result.invalid),
+      valid_ones<VehicleObservation>(wire.vehicle_observation_list(), result.invalid), ids};
+  return result;
+}
+
+void to_wire(const TrajectoryCommand& message, ::VehicleCommandTrajectory& wire) {
+  const auto& [vehicle_id, create_stamp, valid_after_stamp, points] = message;
+  wire.vehicle_id(vehicle_id);
+  wire.header(header(create_stamp, valid_after_stamp));
+  wire.trajectory_points().clear();
+  for (const auto& [t, x_m, y_m, vx_mps, vy_mps] : points) {
+    ::TrajectoryPoint point;
+    point.t().nanoseconds(t);
+    point.px(x_m);
+    point.py(y_m);
+    point.vx(vx_mps);
+    point.vy(vy_mps);
+    wire.trajectory_points().push_back(point);
+  }
+}
+
+Incoming<TrajectoryCommand> from_wire(const ::VehicleCommandTrajectory& wire) {
+  if (wire.trajectory_points().size() > kMaxEntries) {
+    return {std::nullopt, 1};
+  }
+  TrajectoryCommand message{wire.vehicle_id(),
+                            wire.header().create_stamp().nanoseconds(),
+                            wire.header().valid_after_stamp().nanoseconds(),
+                            {}};
+  for (const ::TrajectoryPoint& point : wire.trajectory_points()) {
+    message.points.push_back(
+        {point.t().nanoseconds(), point.px(), point.py(), point.vx(), point.vy()});
+  }
+  const bool valid = std::ranges::all_of(message.points, [](const TrajectoryPoint& point) {
+    return all_finite(point.x_m, point.y_m, point.vx_mps, point.vy_mps);
+  });
+  return valid_if(valid, message);
+}
+
+void to_wire(const ReadyStatus& message, ::ReadyStatus& wire) {
+  const auto& [source_id, next_start] = message;
+  wire.source_id(source_id);
+  wire.next_start_stamp().nanoseconds(next_start);
+}
+
+Incoming<ReadyStatus> from_wire(const ::ReadyStatus& wire) {
+  return valid_if(wire.source_id().size() <= kMaxText,
+                  ReadyStatus{wire.source_id(), wire.next_start_stamp().nanoseconds()});
+}
+
+void to_wire(const SystemTrigger& message, ::SystemTrigger& wire) {
+  const auto& [next_start] = message;
+  wire.next_start().nanoseconds(next_start);
+}
+
+Incoming<SystemTrigger> from_wire(const ::SystemTrigger& wire) {
+  return {SystemTrigger{wire.next_start().nanoseconds()}, 0};
+}
+
+void to_wire(const Parameter& message, ::Parameter& wire) {
+  const auto& [name, value] = message;
+  wire = {};
+  wire.name(name);
+  wire.type(static_cast<::ParameterType>(value.index()));
+  std::visit(
+      [&](const auto& held) {
+        using Held = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<Held, bool>) {
+          wire.value_bool(held);
+        } else if constexpr (std::is_same_v<Held, std::int32_t>) {
+          wire.values_int32({held});
+        } else if constexpr (std::is_same_v<Held, std::uint64_t>) {
+          wire.value_uint64_t(held);
+        } else if constexpr (std::is_same_v<Held, double>) {
+          wire.values_double({held});
+        } else if constexpr (std::is_same_v<Held, std::string>) {
+          wire.value_string(held);
+        } else if constexpr (std::is_same_v<Held, std::vector<std::int32_t>>) {
+          wire.values_int32(held);
+        } else if constexpr (std::is_same_v<Held, std::vector<double>>) {
+          wire.values_double(held);
+        }
+      },
+      value);
+}
+
+Incoming<Parameter> from_wire(const ::Parameter& wire) {
+  const auto& integers = wire.values_int32();
+  const auto& doubles = wire.values_double();
+  const bool plausible =
+      wire.name().size() <= kMaxText && wire.value_string().size() <= kMaxText &&
+      integers.size() <= kMaxEntries && doubles.size() <= kMaxEntries &&
+      std::ranges::all_of(doubles, [](double value) { return std::isfinite(value); });
+  if (!plausible) {
+    return {std::nullopt, 1};
+  }
+  const auto with = [&](ParameterValue value) {
+    return Incoming<Parameter>{Parameter{wire.name(), std::move(value)}, 0};
+  };
+  switch (wire.type()) {
+    case ::Invalid:
+      return with(std::monostate{});
+    case ::Bool:
+      return with(wire.value_bool());
+    case ::Int32:
+      return integers.size() == 1 ? with(integers.front()) : Incoming<Parameter>{std::nullopt, 1};
+    case ::UInt64:
+      return with(wire.value_uint64_t());
+    case ::Double:
+      return doubles.size() == 1 ? with(doubles.front()) : Incoming<Parameter>{std::nullopt, 1};
+    case ::String:
+      return with(wire.value_string());
+    case ::Vector_Int32:
+      return with(integers);
+    case ::Vector_Double:
+      return with(doubles);
+  }
+  return {std::nullopt, 1};
+}
+
+void to_wire(const ParameterRequest& message, ::ParameterRequest& wire) {
+  const auto& [name] = message;
+  wire.name(name);
+}
+
+Incoming<ParameterRequest> from_wire(const ::ParameterRequest& wire) {
+  return valid_if(wire.name().size() <= kMaxText, ParameterRequest{wire.name()});
+}
+
+void to_wire(const StopRequest& message, ::StopRequest& wire) {
+  const auto& [vehicle_id] = message;
+  wire.vehicle_id(vehicle_id);
+}
+
+Incoming<StopRequest> from_wire(const ::StopRequest& wire) {
+  return {StopRequest{wire.vehicle_id()}, 0};
+}
+
+void to_wire(const Log& message, ::Log& wire) {
+  const auto& [id, content, stamp, level] = message;
+  wire.id(id);
+  wire.content(content);
+  wire.stamp().nanoseconds(stamp);
+  wire.log_level(level);
+}
+
+Incoming<Log> from_wire(const ::Log& wire) {
+  return valid_if(wire.id().size() <= kMaxText && wire.content().size() <= kMaxText,
+                  Log{wire.id(), wire.content(), wire.stamp().nanoseconds(), wire.log_level()});
+}
+
+void to_wire(const LogLevel& message, ::LogLevel& wire) {
+  const auto& [level] = message;
+  wire.log_level(level);
+}
+
+Incoming<LogLevel> from_wire(const ::LogLevel& wire) { return {LogLevel{wire.log_level()}, 0}; }
+
+}  // namespace hlc

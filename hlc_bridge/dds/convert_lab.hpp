@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Log.h>
+#include <LogLevel.h>
+#include <Parameter.h>
+#include <ParameterRequest.h>
+#include <ReadyStatus.h>
+#include <StopRequest.h>
+#include <SystemTrigger.h>
+#include <VehicleCommandTrajectory.h>
+#include <VehicleObservation.h>
+#include <VehicleState.h>
+#include <VehicleStateList.h>
+
+#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/dds/conversion.hpp"
+
+/// The lab's generated types to and from plain messages. Only sources of this folder (and its
+/// tests) include this file.
+///
+/// from_wire refuses a message with a number that is not finite, an unknown enumeration value, more
+/// entries than anybody sends, or a state list with a period of 0 or an active id outside 1 ...
+/// 255. One vehicle's invalid state or observation in a list does not make the list invalid: it is
+/// left out, and the others are handed on.
+namespace hlc {
+
+void to_wire(const VehicleState& message, ::VehicleState& wire);
+void to_wire(const VehicleObservation& message, ::VehicleObservation& wire);
+void to_wire(const VehicleStateList& message, ::VehicleStateList& wire);
+void to_wire(const TrajectoryCommand& message, ::VehicleCommandTrajectory& wire);
+void to_wire(const ReadyStatus& message, ::ReadyStatus& wire);
+void to_wire(const SystemTrigger& message, ::SystemTrigger& wire);
+void to_wire(const Parameter& message, ::Parameter& wire);
+void to_wire(const ParameterRequest& message, ::ParameterRequest& wire);
+void to_wire(const StopRequest& message, ::StopRequest& wire);
+void to_wire(const Log& message, ::Log& wire);
+void to_wire(const LogLevel& message, ::LogLevel& wire);
+
+[[nodiscard]] Incoming<VehicleState> from_wire(const ::VehicleState& wire);
+[[nodiscard]] Incoming<VehicleObservation> from_wire(const ::VehicleObservation& wire);
+[[nodiscard]] Incoming<VehicleStateList> from_wire(const ::VehicleStateList& wire);
+[[nodiscard]] Incoming<TrajectoryCommand> from_wire(const ::VehicleCommandTrajectory& wire);
+[[nodiscard]] Incoming<ReadyStatus> from_wire(const ::ReadyStatus& wire);
+[[nodiscard]] Incoming<SystemTrigger> from_wire(const ::SystemTrigger& wire);
+[[nodiscard]] Incoming<Parameter> from_wire(const ::Parameter& wire);
+[[nodiscard]] Incoming<ParameterRequest> from_wire(const ::ParameterRequest& wire);
+[[nodiscard]] Incoming<StopRequest> from_wire(const ::StopRequest& wire);
+[[nodiscard]] Incoming<Log> from_wire(const ::Log& wire);
+[[nodiscard]] Incoming<LogLevel> from_wire(const ::LogLevel& wire);
+
+}  // namespace hlc

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "hlc_bridge/dds/topics.hpp"
+#include "hlc_bridge/dds/transport.hpp"
+
+namespace hlc {
+
+enum class Reliability : std::uint8_t { kBestEffort, kReliable };
+enum class Durability : std::uint8_t { kVolatile, kTransientLocal };
+
+/// Every quality of service of one writer or reader that this project decides on. Nothing is left
+/// to the library's defaults, which differ between writers and readers and hold 10 instances only.
+struct EndpointQos {
+  Reliability reliability{};
+  Durability durability{};
+  int history_depth{};  ///< samples kept, per instance if keyed; 0: keep all, up to the limits
+  int max_instances{};  ///< 1 without key
+  int max_samples_per_instance{};
+  int max_samples{};    ///< max_instances * max_samples_per_instance
+  bool data_sharing{};  ///< the library's AUTO; else off
+  /// The library may allocate a whole history of the types' nominal sizes at once: good for the
+  /// lab's small types (and needed for data sharing), not for lists of polygons.
+  bool preallocated{};
+  std::chrono::milliseconds max_blocking{};        ///< a write gives up after this
+  std::chrono::milliseconds heartbeat_period{};    ///< writer: until all is acknowledged
+  std::chrono::milliseconds heartbeat_delay{};     ///< writer: before the first one
+  std::chrono::milliseconds nack_response{};       ///< writer: from a loss reported to its repair
+  std::chrono::milliseconds nack_suppression{};    ///< writer: repeated reports ignored for
+  std::chrono::milliseconds initial_acknack{};     ///< reader: from the match to the first report
+  std::chrono::milliseconds heartbeat_response{};  ///< reader: from a heartbeat to the report
+};
+
+struct TopicQos {
+  EndpointQos writer;
+  EndpointQos reader;
+};
+
+/// The row of the table for this topic. Throws std::invalid_argument if the topic does not belong
+/// on a domain of that role.
+[[nodiscard]] TopicQos topic_qos(TopicId id, DomainRole role, Transport transport);
+
+/// Vehicles on one keyed topic at most.
+inline constexpr int kMaxInstances = 32;
+
+}  // namespace hlc

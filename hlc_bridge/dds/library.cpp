@@ -1,0 +1,35 @@
+#include "hlc_bridge/dds/library.hpp"
+
+#include <memory>
+#include <mutex>
+
+#include <fastrtps/attributes/LibrarySettingsAttributes.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/log/StdoutErrConsumer.hpp>
+
+#include "hlc_bridge/dds/register_lab_types.hpp"
+
+namespace hlc {
+
+void set_up_library() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    namespace fdds = eprosima::fastdds::dds;
+    namespace frtps = eprosima::fastrtps;
+    fdds::Log::ClearConsumers();
+    fdds::Log::RegisterConsumer(std::make_unique<fdds::StdoutErrConsumer>());
+    frtps::LibrarySettingsAttributes settings;
+    settings.intraprocess_delivery = frtps::INTRAPROCESS_OFF;
+    frtps::xmlparser::XMLProfileManager::library_settings(settings);
+    register_lab_types();
+  });
+}
+
+eprosima::fastrtps::Duration_t to_duration(std::chrono::nanoseconds time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+  return {static_cast<std::int32_t>(seconds.count()),
+          static_cast<std::uint32_t>((time - seconds).count())};
+}
+
+}  // namespace hlc

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+
+#include <fastrtps/qos/QosPolicies.h>
+
+/// What every participant, writer and reader needs of Fast DDS. Only sources of this folder include
+/// it.
+namespace hlc {
+
+/// Once per process, before its first participant: registers the lab's types
+/// (register_lab_types.hpp), turns off delivery within the process, and sends the library's own
+/// errors to stderr.
+///
+/// Without delivery within the process a write never calls a reader's callback in the writing
+/// thread, and two participants in one test talk exactly as two processes do.
+void set_up_library();
+
+[[nodiscard]] eprosima::fastrtps::Duration_t to_duration(std::chrono::nanoseconds time);
+
+}  // namespace hlc

@@ -1,0 +1,91 @@
+#include "hlc_bridge/dds/participant_qos.hpp"
+
+#include <memory>
+#include <stdexcept>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include "hlc_bridge/dds/library.hpp"
+
+namespace hlc {
+namespace {
+
+using eprosima::fastdds::dds::DomainParticipantQos;
+using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+namespace frtps = eprosima::fastrtps::rtps;
+using namespace std::chrono_literals;
+
+constexpr auto kRealTimeLease = 2s;
+constexpr auto kLogicalTimeLease = 10s;
+constexpr int kAnnouncementsPerLease = 4;
+constexpr std::uint32_t kSocketBufferBytes = 1U << 20U;  // the system may grant less
+
+void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos) {
+  const bool loopback = options.transport == Transport::kLoopback;
+  if (!loopback && options.role == DomainRole::kLab) {
+    return;  // the library's own
+  }
+  qos.transport().use_builtin_transports = false;
+  if (!loopback && options.role == DomainRole::kLocal) {
+    qos.transport().user_transports = {std::make_shared<SharedMemTransportDescriptor>()};
+    return;
+  }
+  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  if (loopback) {
+    udp->interfaceWhiteList = {"127.0.0.1"};
+    udp->sendBufferSize = kSocketBufferBytes;
+    udp->receiveBufferSize = kSocketBufferBytes;
+  }
+  qos.transport().user_transports = {udp};
+}
+
+void set_lease(const ParticipantOptions& options, DomainParticipantQos& qos) {
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  const std::chrono::nanoseconds lease = options.logical_time ? kLogicalTimeLease : kRealTimeLease;
+  discovery.leaseDuration = to_duration(lease);
+  discovery.leaseDuration_announcementperiod = to_duration(lease / kAnnouncementsPerLease);
+  discovery.initial_announcements = {5, to_duration(100ms)};
+}
+
+// As the lab's own clients do it.
+void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos) {
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  discovery.discoveryProtocol = frtps::DiscoveryProtocol::SIMPLE;
+  if (!options.discovery_server) {
+    return;
+  }
+  if (options.role == DomainRole::kLocal) {
+    throw std::invalid_argument("participant " + options.name +
+                                ": the local domain has no discovery server");
+  }
+  eprosima::fastdds::rtps::RemoteServerAttributes server;
+  if (!server.ReadguidPrefix(options.discovery_server->guid_prefix.c_str())) {
+    throw std::invalid_argument("discovery server id \"" + options.discovery_server->guid_prefix +
+                                "\": 12 bytes in hexadecimal with dots between them");
+  }
+  frtps::Locator_t address;
+  frtps::IPLocator::setIPv4(address, options.discovery_server->ip);
+  address.port = options.discovery_server->port;
+  server.metatrafficUnicastLocatorList.push_back(address);
+  discovery.discoveryProtocol = frtps::DiscoveryProtocol::CLIENT;
+  discovery.m_DiscoveryServers.push_back(server);
+  discovery.discoveryServer_client_syncperiod = to_duration(250ms);
+  // Any port of ours, unicast: a client needs no multicast.
+  qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(frtps::Locator_t{});
+}
+
+}  // namespace
+
+DomainParticipantQos participant_qos(const ParticipantOptions& options) {
+  DomainParticipantQos qos;
+  qos.name(options.name);
+  set_transport(options, qos);
+  set_lease(options, qos);
+  set_discovery(options, qos);
+  return qos;
+}
+
+}  // namespace hlc

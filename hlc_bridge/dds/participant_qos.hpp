@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+
+#include "hlc_bridge/dds/participant.hpp"
+
+namespace hlc {
+
+inline constexpr std::size_t kMaxParticipantName = 255;
+
+/// Transports, lease and discovery of a participant:
+///
+/// | | lab domain | local domain | controller domain |
+/// | --- | --- | --- | --- |
+/// | loopback | UDP on 127.0.0.1 | the same | the same |
+/// | lab | the library's own: UDP and shared memory | shared memory only | UDP |
+///
+/// Throws std::invalid_argument for a discovery server on the local domain (shared memory needs
+/// none). Only sources of this folder include this file.
+[[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant_qos(
+    const ParticipantOptions& options);
+
+}  // namespace hlc

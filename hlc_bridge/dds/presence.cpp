@@ -1,0 +1,35 @@
+#include "hlc_bridge/dds/presence.hpp"
+
+#include <algorithm>
+
+namespace hlc {
+
+void Presence::appeared(const ParticipantKey& key, const std::string& name) {
+  if (!names_.emplace(key, name).second) {
+    return;
+  }
+  alive_.insert(name);
+  lost_.erase(name);
+}
+
+void Presence::left(const ParticipantKey& key) {
+  const auto found = names_.find(key);
+  if (found == names_.end()) {
+    return;
+  }
+  const std::string name = found->second;
+  names_.erase(found);
+  const bool still_there =
+      std::ranges::any_of(names_, [&](const auto& entry) { return entry.second == name; });
+  if (!still_there) {
+    alive_.erase(name);
+    lost_.insert(name);
+  }
+}
+
+const std::string* Presence::name_of(const ParticipantKey& key) const {
+  const auto found = names_.find(key);
+  return found == names_.end() ? nullptr : &found->second;
+}
+
+}  // namespace hlc

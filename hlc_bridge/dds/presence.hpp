@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+
+namespace hlc {
+
+/// What identifies a participant on the wire (the first 12 bytes of a GUID).
+using ParticipantKey = std::array<std::uint8_t, 12>;
+
+/// Who is on a domain. Several participants can bear one name: the name is alive as long as one of
+/// them is. Not thread-safe.
+class Presence {
+ public:
+  void appeared(const ParticipantKey& key, const std::string& name);
+  void left(const ParticipantKey& key);
+
+  /// Names that somebody bears now.
+  [[nodiscard]] const std::set<std::string>& alive() const { return alive_; }
+  /// Names that somebody bore and nobody bears now.
+  [[nodiscard]] const std::set<std::string>& lost() const { return lost_; }
+  /// nullptr if that participant is not there.
+  [[nodiscard]] const std::string* name_of(const ParticipantKey& key) const;
+
+ private:
+  std::map<ParticipantKey, std::string> names_;
+  std::set<std::string> alive_;
+  std::set<std::string> lost_;
+};
+
+}  // namespace hlc

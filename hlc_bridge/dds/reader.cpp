@@ -1,0 +1,88 @@
+#include "hlc_bridge/dds/reader.hpp"
+
+#include <utility>
+
+#include "hlc_bridge/dds/endpoint_qos.hpp"
+#include "hlc_bridge/dds/reader_endpoint.hpp"
+#include "hlc_bridge/dds/wire.hpp"
+
+namespace hlc {
+namespace {
+
+// Converts, hands on what is valid, returns the number of what is not.
+template <class Message>
+std::function<std::uint64_t(const void*)> converting(
+    std::function<void(const Message&)> on_message) {
+  return [on_message = std::move(on_message)](const void* sample) {
+    const auto incoming = from_wire(*static_cast<const typename Wire<Message>::Type*>(sample));
+    if (incoming.message) {
+      on_message(*incoming.message);
+    }
+    return incoming.invalid;
+  };
+}
+
+}  // namespace
+
+template <class Message>
+Reader<Message>::Reader(Participant& participant, const Topic<Message>& topic,
+                        std::function<void(const Message&)> on_message,
+                        std::function<void()> on_matched_change)
+    : endpoint_{std::make_unique<ReaderEndpoint>(
+          participant.core(), topic.name, type_support<Message>(),
+          topic_qos(topic.id, participant.options().role, participant.options().transport).reader,
+          converting<Message>(std::move(on_message)), std::move(on_matched_change))} {}
+
+template <class Message>
+Reader<Message>::~Reader() = default;
+
+template <class Message>
+std::size_t Reader<Message>::matched() const {
+  return endpoint_->peers().count();
+}
+
+template <class Message>
+std::set<std::string> Reader<Message>::matched_names() const {
+  return endpoint_->peers().names();
+}
+
+template <class Message>
+bool Reader<Message>::wait_for_matched(std::size_t count,
+                                       std::chrono::steady_clock::time_point deadline) const {
+  return endpoint_->peers().wait_for(count, deadline);
+}
+
+template <class Message>
+bool Reader<Message>::wait_for_matched(const std::set<std::string>& names,
+                                       std::chrono::steady_clock::time_point deadline) const {
+  return endpoint_->peers().wait_for(names, deadline);
+}
+
+template <class Message>
+std::uint64_t Reader<Message>::dropped() const {
+  return endpoint_->dropped();
+}
+
+template <class Message>
+std::uint64_t Reader<Message>::lost() const {
+  return endpoint_->lost();
+}
+
+template class Reader<VehicleState>;
+template class Reader<VehicleObservation>;
+template class Reader<VehicleStateList>;
+template class Reader<TrajectoryCommand>;
+template class Reader<ReadyStatus>;
+template class Reader<SystemTrigger>;
+template class Reader<Parameter>;
+template class Reader<ParameterRequest>;
+template class Reader<StopRequest>;
+template class Reader<Log>;
+template class Reader<LogLevel>;
+template class Reader<Traffic>;
+template class Reader<Prediction>;
+template class Reader<Outcome>;
+template class Reader<ReportRecord>;
+template class Reader<RunState>;
+
+}  // namespace hlc

@@ -1,0 +1,65 @@
+#include "hlc_bridge/dds/reader_endpoint.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include "hlc_bridge/dds/library_qos.hpp"
+
+namespace hlc {
+
+ReaderEndpoint::ReaderEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
+                               const fdds::TypeSupport& type, const EndpointQos& qos,
+                               std::function<std::uint64_t(const void* sample)> on_sample,
+                               std::function<void()> on_matched_change)
+    : core_{std::move(core)},
+      type_{type},
+      on_sample_{std::move(on_sample)},
+      peers_{EndpointPeers::create(core_, PeerKind::kWriter, topic, std::move(on_matched_change))} {
+  fdds::StatusMask events = fdds::StatusMask::data_available();
+  events << fdds::StatusMask::subscription_matched() << fdds::StatusMask::sample_lost()
+         << fdds::StatusMask::sample_rejected();
+  reader_ = core_->subscriber().create_datareader(&core_->topic(topic, type), reader_qos(qos), this,
+                                                  events);
+  if (reader_ == nullptr) {
+    throw std::runtime_error("reader on topic " + topic + " could not be created");
+  }
+}
+
+ReaderEndpoint::~ReaderEndpoint() {
+  gate_.close();
+  peers_->close();
+  reader_->set_listener(nullptr);
+  core_->subscriber().delete_datareader(reader_);
+}
+
+void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
+  gate_.enter([&] {
+    const std::shared_ptr<void> sample{type_.create_data(),
+                                       [this](void* data) { type_.delete_data(data); }};
+    fdds::SampleInfo info;
+    while (reader->take_next_sample(sample.get(), &info) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data && !core_->is_own(frtps::iHandle2GUID(info.publication_handle))) {
+        dropped_ += on_sample_(sample.get());
+      }
+    }
+  });
+}
+
+void ReaderEndpoint::on_subscription_matched(fdds::DataReader*,
+                                             const fdds::SubscriptionMatchedStatus& status) {
+  peers_->on_matched(status, status.last_publication_handle);
+}
+
+void ReaderEndpoint::on_sample_lost(fdds::DataReader*, const fdds::SampleLostStatus& status) {
+  lost_ += static_cast<std::uint64_t>(status.total_count_change);
+}
+
+void ReaderEndpoint::on_sample_rejected(fdds::DataReader*,
+                                        const fdds::SampleRejectedStatus& status) {
+  lost_ += static_cast<std::uint64_t>(status.total_count_change);
+}
+
+}  // namespace hlc

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+
+#include "hlc_bridge/dds/endpoint_peers.hpp"
+#include "hlc_bridge/dds/endpoint_qos.hpp"
+
+namespace hlc {
+
+/// A Fast DDS reader of any type. Only sources of this folder include this file.
+class ReaderEndpoint : private fdds::DataReaderListener {
+ public:
+  /// `on_sample(sample)`: `sample` is of the type's generated class; returns the number of invalid
+  /// entries found.
+  ReaderEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
+                 const fdds::TypeSupport& type, const EndpointQos& qos,
+                 std::function<std::uint64_t(const void* sample)> on_sample,
+                 std::function<void()> on_matched_change);
+  ~ReaderEndpoint() override;
+  ReaderEndpoint(const ReaderEndpoint&) = delete;
+  ReaderEndpoint& operator=(const ReaderEndpoint&) = delete;
+
+  [[nodiscard]] const EndpointPeers& peers() const { return *peers_; }
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+  [[nodiscard]] std::uint64_t lost() const { return lost_; }
+
+ private:
+  void on_data_available(fdds::DataReader* reader) override;
+  void on_subscription_matched(fdds::DataReader* reader,
+                               const fdds::SubscriptionMatchedStatus& status) override;
+  void on_sample_lost(fdds::DataReader* reader, const fdds::SampleLostStatus& status) override;
+  void on_sample_rejected(fdds::DataReader* reader,
+                          const fdds::SampleRejectedStatus& status) override;
+
+  std::shared_ptr<ParticipantCore> core_;
+  fdds::TypeSupport type_;
+  std::function<std::uint64_t(const void*)> on_sample_;
+  Gate gate_;
+  std::atomic<std::uint64_t> dropped_{};
+  std::atomic<std::uint64_t> lost_{};
+  std::shared_ptr<EndpointPeers> peers_;
+  fdds::DataReader* reader_{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,106 @@
+#include "hlc_bridge/dds/transport.hpp"
+
+#include <arpa/inet.h>
+
+#include <charconv>
+#include <regex>
+#include <stdexcept>
+
+namespace hlc {
+namespace {
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+[[noreturn]] void refuse(const std::string& flag, const std::string& value,
+                         const std::string& allowed) {
+  throw std::invalid_argument(flag + ": " + value + " is not allowed, " + allowed);
+}
+
+void refuse_equal(const char* first_flag, const std::optional<int>& first, const char* second_flag,
+                  const std::optional<int>& second) {
+  if (first && second && *first == *second) {
+    refuse(second_flag, std::to_string(*second),
+           std::string{"it must differ from "} + first_flag + " " + std::to_string(*first));
+  }
+}
+
+}  // namespace
+
+Transport transport_from_name(const std::string& name) {
+  if (name == "loopback") {
+    return Transport::kLoopback;
+  }
+  if (name == "lab") {
+    return Transport::kLab;
+  }
+  refuse("--transport", quoted(name), "lab or loopback");
+}
+
+void check_domain_id(const std::string& flag, int id) {
+  if (id < kMinDomainId || id > kMaxDomainId) {
+    refuse(flag, std::to_string(id),
+           std::to_string(kMinDomainId) + " to " + std::to_string(kMaxDomainId));
+  }
+}
+
+std::vector<std::string> check_domains(const Domains& domains, Transport transport) {
+  if (domains.lab) {
+    check_domain_id("--dds_domain", *domains.lab);
+  }
+  if (domains.local) {
+    check_domain_id("--middleware_domain", *domains.local);
+  }
+  if (domains.controller) {
+    check_domain_id("--controller_domain", *domains.controller);
+  }
+  refuse_equal("--dds_domain", domains.lab, "--controller_domain", domains.controller);
+  refuse_equal("--middleware_domain", domains.local, "--controller_domain", domains.controller);
+  if (transport == Transport::kLab && domains.lab && domains.lab == domains.local) {
+    return {"--middleware_domain: " + std::to_string(*domains.local) +
+            " is also --dds_domain; this works only because they use different transports"};
+  }
+  refuse_equal("--dds_domain", domains.lab, "--middleware_domain", domains.local);
+  return {};
+}
+
+int default_controller_domain(int lab_domain) {
+  const int domain = lab_domain + 50;
+  if (domain > 100) {
+    refuse("--controller_domain", "the default --dds_domain + 50 = " + std::to_string(domain),
+           "above 100 it must be given");
+  }
+  return domain;
+}
+
+std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
+                                                    const std::string& server_id,
+                                                    const std::string& server_ip,
+                                                    const std::string& server_port) {
+  if (mode != "" && mode != "simple" && mode != "client") {
+    refuse("--discovery_mode", quoted(mode), "simple or client");
+  }
+  if (mode != "client") {
+    if (mode.empty() && !(server_id + server_ip + server_port).empty()) {
+      refuse("--discovery_mode", quoted(mode), "with a discovery server it must be client");
+    }
+    return std::nullopt;
+  }
+  static const std::regex kPrefix{"[0-9a-fA-F]{2}(\\.[0-9a-fA-F]{2}){11}"};
+  if (!std::regex_match(server_id, kPrefix)) {
+    refuse("--discovery_server_id", quoted(server_id),
+           "12 bytes in hexadecimal with dots between them");
+  }
+  in_addr address{};
+  if (inet_pton(AF_INET, server_ip.c_str(), &address) != 1) {
+    refuse("--discovery_server_ip", quoted(server_ip), "an IPv4 address");
+  }
+  DiscoveryServer server{server_id, server_ip, 0};
+  const char* const end = server_port.data() + server_port.size();
+  const auto [parsed_end, error] = std::from_chars(server_port.data(), end, server.port);
+  if (error != std::errc{} || parsed_end != end || server.port == 0) {
+    refuse("--discovery_server_port", quoted(server_port), "1 to 65535");
+  }
+  return server;
+}
+
+}  // namespace hlc

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <exception>
+
+#include <LogLevelPubSubTypes.h>
+#include <LogPubSubTypes.h>
+#include <OutcomeMessagePubSubTypes.h>
+#include <ParameterPubSubTypes.h>
+#include <ParameterRequestPubSubTypes.h>
+#include <PredictionMessagePubSubTypes.h>
+#include <ReadyStatusPubSubTypes.h>
+#include <ReportMessagePubSubTypes.h>
+#include <RunStateMessagePubSubTypes.h>
+#include <StopRequestPubSubTypes.h>
+#include <SystemTriggerPubSubTypes.h>
+#include <TrafficMessagePubSubTypes.h>
+#include <VehicleCommandTrajectoryPubSubTypes.h>
+#include <VehicleObservationPubSubTypes.h>
+#include <VehicleStateListPubSubTypes.h>
+#include <VehicleStatePubSubTypes.h>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include "hlc_bridge/dds/convert_hlc.hpp"
+#include "hlc_bridge/dds/convert_lab.hpp"
+
+/// Which generated type carries a plain message. Only sources of this folder (and its tests)
+/// include this file.
+namespace hlc {
+
+template <class Message>
+struct Wire;
+
+/// A lab type: announces its type object, as the lab's processes do.
+template <class GeneratedType, class GeneratedPubSubType>
+struct LabWire {
+  using Type = GeneratedType;
+  using PubSubType = GeneratedPubSubType;
+  static constexpr bool kAnnouncesTypeObject = true;
+};
+
+/// Our own: never announces one.
+template <class GeneratedType, class GeneratedPubSubType>
+struct OwnWire {
+  using Type = GeneratedType;
+  using PubSubType = GeneratedPubSubType;
+  static constexpr bool kAnnouncesTypeObject = false;
+};
+
+// clang-format off
+template <> struct Wire<VehicleState> : LabWire<::VehicleState, VehicleStatePubSubType> {};
+template <> struct Wire<VehicleObservation> : LabWire<::VehicleObservation, VehicleObservationPubSubType> {};
+template <> struct Wire<VehicleStateList> : LabWire<::VehicleStateList, VehicleStateListPubSubType> {};
+template <> struct Wire<TrajectoryCommand> : LabWire<::VehicleCommandTrajectory, VehicleCommandTrajectoryPubSubType> {};
+template <> struct Wire<ReadyStatus> : LabWire<::ReadyStatus, ReadyStatusPubSubType> {};
+template <> struct Wire<SystemTrigger> : LabWire<::SystemTrigger, SystemTriggerPubSubType> {};
+template <> struct Wire<Parameter> : LabWire<::Parameter, ParameterPubSubType> {};
+template <> struct Wire<ParameterRequest> : LabWire<::ParameterRequest, ParameterRequestPubSubType> {};
+template <> struct Wire<StopRequest> : LabWire<::StopRequest, StopRequestPubSubType> {};
+template <> struct Wire<Log> : LabWire<::Log, LogPubSubType> {};
+template <> struct Wire<LogLevel> : LabWire<::LogLevel, LogLevelPubSubType> {};
+template <> struct Wire<Traffic> : OwnWire<TrafficMessage, TrafficMessagePubSubType> {};
+template <> struct Wire<Prediction> : OwnWire<PredictionMessage, PredictionMessagePubSubType> {};
+template <> struct Wire<Outcome> : OwnWire<OutcomeMessage, OutcomeMessagePubSubType> {};
+template <> struct Wire<ReportRecord> : OwnWire<ReportMessage, ReportMessagePubSubType> {};
+template <> struct Wire<RunState> : OwnWire<RunStateMessage, RunStateMessagePubSubType> {};
+// clang-format on
+
+/// The generated type support, but bytes that it cannot read are "not a message" instead of an
+/// exception on the library's receiving thread.
+template <class PubSubType>
+class TolerantType : public PubSubType {
+ public:
+  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
+    try {
+      return PubSubType::deserialize(payload, data);
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+};
+
+template <class Message>
+[[nodiscard]] eprosima::fastdds::dds::TypeSupport type_support() {
+  eprosima::fastdds::dds::TypeSupport type{new TolerantType<typename Wire<Message>::PubSubType>};
+  type->auto_fill_type_object(Wire<Message>::kAnnouncesTypeObject);
+  type->auto_fill_type_information(Wire<Message>::kAnnouncesTypeObject);
+  return type;
+}
+
+}  // namespace hlc

@@ -1,0 +1,33 @@
+#include "hlc_bridge/dds/writer_endpoint.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "hlc_bridge/dds/library_qos.hpp"
+
+namespace hlc {
+
+WriterEndpoint::WriterEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
+                               const fdds::TypeSupport& type, const EndpointQos& qos,
+                               std::function<void()> on_matched_change)
+    : core_{std::move(core)},
+      peers_{EndpointPeers::create(core_, PeerKind::kReader, topic, std::move(on_matched_change))} {
+  writer_ = core_->publisher().create_datawriter(&core_->topic(topic, type), writer_qos(qos), this,
+                                                 fdds::StatusMask::publication_matched());
+  if (writer_ == nullptr) {
+    throw std::runtime_error("writer on topic " + topic + " could not be created");
+  }
+}
+
+WriterEndpoint::~WriterEndpoint() {
+  peers_->close();
+  writer_->set_listener(nullptr);
+  core_->publisher().delete_datawriter(writer_);
+}
+
+void WriterEndpoint::on_publication_matched(fdds::DataWriter*,
+                                            const fdds::PublicationMatchedStatus& status) {
+  peers_->on_matched(status, status.last_subscription_handle);
+}
+
+}  // namespace hlc

@@ -1,0 +1,57 @@
+#include "hlc_bridge/time/logical_timer.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace hlc {
+
+LogicalTimer::LogicalTimer(Nanoseconds period, Nanoseconds offset,
+                           std::function<void(Nanoseconds)> send_ready,
+                           std::chrono::milliseconds repeat)
+    : period_{period}, wanted_{offset}, send_ready_{std::move(send_ready)}, repeat_{repeat} {
+  if (offset >= period) {
+    throw std::invalid_argument("timer: offset " + std::to_string(offset) +
+                                " ns must be less than the period " + std::to_string(period) +
+                                " ns");
+  }
+}
+
+std::optional<Nanoseconds> LogicalTimer::wait_next() {
+  std::unique_lock lock{mutex_};
+  const Nanoseconds wanted = wanted_;
+  while (!released_ && !stopped_) {
+    lock.unlock();
+    send_ready_(wanted);
+    lock.lock();
+    changed_.wait_for(lock, repeat_, [&] { return released_ || stopped_; });
+  }
+  if (stopped_) {
+    return std::nullopt;
+  }
+  released_ = false;
+  wanted_ = wanted + period_;
+  return wanted;
+}
+
+void LogicalTimer::stop() {
+  {
+    const std::lock_guard lock{mutex_};
+    stopped_ = true;
+  }
+  changed_.notify_all();
+}
+
+void LogicalTimer::on_trigger(Nanoseconds next_start) {
+  if (next_start == kStopSymbol) {
+    stop();
+    return;
+  }
+  {
+    const std::lock_guard lock{mutex_};
+    released_ = released_ || next_start == wanted_;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace hlc
