@@ -60,14 +60,30 @@ bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
 
 Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
                        ReferencePath path, Corridor corridor)
+    : Controller(options, subgraph, std::move(path), std::move(corridor),
+                 std::make_shared<const ReachableSets>(*subgraph, options.horizon_steps + 1)) {}
+
+Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
+                       ReferencePath path, Corridor corridor,
+                       std::shared_ptr<const ReachableSets> reachable)
     : options_(options),
       subgraph_(std::move(subgraph)),
       path_(std::move(path)),
       corridor_(std::move(corridor)),
-      reachable_(*subgraph_, options.horizon_steps + 1),
-      planner_(make_best_first_planner(*subgraph_, reachable_, options.search)),
+      reachable_(std::move(reachable)),
+      planner_(make_best_first_planner(*subgraph_, *reachable_, options.search)),
       standstill_(standing_step(*subgraph_)),
       missing_rules_(rules_for_missing(*subgraph_)) {}
+
+std::unique_ptr<Controller> Controller::clone() const {
+  std::unique_ptr<Controller> result(
+      new Controller(options_, subgraph_, path_, corridor_, reachable_));
+  result->plan_ = plan_;
+  result->path_s_m_ = path_s_m_;
+  result->last_heard_ = last_heard_;
+  result->drives_out_ = drives_out_;
+  return result;
+}
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
   const auto& states = step_.observation.states;
@@ -135,7 +151,7 @@ Traffic Controller::observe(const Observation& observation) {
   traffic.next_trim = plan_->trim_at(next);
   traffic.running = plan_->areas_from(now);
   const ConvexPolygon reach =
-      transformed(reachable_.swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
+      transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
                   traffic.next_pose);
   std::vector<Point> points = reach.vertices_m;
   const ConvexPolygon& first_area = traffic.running.during(now);
@@ -216,7 +232,7 @@ void Controller::add_missing_obstacles(HorizonProblem& problem) const {
 HorizonProblem Controller::pose_problem() {
   const UniversalAutomaton& automaton = subgraph_->automaton();
   const Traffic& own = step_.traffic;
-  const double reach_m = reachable_.max_distance_m(own.next_trim, options_.horizon_steps, 0);
+  const double reach_m = reachable_->max_distance_m(own.next_trim, options_.horizon_steps, 0);
   const Point position = own.next_pose.position_m();
   const auto projection = path_s_m_ ? path_.project_within(position, *path_s_m_ - kProjectionBack_m,
                                                            *path_s_m_ + reach_m + kProjectionBack_m)

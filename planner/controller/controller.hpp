@@ -62,6 +62,10 @@ class Controller {
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              ReferencePath path, Corridor corridor);
 
+  /// A controller in the same state that goes its own way from here: for looking ahead. Shares only
+  /// what never changes. Not in the middle of a step.
+  [[nodiscard]] std::unique_ptr<Controller> clone() const;
+
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] const Subgraph& subgraph() const { return *subgraph_; }
 
@@ -114,6 +118,9 @@ class Controller {
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
   };
 
+  Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
+             ReferencePath path, Corridor corridor, std::shared_ptr<const ReachableSets> reachable);
+
   void anchor(const MeasuredVehicle& measured, StepIndex step);
   void watch_deviation();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
@@ -128,7 +135,7 @@ class Controller {
   std::shared_ptr<const Subgraph> subgraph_;
   ReferencePath path_;
   Corridor corridor_;
-  ReachableSets reachable_;
+  std::shared_ptr<const ReachableSets> reachable_;
   std::unique_ptr<HorizonPlanner> planner_;
   const Maneuver* standstill_;
   MissingVehicleRules missing_rules_;

@@ -34,7 +34,8 @@ class Plan {
   /// Planned state at t(step) + time_s, 0 <= time_s <= one step. @pre step >= first()
   [[nodiscard]] State state_at(StepIndex step, double time_s,
                                const VehicleParameters& vehicle) const;
-  /// Areas from t(from) on, and of standing at the end. @pre from >= first()
+  /// Areas from t(from) on, and of standing at the end. The last of them holds the final one up to
+  /// 2 um (swept areas are rounded outwards by 1 um, their corners mitred). @pre from >= first()
   [[nodiscard]] OccupiedAreas areas_from(StepIndex from) const;
 
  private:

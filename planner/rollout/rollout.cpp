@@ -40,6 +40,13 @@ Rollout::Rollout(std::vector<std::unique_ptr<Controller>> controllers,
   ++next_step_.value;
 }
 
+Rollout Rollout::clone() const {
+  Rollout result;
+  for (const auto& controller : controllers_) result.controllers_.push_back(controller->clone());
+  result.next_step_ = next_step_;
+  return result;
+}
+
 bool Rollout::arrives(MessageKind kind, VehicleId from, VehicleId to) const {
   return from != to && !(is_lost_ && is_lost_({kind, next_step_, from, to}));
 }

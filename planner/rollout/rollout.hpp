@@ -27,6 +27,9 @@ class Rollout {
   /// @param starts       planned pose of each at the start, standing
   Rollout(std::vector<std::unique_ptr<Controller>> controllers, const std::vector<Pose>& starts);
 
+  /// The same vehicles in the same state, going their own way from here; loses nothing.
+  [[nodiscard]] Rollout clone() const;
+
   /// Messages for which this says true do not arrive. None by default.
   void lose(std::function<bool(const Delivery&)> is_lost) { is_lost_ = std::move(is_lost); }
 
@@ -39,6 +42,7 @@ class Rollout {
   }
 
  private:
+  Rollout() = default;
   [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
   [[nodiscard]] bool arrives(MessageKind kind, VehicleId from, VehicleId to) const;
 

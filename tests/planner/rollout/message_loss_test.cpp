@@ -1,0 +1,174 @@
+// Whatever subset of a step's messages is lost, the plans in force are free of collision pair by
+// pair.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "planner/maneuver_design/automaton_builder.hpp"
+#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/rollout/rollout.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::uint64_t kSteps = 8 + 2;  // until every plan of the step stands
+
+std::shared_ptr<const Subgraph> paper_subgraph() {
+  static const auto subgraph = [] {
+    const AutomatonConfiguration configuration = read_automaton_configuration(
+        std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/paper.yaml");
+    return std::make_shared<const Subgraph>(build_shared_automaton(configuration),
+                                            configuration.subgraphs.front());
+  }();
+  return subgraph;
+}
+
+/// Three cars on straight lines through one point, `distances_m` before it.
+Rollout three_cars_that_meet(SettleRule rule,
+                             const std::array<double, 3>& distances_m = {1.0, 1.0, 1.0}) {
+  std::vector<std::unique_ptr<Controller>> controllers;
+  std::vector<Pose> starts;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    const double direction = 2.0 * std::numbers::pi * i / 3.0 + 0.1 * i;
+    const Point ahead(std::cos(direction), std::sin(direction));
+    const Point position = -distances_m[i] * ahead;
+    const Pose start{position.x(), position.y(), direction};
+    ReferencePath path({start.position_m(), 2.0 * ahead}, false);
+    ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)}, .settle_rule = rule};
+    options.search.max_expansions = 20'000;
+    controllers.push_back(
+        std::make_unique<Controller>(options, paper_subgraph(), std::move(path), Corridor{}));
+    starts.push_back(start);
+  }
+  return Rollout(std::move(controllers), starts);
+}
+
+bool plans_in_force_are_free(const Rollout& rollout) {
+  const auto& controllers = rollout.controllers();
+  const StepIndex now{rollout.next_step().value - 1};
+  for (std::size_t i = 0; i < controllers.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!are_free(controllers[i]->plan_in_force().areas_from(now),
+                    controllers[j]->plan_in_force().areas_from(now), now, kSteps)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Bit of a message in a pattern: 6 per kind, one for each ordered pair of the vehicles 1, 2, 3.
+unsigned bit_of(const Delivery& delivery) {
+  const unsigned from = delivery.from.value - 1U;
+  const unsigned to = delivery.to.value - 1U;
+  const unsigned pair = 2U * from + (to > from ? to - 1U : to);
+  return 6U * static_cast<unsigned>(delivery.kind) + pair;
+}
+
+void lose_pattern(Rollout& rollout, std::uint32_t pattern, StepIndex step) {
+  rollout.lose([pattern, step](const Delivery& delivery) {
+    return delivery.step == step && (pattern >> bit_of(delivery) & 1U) != 0U;
+  });
+}
+
+/// Which vehicles keep their plan and which change it, over all patterns: shows that the step is a
+/// hard one.
+class LossOfOneStep : public testing::TestWithParam<int> {};
+
+TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
+  Rollout before = three_cars_that_meet(SettleRule::kStrict);
+  for (int i = 0; i < GetParam(); ++i) static_cast<void>(before.step());
+  ASSERT_TRUE(plans_in_force_are_free(before));
+
+  std::map<std::string, int> outcomes;
+  constexpr std::uint32_t kPatterns =
+      1U << 12U;  // traffic and predictions; strict needs no third round
+  for (std::uint32_t pattern = 0; pattern < kPatterns; ++pattern) {
+    Rollout rollout = before.clone();
+    lose_pattern(rollout, pattern, rollout.next_step());
+    std::string outcome;
+    for (const Report& report : rollout.step()) {
+      outcome += report.status == StepStatus::kPlanned ? 'n' : 'o';
+    }
+    ++outcomes[outcome];
+    ASSERT_TRUE(plans_in_force_are_free(rollout)) << "pattern " << pattern;
+    static_cast<void>(rollout.step());
+    ASSERT_TRUE(plans_in_force_are_free(rollout)) << "a step after pattern " << pattern;
+  }
+  EXPECT_EQ(outcomes.size(), 8U) << "every mixture of old and new plans should occur";
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, LossOfOneStep, testing::Values(3, 5));
+
+TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::bernoulli_distribution is_lost(0.02 + 0.02 * seed);
+    Rollout rollout = three_cars_that_meet(SettleRule::kStrict);
+    rollout.lose([&](const Delivery&) { return is_lost(random); });
+    for (int i = 0; i < 40; ++i) {
+      static_cast<void>(rollout.step());
+      ASSERT_TRUE(plans_in_force_are_free(rollout)) << "step " << i;
+    }
+  }
+}
+
+// One vehicle hears everything and is heard by nobody: the others may take it for a standing
+// obstacle only when it has agreed to nothing new for long enough.
+TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
+  for (std::uint8_t mute = 1; mute <= 3; ++mute) {
+    for (std::uint64_t from = 2; from < 8; ++from) {
+      SCOPED_TRACE("vehicle " + std::to_string(mute) + " mute from step " + std::to_string(from));
+      Rollout rollout = three_cars_that_meet(SettleRule::kStrict);
+      rollout.lose([&](const Delivery& delivery) {
+        return delivery.from.value == mute && delivery.step.value >= from;
+      });
+      for (int i = 0; i < 60; ++i) {
+        static_cast<void>(rollout.step());
+        ASSERT_TRUE(plans_in_force_are_free(rollout)) << "step " << i;
+      }
+    }
+  }
+}
+
+TEST(Loss, WithoutLossTheStrictRuleNeverFallsBack) {
+  Rollout rollout = three_cars_that_meet(SettleRule::kStrict);
+  for (int i = 0; i < 40; ++i) {
+    for (const Report& report : rollout.step()) {
+      ASSERT_EQ(report.status, StepStatus::kPlanned)
+          << "step " << i << ", vehicle " << int{report.vehicle.value} << ", "
+          << to_string(report.reason);
+    }
+  }
+}
+
+// The control for the tests above: the authors' rule trusts that all hear of a fallback, so
+// outcomes must not get lost.
+TEST(Loss, TheAgreedRuleLetsPlansMeetIfOutcomesAreLost) {
+  bool met = false;
+  for (unsigned seed = 0; seed < 200 && !met; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> distance(0.6, 1.4);
+    const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
+    std::bernoulli_distribution is_lost(0.2);
+    Rollout rollout = three_cars_that_meet(SettleRule::kAgreed, distances);
+    rollout.lose([&](const Delivery& delivery) {
+      return delivery.kind == MessageKind::kOutcome && is_lost(random);
+    });
+    for (int step = 0; step < 20 && !met; ++step) {
+      static_cast<void>(rollout.step());
+      met = !plans_in_force_are_free(rollout);
+    }
+  }
+  EXPECT_TRUE(met);
+}
+
+}  // namespace
+}  // namespace hlc
