@@ -70,36 +70,65 @@ Pose turned(const Pose& pose) {
           .heading_rad = pose.heading_rad + std::numbers::pi};
 }
 
-/// The curve from `from_s_m` to `to_s_m`, bent so that it begins at pose `begin` and ends at pose
-/// `end`: a cubic Hermite polynomial in s takes up what position and direction lack there.
-Line stretch(const CurvatureCurve& curve, double from_s_m, double to_s_m, const Pose& begin,
-             const Pose& end) {
-  const double length = to_s_m - from_s_m;
-  const Pose curve_begin = curve.at(from_s_m);
-  const Pose curve_end = curve.at(to_s_m);
-  const Point d0 = begin.position_m() - curve_begin.position_m();
-  const Point d1 = end.position_m() - curve_end.position_m();
-  const Point m0 = length * (direction(begin.heading_rad) - direction(curve_begin.heading_rad));
-  const Point m1 = length * (direction(end.heading_rad) - direction(curve_end.heading_rad));
+/// The curve from `from_s_m` to `to_s_m`.
+Line sampled(const CurvatureCurve& curve, double from_s_m, double to_s_m) {
+  const double intervals = std::ceil((to_s_m - from_s_m) / kSpacing_m);
+  Line line;
+  for (double k = 0.0; k <= intervals; ++k) {
+    line.push_back(curve.at(from_s_m + (to_s_m - from_s_m) * k / intervals));
+  }
+  return line;
+}
 
-  const double intervals = std::ceil(length / kSpacing_m);
-  Line line{begin};
-  for (double k = 1.0; k < intervals; ++k) {
-    const double t = k / intervals;
-    const Pose pose = curve.at(from_s_m + t * length);
-    const Point position = pose.position_m() + (2.0 * t * t * t - 3.0 * t * t + 1.0) * d0 +
+/// The line, bent so that it begins at pose `begin` and ends at pose `end`: a cubic Hermite
+/// polynomial takes up what position and direction lack there. @pre points evenly spaced
+Line bent(Line line, const Pose& begin, const Pose& end) {
+  const double intervals = static_cast<double>(line.size() - 1);
+  const double length = intervals * (line[1].position_m() - line[0].position_m()).norm();
+  const auto lack = [&](const Pose& target, const Pose& pose) {
+    return std::pair<Point, Point>(
+        target.position_m() - pose.position_m(),
+        length * (direction(target.heading_rad) - direction(pose.heading_rad)));
+  };
+  const auto [d0, m0] = lack(begin, line.front());
+  const auto [d1, m1] = lack(end, line.back());
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) {
+    const double t = static_cast<double>(k) / intervals;
+    const Point position = line[k].position_m() + (2.0 * t * t * t - 3.0 * t * t + 1.0) * d0 +
                            (t * t * t - 2.0 * t * t + t) * m0 +
                            (3.0 * t * t - 2.0 * t * t * t) * d1 + (t * t * t - t * t) * m1;
-    const Point along = direction(pose.heading_rad) +
+    const Point along = direction(line[k].heading_rad) +
                         ((6.0 * t * t - 6.0 * t) * (d0 - d1) + (3.0 * t * t - 4.0 * t + 1.0) * m0 +
                          (3.0 * t * t - 2.0 * t) * m1) /
                             length;
-    line.push_back({.x_m = position.x(),
-                    .y_m = position.y(),
-                    .heading_rad = std::atan2(along.y(), along.x())});
+    line[k] = {
+        .x_m = position.x(), .y_m = position.y(), .heading_rad = std::atan2(along.y(), along.x())};
   }
-  line.push_back(end);
+  line.front() = begin;
+  line.back() = end;
   return line;
+}
+
+Line stretch(const CurvatureCurve& curve, double from_s_m, double to_s_m, const Pose& begin,
+             const Pose& end) {
+  return bent(sampled(curve, from_s_m, to_s_m), begin, end);
+}
+
+/// The mirror image about the vertical (`x`) or horizontal (`y`) middle line of the map, driven the
+/// other way round, so that driving stays clockwise.
+Line mirrored_x(Line line) {
+  std::reverse(line.begin(), line.end());
+  for (Pose& pose : line) {
+    pose = {.x_m = 4.5 - pose.x_m, .y_m = pose.y_m, .heading_rad = -pose.heading_rad};
+  }
+  return line;
+}
+Line mirrored_y(Line line) {
+  Line turned_line = mirrored_x(std::move(line));
+  for (Pose& pose : turned_line) {
+    pose = turned(pose);
+  }
+  return turned_line;
 }
 
 /// Adds the lane whose middle runs `left_m` to the left of `line`; ids count from 1.
@@ -190,6 +219,16 @@ RoadNetwork lab_like_map() {
     add_lane(map, red_line[i], kLeft_m);
   }
   for (const Line& line : {blue_ring, blue_inner, green_inner, green_ring}) {
+    add_lane(map, line, kLeft_m);
+  }
+  // Where blue leaves and green joins the ring, the lane between that ring and the second lanes:
+  // what red drives at the mirrored place.
+  const Line beside_blue =
+      bent(mirrored_x(red_line[3]), blue_leave.front(), shifted(blue_leave.back(), kLeft_m));
+  const Line beside_green =
+      bent(mirrored_y(red_line[4]), shifted(green_merge.front(), kLeft_m), green_merge.back());
+  for (const Line& line : {beside_blue, beside_green}) {
+    add_lane(map, line);
     add_lane(map, line, kLeft_m);
   }
   link(map);

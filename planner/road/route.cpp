@@ -54,16 +54,48 @@ std::vector<Point> clean_centre_line(const Lanelet& lanelet) {
 
 enum class Side { kLeft, kRight };
 
-/// Bound of the outermost lane of the same direction on that side.
+bool same_place(const Point& a, const Point& b) { return (a - b).norm() <= kMaxJointGap_m; }
+
+/// Neighbour of the same direction as the map names it, or nullptr.
+const Lanelet* neighbour(const LaneletMap& map, const Lanelet& lanelet, Side side) {
+  const auto& adjacent = side == Side::kLeft ? lanelet.adjacent_left : lanelet.adjacent_right;
+  return adjacent && adjacent->same_direction ? &find_lanelet(map, adjacent->id) : nullptr;
+}
+
+/// The lane that begins beside `lanelet` and ends with it, or begins with it and ends beside it; or
+/// nullptr.
+const Lanelet* merging_or_forking(const LaneletMap& map, const Lanelet& lanelet, Side side) {
+  for (const auto& [id, other] : map.lanelets) {
+    const auto& inner = side == Side::kLeft ? lanelet.left_m : lanelet.right_m;
+    const auto& touching = side == Side::kLeft ? other.right_m : other.left_m;
+    const bool ends_together = same_place(other.left_m.back(), lanelet.left_m.back()) &&
+                               same_place(other.right_m.back(), lanelet.right_m.back());
+    const bool begins_together = same_place(other.left_m.front(), lanelet.left_m.front()) &&
+                                 same_place(other.right_m.front(), lanelet.right_m.front());
+    if ((ends_together && same_place(touching.front(), inner.front())) ||
+        (begins_together && same_place(touching.back(), inner.back()))) {
+      return &other;
+    }
+  }
+  return nullptr;
+}
+
+/// Bound of the outermost lane on that side.
 const std::vector<Point>& outer_bound(const LaneletMap& map, const Lanelet& lanelet, Side side) {
   const Lanelet* outermost = &lanelet;
+  if (neighbour(map, lanelet, Side::kLeft) == nullptr &&
+      neighbour(map, lanelet, Side::kRight) == nullptr) {
+    if (const Lanelet* beside = merging_or_forking(map, lanelet, side)) {
+      outermost = beside;
+    }
+  }
   // A map in which lanes are neighbours in a circle must not hold us for ever.
   for (std::size_t i = 0; i < map.lanelets.size(); ++i) {
-    const auto& next = side == Side::kLeft ? outermost->adjacent_left : outermost->adjacent_right;
-    if (!next || !next->same_direction) {
+    const Lanelet* next = neighbour(map, *outermost, side);
+    if (next == nullptr) {
       break;
     }
-    outermost = &find_lanelet(map, next->id);
+    outermost = next;
   }
   return side == Side::kLeft ? outermost->left_m : outermost->right_m;
 }

@@ -13,10 +13,16 @@ struct Route {
   std::vector<LaneletId> lanelets;
   /// Centre line of the lanelets one after the other.
   ReferencePath path;
-  /// The route's lanes and their neighbours of the same direction (neighbours of neighbours too):
-  /// for each lanelet of the route, the left bound of the leftmost and the right bound of the
-  /// rightmost of them as the map gives them, joined to those of the next lanelet by a piece across
-  /// where they do not meet. The pieces carry the arc length on `path`.
+  /// Boundary of the drivable lanes: on each lanelet of the route, the lane itself and its
+  /// neighbours of the same direction (neighbours of neighbours too). A lane that has no such
+  /// neighbour takes the one that begins beside it and merges into its end, or forks off its begin
+  /// and ends beside it, with that lane's neighbours: such lanes overlap, and alone they are too
+  /// narrow for a car (at the curvature of 3 1/m that the lab's have, the rectangle of 0.107 m
+  /// sweeps 0.15 m and more).
+  ///
+  /// The boundary is the left bound of the leftmost and the right bound of the rightmost of them as
+  /// the map gives them, joined to those of the next lanelet by a piece across where they do not
+  /// meet. The pieces carry the arc length on `path`.
   Corridor corridor;
   /// Arc length on `path` at which each lanelet of the route begins, and the end of the last.
   std::vector<double> lanelet_s_m;

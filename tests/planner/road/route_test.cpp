@@ -3,9 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -165,6 +166,45 @@ TEST(Route, PieceClosesTheStepWhereANeighbourBeginsOrEnds) {
   }
 }
 
+TEST(Route, BareLaneTakesTheLanesThatMergeWithItOrForkFromItBesideIt) {
+  // Two lanes become one and two again; the right one has no neighbour where they run together.
+  Lanelet merging = straight(2, 0.0, 1.0, 0.0);
+  for (std::size_t i = 0; i < merging.left_m.size(); ++i) {
+    const Point shift(0.0, 0.2 * (1.0 - static_cast<double>(i) / 10.0));
+    merging.left_m[i] += shift;
+    merging.right_m[i] += shift;
+  }
+  Lanelet forking = straight(4, 1.0, 2.0, 0.0);
+  for (std::size_t i = 0; i < forking.left_m.size(); ++i) {
+    const Point shift(0.0, 0.02 * static_cast<double>(i));
+    forking.left_m[i] += shift;
+    forking.right_m[i] += shift;
+  }
+  merging.adjacent_left = {5, true};
+  Lanelet outermost = merging;
+  outermost.id = 5;
+  outermost.adjacent_left.reset();
+  for (Point& point : outermost.left_m) {
+    point.y() += 0.1;
+  }
+  Lanelet bare = straight(1, 0.0, 1.0, 0.0);
+  const Lanelet after = straight(3, 1.0, 2.0, 0.0);
+  const Route route =
+      build_route(map_of({bare, merging, after, forking, outermost}), {1, 3}, false);
+  EXPECT_FALSE(separated(route, 0.55, Point(0.55, 0.28)));
+  EXPECT_TRUE(separated(route, 0.55, Point(0.55, 0.30)));
+  EXPECT_FALSE(separated(route, 1.55, Point(1.55, 0.20)));
+  EXPECT_TRUE(separated(route, 1.55, Point(1.55, 0.22)));
+  EXPECT_TRUE(separated(route, 0.55, Point(0.55, -0.11)));
+
+  bare.adjacent_right = {6, true};  // no longer bare: its neighbours are those that the map names
+  const Route wider =
+      build_route(map_of({bare, merging, after, forking, outermost, straight(6, 0.0, 1.0, -0.2)}),
+                  {1, 3}, false);
+  EXPECT_TRUE(separated(wider, 0.55, Point(0.55, 0.11)));
+  EXPECT_FALSE(separated(wider, 0.55, Point(0.55, -0.29)));
+}
+
 TEST(Route, NeighboursInACircleEnd) {
   Lanelet a = straight(1, 0.0, 1.0, 0.0);
   Lanelet b = straight(2, 0.0, 1.0, 0.2);
@@ -177,16 +217,19 @@ TEST(Route, NeighboursInACircleEnd) {
 // ------------------
 
 struct Circuits {
-  std::string name;
   RoadNetwork network;
   std::vector<double> length_m;
+  /// Lanes without a neighbour, and the lane left of them that merges with them or forks from them.
+  std::map<LaneletId, LaneletId> merging_or_forking;
 };
 
-Circuits lab_like_circuits() { return {"lab-like", lab_like_map(), {12.226, 9.226, 8.882}}; }
+Circuits lab_like_circuits() {
+  return {lab_like_map(), {12.226, 9.226, 8.882}, {{12, 4}, {14, 33}, {16, 5}, {19, 35}}};
+}
 
 /// Without lanelets if the lab's map is not here.
 Circuits lab_circuits() {
-  Circuits lab{"lab", {}, {12.219, 9.225, 8.880}};
+  Circuits lab{{}, {12.219, 9.225, 8.880}, {{75, 57}, {101, 83}, {74, 55}, {22, 3}}};
   const auto file = std::filesystem::path(HLC_SOURCE_DIR) / "../shared/data/LabMapCommonRoad.xml";
   if (std::filesystem::exists(file)) {
     lab.network.map = read_lanelet_map(file);
@@ -212,23 +255,26 @@ class Circuit : public ::testing::TestWithParam<Circuits (*)()> {
 
   const LaneletMap& map() const { return circuits_.network.map; }
 
-  /// The lanelet and its neighbours of the same direction, and theirs.
-  std::set<LaneletId> drivable_beside(LaneletId id) const {
-    std::set<LaneletId> found;
-    std::vector<LaneletId> open{id};
-    while (!open.empty()) {
-      const Lanelet& lanelet = map().lanelets.at(open.back());
-      open.pop_back();
-      if (!found.insert(lanelet.id).second) {
-        continue;
-      }
-      for (const auto& adjacent : {lanelet.adjacent_left, lanelet.adjacent_right}) {
-        if (adjacent && adjacent->same_direction) {
-          open.push_back(adjacent->id);
-        }
-      }
+  /// The lanes that are drivable on this lanelet of a route, from the leftmost to the rightmost.
+  std::vector<LaneletId> drivable_beside(LaneletId id) const {
+    std::vector<LaneletId> lanes{id};
+    const auto beside = circuits_.merging_or_forking.find(id);
+    if (beside != circuits_.merging_or_forking.end()) {
+      lanes.insert(lanes.begin(), beside->second);
     }
-    return found;
+    while (const auto& left = map().lanelets.at(lanes.front()).adjacent_left) {
+      if (!left->same_direction) {
+        break;
+      }
+      lanes.insert(lanes.begin(), left->id);
+    }
+    while (const auto& right = map().lanelets.at(lanes.back()).adjacent_right) {
+      if (!right->same_direction) {
+        break;
+      }
+      lanes.push_back(right->id);
+    }
+    return lanes;
   }
 
   Circuits circuits_ = GetParam()();
@@ -280,24 +326,20 @@ TEST_P(Circuit, OwnLaneIsDrivableEverywhere) {
 TEST_P(Circuit, PointsBeyondTheOutermostLanesAreNotDrivable) {
   for (const Route& route : routes_) {
     for (std::size_t i = 0; i < route.lanelets.size(); ++i) {
-      for (const LaneletId id : drivable_beside(route.lanelets[i])) {
+      const std::vector<LaneletId> lanes = drivable_beside(route.lanelets[i]);
+      for (const bool on_left : {true, false}) {
+        const LaneletId id = on_left ? lanes.front() : lanes.back();
         const Lanelet& lane = map().lanelets.at(id);
-        for (const bool on_left : {true, false}) {
-          const auto& adjacent = on_left ? lane.adjacent_left : lane.adjacent_right;
-          if (adjacent && adjacent->same_direction) {
-            continue;
-          }
-          const std::vector<Point>& bound = on_left ? lane.left_m : lane.right_m;
-          for (std::size_t j = 0; j + 1 < bound.size(); ++j) {
-            const Point along = (bound[j + 1] - bound[j]).normalized();
-            const Point outside = (bound[j] + bound[j + 1]) / 2.0 +
-                                  (on_left ? 0.01 : -0.01) * Point(-along.y(), along.x());
-            const double s_m =
-                route.path.project_within(outside, route.lanelet_s_m[i], route.lanelet_s_m[i + 1])
-                    .s_m;
-            EXPECT_TRUE(separated(route, s_m, outside))
-                << "lanelet " << id << " at s = " << s_m << ", point " << outside.transpose();
-          }
+        const std::vector<Point>& bound = on_left ? lane.left_m : lane.right_m;
+        for (std::size_t j = 0; j + 1 < bound.size(); ++j) {
+          const Point along = (bound[j + 1] - bound[j]).normalized();
+          const Point outside = (bound[j] + bound[j + 1]) / 2.0 +
+                                (on_left ? 0.01 : -0.01) * Point(-along.y(), along.x());
+          const double s_m =
+              route.path.project_within(outside, route.lanelet_s_m[i], route.lanelet_s_m[i + 1])
+                  .s_m;
+          EXPECT_TRUE(separated(route, s_m, outside))
+              << "lanelet " << id << " at s = " << s_m << ", point " << outside.transpose();
         }
       }
     }
@@ -322,22 +364,47 @@ TEST_P(Circuit, BoundaryIsTwoClosedLines) {
   }
 }
 
-TEST_P(Circuit, CarOnTheCentreLineCrossesNoBoundary) {
-  const Footprint footprint{.length_m = 0.22, .width_m = 0.107};
-  constexpr double kHalfWheelbase_m = 0.075;
+constexpr Footprint kCar{.length_m = 0.22, .width_m = 0.107};
+constexpr double kHalfWheelbase_m = 0.075;
+
+void expect_no_boundary_crossed(const Route& route, double s_m, const Pose& pose) {
+  const ConvexPolygon area = footprint_area(kCar, pose);
+  for (const Segment& piece : route.corridor.boundary_m(s_m - 0.3, s_m + 0.3)) {
+    EXPECT_FALSE(intersects(area, piece)) << "s = " << s_m << ", piece " << piece.from_m.transpose()
+                                          << " to " << piece.to_m.transpose();
+  }
+}
+
+TEST_P(Circuit, FootprintAlongTheCentreLineCrossesNoBoundary) {
   for (const Route& route : routes_) {
     for (double s_m = 0.0; s_m < route.path.length_m(); s_m += 0.01) {
       const Point position = route.path.at(s_m);
       const Point along =
           route.path.at(s_m + kHalfWheelbase_m) - route.path.at(s_m - kHalfWheelbase_m);
-      const ConvexPolygon area =
-          footprint_area(footprint, {.x_m = position.x(),
-                                     .y_m = position.y(),
-                                     .heading_rad = std::atan2(along.y(), along.x())});
-      for (const Segment& piece : route.corridor.boundary_m(s_m - 0.3, s_m + 0.3)) {
-        EXPECT_FALSE(intersects(area, piece))
-            << "s = " << s_m << ", piece " << piece.from_m.transpose() << " to "
-            << piece.to_m.transpose();
+      expect_no_boundary_crossed(route, s_m,
+                                 {.x_m = position.x(),
+                                  .y_m = position.y(),
+                                  .heading_rad = std::atan2(along.y(), along.x())});
+    }
+  }
+}
+
+TEST_P(Circuit, SteeredCarCanDriveARound) {
+  // A car moves along its heading at the rear axle, so in a bend its nose points outwards and it
+  // needs more room than its width. This one is pulled along the centre line by a point 25 mm
+  // before its middle.
+  constexpr double kPulled_m = 0.1;  // before the rear axle
+  for (const Route& route : routes_) {
+    Point rear = route.path.at(-1.0 - kPulled_m);
+    for (double s_m = -1.0; s_m < route.path.length_m(); s_m += 0.002) {
+      const Point along = (route.path.at(s_m) - rear).normalized();
+      rear = route.path.at(s_m) - kPulled_m * along;
+      const Point middle = rear + kHalfWheelbase_m * along;
+      if (s_m >= 0.0) {
+        expect_no_boundary_crossed(route, s_m,
+                                   {.x_m = middle.x(),
+                                    .y_m = middle.y(),
+                                    .heading_rad = std::atan2(along.y(), along.x())});
       }
     }
   }
