@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "planner/vehicle/identified_motion.hpp"
+#include "vehicle_sim/plant/uniform_noise.hpp"
+
+namespace hlc {
+
+/// What one simulated vehicle is made of.
+struct PlantOptions {
+  Pose start;  ///< where it stands at the first tick; finite
+  IdentifiedVehicle vehicle;
+  double battery_voltage_v{kBatteryVoltage_v};
+  /// Seed of the position noise; without one the pose is measured exactly.
+  std::optional<std::uint64_t> noise_seed;
+};
+
+/// Half widths of the uniform noise on a measured pose: the lab's camera system.
+inline constexpr double kPositionNoise_m = 0.002;
+inline constexpr double kHeadingNoise_rad = 0.010;
+
+/// What the sensors say at a tick. Only the pose is noisy.
+struct Measurement {
+  Pose pose;
+  double speed_mps{};
+  double odometer_m{};
+  double yaw_rate_radps{};
+  double acceleration_forward_mps2{};
+  double acceleration_left_mps2{};
+};
+
+/// One simulated µCar: the identified model behind an actuator that acts late.
+///
+/// At every tick: first `measure`, then `step` with the input that was computed from it. An input
+/// given at tick n acts from tick n + 4 to n + 5; before the fifth input the actuators rest at 0.
+/// The model is integrated by explicit Euler with 20 ms (`planner/vehicle/identified_motion.hpp`),
+/// the step with which its parameters were identified: a finer integration would be another
+/// vehicle.
+///
+/// A value: copies drive on independently, and equal options and inputs give equal bytes.
+class Plant {
+ public:
+  /// @throws std::invalid_argument if the start pose is not finite
+  explicit Plant(const PlantOptions& options);
+
+  /// True pose and speed at the present tick.
+  [[nodiscard]] const VehicleMotion& motion() const { return motion_; }
+
+  /// The sensors at the present tick. With noise every call draws anew: call it once per tick.
+  [[nodiscard]] Measurement measure();
+
+  /// Queues `commanded` and drives one tick with the input that has reached the actuators. Inputs
+  /// beyond
+  /// [-1, 1] are clamped; an input that is not finite counts as the stop law at the present speed.
+  void step(const ActuatorInput& commanded);
+
+ private:
+  IdentifiedVehicle vehicle_;
+  double battery_voltage_v_;
+  VehicleMotion motion_;
+  std::array<ActuatorInput, kInputDelayTicks> under_way_{};  ///< oldest first
+  ActuatorInput acting_;                                     ///< during the last step
+  double last_acceleration_mps2_{};
+  double odometer_m_{};
+  std::optional<UniformNoise> noise_;
+};
+
+}  // namespace hlc

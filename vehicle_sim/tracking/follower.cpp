@@ -1,0 +1,114 @@
+#include "vehicle_sim/tracking/follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vehicle_sim/tracking/trajectory.hpp"
+
+namespace hlc {
+namespace {
+
+/// A chord of one tick below this (0.02 mm) is rounding, not a direction.
+constexpr double kStandingSpeed_mps = 1e-3;
+/// Lower bound of the speed that a lateral error is related to: without it the first millimetres of
+/// a start would be driven at full lock for an error of a few millimetres.
+constexpr double kLateralSpeedFloor_mps = 0.2;
+
+bool is_finite(const VehicleMotion& motion) {
+  return std::isfinite(motion.pose.x_m) && std::isfinite(motion.pose.y_m) &&
+         std::isfinite(motion.pose.heading_rad) && std::isfinite(motion.speed_mps);
+}
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+FollowerGains scaled(const FollowerGains& gains, double factor) {
+  return {.feed_forward = factor * gains.feed_forward,
+          .longitudinal_per_s = factor * gains.longitudinal_per_s,
+          .lateral_per_s = factor * gains.lateral_per_s};
+}
+
+Follower::Output Follower::tick(Nanoseconds t_now, const VehicleMotion& estimate,
+                                const TrajectoryCommand* command) {
+  const Output output = decided(t_now, estimate, command);
+  acted_ = under_way_.front();
+  std::shift_left(under_way_.begin(), under_way_.end(), 1);
+  under_way_.back() = output.input;
+  return output;
+}
+
+Follower::Output Follower::decided(Nanoseconds t_now, const VehicleMotion& estimate,
+                                   const TrajectoryCommand* command) const {
+  if (!is_finite(estimate)) {
+    return {.input = {}, .status = FollowerStatus::kNoEstimate};
+  }
+  const ActuatorInput stop = stop_input(estimate.speed_mps);
+  if (command == nullptr) {
+    return {.input = stop, .status = FollowerStatus::kNoCommand};
+  }
+  if (!is_followable(command->points, t_now)) {
+    return {.input = stop, .status = FollowerStatus::kNotFollowable};
+  }
+
+  VehicleMotion start = estimate;
+  for (const ActuatorInput& input : under_way_) {
+    start = stepped(start, input, vehicle_);
+  }
+  // The lead rule allows a trajectory that begins up to 30 ms after the input acts: aim at its
+  // begin.
+  const Nanoseconds t_start =
+      std::max(t_now + kInputDelayTicks * kVehiclePeriod, command->points.front().t);
+  Reference reference;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    reference[i] = sample(command->points, t_start + i * kVehiclePeriod)->position_m;
+    const double distance_m = (reference[i] - start.pose.position_m()).norm();
+    if (!(distance_m <= kMaxDistance_m)) {
+      return {.input = stop, .status = FollowerStatus::kTooFar};
+    }
+  }
+  const double steering = steering_for(reference, start);
+  const double throttle = throttle_for(reference, start, steering);
+  return {.input = {.throttle = throttle, .steering = steering},
+          .status = FollowerStatus::kFollowing};
+}
+
+double Follower::steering_for(const Reference& reference, const VehicleMotion& start) const {
+  const Point chord = (reference[1] - reference[0]) / kIdentifiedStep_s;
+  const double speed_mps = chord.norm();
+  if (speed_mps <= kStandingSpeed_mps) {
+    return under_way_.back().steering;
+  }
+  const double lateral_error_m = cross(chord / speed_mps, reference[0] - start.pose.position_m());
+  const double correction_rad = std::atan(gains_.lateral_per_s * lateral_error_m /
+                                          std::max(speed_mps, kLateralSpeedFloor_mps));
+  const double course_rad = std::atan2(chord.y(), chord.x()) + correction_rad;
+  const double slip_rad = wrap_angle(course_rad - start.pose.heading_rad);
+  return std::clamp(steering_for_slip(slip_rad, vehicle_), -1.0, 1.0);
+}
+
+double Follower::throttle_for(const Reference& reference, const VehicleMotion& start,
+                              double steering) const {
+  // The throttle does not change where this tick ends, so any will do to predict it.
+  const VehicleMotion end = stepped(start, {.throttle = 0.0, .steering = steering}, vehicle_);
+  const Point error_m = reference[1] - end.pose.position_m();
+  const Point chord = (reference[2] - reference[1]) / kIdentifiedStep_s;
+  const double speed_mps = chord.norm();
+
+  double wanted_mps = 0.0;
+  if (speed_mps > kStandingSpeed_mps) {
+    const double error_along_m = chord.dot(error_m) / speed_mps;
+    wanted_mps = gains_.feed_forward * speed_mps + gains_.longitudinal_per_s * error_along_m;
+  } else {
+    const double course_rad = end.pose.heading_rad + identified_slip_rad(steering, vehicle_);
+    const double error_along_m = Point(std::cos(course_rad), std::sin(course_rad)).dot(error_m);
+    if (error_along_m > kStandingTolerance_m) {
+      wanted_mps = gains_.longitudinal_per_s * error_along_m;
+    }
+  }
+  const double wheel_speed_mps = std::max(0.0, wanted_mps) / path_speed_ratio(steering, vehicle_);
+  const double acceleration_mps2 = (wheel_speed_mps - start.speed_mps) / kIdentifiedStep_s;
+  return throttle_for_acceleration(acceleration_mps2, start.speed_mps, vehicle_);
+}
+
+}  // namespace hlc
