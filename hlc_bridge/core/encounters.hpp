@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "hlc_bridge/core/run_record.hpp"
+
+namespace hlc {
+
+/// How close the driven footprints came to each other.
+struct Encounters {
+  std::optional<double> min_distance_m;  ///< none if no two vehicles were ever recorded together
+  std::size_t collisions{};              ///< how often a pair began to touch
+};
+
+/// Looks at every instant in [from, to] at which a vehicle was recorded, for every pair of vehicles
+/// that both have a pose then (driven_pose_at). Footprints are rectangles along the yaw, without
+/// margin.
+/// @param vehicles  their footprints; vehicles without a drive are passed over
+[[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
+                                    const Drives& drives, Nanoseconds from, Nanoseconds to);
+
+}  // namespace hlc

@@ -1,0 +1,175 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
+
+namespace hlc {
+
+struct LabRunSettings {
+  std::vector<std::uint8_t> vehicle_ids;
+  Nanoseconds period{200'000'000};
+  std::uint64_t steps{150};
+  Nanoseconds startup_timeout{20 * kNanosecondsPerSecond};
+};
+
+/// After a death the others drive out their plans for this long before the stop symbol.
+inline constexpr Nanoseconds kDriveOutTime = 3 * kNanosecondsPerSecond;
+/// Vehicles brake for 50 ticks after the stop symbol; one more may be under way.
+inline constexpr Nanoseconds kBrakingTime = 51 * kVehiclePeriod;
+/// No process waits longer than this (wall time) for a message of a living one.
+inline constexpr Nanoseconds kMessageTimeout = 10 * kNanosecondsPerSecond;
+/// A process that owes an answer this long (wall time, since the last answer of anybody) is dead.
+/// Longer than kMessageTimeout, so that those who wait for the dead one have given up and answered
+/// before: only the culprit is still silent then.
+inline constexpr Nanoseconds kAnswerTimeout = kMessageTimeout + 2 * kNanosecondsPerSecond;
+/// From the start on, controllers must leave standby within this time of the run.
+inline constexpr Nanoseconds kStandbyTimeout = 10 * kNanosecondsPerSecond;
+/// Wall time for the end of an interrupted run.
+inline constexpr Nanoseconds kInterruptTime = 700'000'000;
+
+/// Exit codes of the lab control.
+inline constexpr int kExitGood = 0;
+inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitMissing = 3;
+inline constexpr int kExitDied = 4;
+inline constexpr int kExitInterrupted = 130;
+
+struct Death {
+  std::string process;
+  std::string sign;  ///< how it was noticed, in words
+  friend bool operator==(const Death&, const Death&) = default;
+};
+
+/// What the lab control has to do now, in this order.
+struct LabRunActions {
+  std::vector<Death> deaths;          ///< to be told: log, operator
+  std::optional<RunPhase> run_state;  ///< to be published
+  std::vector<Nanoseconds> triggers;  ///< SystemTriggers to be sent, in this order
+};
+
+struct LabRunResult {
+  int exit_code{kExitGood};
+  std::string reason;  ///< one line; empty if all went well
+  /// In the order in which they were noticed, but a middleware before its controller: that one
+  /// leaves when its middleware is lost, and may know of it earlier than the lab control.
+  std::vector<Death> deaths;
+  std::optional<std::uint64_t> first_step;  ///< k0: first step that anybody reported as not standby
+  Nanoseconds wall{};   ///< wall time from the first trigger to the last answer before the stop
+  Nanoseconds clock{};  ///< time of the run that passed meanwhile
+};
+
+/// The course of one run as a state machine without clock, thread or network: the lab control's
+/// process feeds what arrives, calls advance() after it and at wake_up(), and does what advance()
+/// returns.
+///
+///     gathering ──all ready──► running ──(k0 + steps + 1) periods──► braking ──1 s──► finished (0)
+///         │                       ├──somebody died──► drive out ──3 s──► braking ──► finished (4)
+///         └──timeout──► finished (3)    nobody leaves standby for 10 s ► braking ──► finished (3)
+///
+/// Step k0 is the first that a controller reports as not standby. The run goes on one period after
+/// the last of its `steps` steps has ended, so that the pose which that step led to is recorded
+/// too. An interruption or a controller's stop request leads from anywhere to braking. How time
+/// goes on is said by the two kinds of run, LogicalRun and RealTimeRun.
+class LabRun {
+ public:
+  enum class Phase : std::uint8_t { kGathering, kRunning, kDriveOut, kBraking, kFinished };
+
+  explicit LabRun(LabRunSettings settings);
+  virtual ~LabRun() = default;
+  LabRun(const LabRun&) = delete;
+  LabRun& operator=(const LabRun&) = delete;
+
+  /// Who is there, and who was there and is not any more; a name in both is lost.
+  void presence(const std::set<std::string>& alive, const std::set<std::string>& lost);
+  /// How many readers the lab control's triggers reach.
+  void trigger_readers(std::size_t matched) { trigger_readers_ = matched; }
+  virtual void ready(const ReadyStatus& status) = 0;
+  virtual void state(const VehicleState& /*state*/) {}
+  void report(const ReportRecord& record);
+  void interrupt();
+  void stop_requested(std::uint8_t vehicle_id);
+
+  /// @param now  wall time; never goes back. Real time: since the epoch. Logical time: any.
+  [[nodiscard]] LabRunActions advance(Nanoseconds now);
+  /// Wall time at which advance() must be called even if nothing arrives.
+  [[nodiscard]] Nanoseconds wake_up() const;
+
+  [[nodiscard]] Phase phase() const { return phase_; }
+  [[nodiscard]] bool finished() const { return phase_ == Phase::kFinished; }
+  /// Steps that have begun, 0 before k0; at most `steps`.
+  [[nodiscard]] std::uint64_t steps_begun() const;
+  /// Complete once finished.
+  [[nodiscard]] const LabRunResult& result() const { return result_; }
+
+ protected:
+  static constexpr Nanoseconds kNever = ~Nanoseconds{0};
+
+  /// What the start waits for, one line each; empty: the run can begin.
+  [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
+  /// Triggers that are due. Called at every advance from the beginning on.
+  virtual void go_on(LabRunActions& actions) = 0;
+  /// Time of the run up to which everything is done; kNever if nobody is left for whom time could
+  /// go on.
+  [[nodiscard]] virtual Nanoseconds clock() const = 0;
+  /// Processes that owe an answer now.
+  [[nodiscard]] virtual std::vector<std::string> owing() const { return {}; }
+  /// The process is gone. Before the beginning it may come back and starts anew then.
+  virtual void drop(const std::string& /*process*/) {}
+  /// Wall time at which clock() itself reaches `t`; kNever if that takes an answer.
+  [[nodiscard]] virtual Nanoseconds wall_time_of(Nanoseconds /*t*/) const { return kNever; }
+
+  /// To be called for every answer that brings the run forward.
+  void note_progress() { progress_ = true; }
+  [[nodiscard]] const LabRunSettings& settings() const { return settings_; }
+  [[nodiscard]] Nanoseconds now() const { return now_; }
+  [[nodiscard]] std::size_t trigger_readers() const { return trigger_readers_; }
+  /// Step up to which the controller has reported; nothing before its first report.
+  [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
+
+ private:
+  void gather(LabRunActions& actions);
+  void notice_deaths(LabRunActions& actions);
+  void bury(const std::string& process, const char* sign, LabRunActions& actions);
+  void record_death(const Death& death);
+  void leave_running_phases(LabRunActions& actions);
+  void stop(LabRunActions& actions);
+  void fail(int exit_code, const std::string& reason);
+  [[nodiscard]] std::string missing_line() const;
+  [[nodiscard]] std::string standby_line() const;
+  /// Time of the run at which the present phase ends; kNever if an answer decides.
+  [[nodiscard]] Nanoseconds phase_end() const;
+
+  struct Reported {
+    std::uint64_t last_step{};
+    bool standby{true};
+  };
+
+  LabRunSettings settings_;
+  Phase phase_{Phase::kGathering};
+  LabRunResult result_;
+  std::vector<std::string> processes_;  ///< all that take part
+  std::set<std::string> alive_;
+  std::set<std::string> lost_;
+  std::set<std::string> dropped_;
+  std::map<std::uint8_t, Reported> reports_;
+  std::size_t trigger_readers_{};
+  bool end_asked_{};  ///< interrupted, or a controller asked for the stop
+  bool progress_{};
+  bool started_{};
+  Nanoseconds now_{};
+  Nanoseconds gathering_since_{};
+  Nanoseconds last_progress_{};  ///< wall
+  Nanoseconds began_{};          ///< wall
+  Nanoseconds began_clock_{};
+  Nanoseconds drive_out_since_{};  ///< clock
+  Nanoseconds braking_since_{};    ///< clock
+  Nanoseconds braking_since_wall_{};
+};
+
+}  // namespace hlc

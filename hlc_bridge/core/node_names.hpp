@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "hlc_bridge/core/messages.hpp"
+
+/// Node ids of a run's processes. A process's participants and its ready status carry this name.
+namespace hlc {
+
+inline constexpr const char* kLabControlName = "lab_control";
+
+[[nodiscard]] inline std::string vehicle_name(std::uint8_t vehicle_id) {
+  return "vehicle_raspberry_" + std::to_string(vehicle_id);
+}
+
+[[nodiscard]] inline std::string middleware_name(std::uint8_t vehicle_id) {
+  return "middleware_" + std::to_string(vehicle_id);
+}
+
+[[nodiscard]] inline std::string controller_name(std::uint8_t vehicle_id) {
+  return "high_level_controller_" + std::to_string(vehicle_id);
+}
+
+/// source_id with which a controller tells its middleware that it is ready.
+[[nodiscard]] inline std::string controller_ready_id(std::uint8_t vehicle_id) {
+  return "hlc_" + std::to_string(vehicle_id);
+}
+
+/// source_id with which a middleware tells the lab control that its controller is ready.
+[[nodiscard]] inline std::string middleware_ready_id(std::uint8_t vehicle_id) {
+  return "MW for muCars " + std::to_string(vehicle_id) + " ready.";
+}
+
+}  // namespace hlc

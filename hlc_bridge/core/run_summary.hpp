@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/run_record.hpp"
+#include "hlc_bridge/core/statistics.hpp"
+
+namespace hlc {
+
+struct VehicleSummary {
+  VehicleId id;
+  std::string name;
+  std::size_t steps{};          ///< reported ones; fewer than asked for if the vehicle died
+  std::optional<double> lap_s;  ///< planned positions along the route; closed routes only
+  std::optional<Statistics> reference_error_m;  ///< planned positions to the route's centre line
+  std::optional<Statistics> tracking_error_m;   ///< driven to planned position of the same instant
+  std::optional<Statistics> generated;          ///< vertices per step in which the vehicle planned
+  std::optional<Statistics> expanded;
+  std::optional<Statistics> planning_s;  ///< of those steps
+  std::size_t fallback_steps{};
+  std::size_t deadline_misses{};
+};
+
+struct Host {
+  std::string cpu;
+  unsigned cores{};
+  std::string kernel;
+};
+
+/// The result of a run (keys of summary.json).
+struct RunSummary {
+  RunDescription description;
+  std::size_t steps{};                   ///< steps of the experiment that were reported by anybody
+  std::vector<VehicleSummary> vehicles;  ///< in the scenario's order
+  std::size_t generated_vertices_sum_max{};        ///< largest sum over all vehicles in one step
+  std::optional<double> min_footprint_distance_m;  ///< driven; none with one vehicle
+  std::size_t collisions{};
+  double wall_s{};
+  double realtime_factor{};  ///< time of the run / wall_s
+  std::string trace_sha256;
+  std::string revision;
+  Host host;
+};
+
+/// Everything that a run's records say. A vehicle plans in steps with status planned or fallback;
+/// the other steps do not count for vertices and planning time. Driven footprints are looked at
+/// from t(k0) to the end of the last step.
+/// @param rows  of step_records()
+[[nodiscard]] RunSummary summarize(const RunDescription& description, const RunFacts& facts,
+                                   std::span<const StepRecord> rows, const Drives& drives);
+
+}  // namespace hlc

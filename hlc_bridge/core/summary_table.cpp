@@ -1,0 +1,87 @@
+#include "hlc_bridge/core/summary_table.hpp"
+
+#include <cstdio>
+
+namespace hlc {
+namespace {
+
+constexpr double kMillimetresPerMetre = 1e3;
+constexpr double kMillisecondsPerSecond = 1e3;
+
+template <class... Arguments>
+std::string print(const char* format, Arguments... arguments) {
+  char text[512];
+  std::snprintf(text, sizeof(text), format, arguments...);
+  return text;
+}
+
+std::string mean_std(const std::optional<Statistics>& value, double factor, const char* format) {
+  return value ? print(format, value->mean * factor, value->std * factor) : "-";
+}
+
+std::string mean_max(const std::optional<Statistics>& value, double factor, const char* format) {
+  return value ? print(format, value->mean * factor, value->max * factor) : "-";
+}
+
+std::string largest(const std::optional<Statistics>& value, double factor, const char* format) {
+  return value ? print(format, value->max * factor) : "-";
+}
+
+std::string row(const VehicleSummary& vehicle) {
+  return print("%3u  %-8s %14s %7s %9s %9s %15s %7s %12s %6zu %6zu\n", vehicle.id.value,
+               vehicle.name.c_str(),
+               mean_std(vehicle.reference_error_m, kMillimetresPerMetre, "%.1f (%.1f)").c_str(),
+               vehicle.lap_s ? print("%.2f", *vehicle.lap_s).c_str() : "-",
+               largest(vehicle.generated, 1.0, "%.0f").c_str(),
+               largest(vehicle.expanded, 1.0, "%.0f").c_str(),
+               mean_std(vehicle.planning_s, kMillisecondsPerSecond, "%.2f (%.2f)").c_str(),
+               largest(vehicle.planning_s, kMillisecondsPerSecond, "%.2f").c_str(),
+               mean_max(vehicle.tracking_error_m, kMillimetresPerMetre, "%.1f / %.1f").c_str(),
+               vehicle.fallback_steps, vehicle.deadline_misses);
+}
+
+}  // namespace
+
+std::string summary_table(const RunSummary& summary) {
+  const RunDescription& run = summary.description;
+  std::string text = print(
+      "%s: %zu steps of %g s, horizon %zu, subgraph %s, profile %s, map %s, seed %llu\n\n",
+      run.scenario.c_str(), summary.steps, run.step_s, run.horizon_steps, run.subgraph.c_str(),
+      run.profile.c_str(), run.map.c_str(), static_cast<unsigned long long>(run.seed));
+  text += print("%3s  %-8s %14s %7s %19s %23s %12s %13s\n", "", "", "reference", "lap",
+                "vertices, max", "planning time", "tracking", "steps");
+  text += print("%3s  %-8s %14s %7s %9s %9s %15s %7s %12s %6s %6s\n", "id", "vehicle", "error [mm]",
+                "[s]", "generated", "expanded", "[ms]", "max", "error [mm]", "fallb.", "late");
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    text += row(vehicle);
+  }
+  text += "\nall vehicles\n";
+  text += print("  generated vertices, largest sum in one step  %zu\n",
+                summary.generated_vertices_sum_max);
+  text +=
+      print("  smallest distance of driven footprints       %s\n",
+            summary.min_footprint_distance_m
+                ? print("%.1f mm", *summary.min_footprint_distance_m * kMillimetresPerMetre).c_str()
+                : "-");
+  text += print("  collisions                                   %zu\n", summary.collisions);
+  text += print("  wall time, real-time factor                  %.2f s, %.1f\n", summary.wall_s,
+                summary.realtime_factor);
+  text +=
+      print("  planned and driven poses, SHA-256  %s\n", summary.trace_sha256.c_str());
+  text += print("  program, host                                %s, %s, %u cores, %s\n",
+                summary.revision.c_str(), summary.host.cpu.c_str(), summary.host.cores,
+                summary.host.kernel.c_str());
+  text +=
+      "\nMeans are followed by standard deviations in parentheses, or by \"/\" and the maximum.\n"
+      "reference error  planned positions to the centre of the lane\n"
+      "lap              length of the route travelled by the planned positions; -: not completed "
+      "or "
+      "no closed route\n"
+      "vertices         of the search tree, with its root and those never expanded\n"
+      "tracking error   driven to planned position at the same instant\n"
+      "fallb.           steps in which the previous plan stayed in force\n"
+      "late             steps in which a deadline was missed (real time)\n";
+  return text;
+}
+
+}  // namespace hlc
