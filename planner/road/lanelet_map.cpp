@@ -38,7 +38,7 @@ class Reader {
     if (version != "2020a") {
       fail(root->GetLineNum(), "commonRoadVersion is " + quoted(version) + ", must be \"2020a\"");
     }
-    LaneletMap map;
+    LaneletMap map{.benchmark_id = std::string(attribute(*root, "benchmarkID")), .lanelets = {}};
     for (const XMLElement* element = root->FirstChildElement("lanelet"); element != nullptr;
          element = element->NextSiblingElement("lanelet")) {
       Lanelet lanelet = read_lanelet(*element);
@@ -240,7 +240,9 @@ std::string to_commonroad_xml(const LaneletMap& map) {
   xml.imbue(std::locale::classic());
   xml << std::fixed << std::setprecision(9)
       << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\"ZAM_LabLike-1_1_T-1\" "
+         "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\""
+      << map.benchmark_id
+      << "\" "
          "date=\"2025-01-01\" author=\"generate_map\" affiliation=\"none\" source=\"generated\" "
          "timeStepSize=\"0.2\">\n"
          "  <location>\n"

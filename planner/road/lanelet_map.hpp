@@ -38,6 +38,8 @@ struct Lanelet {
 
 /// The lanelets of a map; every id that one refers to is there.
 struct LaneletMap {
+  std::string benchmark_id{
+      "ZAM_LabLike-1_1_T-1"};  ///< the file's name for itself; default: our own map's
   std::map<LaneletId, Lanelet> lanelets;
 
   friend bool operator==(const LaneletMap&, const LaneletMap&) = default;
