@@ -1,0 +1,80 @@
+#pragma once
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace hlc {
+
+/// Consecutive DDS domains that no other test on this machine uses as long as this object lives:
+/// lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count - 1, all in
+/// 1 ... 50, and with each the one 50 above it (the default controller domain), so that none is
+/// above 100.
+class DomainReservation {
+ public:
+  /// Waits up to a minute for room; throws std::runtime_error after that.
+  explicit DomainReservation(int count = 1) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
+    while (!reserve(count)) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        throw std::runtime_error("no " + std::to_string(count) + " free DDS domains");
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds{100});
+    }
+  }
+  ~DomainReservation() { release(); }
+  DomainReservation(const DomainReservation&) = delete;
+  DomainReservation& operator=(const DomainReservation&) = delete;
+
+  [[nodiscard]] int first() const { return first_; }
+
+ private:
+  static constexpr int kDomains = 50;
+
+  // Looks at the domains from a place that differs from process to process.
+  bool reserve(int count) {
+    const int starts = kDomains - count + 1;
+    for (int i = 0; i < starts; ++i) {
+      first_ = 1 + (static_cast<int>(getpid()) + i) % starts;
+      if (lock_all(count)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool lock_all(int count) {
+    for (int domain = first_; domain < first_ + count; ++domain) {
+      const std::string file = "/tmp/hlc_dds_domain_" + std::to_string(domain) + ".lock";
+      const int fd = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      if (fd < 0) {
+        release();
+        return false;
+      }
+      locks_.push_back(fd);
+      if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+        release();
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void release() {
+    for (const int fd : locks_) {
+      close(fd);
+    }
+    locks_.clear();
+  }
+
+  int first_{};
+  std::vector<int> locks_;
+};
+
+}  // namespace hlc
