@@ -5,6 +5,7 @@
 #include <ompl/util/Console.h>
 
 #include <memory>
+#include <numbers>
 
 namespace ob = ompl::base;
 
@@ -48,7 +49,8 @@ void write_state(const HorizonState& from, ob::State& to) {
   auto& state = *to.as<ob::CompoundState>();
   auto& pose = *state.as<ob::SE2StateSpace::StateType>(kPose);
   pose.setXY(from.pose.x_m, from.pose.y_m);
-  pose.setYaw(wrap_angle(from.pose.heading_rad));
+  const double heading = wrap_angle(from.pose.heading_rad);
+  pose.setYaw(heading < std::numbers::pi ? heading : -std::numbers::pi);  // OMPL: [-pi, pi)
   state.as<ob::DiscreteStateSpace::StateType>(kTrim)->value = static_cast<int>(from.trim.index);
   state.as<ob::DiscreteStateSpace::StateType>(kStep)->value = static_cast<int>(from.step);
 }

@@ -15,7 +15,7 @@ namespace hlc {
 
 /// A state of the OMPL state space SE(2) x trim x step: pose, trim and number of steps done.
 struct HorizonState {
-  Pose pose;  ///< OMPL keeps the heading in (-pi, pi]
+  Pose pose;  ///< OMPL keeps the heading in [-pi, pi)
   TrimId trim;
   std::size_t step{};
 };
