@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "planner/maneuver_design/automaton_builder.hpp"
+
+namespace hlc {
+
+/// The shipped configuration of the paper's automaton.
+inline const AutomatonConfiguration& paper_configuration() {
+  static const AutomatonConfiguration configuration =
+      read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+  return configuration;
+}
+
+/// The automaton built from it, once per test program.
+inline std::shared_ptr<const UniversalAutomaton> paper_automaton() {
+  static const auto automaton = build_shared_automaton(paper_configuration());
+  return automaton;
+}
+
+/// Trim with the paper's number, from 1.
+inline TrimId pi(std::size_t number) { return TrimId{number - 1}; }
+
+}  // namespace hlc

@@ -1,0 +1,124 @@
+#include "planner/maneuver_design/automaton_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "planner/maneuver_design/criteria.hpp"
+#include "planner/maneuver_design/shooting.hpp"
+#include "tests/planner/automaton/paper_automaton.hpp"
+
+namespace hlc {
+namespace {
+
+TEST(AutomatonBuilder, BuildsEveryTrimsStepAnd50ManeuversForThePaper) {
+  const auto automaton = paper_automaton();
+  std::size_t own_steps = 0;
+  std::size_t maneuvers = 0;
+  for (const Maneuver& maneuver : automaton->maneuvers) {
+    ++(maneuver.from == maneuver.to ? own_steps : maneuvers);
+  }
+  EXPECT_EQ(own_steps, 12U);
+  EXPECT_EQ(maneuvers, 50U);  // 42 of the chain, 8 more for D
+  for (const auto& [from, to] : {std::pair{2U, 4U}, {4U, 6U}, {8U, 10U}, {10U, 12U}}) {
+    EXPECT_NE(automaton->find(pi(from), pi(to), "J2"), nullptr);
+    EXPECT_NE(automaton->find(pi(to), pi(from), "J2"), nullptr);
+  }
+}
+
+TEST(AutomatonBuilder, EveryManeuverObeysTheModelMeetsItsTrimsAndTheLimits) {
+  const auto automaton = paper_automaton();
+  const VehicleLimits& limits = automaton->limits;
+  for (const Maneuver& maneuver : automaton->maneuvers) {
+    SCOPED_TRACE(testing::Message() << maneuver.from.index + 1 << " -> " << maneuver.to.index + 1);
+    const Trim& from = automaton->trims[maneuver.from.index];
+    const Trim& to = automaton->trims[maneuver.to.index];
+    ASSERT_EQ(maneuver.states.size(), maneuver.inputs.size() + 1);
+    EXPECT_EQ(maneuver.duration_s, automaton->step_s);
+    EXPECT_EQ(maneuver.displacement, maneuver.states.back().pose);
+    EXPECT_EQ(maneuver.states.front(), (State{{}, from.speed_mps, from.steering_rad}));
+    EXPECT_NEAR(maneuver.states.back().speed_mps, to.speed_mps, 1e-12);
+    EXPECT_NEAR(maneuver.states.back().steering_rad, to.steering_rad, 1e-12);
+
+    // Integrated again, with finer steps.
+    constexpr int kFiner = 10;
+    State state = maneuver.states.front();
+    const double step_s =
+        maneuver.duration_s / static_cast<double>(kFiner * maneuver.inputs.size());
+    for (std::size_t k = 0; k < maneuver.inputs.size(); ++k) {
+      const Input& input = maneuver.inputs[k];
+      EXPECT_LE(std::abs(input.acceleration_mps2), limits.acceleration_mps2);
+      EXPECT_LE(std::abs(input.steering_rate_radps), limits.steering_rate_radps);
+      for (int i = 0; i < kFiner; ++i) {
+        state = integrated(state, input, step_s, automaton->vehicle);
+      }
+      EXPECT_LT((to_vector(state) - to_vector(maneuver.states[k + 1])).norm(), 1e-7);
+      EXPECT_LE(state.speed_mps, limits.speed_max_mps);
+      EXPECT_GE(state.speed_mps, limits.speed_min_mps - 1e-12);
+      EXPECT_LE(std::abs(state.steering_rad), limits.steering_max_rad);
+    }
+  }
+}
+
+TEST(AutomatonBuilder, ATrimsOwnStepIsTheExactArc) {
+  const auto automaton = paper_automaton();
+  for (std::size_t i = 0; i < automaton->trims.size(); ++i) {
+    const Trim& trim = automaton->trims[i];
+    const Maneuver* step = automaton->find(TrimId{i}, TrimId{i}, "J2");
+    ASSERT_NE(step, nullptr);
+    EXPECT_EQ(step->displacement, trim_motion({}, trim.speed_mps, trim.steering_rad,
+                                              automaton->step_s, automaton->vehicle));
+    for (const State& state : step->states) {
+      EXPECT_EQ(state.speed_mps, trim.speed_mps);
+      EXPECT_EQ(state.steering_rad, trim.steering_rad);
+    }
+  }
+}
+
+// First-order optimality with end conditions alone active: the gradient with respect to the inputs
+// of one kind is the same in every interval (it equals the end condition's multiplier).
+TEST(AutomatonBuilder, EveryManeuverIsAStationaryPointOfItsCriterion) {
+  const auto automaton = paper_automaton();
+  for (const Maneuver& maneuver : automaton->maneuvers) {
+    if (maneuver.from == maneuver.to) {
+      continue;
+    }
+    const auto cost = make_criterion(maneuver.label);
+    const Shot shot = shoot(maneuver.states.front(), maneuver.inputs, maneuver.duration_s, *cost,
+                            automaton->vehicle, WithGradient::kYes);
+    for (const Eigen::Vector2d& gradient : shot.gradient) {
+      EXPECT_LT((gradient - shot.gradient.front()).norm(), 1e-9 * (1.0 + gradient.norm()));
+    }
+  }
+}
+
+TEST(AutomatonBuilder, TheSameConfigurationGivesTheSameAutomatonBitForBit) {
+  const UniversalAutomaton again = build_automaton(paper_configuration());
+  ASSERT_EQ(again.maneuvers.size(), paper_automaton()->maneuvers.size());
+  for (std::size_t i = 0; i < again.maneuvers.size(); ++i) {
+    const Maneuver& a = again.maneuvers[i];
+    const Maneuver& b = paper_automaton()->maneuvers[i];
+    EXPECT_EQ(a.label, b.label);
+    EXPECT_EQ(a.inputs, b.inputs);
+    EXPECT_EQ(a.states, b.states);
+    EXPECT_EQ(a.swept_area_m, b.swept_area_m);
+    EXPECT_EQ(a.lane_area_m, b.lane_area_m);
+  }
+}
+
+TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {
+  AutomatonConfiguration configuration = paper_configuration();
+  configuration.source = "slow.yaml";
+  configuration.limits.acceleration_mps2 = 3.0;
+  try {
+    (void)build_automaton(configuration);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "slow.yaml: maneuver 1 -> 5 (J2): speed 0 -> 0.7 m/s in 0.2 s needs acceleration "
+                 "3.5 m/s^2, allowed 3 m/s^2; shortest feasible duration 0.233333 s");
+  }
+}
+
+}  // namespace
+}  // namespace hlc
