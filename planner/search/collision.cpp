@@ -19,7 +19,7 @@ double radius_m(const ConvexPolygon& polygon) {
 }  // namespace
 
 CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
-    : subgraph_(subgraph), reachable_(reachable) {
+    : reachable_(reachable) {
   std::size_t max_vertices = 0;
   for (const TrimId trim : subgraph.spec().trims) {
     for (const Edge& edge : subgraph.successors(trim)) {

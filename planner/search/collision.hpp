@@ -25,7 +25,7 @@ namespace hlc {
 /// for an edge that a plan can hold. A check allocates nothing. Not safe for two threads at once.
 class CollisionCheck {
  public:
-  /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
+  /// @param reachable  belongs to `subgraph` and must outlive this object
   CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable);
 
   /// @param problem  must stay unchanged until the last check
@@ -52,7 +52,6 @@ class CollisionCheck {
   /// Moves `area_m` into `placed_` and returns its box.
   Box place(const ConvexPolygon& area_m, const Frame& start);
 
-  const Subgraph& subgraph_;
   const ReachableSets& reachable_;
   double area_radius_m_{};  ///< farthest point of any maneuver's area from its start
   std::vector<std::vector<Obstacle>> obstacles_;

@@ -39,7 +39,7 @@ ob::SpaceInformationPtr make_space_information(const Subgraph& subgraph, std::si
   space->addSubspace(std::make_shared<ob::DiscreteStateSpace>(0, static_cast<int>(max_steps)), 0.0);
   space->lock();
 
-  const auto si = std::make_shared<ob::SpaceInformation>(space);
+  auto si = std::make_shared<ob::SpaceInformation>(space);
   si->setStateValidityChecker(std::make_shared<ob::AllValidStateValidityChecker>(si));
   si->setup();
   return si;

@@ -12,7 +12,7 @@
 namespace hlc {
 namespace {
 
-constexpr std::size_t kMaxSteps = 10;
+constexpr std::size_t kMaxSteps = 8;
 
 /// Straight on at 0.8 m/s from the paper's pi_7.
 HorizonProblem straight_problem(std::size_t horizon_steps) {
@@ -103,18 +103,18 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
     }
   }
   // The problems must be hard enough to say something.
-  EXPECT_GT(infeasible, param.problems / 50);
-  EXPECT_GT(obstructed, param.problems / 10);
+  EXPECT_GE(infeasible, 1 + param.problems / 50);
+  EXPECT_GE(obstructed, param.problems / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     RandomProblems, BestFirstSearchOptimality,
     testing::Values(
-        OptimalityCase{"TwelveTrims4", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 4, 800},
-        OptimalityCase{"TwelveTrims5", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 400},
-        OptimalityCase{"TwelveTrims6", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 6, 100},
-        OptimalityCase{"FastManeuvers5", 8.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 400},
-        OptimalityCase{"FewTrims8", 0.0, {1, 4, 7, 10}, 8, 100}),
+        OptimalityCase{"TwelveTrims4", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 4, 300},
+        OptimalityCase{"TwelveTrims5", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 100},
+        OptimalityCase{"TwelveTrims6", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 6, 20},
+        OptimalityCase{"FastManeuvers5", 8.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 100},
+        OptimalityCase{"FewTrims8", 0.0, {1, 4, 7, 10}, 8, 30}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(BestFirstSearch, TwoSearchesOfOneProblemAgreeInEverything) {

@@ -2,28 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
+#include "tests/support/allocation_counter.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
-
-namespace {
-std::size_t num_allocations = 0;
-}  // namespace
-
-// Counts the allocations of this program.
-void* operator new(std::size_t size) {
-  ++num_allocations;
-  void* memory = std::malloc(size);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 namespace hlc {
 namespace {
@@ -158,7 +140,7 @@ TEST_F(CollisionCheckTest, AllocatesNothingPerCheck) {
   problem.boundary_m = {{{1.0, 1.9}, {2.0, 2.4}}, {{1.0, 1.7}, {2.0, 2.2}}};
   check_.prepare(problem);
   const Frame start = to_frame(problem.start);
-  const std::size_t before = num_allocations;
+  const std::size_t before = test::num_allocations();
   std::size_t free = 0;
   for (const TrimId trim : subgraph_.spec().trims) {
     for (const Edge& edge : subgraph_.successors(trim)) {
@@ -167,7 +149,7 @@ TEST_F(CollisionCheckTest, AllocatesNothingPerCheck) {
       }
     }
   }
-  EXPECT_EQ(num_allocations, before);
+  EXPECT_EQ(test::num_allocations(), before);
   EXPECT_GT(before, 0);
   EXPECT_LT(free, 54);
 }
