@@ -169,6 +169,7 @@ void link(LaneletMap& map) {
 RoadNetwork lab_like_map() {
   RoadNetwork network;
   LaneletMap& map = network.map;
+  map.benchmark_id = "ZAM_LabLike-1_1_T-1";
 
   // Red is cut where another circuit joins or leaves its lane or the lane beside it.
   const CurvatureCurve red(kRedStart, kRedHalf);

@@ -188,6 +188,27 @@ class Reader {
   const std::string& name_;
 };
 
+/// As the value of an attribute in double quotes.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
 void write_bound(std::ostream& xml, const char* name, const std::vector<Point>& points_m) {
   xml << "    <" << name << ">\n";
   for (const Point& point : points_m) {
@@ -241,7 +262,7 @@ std::string to_commonroad_xml(const LaneletMap& map) {
   xml << std::fixed << std::setprecision(9)
       << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\""
-      << map.benchmark_id
+      << escaped(map.benchmark_id)
       << "\" "
          "date=\"2025-01-01\" author=\"generate_map\" affiliation=\"none\" source=\"generated\" "
          "timeStepSize=\"0.2\">\n"

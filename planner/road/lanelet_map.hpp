@@ -38,8 +38,7 @@ struct Lanelet {
 
 /// The lanelets of a map; every id that one refers to is there.
 struct LaneletMap {
-  std::string benchmark_id{
-      "ZAM_LabLike-1_1_T-1"};  ///< the file's name for itself; default: our own map's
+  std::string benchmark_id;  ///< the map's name for itself (attribute benchmarkID)
   std::map<LaneletId, Lanelet> lanelets;
 
   friend bool operator==(const LaneletMap&, const LaneletMap&) = default;
@@ -50,9 +49,9 @@ struct LaneletMap {
 /// harm.
 /// @throws std::runtime_error one line, `file:line: what is wrong and what is allowed`: file that
 /// cannot
-///         be read, not XML, other root or version, no lanelet; a lanelet with missing, repeated or
-///         unknown id, a bound missing, with fewer than 2 points or not as long as the other, a
-///         number that is broken or not finite
+///         be read, not XML, other root or version, no benchmarkID, no lanelet; a lanelet with
+///         missing, repeated or unknown id, a bound missing, with fewer than 2 points or not as
+///         long as the other, a number that is broken or not finite
 [[nodiscard]] LaneletMap read_lanelet_map(const std::filesystem::path& file);
 
 /// The same from a text; `name` stands for the file in error messages.

@@ -23,8 +23,8 @@ const std::string kBounds =
     "<rightBound><point><x>0</x><y>-1</y></point><point><x> 2.0 </x><y>-1</y></point></rightBound>";
 
 std::string file_with(const std::string& content, const std::string& version = "2020a") {
-  return "<?xml version=\"1.0\"?>\n<commonRoad commonRoadVersion=\"" + version + "\">\n" + content +
-         "</commonRoad>\n";
+  return "<?xml version=\"1.0\"?>\n<commonRoad benchmarkID=\"ZAM_A&amp;B-1\" commonRoadVersion=\"" +
+         version + "\">\n" + content + "</commonRoad>\n";
 }
 
 std::string lanelet(const std::string& id, const std::string& rest, const std::string& bounds) {
@@ -55,6 +55,7 @@ TEST(LaneletMap, ReadsBoundsReferencesAndNeighbours) {
                         kBounds) +
                 lanelet("8", "", kBounds)),
       "map.xml");
+  EXPECT_EQ(map.benchmark_id, "ZAM_A&B-1");
   ASSERT_EQ(map.lanelets.size(), 2U);
   const Lanelet& seven = map.lanelets.at(7);
   EXPECT_EQ(seven.id, 7);
@@ -85,6 +86,7 @@ TEST(LaneletMap, ErrorsNameFileLineValueAndWhatIsAllowed) {
       {"<osm/>", {"map.xml:1: ", "<commonRoad>"}},
       {file_with(lanelet("7", "", kBounds), "2018b"), {"map.xml:2: ", "\"2018b\"", "\"2020a\""}},
       {replaced(good, " commonRoadVersion=\"2020a\"", ""), {"map.xml:2: ", "commonRoadVersion"}},
+      {replaced(good, " benchmarkID=\"ZAM_A&amp;B-1\"", ""), {"map.xml:2: ", "benchmarkID"}},
       {file_with(""), {"map.xml:2: ", "at least one"}},
       {replaced(good, " id=\"7\"", ""), {"map.xml:3: ", "attribute id"}},
       {replaced(good, "id=\"7\"", "id=\"0\""), {"map.xml:3: ", "\"0\"", "from 1"}},

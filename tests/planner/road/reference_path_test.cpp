@@ -63,6 +63,7 @@ TEST(ReferencePath, HeadingIsThatOfTheSegmentAndOfTheLaterOneAtAJoint) {
   EXPECT_DOUBLE_EQ(path.heading_rad_at(1.0), std::numbers::pi / 2.0);
   EXPECT_DOUBLE_EQ(path.heading_rad_at(2.5), std::numbers::pi);
   EXPECT_DOUBLE_EQ(path.heading_rad_at(-0.5), -std::numbers::pi / 2.0);
+  EXPECT_EQ(path.heading_rad_at(-1e-20), 0.0);  // rounds to the end, which is the beginning
   EXPECT_DOUBLE_EQ(ReferencePath(kSquare, false).heading_rad_at(9.0), std::numbers::pi);
 }
 
