@@ -163,6 +163,37 @@ TEST(SweptArea, HoldsAllCornersOfRoughMotionsOfOtherVehiclesToo) {
   }
 }
 
+TEST(SweptArea, HoldsTheCornersWhereSteeringSaturatesWithinAnInterval) {
+  constexpr unsigned kSeed = 34;
+  SCOPED_TRACE(kSeed);
+  std::mt19937 random(kSeed);
+  Vehicle vehicle = paper_vehicle();
+  vehicle.identified.slip_gain_rad = -0.8;  // turns far beyond the planned heading
+  Vehicle weak = vehicle;                   // saturates on both sides
+  weak.identified.yaw_rate_gain_per_m = 1.0;
+  struct Case {
+    Vehicle vehicle;
+    double from_rad, to_rad;
+  };
+  for (const Case& c : {Case{vehicle, -0.5, -0.62}, Case{vehicle, -0.62, -0.5},
+                        Case{weak, -0.62, 0.62}, Case{weak, 0.62, -0.62}}) {
+    // Standing, so that nothing but the steering moves, in a single interval.
+    const double rate_radps = (c.to_rad - c.from_rad) / 0.2;
+    const Maneuver maneuver{TrimId{0},
+                            TrimId{1},
+                            "",
+                            0.2,
+                            {Input{0.0, rate_radps}},
+                            {State{{}, 0.0, c.from_rad}, State{{}, 0.0, c.to_rad}},
+                            {},
+                            {},
+                            {}};
+    const SweptAreas areas = swept_areas(maneuver, c.vehicle.parameters, c.vehicle.identified);
+    const Corners corners = corners_at_random_times(maneuver, c.vehicle, random);
+    EXPECT_TRUE(contains_all(areas.swept_area_m, corners.swept_m)) << c.from_rad;
+  }
+}
+
 TEST(SweptArea, HasAtMostEightVerticesAndLittleMoreThanTheHullOfTheCorners) {
   const Vehicle vehicle = paper_vehicle();
   for (const Maneuver& maneuver : paper_automaton()->maneuvers) {

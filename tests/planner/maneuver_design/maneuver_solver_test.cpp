@@ -127,6 +127,47 @@ TEST(ManeuverSolver, KeepsBoundsOnStatesThatTheFreeOptimumViolates) {
   expect_no_residuals(bounded.residuals);
 }
 
+/// Stays near the start: brakes as hard as it may.
+class NearnessCost final : public RunningCost {
+ public:
+  [[nodiscard]] double value(const StateVector& x, const Input& u) const override {
+    return -distance_.value(x, u);
+  }
+  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override {
+    CostGradient gradient = distance_.gradient(x, u);
+    gradient.state *= -1.0;
+    return gradient;
+  }
+
+ private:
+  DistanceCost distance_;
+};
+
+TEST(ManeuverSolver, KeepsTheLowerBoundOnTheSpeedAndBothBoundsOnSteering) {
+  ManeuverProblem problem = paper_problem(pi(7), pi(8));
+  problem.limits.speed_min_mps = 0.3;
+  problem.limits.steering_max_rad = 0.2;
+  const ManeuverSolution slow = solve(problem, NearnessCost{});
+  ASSERT_EQ(slow.status, ManeuverStatus::kOptimal) << slow.reason;
+  expect_no_residuals(slow.residuals);
+  double slowest = problem.from.speed_mps;
+  for (const State& state : slow.states) {
+    slowest = std::min(slowest, state.speed_mps);
+  }
+  EXPECT_NEAR(slowest, 0.3, 1e-8);
+
+  // The guess leaves the bounds on steering, near the left one and near the right one.
+  for (const double sign : {-1.0, 1.0}) {
+    problem.from.steering_rad = sign * 0.15;
+    problem.to.steering_rad = sign * 0.15;
+    SolverOptions options;
+    options.guess = Guess::kBangBang;
+    const ManeuverSolution turning = solve(problem, DistanceCost{}, options);
+    ASSERT_EQ(turning.status, ManeuverStatus::kOptimal) << turning.reason;
+    expect_no_residuals(turning.residuals);
+  }
+}
+
 TEST(ManeuverSolver, NamesTheBoundThatMakesAPairInfeasibleAndTheShortestDuration) {
   const Effort effort;
   ManeuverProblem problem = paper_problem(pi(1), pi(7));
