@@ -4,6 +4,8 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
 
+#include <numbers>
+
 #include "planner/search/best_first_search.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
@@ -177,6 +179,19 @@ TEST_F(OmplPlannerTest, StatesKeepPoseTrimAndStep) {
   EXPECT_EQ(read.trim, TrimId{11});
   EXPECT_EQ(read.step, 5);
   si_->freeState(state);
+}
+
+TEST_F(OmplPlannerTest, PlansFromAHeadingOfPi) {
+  HorizonProblem problem = straight_problem();
+  for (const double heading_rad : {std::numbers::pi, -std::numbers::pi}) {
+    problem.start.heading_rad = heading_rad;
+    const auto definition = define(problem);
+    EXPECT_TRUE(si_->satisfiesBounds(definition->getStartState(0)));
+    RecedingHorizonPlanner planner(si_, make_engine());
+    planner.setProblemDefinition(definition);
+    EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()),
+              ob::PlannerStatus::EXACT_SOLUTION);
+  }
 }
 
 TEST_F(OmplPlannerTest, GoalIsTheLastStepInStandstill) {
