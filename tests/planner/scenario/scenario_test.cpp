@@ -1,0 +1,115 @@
+#include "planner/scenario/scenario.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc {
+namespace {
+
+const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+
+/// Writes a scenario that is good but for `change`, and returns what reading it says.
+class ScenarioErrors : public testing::Test {
+ protected:
+  std::string error_of(const std::string& from, const std::string& to) {
+    std::ifstream good(kFolder + "scenarios/paper_three_cars.yaml");
+    std::string text((std::istreambuf_iterator<char>(good)), {});
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    for (std::size_t place = 0; (place = text.find("../", place)) != std::string::npos;) {
+      text.replace(place, 3, kFolder);
+    }
+    const std::string file = testing::TempDir() + "/scenario_" +
+                             testing::UnitTest::GetInstance()->current_test_info()->name() +
+                             ".yaml";
+    std::ofstream(file) << text;
+    try {
+      static_cast<void>(read_scenario({.file = file}));
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+using testing::HasSubstr;
+
+TEST_F(ScenarioErrors, AnUnknownKeyIsNamedWithItsLine) {
+  EXPECT_THAT(error_of("seed: 1", "sead: 1"), AllOf(HasSubstr(".yaml:4:"), HasSubstr("sead")));
+}
+
+TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
+  EXPECT_THAT(error_of("steps: 150", "steps: many"), AllOf(HasSubstr("steps"), HasSubstr("many")));
+}
+
+TEST_F(ScenarioErrors, AnUnknownLaneletIsNamed) {
+  EXPECT_THAT(error_of("[1, 2, 3, 4, 5,", "[1, 2, 3, 4, 999,"), HasSubstr("999"));
+}
+
+TEST_F(ScenarioErrors, ARouteThatDoesNotCloseIsNamed) {
+  EXPECT_THAT(error_of("7, 8, 9, 10]", "7, 8, 9]"), AllOf(HasSubstr("lanelets"), HasSubstr("9")));
+}
+
+TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
+  EXPECT_THAT(error_of("ZAM_LabLike-1_1_T-1: [1,", "another_map: [1,"),
+              HasSubstr("ZAM_LabLike-1_1_T-1"));
+}
+
+TEST_F(ScenarioErrors, StartPosesThatOverlapAreNamed) {
+  EXPECT_THAT(error_of("name: blue, route: blue", "name: blue, route: red"),
+              AllOf(HasSubstr("1"), HasSubstr("2"), HasSubstr("overlap")));
+}
+
+TEST_F(ScenarioErrors, AnIdAboveThirtyIsRefused) {
+  EXPECT_THAT(error_of("id: 2", "id: 31"), AllOf(HasSubstr("31"), HasSubstr("30")));
+}
+
+TEST_F(ScenarioErrors, AnIdThatIsTakenTwiceIsRefused) {
+  EXPECT_THAT(error_of("id: 2", "id: 1"), HasSubstr("once"));
+}
+
+TEST_F(ScenarioErrors, AMissingMapIsNamed) {
+  EXPECT_THAT(error_of("lab_like.xml", "nowhere.xml"), HasSubstr("nowhere.xml"));
+}
+
+TEST_F(ScenarioErrors, AnUnknownSubgraphNamesThoseThatExist) {
+  EXPECT_THAT(error_of("subgraph: B", "subgraph: Z"), AllOf(HasSubstr("Z"), HasSubstr("B")));
+}
+
+TEST_F(ScenarioErrors, BrokenYamlIsNamedWithItsFile) {
+  EXPECT_THAT(error_of("vehicles:", "vehicles: [}"), HasSubstr(".yaml"));
+}
+
+TEST_F(ScenarioErrors, TheUnchangedFileIsGood) { EXPECT_EQ(error_of("seed: 1", "seed: 1"), ""); }
+
+TEST(Scenario, AnUnknownProfileIsRefused) {
+  EXPECT_THROW(static_cast<void>(profile_from_name("2023")), std::invalid_argument);
+}
+
+TEST(Scenario, CarsOnACircleStandApartAndHeadForTheOppositePoint) {
+  const ScenarioChoices choices{.file = kFolder + "scenarios/circle.yaml", .cars = 20};
+  const Scenario scenario = read_scenario(choices);
+  ASSERT_EQ(scenario.vehicles.size(), 20U);
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    const Point centre(2.25, 2.0);
+    EXPECT_NEAR((vehicle.start.position_m() - centre).norm(), 1.5, 1e-12);
+    EXPECT_NEAR((vehicle.path.at(3.0) - (2.0 * centre - vehicle.start.position_m())).norm(), 0.0,
+                1e-9);
+    EXPECT_NEAR(wrap_angle(vehicle.path.heading_rad_at(0.0) - vehicle.start.heading_rad), 0.0,
+                1e-9);
+  }
+}
+
+TEST(Scenario, CarsAreRefusedWhereVehiclesHaveNames) {
+  const ScenarioChoices choices{.file = kFolder + "scenarios/paper_red_alone.yaml", .cars = 3};
+  EXPECT_THROW(static_cast<void>(read_scenario(choices)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hlc
