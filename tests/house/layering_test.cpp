@@ -1,0 +1,163 @@
+// Holds every #include against the arrows of the house. Debian puts the headers of Fast DDS, OMPL
+// and all other libraries into the compiler's default path, so the build alone would not notice.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hlc {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+/// Folder of the house -> folders that its files may include, beside itself. A folder stands for
+/// those below it.
+const std::map<std::string, Names> kArrows{
+    {"planner/geometry", {}},
+    {"planner/vehicle", {"planner/geometry"}},
+    {"planner/automaton", {"planner/vehicle", "planner/geometry"}},
+    {"planner/maneuver_design", {"planner/automaton", "planner/vehicle", "planner/geometry"}},
+    {"planner/road", {"planner/vehicle", "planner/geometry"}},
+    {"planner/search",
+     {"planner/automaton", "planner/road", "planner/vehicle", "planner/geometry"}},
+    {"planner/coordination",
+     {"planner/search", "planner/automaton", "planner/road", "planner/vehicle",
+      "planner/geometry"}},
+    {"planner/controller",
+     {"planner/coordination", "planner/search", "planner/automaton", "planner/road",
+      "planner/vehicle", "planner/geometry"}},
+    {"planner/scenario",
+     {"planner/controller", "planner/coordination", "planner/search", "planner/automaton",
+      "planner/maneuver_design", "planner/road", "planner/vehicle", "planner/geometry"}},
+    {"planner/rollout",
+     {"planner/scenario", "planner/controller", "planner/coordination", "planner/search",
+      "planner/automaton", "planner/road", "planner/vehicle", "planner/geometry"}},
+    {"planner/apps", {"planner"}},
+    {"hlc_bridge/core", {"planner"}},
+    {"hlc_bridge/time", {"hlc_bridge/core"}},
+    {"hlc_bridge/dds", {"hlc_bridge/core", "planner"}},
+    {"hlc_bridge/record", {"hlc_bridge/core", "planner"}},
+    {"hlc_bridge/middleware", {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "planner"}},
+    {"hlc_bridge/hlc", {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "planner"}},
+    {"hlc_bridge/lab_control",
+     {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/record", "planner"}},
+    {"hlc_bridge/view", {"hlc_bridge/core", "planner"}},
+    {"hlc_bridge/apps", {"hlc_bridge", "planner"}},
+    {"vehicle_sim/plant", {"planner/geometry", "planner/vehicle"}},
+    // The follower sees commands on the wire, never a plan.
+    {"vehicle_sim/tracking", {"hlc_bridge/core", "planner/geometry", "planner/vehicle"}},
+    {"vehicle_sim/campaign",
+     {"hlc_bridge/core", "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
+    {"vehicle_sim/apps",
+     {"vehicle_sim/campaign", "vehicle_sim/plant", "vehicle_sim/tracking", "hlc_bridge/dds",
+      "hlc_bridge/time", "hlc_bridge/core", "hlc_bridge/record", "planner/geometry",
+      "planner/vehicle"}},
+};
+
+/// Headers from outside that only some places may name: pattern of the header, pattern of the
+/// files.
+struct Outside {
+  std::string header;
+  std::string files;
+  std::string why;
+};
+const std::vector<Outside> kOutside{
+    {"^(fastdds|fastrtps|fastcdr)/.*", "^hlc_bridge/dds/.*", "DDS stays in hlc_bridge/dds"},
+    {"^(ompl)/.*", "^planner/(search/(ompl_|best_first_search).*|apps/.*)",
+     "OMPL stays in its adapter and the best-first engine"},
+    {"^nlopt.*", "^planner/maneuver_design/.*", "only maneuver_design optimises"},
+    {"^yaml-cpp/.*", "^planner/automaton/yaml_reader.*", "YAML is read by yaml_reader"},
+    {"^tinyxml2.*", "^planner/road/.*", "XML is read in planner/road"},
+    {"^spdlog/.*", "^(hlc_bridge/(hlc|middleware|lab_control|apps)|vehicle_sim/apps)/.*",
+     "only processes log"},
+    {"^CLI/.*", ".*/apps/.*", "only programs have flags"},
+    {"^(thread|mutex|condition_variable|future|chrono|iostream|ctime)$",
+     "^(hlc_bridge/(?!core/).*|vehicle_sim/apps/.*|planner/apps/.*)",
+     "the planner, the cores and the simulated vehicle know no clock, thread or console"},
+};
+
+bool is_below(const std::string& path, const std::string& folder) {
+  return path.starts_with(folder + "/");
+}
+
+/// The folder of the house that a path from the root lies in; nothing for foreign paths.
+std::optional<std::string> room_of(const std::string& path) {
+  for (const auto& [room, allowed] : kArrows) {
+    if (is_below(path, room)) return room;
+  }
+  return std::nullopt;
+}
+
+/// What is wrong with one include, or nothing.
+std::optional<std::string> fault_of(const std::string& file, const std::string& header) {
+  for (const Outside& rule : kOutside) {
+    if (std::regex_match(header, std::regex(rule.header)) &&
+        !std::regex_match(file, std::regex(rule.files))) {
+      return file + " includes " + header + ": " + rule.why;
+    }
+  }
+  static const std::regex kOwn("^(planner|hlc_bridge|vehicle_sim|tests)/.*");
+  if (!std::regex_match(header, kOwn)) return std::nullopt;
+  const std::string room = room_of(file).value();
+  if (is_below(header, room)) return std::nullopt;
+  for (const std::string& allowed : kArrows.at(room)) {
+    if (is_below(header, allowed)) return std::nullopt;
+  }
+  return file + " includes " + header + ": no arrow from " + room;
+}
+
+std::vector<std::string> includes_of(const fs::path& file) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"].*)");
+  std::vector<std::string> headers;
+  std::ifstream stream(file);
+  std::smatch match;
+  for (std::string line; std::getline(stream, line);) {
+    if (std::regex_match(line, match, kInclude)) headers.push_back(match[1]);
+  }
+  return headers;
+}
+
+TEST(House, EveryIncludeFollowsAnArrow) {
+  const fs::path root = HLC_SOURCE_DIR;
+  std::size_t num_files = 0;
+  for (const char* top : {"planner", "hlc_bridge", "vehicle_sim"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      const std::string file = entry.path().lexically_relative(root).generic_string();
+      ++num_files;
+      ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
+      for (const std::string& header : includes_of(entry.path())) {
+        const std::optional<std::string> fault = fault_of(file, header);
+        EXPECT_FALSE(fault) << *fault;
+      }
+    }
+  }
+  EXPECT_GT(num_files, 50U);
+}
+
+TEST(House, AnArrowThatRunsUpIsNoticed) {
+  EXPECT_TRUE(fault_of("planner/geometry/pose.cpp", "planner/search/planner.hpp"));
+  EXPECT_TRUE(fault_of("hlc_bridge/hlc/command.cpp", "vehicle_sim/plant/plant.hpp"));
+  EXPECT_TRUE(fault_of("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
+  EXPECT_FALSE(fault_of("planner/search/planner.hpp", "planner/geometry/pose.hpp"));
+}
+
+TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
+  EXPECT_TRUE(fault_of("planner/search/collision.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "chrono"));
+  EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "spdlog/spdlog.h"));
+  EXPECT_TRUE(fault_of("planner/search/collision.cpp", "ompl/base/Planner.h"));
+  EXPECT_FALSE(
+      fault_of("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+}
+
+}  // namespace
+}  // namespace hlc
