@@ -101,10 +101,46 @@ std::vector<VehicleId> ids_from_wire(const std::vector<std::uint8_t>& wire) {
   return result;
 }
 
+// Without a default case: a new enumerator does not compile until it is known here.
+bool is_known(StepStatus status) {
+  switch (status) {
+    case StepStatus::kStandby:
+    case StepStatus::kPlanned:
+    case StepStatus::kFallback:
+    case StepStatus::kDriveOut:
+      return true;
+  }
+  return false;
+}
+
+bool is_known(FallbackReason reason) {
+  switch (reason) {
+    case FallbackReason::kNone:
+    case FallbackReason::kInfeasible:
+    case FallbackReason::kBudget:
+    case FallbackReason::kMissing:
+    case FallbackReason::kConflict:
+    case FallbackReason::kNeighbour:
+    case FallbackReason::kDeviation:
+    case FallbackReason::kLate:
+      return true;
+  }
+  return false;
+}
+
+bool is_known(RunPhase phase) {
+  switch (phase) {
+    case RunPhase::kRunning:
+    case RunPhase::kDriveOut:
+      return true;
+  }
+  return false;
+}
+
 bool is_valid(const ReportMessage& wire) {
   return is_valid(VehicleId{wire.vehicle_id()}) &&
-         wire.status() <= static_cast<std::uint8_t>(StepStatus::kDriveOut) &&
-         wire.reason() <= static_cast<std::uint8_t>(FallbackReason::kLate) &&
+         is_known(static_cast<StepStatus>(wire.status())) &&
+         is_known(static_cast<FallbackReason>(wire.reason())) &&
          is_finite(pose_from_wire(wire.planned_pose())) &&
          all_finite(wire.cost_m2(), wire.deviation_m()) && is_valid(wire.coupled()) &&
          is_valid(wire.missing());
@@ -226,8 +262,8 @@ void to_wire(const RunState& message, RunStateMessage& wire) {
 }
 
 Incoming<RunState> from_wire(const RunStateMessage& wire) {
-  return valid_if(wire.phase() <= static_cast<std::uint8_t>(RunPhase::kDriveOut),
-                  RunState{static_cast<RunPhase>(wire.phase())});
+  const auto phase = static_cast<RunPhase>(wire.phase());
+  return valid_if(is_known(phase), RunState{phase});
 }
 
 }  // namespace hlc

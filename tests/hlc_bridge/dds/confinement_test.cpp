@@ -1,0 +1,116 @@
+// What the transports touch of the machine, read from /proc.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "hlc_bridge/dds/writer.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+/// Files in /dev/shm that this process has mapped.
+std::set<std::string> shared_memory_files() {
+  std::set<std::string> files;
+  std::ifstream maps{"/proc/self/maps"};
+  for (std::string line; std::getline(maps, line);) {
+    const auto at = line.find("/dev/shm/");
+    if (at != std::string::npos) {
+      files.insert(line.substr(at));
+    }
+  }
+  return files;
+}
+
+/// Local addresses, as /proc writes them, of this process's UDP sockets (IPv4) and of IPv6 ones, if
+/// any.
+std::set<std::string> udp_addresses() {
+  std::set<std::string> inodes;
+  for (const auto& file : std::filesystem::directory_iterator{"/proc/self/fd"}) {
+    std::error_code error;
+    const std::string target = std::filesystem::read_symlink(file, error).string();
+    if (target.starts_with("socket:[")) {
+      inodes.insert(target.substr(8, target.size() - 9));
+    }
+  }
+  std::set<std::string> addresses;
+  for (const char* table :
+       {"/proc/self/net/udp", "/proc/self/net/udp6", "/proc/self/net/tcp", "/proc/self/net/tcp6"}) {
+    std::ifstream lines{table};
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::istringstream fields{line};
+      std::string slot, local, remote, state, queues, timer, retransmits, user, timeout, inode;
+      fields >> slot >> local >> remote >> state >> queues >> timer >> retransmits >> user >>
+          timeout >> inode;
+      if (inodes.contains(inode)) {
+        addresses.insert(local.substr(0, local.find(':')));
+      }
+    }
+  }
+  return addresses;
+}
+
+constexpr const char* kLoopback = "0100007F";            // 127.0.0.1
+constexpr const char* kDiscoveryMulticast = "0100FFEF";  // 239.255.0.1
+
+TEST(LoopbackTransport, UsesNoSocketBeyondThisMachineAndNoSharedMemory) {
+  const DomainReservation domains{3};
+  Participant lab{on_loopback("a", domains.first(), DomainRole::kLab)};
+  Participant local{on_loopback("a", domains.first() + 1, DomainRole::kLocal)};
+  Participant controller{on_loopback("a", domains.first() + 2, DomainRole::kController)};
+  Participant other{on_loopback("b", domains.first() + 2, DomainRole::kController)};
+  Mailbox<Outcome> mailbox{other, topics::outcome()};
+  Writer<Outcome> writer{controller, topics::outcome()};
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
+  ASSERT_EQ(mailbox.wait_for(1).size(), 1U);
+  const std::set<std::string> addresses = udp_addresses();
+  EXPECT_TRUE(addresses.contains(kLoopback)) << "this test looks at the wrong place";
+  for (const std::string& address : addresses) {
+    EXPECT_TRUE(address == kLoopback || address == kDiscoveryMulticast) << address;
+  }
+  EXPECT_EQ(shared_memory_files(), std::set<std::string>{});
+}
+
+TEST(LabTransport, LocalDomainIsSharedMemoryOnly) {
+  const DomainReservation domain;
+  const auto options = [&](const std::string& name) {
+    ParticipantOptions result = on_loopback(name, domain.first(), DomainRole::kLocal);
+    result.transport = Transport::kLab;
+    return result;
+  };
+  Participant middleware{options("middleware_1")};
+  Participant controller{options("high_level_controller_1")};
+  Mailbox<VehicleStateList> lists{controller, topics::vehicle_state_list()};
+  Mailbox<ReadyStatus> ready{middleware, topics::ready_status()};
+  Mailbox<TrajectoryCommand> commands{middleware, topics::command()};
+  Writer<VehicleStateList> list_writer{middleware, topics::vehicle_state_list()};
+  Writer<ReadyStatus> ready_writer{controller, topics::ready_status()};
+  Writer<TrajectoryCommand> command_writer{controller, topics::command()};
+  ASSERT_TRUE(list_writer.wait_for_matched({"high_level_controller_1"}, soon()));
+  ASSERT_TRUE(lists.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(ready_writer.wait_for_matched({"middleware_1"}, soon()));
+  ASSERT_TRUE(command_writer.wait_for_matched({"middleware_1"}, soon()));
+  ASSERT_TRUE(commands.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(ready_writer.write({"hlc_1", 0}));
+  ASSERT_EQ(ready.wait_for(1).size(), 1U);
+  VehicleStateList list;
+  list.period_ms = 200;
+  ASSERT_TRUE(list_writer.write(list));
+  ASSERT_EQ(lists.wait_for(1).size(), 1U);
+  ASSERT_TRUE(command_writer.write(TrajectoryCommand{}));
+  ASSERT_EQ(commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(udp_addresses(), std::set<std::string>{});
+  EXPECT_FALSE(shared_memory_files().empty());
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,135 @@
+#include "hlc_bridge/dds/convert_hlc.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "hlc_bridge/dds/wire.hpp"
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+template <class Message>
+class OwnConversion : public testing::Test {};
+using OwnMessages = testing::Types<Traffic, Prediction, Outcome, ReportRecord, RunState>;
+TYPED_TEST_SUITE(OwnConversion, OwnMessages);
+
+TYPED_TEST(OwnConversion, EveryFieldSurvivesTheWayOverTheWire) {
+  const unsigned seed = 2;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random{seed};
+  typename Wire<TypeParam>::Type wire;  // used again: nothing of the one before may stay
+  for (int i = 0; i < 200; ++i) {
+    const auto message = sample<TypeParam>(random);
+    to_wire(message, wire);
+    const Incoming<TypeParam> back = from_wire(wire);
+    ASSERT_TRUE(back.message.has_value());
+    ASSERT_EQ(back.invalid, 0U);
+    ASSERT_EQ(text(*back.message), text(message));
+  }
+}
+
+template <class Message>
+Message good() {
+  std::mt19937_64 random{3};
+  return sample<Message>(random);
+}
+
+template <class Message>
+bool is_refused(const Message& message) {
+  typename Wire<Message>::Type wire;
+  to_wire(message, wire);
+  return !from_wire(wire).message.has_value();
+}
+
+TEST(OwnConversionRefuses, VehicleIdsOutside1To30) {
+  for (const int id : {0, 31, 255}) {
+    const VehicleId vehicle{static_cast<std::uint8_t>(id)};
+    auto traffic = good<Traffic>();
+    traffic.vehicle = vehicle;
+    EXPECT_TRUE(is_refused(traffic));
+    EXPECT_FALSE(can_be_written(traffic));
+    traffic = good<Traffic>();
+    traffic.silent.push_back(vehicle);
+    EXPECT_TRUE(is_refused(traffic));
+    auto prediction = good<Prediction>();
+    prediction.vehicle = vehicle;
+    EXPECT_TRUE(is_refused(prediction));
+    EXPECT_FALSE(can_be_written(prediction));
+    auto outcome = good<Outcome>();
+    outcome.vehicle = vehicle;
+    EXPECT_TRUE(is_refused(outcome));
+    EXPECT_FALSE(can_be_written(outcome));
+    auto report = good<ReportRecord>();
+    report.report.vehicle = vehicle;
+    EXPECT_TRUE(is_refused(report));
+    EXPECT_FALSE(can_be_written(report));
+    report = good<ReportRecord>();
+    report.report.coupled.push_back(vehicle);
+    EXPECT_TRUE(is_refused(report));
+    report = good<ReportRecord>();
+    report.report.missing.push_back(vehicle);
+    EXPECT_TRUE(is_refused(report));
+  }
+  EXPECT_FALSE(is_refused(good<Traffic>()));
+  EXPECT_TRUE(can_be_written(good<Traffic>()));
+}
+
+TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
+  const std::vector<ConvexPolygon> bad{
+      {{Point{0, 0}}},
+      {{Point{0, 0}, Point{1, 0}}},
+      {{Point{0, 0}, Point{1, 0}, Point{kNan, 1}}},
+      {{Point{0, 0}, Point{1, 0}, Point{1, std::numeric_limits<double>::infinity()}}},
+      {std::vector<Point>(1001, Point{0, 0})}};
+  for (const ConvexPolygon& polygon : bad) {
+    auto traffic = good<Traffic>();
+    traffic.reachable_area_m = polygon;
+    EXPECT_TRUE(is_refused(traffic));
+    traffic = good<Traffic>();
+    traffic.running.final_area_m = polygon;
+    EXPECT_TRUE(is_refused(traffic));
+    traffic = good<Traffic>();
+    traffic.running.areas_m.push_back(polygon);
+    EXPECT_TRUE(is_refused(traffic));
+    auto prediction = good<Prediction>();
+    prediction.areas.areas_m.push_back(polygon);
+    EXPECT_TRUE(is_refused(prediction));
+  }
+}
+
+TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
+  auto traffic = good<Traffic>();
+  traffic.next_pose.heading_rad = kNan;
+  EXPECT_TRUE(is_refused(traffic));
+  auto report = good<ReportRecord>();
+  report.report.planned_pose.x_m = kNan;
+  EXPECT_TRUE(is_refused(report));
+  report = good<ReportRecord>();
+  report.report.cost_m2 = kNan;
+  EXPECT_TRUE(is_refused(report));
+  report = good<ReportRecord>();
+  report.report.deviation_m = kNan;
+  EXPECT_TRUE(is_refused(report));
+}
+
+TEST(OwnConversionRefuses, UnknownEnumerationValues) {
+  ReportMessage report;
+  to_wire(good<ReportRecord>(), report);
+  EXPECT_TRUE(from_wire(report).message.has_value());
+  report.status(4);
+  EXPECT_FALSE(from_wire(report).message.has_value());
+  report.status(0);
+  report.reason(8);
+  EXPECT_FALSE(from_wire(report).message.has_value());
+  RunStateMessage state;
+  state.phase(2);
+  EXPECT_FALSE(from_wire(state).message.has_value());
+}
+
+}  // namespace
+}  // namespace hlc

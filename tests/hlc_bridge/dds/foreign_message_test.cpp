@@ -1,0 +1,102 @@
+// Messages that none of our writers would send.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+
+#include "hlc_bridge/dds/participant_core.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/dds/writer_endpoint.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+/// Bytes that claim to be of another type.
+class BytesType : public fdds::TopicDataType {
+ public:
+  explicit BytesType(const std::string& claimed_type) {
+    setName(claimed_type.c_str());
+    m_typeSize = 1024;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+
+ private:
+  using Bytes = std::vector<unsigned char>;
+  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+
+  bool serialize(void* data, Payload* payload) override {
+    const Bytes& bytes = *static_cast<Bytes*>(data);
+    payload->encapsulation = CDR_LE;
+    std::memcpy(payload->data, bytes.data(), bytes.size());
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    return true;
+  }
+  bool deserialize(Payload*, void*) override { return false; }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+class ForeignMessages : public testing::Test {
+ protected:
+  DomainReservation domain_;
+  Participant honest_{on_loopback("honest", domain_.first(), DomainRole::kLab)};
+  Participant foreign_{on_loopback("foreign", domain_.first(), DomainRole::kLab)};
+  Participant receiver_{on_loopback("receiver", domain_.first(), DomainRole::kLab)};
+};
+
+TEST_F(ForeignMessages, BytesThatAreNoMessageAreSkippedAndTheReaderGoesOn) {
+  const Topic<ReadyStatus> topic = topics::ready_status();
+  Mailbox<ReadyStatus> mailbox{receiver_, topic};
+  Writer<ReadyStatus> writer{honest_, topic};
+  WriterEndpoint endpoint{foreign_.core(),
+                          topic.name,
+                          fdds::TypeSupport{new BytesType{"ReadyStatus"}},
+                          topic_qos(topic.id, DomainRole::kLab, Transport::kLoopback).writer,
+                          {}};
+  ASSERT_TRUE(mailbox.reader().wait_for_matched({"honest", "foreign"}, soon()));
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(endpoint.peers().wait_for(1, soon()));
+  const std::vector<std::vector<unsigned char>> payloads{
+      {},
+      {0, 1, 0, 0},
+      {0, 1, 0, 0, 255, 255, 255, 255, 'a'},
+      {0, 9, 0, 0, 5, 0, 0, 0, 'a', 'b', 'c', 'd', 0},
+      {0, 1, 0, 0, 5, 0, 0, 0, 'a', 'b', 'c', 'd', 0, 0, 0, 0, 1},
+      std::vector<unsigned char>(1000, 0xAB)};
+  for (std::vector<unsigned char> payload : payloads) {
+    endpoint.write(&payload);
+    ASSERT_TRUE(writer.write({"still here", 1}));
+  }
+  const auto received = mailbox.wait_for(payloads.size());
+  ASSERT_EQ(received.size(), payloads.size());
+  for (const ReadyStatus& status : received) {
+    EXPECT_EQ(status.source_id, "still here");
+  }
+}
+
+TEST_F(ForeignMessages, InvalidValuesAreDroppedAndCounted) {
+  const Topic<VehicleState> topic = topics::vehicle_state(1);
+  Mailbox<VehicleState> mailbox{receiver_, topic};
+  Writer<VehicleState> writer{honest_, topic};
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  VehicleState state;
+  state.speed_mps = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(writer.write(state));
+  state.speed_mps = 1.0;
+  ASSERT_TRUE(writer.write(state));
+  const auto received = mailbox.wait_for(1);
+  ASSERT_EQ(received.size(), 1U);
+  EXPECT_EQ(received.front().speed_mps, 1.0);
+  EXPECT_EQ(mailbox.reader().dropped(), 1U);
+}
+
+}  // namespace
+}  // namespace hlc

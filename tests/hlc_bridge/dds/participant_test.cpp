@@ -1,0 +1,209 @@
+#include "hlc_bridge/dds/participant.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "hlc_bridge/dds/writer.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+extern char** environ;
+
+namespace hlc {
+namespace {
+
+using Names = std::set<std::string>;
+
+/// The process peer.cpp.
+class Peer {
+ public:
+  Peer(const std::string& name, int domain) {
+    const std::string number = std::to_string(domain);
+    std::string program = HLC_TEST_PEER;
+    std::string first = name;
+    std::string second = number;
+    const std::array<char*, 4> arguments{program.data(), first.data(), second.data(), nullptr};
+    if (posix_spawn(&pid_, HLC_TEST_PEER, nullptr, nullptr, arguments.data(), environ) != 0) {
+      throw std::runtime_error("cannot start " + program);
+    }
+  }
+  ~Peer() {
+    if (pid_ != 0) {
+      end(SIGKILL);
+    }
+  }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  /// Ends it with this signal; its exit code, nothing if the signal killed it.
+  std::optional<int> end(int signal_number) {
+    int status = 0;
+    kill(pid_, signal_number);
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? std::optional{WEXITSTATUS(status)} : std::nullopt;
+  }
+
+ private:
+  pid_t pid_{};
+};
+
+/// A participant whose changes of presence wake the test.
+class Watcher {
+ public:
+  explicit Watcher(int domain)
+      : participant_{on_loopback("watcher", domain, DomainRole::kController),
+                     [this] { signal_.post([this] { ++changes_; }); }} {}
+
+  template <class Condition>
+  bool wait(Condition condition) {
+    return signal_.wait_until(soon(), [&] { return condition(participant_); });
+  }
+  Participant& participant() { return participant_; }
+  int changes() {
+    return signal_.locked([this] { return changes_; });
+  }
+
+ private:
+  Signal signal_;
+  int changes_{};
+  Participant participant_;
+};
+
+TEST(Participant, SeesOthersAppearAndLeave) {
+  const DomainReservation domain;
+  Watcher watcher{domain.first()};
+  EXPECT_EQ(watcher.participant().alive(), Names{});
+  {
+    Participant red{on_loopback("red", domain.first(), DomainRole::kController)};
+    Participant blue{on_loopback("blue", domain.first(), DomainRole::kController)};
+    ASSERT_TRUE(watcher.participant().wait_for({"red", "blue"}, soon()));
+    ASSERT_TRUE(red.wait_for({"watcher", "blue"}, soon()));
+    EXPECT_EQ(watcher.participant().lost(), Names{});
+    EXPECT_FALSE(red.is_alive("red")) << "nobody sees himself";
+  }
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.lost().size() == 2; }));
+  EXPECT_EQ(watcher.participant().lost(), (Names{"red", "blue"}));
+  EXPECT_EQ(watcher.participant().alive(), Names{});
+  Participant again{on_loopback("red", domain.first(), DomainRole::kController)};
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("red"); }));
+  EXPECT_FALSE(watcher.participant().is_lost("red"));
+  EXPECT_GE(watcher.changes(), 5);
+}
+
+TEST(Participant, WaitForEndsAtTheDeadline) {
+  const DomainReservation domain;
+  Participant alone{on_loopback("alone", domain.first(), DomainRole::kController)};
+  EXPECT_FALSE(alone.wait_for({"nobody"}, std::chrono::steady_clock::now()));
+}
+
+TEST(Participant, SeesNobodyOfAnotherDomain) {
+  const DomainReservation domains{2};
+  Participant here{on_loopback("here", domains.first(), DomainRole::kController)};
+  Participant there{on_loopback("there", domains.first() + 1, DomainRole::kController)};
+  Participant friend_of_here{on_loopback("friend", domains.first(), DomainRole::kController)};
+  ASSERT_TRUE(here.wait_for({"friend"}, soon()));
+  EXPECT_FALSE(here.is_alive("there"));
+}
+
+TEST(Participant, AProcessThatEndsCleanlyIsLostAtOnce) {
+  const DomainReservation domain;
+  Watcher watcher{domain.first()};
+  Peer peer{"peer", domain.first()};
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("peer"); }));
+  EXPECT_EQ(peer.end(SIGTERM), 0);
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_lost("peer"); }));
+}
+
+TEST(Participant, AProcessThatIsKilledIsLostAfterItsLease) {
+  const DomainReservation domain;
+  Watcher watcher{domain.first()};
+  Mailbox<Outcome> mailbox{watcher.participant(), topics::outcome()};
+  Peer peer{"peer", domain.first()};
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("peer"); }));
+  ASSERT_TRUE(mailbox.reader().wait_for_matched({"peer"}, soon()));
+  EXPECT_EQ(peer.end(SIGKILL), std::nullopt);
+  EXPECT_TRUE(watcher.participant().is_alive("peer")) << "nobody can have said so yet";
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_lost("peer"); }));
+  ASSERT_TRUE(watcher.wait([&](const Participant&) { return mailbox.reader().matched() == 0; }));
+}
+
+TEST(Participant, EndpointsMayOutliveIt) {
+  const DomainReservation domain;
+  auto participant = std::make_unique<Participant>(
+      on_loopback("short-lived", domain.first(), DomainRole::kController));
+  Writer<Outcome> writer{*participant, topics::outcome()};
+  Mailbox<Outcome> mailbox{*participant, topics::outcome()};
+  participant.reset();
+  EXPECT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
+}
+
+TEST(Participant, EndsUnderFullTraffic) {
+  const DomainReservation domain;
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
+  Writer<Outcome> writer{sender, topics::outcome()};
+  std::atomic<bool> done{false};
+  std::thread traffic{[&] {
+    for (std::uint64_t step = 0; !done; ++step) {
+      writer.write(Outcome{.vehicle = {1}, .step = {step}, .wants_fallback = false});
+    }
+  }};
+  for (int i = 0; i < 10; ++i) {
+    Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
+    Mailbox<Outcome> mailbox{receiver, topics::outcome()};
+    EXPECT_FALSE(mailbox.wait_for(1).empty());
+  }
+  done = true;
+  traffic.join();
+}
+
+TEST(Participant, BadOptionsAreRefusedAndTheProcessGoesOn) {
+  for (const int domain : {-1, 233, 1000}) {
+    EXPECT_THROW(Participant{on_loopback("red", domain, DomainRole::kLab)}, std::invalid_argument);
+  }
+  EXPECT_THROW(Participant{on_loopback("", 1, DomainRole::kLab)}, std::invalid_argument);
+  ParticipantOptions options = on_loopback("red", 1, DomainRole::kLocal);
+  options.discovery_server = DiscoveryServer{"44.53.00.5f.45.50.52.4f.53.49.4d.41", "127.0.0.1", 1};
+  EXPECT_THROW(Participant{options}, std::invalid_argument);
+}
+
+TEST(Endpoints, OfATopicOnTheWrongDomainAreRefused) {
+  const DomainReservation domain;
+  Participant participant{on_loopback("red", domain.first(), DomainRole::kLab)};
+  EXPECT_THROW((Writer<Outcome>{participant, topics::outcome()}), std::invalid_argument);
+  EXPECT_THROW((Reader<Outcome>{participant, topics::outcome(), [](const Outcome&) {}}),
+               std::invalid_argument);
+}
+
+TEST(Endpoints, TellOfMatchesOnBothSides) {
+  const DomainReservation domain;
+  Participant red{on_loopback("red", domain.first(), DomainRole::kController)};
+  Signal signal;
+  Writer<Outcome> writer{red, topics::outcome(), [&] { signal.notify(); }};
+  EXPECT_EQ(writer.matched(), 0U);
+  EXPECT_FALSE(writer.wait_for_matched(1, std::chrono::steady_clock::now()));
+  {
+    Participant blue{on_loopback("blue", domain.first(), DomainRole::kController)};
+    Participant green{on_loopback("green", domain.first(), DomainRole::kController)};
+    Mailbox<Outcome> at_blue{blue, topics::outcome()};
+    Mailbox<Outcome> at_green{green, topics::outcome()};
+    ASSERT_TRUE(signal.wait_until(soon(), [&] {
+      return writer.matched_names() == Names{"blue", "green"};
+    }));
+    EXPECT_EQ(writer.matched(), 2U);
+    ASSERT_TRUE(at_blue.reader().wait_for_matched({"red"}, soon()));
+    EXPECT_EQ(at_blue.reader().matched(), 1U);
+  }
+  ASSERT_TRUE(signal.wait_until(soon(), [&] { return writer.matched() == 0; }));
+  EXPECT_EQ(writer.matched_names(), Names{});
+}
+
+}  // namespace
+}  // namespace hlc

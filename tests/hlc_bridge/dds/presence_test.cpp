@@ -1,0 +1,62 @@
+#include "hlc_bridge/dds/presence.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hlc {
+namespace {
+
+using Names = std::set<std::string>;
+
+TEST(Presence, WhoAppearedIsAliveUntilItLeaves) {
+  Presence presence;
+  presence.appeared({1}, "red");
+  presence.appeared({2}, "blue");
+  EXPECT_EQ(presence.alive(), (Names{"red", "blue"}));
+  EXPECT_EQ(presence.lost(), Names{});
+  presence.left({1});
+  EXPECT_EQ(presence.alive(), Names{"blue"});
+  EXPECT_EQ(presence.lost(), Names{"red"});
+}
+
+TEST(Presence, WhoComesBackIsNotLost) {
+  Presence presence;
+  presence.appeared({1}, "red");
+  presence.left({1});
+  presence.appeared({2}, "red");
+  EXPECT_EQ(presence.alive(), Names{"red"});
+  EXPECT_EQ(presence.lost(), Names{});
+}
+
+TEST(Presence, ANameIsLostOnlyWhenItsLastParticipantLeft) {
+  Presence presence;
+  presence.appeared({1}, "ParticipantSingleton");
+  presence.appeared({2}, "ParticipantSingleton");
+  presence.left({1});
+  EXPECT_EQ(presence.lost(), Names{});
+  presence.left({2});
+  EXPECT_EQ(presence.lost(), Names{"ParticipantSingleton"});
+}
+
+TEST(Presence, RepeatedOrUnknownEventsChangeNothing) {
+  Presence presence;
+  presence.left({3});
+  presence.appeared({1}, "red");
+  presence.appeared({1}, "red");
+  presence.left({1});
+  presence.left({1});
+  EXPECT_EQ(presence.alive(), Names{});
+  EXPECT_EQ(presence.lost(), Names{"red"});
+}
+
+TEST(Presence, NamesAreKnownWhileTheParticipantIsThere) {
+  Presence presence;
+  EXPECT_EQ(presence.name_of({1}), nullptr);
+  presence.appeared({1}, "red");
+  ASSERT_NE(presence.name_of({1}), nullptr);
+  EXPECT_EQ(*presence.name_of({1}), "red");
+  presence.left({1});
+  EXPECT_EQ(presence.name_of({1}), nullptr);
+}
+
+}  // namespace
+}  // namespace hlc

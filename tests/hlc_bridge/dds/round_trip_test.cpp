@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "hlc_bridge/dds/writer.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+template <class Message>
+struct Place;  // where a message is at home
+
+// clang-format off
+template <> struct Place<VehicleState> { static auto topic() { return topics::vehicle_state(3); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<VehicleObservation> { static auto topic() { return topics::vehicle_observation(3); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<VehicleStateList> { static auto topic() { return topics::vehicle_state_list(); } static constexpr auto kRole = DomainRole::kLocal; };
+template <> struct Place<TrajectoryCommand> { static auto topic() { return topics::command(); } static constexpr auto kRole = DomainRole::kLocal; };
+template <> struct Place<ReadyStatus> { static auto topic() { return topics::ready_status(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<SystemTrigger> { static auto topic() { return topics::system_trigger(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<Parameter> { static auto topic() { return topics::parameter(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<ParameterRequest> { static auto topic() { return topics::parameter_request(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<StopRequest> { static auto topic() { return topics::stop_request(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<Log> { static auto topic() { return topics::log(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<LogLevel> { static auto topic() { return topics::log_level(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<Traffic> { static auto topic() { return topics::traffic(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<Prediction> { static auto topic() { return topics::prediction(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<Outcome> { static auto topic() { return topics::outcome(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<ReportRecord> { static auto topic() { return topics::report(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<RunState> { static auto topic() { return topics::run_state(); } static constexpr auto kRole = DomainRole::kController; };
+// clang-format on
+
+template <class Message>
+class RoundTrip : public testing::Test {};
+using Messages =
+    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
+                   ReadyStatus, SystemTrigger, Parameter, ParameterRequest, StopRequest, Log,
+                   LogLevel, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+TYPED_TEST_SUITE(RoundTrip, Messages);
+
+TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {
+  const unsigned seed = 4;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random{seed};
+  const DomainReservation domain;
+  Participant sender{on_loopback("sender", domain.first(), Place<TypeParam>::kRole)};
+  Participant receiver{on_loopback("receiver", domain.first(), Place<TypeParam>::kRole)};
+  Mailbox<TypeParam> mailbox{receiver, Place<TypeParam>::topic()};
+  Writer<TypeParam> writer{sender, Place<TypeParam>::topic()};
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  for (std::size_t i = 0; i < 20; ++i) {
+    const auto message = sample<TypeParam>(random);
+    ASSERT_TRUE(writer.write(message));
+    const std::vector<TypeParam> received = mailbox.wait_for(i + 1);
+    ASSERT_EQ(received.size(), i + 1);
+    ASSERT_EQ(text(received.back()), text(message));
+  }
+  EXPECT_EQ(mailbox.reader().dropped(), 0U);
+  EXPECT_EQ(mailbox.reader().lost(), 0U);
+}
+
+TEST(LargeMessage, OfSeveralDatagramsArrives) {
+  const DomainReservation domain;
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
+  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
+  Mailbox<Traffic> mailbox{receiver, topics::traffic()};
+  Writer<Traffic> writer{sender, topics::traffic()};
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  Traffic traffic;
+  traffic.vehicle = {1};
+  traffic.running.areas_m.assign(
+      50, ConvexPolygon{std::vector<Point>(200, Point{1.0, 2.0})});  // 160 kB
+  for (std::size_t i = 0; i < 10; ++i) {
+    traffic.step = {i};
+    ASSERT_TRUE(writer.write(traffic));
+  }
+  const std::vector<Traffic> received = mailbox.wait_for(10);
+  ASSERT_EQ(received.size(), 10U);
+  EXPECT_EQ(text(received.back()), text(traffic));
+}
+
+// The library's default of ten instances would lose what the eleventh and later vehicles say.
+TEST(KeyedTopics, AllOf30VehiclesAreHeard) {
+  const DomainReservation domain;
+  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
+  Mailbox<Outcome> of_many{receiver, topics::outcome()};
+  Mailbox<Prediction> of_one{receiver, topics::prediction()};
+  std::vector<std::unique_ptr<Writer<Outcome>>> writers;
+  for (int id = 1; id <= 30; ++id) {
+    writers.push_back(std::make_unique<Writer<Outcome>>(sender, topics::outcome()));
+    ASSERT_TRUE(writers.back()->wait_for_matched(1, soon()));
+  }
+  Writer<Prediction> one_for_all{sender, topics::prediction()};
+  ASSERT_TRUE(one_for_all.wait_for_matched(1, soon()));
+  ASSERT_TRUE(of_many.reader().wait_for_matched(30, soon()));
+
+  constexpr std::uint64_t kSteps = 20;
+  for (std::uint64_t step = 0; step < kSteps; ++step) {
+    for (std::uint8_t id = 1; id <= 30; ++id) {
+      Outcome outcome;
+      outcome.vehicle = {id};
+      outcome.step = {step};
+      ASSERT_TRUE(writers[id - 1U]->write(outcome)) << "vehicle " << +id;
+      Prediction prediction;
+      prediction.vehicle = {id};
+      prediction.step = {step};
+      ASSERT_TRUE(one_for_all.write(prediction)) << "vehicle " << +id;
+    }
+    ASSERT_EQ(of_many.wait_for(30 * (step + 1)).size(), 30 * (step + 1));
+    ASSERT_EQ(of_one.wait_for(30 * (step + 1)).size(), 30 * (step + 1));
+  }
+  std::map<std::uint8_t, std::uint64_t> heard;
+  for (const Outcome& outcome : of_many.wait_for(30 * kSteps)) {
+    EXPECT_EQ(outcome.step.value, heard[outcome.vehicle.value]++) << "out of order";
+  }
+  EXPECT_EQ(heard.size(), 30U);
+}
+
+TEST(KeyedTopics, AVehicleIdWithoutRoomIsNotWritten) {
+  const DomainReservation domain;
+  Participant participant{on_loopback("sender", domain.first(), DomainRole::kController)};
+  Writer<Outcome> writer{participant, topics::outcome()};
+  EXPECT_FALSE(writer.write(Outcome{.vehicle = {31}, .step = {0}, .wants_fallback = false}));
+  EXPECT_TRUE(writer.write(Outcome{.vehicle = {30}, .step = {0}, .wants_fallback = false}));
+}
+
+TEST(LateJoiner, GetsEveryReportAndTheLastRunState) {
+  constexpr std::uint64_t kSteps = 2000;
+  const DomainReservation domain;
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
+  Writer<ReportRecord> red{sender, topics::report()};
+  Writer<ReportRecord> blue{sender, topics::report()};
+  Writer<RunState> run_state{sender, topics::run_state()};
+  for (std::uint64_t step = 0; step < kSteps; ++step) {
+    ReportRecord record;
+    record.report.step = {step};
+    record.report.vehicle = {1};
+    ASSERT_TRUE(red.write(record));
+    record.report.vehicle = {2};
+    ASSERT_TRUE(blue.write(record));
+  }
+  ASSERT_TRUE(run_state.write({RunPhase::kRunning}));
+  ASSERT_TRUE(run_state.write({RunPhase::kDriveOut}));
+
+  Participant late{on_loopback("late", domain.first(), DomainRole::kController)};
+  Mailbox<ReportRecord> reports{late, topics::report()};
+  Mailbox<RunState> states{late, topics::run_state()};
+  std::map<std::uint8_t, std::uint64_t> next;
+  for (const ReportRecord& record : reports.wait_for(2 * kSteps)) {
+    ASSERT_EQ(record.report.step.value, next[record.report.vehicle.value]++);
+  }
+  EXPECT_EQ(next, (std::map<std::uint8_t, std::uint64_t>{{1, kSteps}, {2, kSteps}}));
+  const std::vector<RunState> received = states.wait_for(1);
+  ASSERT_EQ(received.size(), 1U);
+  EXPECT_EQ(received.front().phase, RunPhase::kDriveOut);
+}
+
+// A burst as long as the history: repairs must come from it.
+TEST(Burst, OfAWholeHistoryArrivesCompletely) {
+  const DomainReservation domain;
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kLab)};
+  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kLab)};
+  Mailbox<SystemTrigger> mailbox{receiver, topics::system_trigger()};
+  Writer<SystemTrigger> writer{sender, topics::system_trigger()};
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  constexpr std::uint64_t kCount = 512;
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    ASSERT_TRUE(writer.write({i}));
+  }
+  const std::vector<SystemTrigger> received = mailbox.wait_for(kCount);
+  ASSERT_EQ(received.size(), kCount);
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    ASSERT_EQ(received[i].next_start, i);
+  }
+}
+
+TEST(OwnParticipant, IsNotHeardAndDoesNotCount) {
+  const DomainReservation domain;
+  Participant both{on_loopback("both", domain.first(), DomainRole::kController)};
+  Participant other{on_loopback("other", domain.first(), DomainRole::kController)};
+  Mailbox<Outcome> own{both, topics::outcome()};
+  Mailbox<Outcome> others{other, topics::outcome()};
+  Writer<Outcome> writer{both, topics::outcome()};
+  Writer<Outcome> other_writer{other, topics::outcome()};
+  ASSERT_TRUE(writer.wait_for_matched({"other"}, soon()));
+  ASSERT_TRUE(other_writer.wait_for_matched({"both"}, soon()));
+  ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {1}, .wants_fallback = false}));
+  ASSERT_EQ(others.wait_for(1).size(), 1U);
+  ASSERT_TRUE(other_writer.write(Outcome{.vehicle = {2}, .step = {2}, .wants_fallback = false}));
+  const std::vector<Outcome> heard = own.wait_for(1);
+  ASSERT_EQ(heard.size(), 1U);
+  EXPECT_EQ(heard.front().vehicle.value, 2);
+  EXPECT_EQ(writer.matched(), 1U);
+  EXPECT_EQ(writer.matched_names(), std::set<std::string>{"other"});
+  EXPECT_EQ(own.reader().matched_names(), std::set<std::string>{"other"});
+}
+
+}  // namespace
+}  // namespace hlc

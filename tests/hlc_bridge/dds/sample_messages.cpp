@@ -1,0 +1,332 @@
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
+
+#include <iomanip>
+#include <sstream>
+#include <type_traits>
+
+namespace hlc {
+namespace {
+
+// --- text
+// -----------------------------------------------------------------------------------------------------------
+
+template <class Value>
+void put(std::ostream& out, const Value& value);
+
+template <class... Values>
+void put_all(std::ostream& out, const Values&... values) {
+  out << "{";
+  (put(out, values), ...);
+  out << "}";
+}
+
+template <class Value>
+void put_list(std::ostream& out, const std::vector<Value>& values) {
+  out << "[";
+  for (const Value& value : values) {
+    put(out, value);
+  }
+  out << "]";
+}
+
+void put_message(std::ostream& out, const std::string& value) { out << std::quoted(value); }
+void put_message(std::ostream& out, const Point& value) { put_all(out, value.x(), value.y()); }
+void put_message(std::ostream& out, const Pose& value) {
+  put_all(out, value.x_m, value.y_m, value.heading_rad);
+}
+void put_message(std::ostream& out, VehicleId value) { put_all(out, value.value); }
+void put_message(std::ostream& out, StepIndex value) { put_all(out, value.value); }
+void put_message(std::ostream& out, TrimId value) { put_all(out, value.index); }
+void put_message(std::ostream& out, const ConvexPolygon& value) { put_list(out, value.vertices_m); }
+void put_message(std::ostream& out, const OccupiedAreas& value) {
+  const auto& [first, areas_m, final_area_m] = value;
+  put_all(out, first, areas_m, final_area_m);
+}
+void put_message(std::ostream& out, const TrajectoryPoint& value) {
+  const auto& [t, x_m, y_m, vx_mps, vy_mps] = value;
+  put_all(out, t, x_m, y_m, vx_mps, vy_mps);
+}
+void put_message(std::ostream& out, const VehicleState& value) {
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+}
+void put_message(std::ostream& out, const VehicleObservation& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const VehicleStateList& value) {
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e);
+}
+void put_message(std::ostream& out, const TrajectoryCommand& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const ReadyStatus& value) {
+  const auto& [a, b] = value;
+  put_all(out, a, b);
+}
+void put_message(std::ostream& out, const SystemTrigger& value) { put_all(out, value.next_start); }
+void put_message(std::ostream& out, std::monostate) { out << "nothing"; }
+void put_message(std::ostream& out, const Parameter& value) {
+  put_all(out, value.name, value.value.index());
+  std::visit([&](const auto& held) { put(out, held); }, value.value);
+}
+void put_message(std::ostream& out, const ParameterRequest& value) { put_all(out, value.name); }
+void put_message(std::ostream& out, const StopRequest& value) { put_all(out, value.vehicle_id); }
+void put_message(std::ostream& out, const Log& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const LogLevel& value) { put_all(out, value.level); }
+void put_message(std::ostream& out, const Traffic& value) {
+  const auto& [a, b, c, d, e, f, g] = value;
+  put_all(out, a, b, c, d, e, f, g);
+}
+void put_message(std::ostream& out, const Prediction& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const Outcome& value) {
+  const auto& [a, b, c] = value;
+  put_all(out, a, b, c);
+}
+void put_message(std::ostream& out, const Report& value) {
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m);
+}
+void put_message(std::ostream& out, const ReportRecord& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const RunState& value) { put_all(out, value.phase); }
+template <class Value>
+void put_message(std::ostream& out, const std::vector<Value>& values) {
+  put_list(out, values);
+}
+
+template <class Value>
+void put(std::ostream& out, const Value& value) {
+  if constexpr (std::is_enum_v<Value>) {
+    out << static_cast<int>(value);
+  } else if constexpr (std::is_floating_point_v<Value>) {
+    out << std::hexfloat << value;
+  } else if constexpr (std::is_integral_v<Value>) {
+    out << +value;
+  } else {
+    put_message(out, value);
+  }
+  out << ' ';
+}
+
+template <class Message>
+std::string text_of(const Message& message) {
+  std::ostringstream out;
+  put(out, message);
+  return out.str();
+}
+
+// --- random values
+// --------------------------------------------------------------------------------------------------
+
+using Random = std::mt19937_64;
+
+double number(Random& random) { return std::uniform_real_distribution{-1e3, 1e3}(random); }
+
+std::uint64_t whole(Random& random, std::uint64_t last) {
+  return std::uniform_int_distribution<std::uint64_t>{0, last}(random);
+}
+
+bool coin(Random& random) { return whole(random, 1) == 1; }
+
+VehicleId vehicle(Random& random) { return {static_cast<std::uint8_t>(1 + whole(random, 29))}; }
+
+Pose pose(Random& random) { return {number(random), number(random), number(random)}; }
+
+template <class Make>
+auto list(Random& random, std::uint64_t max_size, Make make) {
+  std::vector<decltype(make(random))> result(whole(random, max_size));
+  for (auto& entry : result) {
+    entry = make(random);
+  }
+  return result;
+}
+
+ConvexPolygon polygon(Random& random) {
+  ConvexPolygon result;
+  const std::uint64_t vertices = whole(random, 12);
+  for (std::uint64_t i = 0; vertices >= 3 && i < vertices; ++i) {
+    result.vertices_m.emplace_back(number(random), number(random));
+  }
+  return result;
+}
+
+OccupiedAreas areas(Random& random) {
+  return {{random()}, list(random, 9, polygon), polygon(random)};
+}
+
+std::string words(Random& random) {
+  std::string result(whole(random, 200), '?');
+  for (char& letter : result) {
+    letter = static_cast<char>('a' + whole(random, 25));
+  }
+  return result;
+}
+
+}  // namespace
+
+template <>
+VehicleState sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255)),
+          random(),
+          random(),
+          pose(random),
+          random(),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          number(random),
+          coin(random)};
+}
+
+template <>
+VehicleObservation sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255)), random(), random(), pose(random)};
+}
+
+template <>
+VehicleStateList sample(Random& random) {
+  return {random(), 1 + whole(random, 999), list(random, 20, sample<VehicleState>),
+          list(random, 20, sample<VehicleObservation>),
+          list(random, 20, [](Random& r) { return static_cast<std::int32_t>(1 + whole(r, 29)); })};
+}
+
+template <>
+TrajectoryCommand sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255)), random(), random(),
+          list(random, 60, [](Random& r) {
+            return TrajectoryPoint{r(), number(r), number(r), number(r), number(r)};
+          })};
+}
+
+template <>
+ReadyStatus sample(Random& random) {
+  return {words(random), random()};
+}
+
+template <>
+SystemTrigger sample(Random& random) {
+  return {random()};
+}
+
+template <>
+Parameter sample(Random& random) {
+  const auto value = [&]() -> ParameterValue {
+    switch (whole(random, 7)) {
+      case 0:
+        return std::monostate{};
+      case 1:
+        return coin(random);
+      case 2:
+        return static_cast<std::int32_t>(whole(random, 1000)) - 500;
+      case 3:
+        return std::uint64_t{random()};
+      case 4:
+        return number(random);
+      case 5:
+        return words(random);
+      case 6:
+        return list(random, 30,
+                    [](Random& r) { return static_cast<std::int32_t>(whole(r, 1000)) - 500; });
+      default:
+        return list(random, 30, number);
+    }
+  };
+  return {words(random), value()};
+}
+
+template <>
+ParameterRequest sample(Random& random) {
+  return {words(random)};
+}
+
+template <>
+StopRequest sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255))};
+}
+
+template <>
+Log sample(Random& random) {
+  return {words(random), words(random), random(), static_cast<std::uint16_t>(whole(random, 3))};
+}
+
+template <>
+LogLevel sample(Random& random) {
+  return {static_cast<std::uint16_t>(whole(random, 3))};
+}
+
+template <>
+Traffic sample(Random& random) {
+  return {vehicle(random),         {random()},    pose(random),
+          {whole(random, 100)},    areas(random), polygon(random),
+          list(random, 5, vehicle)};
+}
+
+template <>
+Prediction sample(Random& random) {
+  return {vehicle(random), {random()}, coin(random), areas(random)};
+}
+
+template <>
+Outcome sample(Random& random) {
+  return {vehicle(random), {random()}, coin(random)};
+}
+
+template <>
+ReportRecord sample(Random& random) {
+  const Report report{vehicle(random),
+                      {random()},
+                      static_cast<StepStatus>(whole(random, 3)),
+                      static_cast<FallbackReason>(whole(random, 7)),
+                      pose(random),
+                      {whole(random, 100)},
+                      number(random),
+                      random(),
+                      random(),
+                      static_cast<std::uint32_t>(whole(random, 20)),
+                      list(random, 5, vehicle),
+                      list(random, 5, vehicle),
+                      number(random)};
+  return {report, random(), coin(random), random()};
+}
+
+template <>
+RunState sample(Random& random) {
+  return {static_cast<RunPhase>(whole(random, 1))};
+}
+
+std::string text(const VehicleState& message) { return text_of(message); }
+std::string text(const VehicleObservation& message) { return text_of(message); }
+std::string text(const VehicleStateList& message) { return text_of(message); }
+std::string text(const TrajectoryCommand& message) { return text_of(message); }
+std::string text(const ReadyStatus& message) { return text_of(message); }
+std::string text(const SystemTrigger& message) { return text_of(message); }
+std::string text(const Parameter& message) { return text_of(message); }
+std::string text(const ParameterRequest& message) { return text_of(message); }
+std::string text(const StopRequest& message) { return text_of(message); }
+std::string text(const Log& message) { return text_of(message); }
+std::string text(const LogLevel& message) { return text_of(message); }
+std::string text(const Traffic& message) { return text_of(message); }
+std::string text(const Prediction& message) { return text_of(message); }
+std::string text(const Outcome& message) { return text_of(message); }
+std::string text(const ReportRecord& message) { return text_of(message); }
+std::string text(const RunState& message) { return text_of(message); }
+
+}  // namespace hlc

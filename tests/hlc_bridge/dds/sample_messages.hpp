@@ -1,0 +1,35 @@
+#pragma once
+
+#include <random>
+#include <string>
+
+#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/run_messages.hpp"
+#include "planner/coordination/messages.hpp"
+
+/// Messages to send in tests, every field with a value of its own, and their text, which names
+/// every field: two messages are equal if and only if their texts are.
+namespace hlc {
+
+/// A valid message of random content.
+template <class Message>
+[[nodiscard]] Message sample(std::mt19937_64& random);
+
+[[nodiscard]] std::string text(const VehicleState& message);
+[[nodiscard]] std::string text(const VehicleObservation& message);
+[[nodiscard]] std::string text(const VehicleStateList& message);
+[[nodiscard]] std::string text(const TrajectoryCommand& message);
+[[nodiscard]] std::string text(const ReadyStatus& message);
+[[nodiscard]] std::string text(const SystemTrigger& message);
+[[nodiscard]] std::string text(const Parameter& message);
+[[nodiscard]] std::string text(const ParameterRequest& message);
+[[nodiscard]] std::string text(const StopRequest& message);
+[[nodiscard]] std::string text(const Log& message);
+[[nodiscard]] std::string text(const LogLevel& message);
+[[nodiscard]] std::string text(const Traffic& message);
+[[nodiscard]] std::string text(const Prediction& message);
+[[nodiscard]] std::string text(const Outcome& message);
+[[nodiscard]] std::string text(const ReportRecord& message);
+[[nodiscard]] std::string text(const RunState& message);
+
+}  // namespace hlc
