@@ -1,5 +1,6 @@
 #include "planner/road/curvature_curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -44,12 +45,12 @@ Pose CurvatureCurve::after_knot(std::size_t i, double distance_m) const {
   const auto direction = [&](double s) {
     return Point(std::cos(heading(s)), std::sin(heading(s)));
   };
-  const double steps = std::max(1.0, std::ceil(distance_m / kMaxStep_m));
+  const int steps = std::max(1, static_cast<int>(std::ceil(distance_m / kMaxStep_m)));
   const double h = distance_m / steps;
   Point position = begin.position_m();
-  for (double k = 0.0; k < steps; ++k) {
+  for (int k = 0; k < steps; ++k) {
     position +=
-        h / 6.0 * (direction(k * h) + 4.0 * direction((k + 0.5) * h) + direction((k + 1.0) * h));
+        h / 6.0 * (direction(k * h) + 4.0 * direction((k + 0.5) * h) + direction((k + 1) * h));
   }
   return {.x_m = position.x(), .y_m = position.y(), .heading_rad = heading(distance_m)};
 }

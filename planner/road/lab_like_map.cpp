@@ -72,9 +72,9 @@ Pose turned(const Pose& pose) {
 
 /// The curve from `from_s_m` to `to_s_m`.
 Line sampled(const CurvatureCurve& curve, double from_s_m, double to_s_m) {
-  const double intervals = std::ceil((to_s_m - from_s_m) / kSpacing_m);
+  const int intervals = static_cast<int>(std::ceil((to_s_m - from_s_m) / kSpacing_m));
   Line line;
-  for (double k = 0.0; k <= intervals; ++k) {
+  for (int k = 0; k <= intervals; ++k) {
     line.push_back(curve.at(from_s_m + (to_s_m - from_s_m) * k / intervals));
   }
   return line;
