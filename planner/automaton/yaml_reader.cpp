@@ -135,8 +135,8 @@ Allowed one_of(std::vector<std::string> words) {
   return allowed;
 }
 
-YamlNode::YamlNode(YAML::Node node, std::string file, std::string path, int line)
-    : node_(std::move(node)),
+YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path, int line)
+    : node_(node),
       file_(std::move(file)),
       path_(std::move(path)),
       line_(line),
@@ -196,7 +196,7 @@ T YamlNode::optional(const std::string& key, T fallback, const Allowed& allowed)
 }
 
 YamlNode YamlNode::map(const std::string& key) const {
-  const YamlNode found = child(key, "a map (key: value)");
+  YamlNode found = child(key, "a map (key: value)");
   if (!found.node_.IsMap()) {
     found.fail("a map (key: value)");
   }

@@ -81,7 +81,7 @@ class YamlNode {
   [[noreturn]] void fail(const std::string& allowed) const;
 
  private:
-  YamlNode(YAML::Node node, std::string file, std::string path, int line);
+  YamlNode(const YAML::Node& node, std::string file, std::string path, int line);
   [[nodiscard]] std::optional<YamlNode> find(const std::string& key) const;
   [[nodiscard]] YamlNode child(const std::string& key, const std::string& allowed) const;
   [[noreturn]] void fail_at(int line, const std::string& text) const;

@@ -99,7 +99,7 @@ struct VehicleMotion {
 
 /// The lab's stop law: steering 0, throttle -0.5 per m/s.
 [[nodiscard]] inline ActuatorInput stop_input(double speed_mps) {
-  return {.throttle = std::clamp(-0.5 * speed_mps, -1.0, 1.0), .steering = 0.0};
+  return {.throttle = std::clamp(0.0 - 0.5 * speed_mps, -1.0, 1.0), .steering = 0.0};
 }
 
 }  // namespace hlc
