@@ -26,15 +26,17 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --preset NAME           build preset (default release)
   --startup_timeout_s N   how long to wait for processes that do not appear (default 20)
   --no_build              take the programs as they are
+  --bin DIR               take the programs in DIR, build nothing
 Exit codes: 0 good, 1 setup or build failed, 2 bad input, 3 somebody did not appear,
-            4 somebody died during the run, 130 interrupted
+            4 somebody died during the run, 5 a vehicle left its plan or touched another one,
+            130 interrupted
 TEXT
 }
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
 scenario=paper_three_cars profile=default subgraph="" map="" cars="" steps="" simulated_time=true
-noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release build=true
+noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release bin="" build=true
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -50,7 +52,7 @@ while (($#)); do
   name=${name#--}
   case "$name" in
     scenario | profile | subgraph | map | cars | steps | simulated_time | noise_seed | gains_scale | \
-      transport | dds_domain | out | preset | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+      transport | dds_domain | out | preset | bin | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
@@ -60,12 +62,12 @@ done
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
 
-if $build; then
+if $build && [[ -z $bin ]]; then
   "$root/launch_scripts/setup.sh" || exit 1
   "$root/launch_scripts/build.sh" --preset "$preset" --programs || exit 1
 fi
-bin=$root/build/$preset/bin
-[[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build"
+[[ -n $bin ]] || bin=$root/build/$preset/bin
+[[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build and --bin"
 
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
@@ -84,7 +86,7 @@ block_is_free() { # first domain
   local domain fds=()
   for ((domain = $1; domain <= $1 + largest_id; domain++)); do
     local fd
-    exec {fd}>"${TMPDIR:-/tmp}/hlc_dds_domain_$domain.lock" || return 1
+    exec {fd}>"/tmp/hlc_dds_domain_$domain.lock" || return 1
     fds+=("$fd")
     if ! flock -n "$fd"; then
       for fd in "${fds[@]}"; do exec {fd}>&-; done

@@ -1,0 +1,156 @@
+// A process that dies, or never appears: it is named, the others drive out their plans and stand,
+// nothing hangs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "planner/geometry/footprint.hpp"
+#include "tests/integration/lab_processes.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct DrivenPose {
+  Pose pose;
+  double speed_mps{};
+};
+
+/// The vehicles' own records: time -> pose. Columns: t_ns, x_m, y_m, yaw_rad, speed_mps, ...
+std::map<std::uint64_t, DrivenPose> read_drive(const std::filesystem::path& file) {
+  std::map<std::uint64_t, DrivenPose> drive;
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    std::ranges::replace(line, ',', ' ');
+    std::istringstream fields(line);
+    std::uint64_t t = 0;
+    DrivenPose one;
+    if (fields >> t >> one.pose.x_m >> one.pose.y_m >> one.pose.heading_rad >> one.speed_mps) {
+      drive[t] = one;
+    }
+  }
+  return drive;
+}
+
+void expect_no_touch(const std::vector<std::map<std::uint64_t, DrivenPose>>& drives) {
+  constexpr Footprint kCar{0.220, 0.107};
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (const auto& [t, one] : drives[i]) {
+        const auto other = drives[j].find(t);
+        if (other == drives[j].end()) continue;
+        ASSERT_FALSE(
+            intersects(footprint_area(kCar, one.pose), footprint_area(kCar, other->second.pose)))
+            << "vehicles " << i + 1 << " and " << j + 1 << " at " << t;
+      }
+    }
+  }
+}
+
+std::size_t count_lines(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+struct Death {
+  std::string victim;
+  bool simulated_time;
+  int signal;
+};
+
+class ProcessDeath : public testing::TestWithParam<Death> {};
+
+TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
+  const Death& death = GetParam();
+  LabProcesses lab({.steps = 400, .simulated_time = death.simulated_time});
+  lab.start_all();
+  // The cars drive: 10 steps of three vehicles are reported.
+  ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 30 + 15; }))
+      << lab.log("lab_control");
+  lab[death.victim].send(death.signal);
+  const auto code = lab["lab_control"].wait_for(60s);
+  ASSERT_TRUE(code) << "lab control hangs";
+  EXPECT_EQ(*code, 4);
+  EXPECT_NE(lab.log("lab_control")
+                .find(death.victim.starts_with("vehicle") ? "vehicle_raspberry_2" : death.victim),
+            std::string::npos)
+      << lab.log("lab_control");
+  if (death.signal == SIGSTOP) lab[death.victim].send(SIGKILL);
+  EXPECT_TRUE(lab.wait_for_all(30s)) << "a process hangs";
+
+  std::vector<std::map<std::uint64_t, DrivenPose>> drives;
+  for (const char* id : {"1", "2", "3"}) {
+    drives.push_back(read_drive(lab.folder() / (std::string("vehicle_") + id + ".csv")));
+    ASSERT_FALSE(drives.back().empty());
+    if (death.victim != std::string("vehicle_") + id) {
+      EXPECT_LT(std::abs(drives.back().rbegin()->second.speed_mps), 0.05) << "vehicle " << id;
+    }
+  }
+  expect_no_touch(drives);
+  EXPECT_GT(count_lines(lab.folder() / "reports.csv"), 30U) << "results so far are kept";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProcessDeath,
+                         testing::Values(Death{"high_level_controller_2", true, SIGKILL},
+                                         Death{"middleware_2", true, SIGKILL},
+                                         Death{"vehicle_2", true, SIGKILL},
+                                         Death{"high_level_controller_2", false, SIGKILL},
+                                         Death{"middleware_2", false, SIGKILL},
+                                         Death{"vehicle_2", false, SIGKILL},
+                                         Death{"high_level_controller_2", true, SIGSTOP}),
+                         [](const auto& one) {
+                           return one.param.victim +
+                                  (one.param.simulated_time ? "_logical" : "_real") +
+                                  (one.param.signal == SIGKILL ? "_killed" : "_stopped");
+                         });
+
+class LabControlDeath : public testing::TestWithParam<bool> {};
+
+TEST_P(LabControlDeath, EndsEveryProcess) {
+  LabProcesses lab({.steps = 400, .simulated_time = GetParam()});
+  lab.start_all();
+  ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
+  lab["lab_control"].send(SIGKILL);
+  EXPECT_TRUE(lab.wait_for_all(60s)) << "a process hangs";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LabControlDeath, testing::Values(true, false),
+                         [](const auto& one) { return one.param ? "logical" : "real"; });
+
+class Absence : public testing::TestWithParam<std::string> {};
+
+TEST_P(Absence, IsNamedAfterTheStatedTime) {
+  LabProcesses lab({.steps = 10, .absent = {GetParam()}, .startup_timeout_s = 4});
+  lab.start_all();
+  const auto code = lab["lab_control"].wait_for(60s);
+  ASSERT_TRUE(code) << "lab control hangs";
+  EXPECT_EQ(*code, 3);
+  const std::string name = GetParam() == "vehicle_2" ? "vehicle_raspberry_2" : GetParam();
+  EXPECT_NE(lab.log("lab_control").find(name), std::string::npos) << lab.log("lab_control");
+  EXPECT_TRUE(lab.wait_for_all(30s)) << "a process hangs";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Absence,
+                         testing::Values("high_level_controller_2", "middleware_2", "vehicle_2"));
+
+TEST(Interruption, EndsEveryProcessCleanly) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    LabProcesses lab({.steps = 400});
+    lab.start_all();
+    ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
+    for (const std::string& name : lab.names()) lab[name].send(signal);
+    ASSERT_TRUE(lab.wait_for_all(20s)) << "a process hangs";
+    for (const std::string& name : lab.names()) {
+      EXPECT_EQ(lab[name].wait_for(0ms), name == "lab_control" ? 130 : 0) << name << lab.log(name);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hlc::test

@@ -1,0 +1,123 @@
+#include "tests/integration/lab_processes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <stdexcept>
+
+#include "planner/scenario/scenario.hpp"
+
+namespace hlc::test {
+namespace {
+
+const std::string kBin = std::string(HLC_BINARY_DIR) + "/bin/";
+constexpr int kLargestVehicles = 4;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+std::filesystem::path new_folder() {
+  static int count = 0;
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) /
+      ("hlc_run_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+  std::filesystem::create_directories(folder / "logs");
+  return folder;
+}
+
+}  // namespace
+
+LabProcesses::LabProcesses(const LabOptions& options)
+    : domains_(1 + kLargestVehicles),
+      folder_(new_folder()),
+      scenario_(std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" + options.scenario +
+                ".yaml") {
+  const Scenario scenario = read_scenario({.file = scenario_});
+  const int lab = domains_.first();
+  const auto common = [&](const std::string& program) {
+    return std::vector<std::string>{
+        kBin + program, "--dds_domain=" + std::to_string(lab), "--transport=loopback",
+        std::string("--simulated_time=") + (options.simulated_time ? "true" : "false"),
+        "--startup_timeout_s=" + std::to_string(options.startup_timeout_s)};
+  };
+  const auto add = [&](const std::string& name, std::vector<std::string> command,
+                       const std::vector<std::string>& flags) {
+    if (std::ranges::find(options.absent, name) != options.absent.end()) return;
+    command.insert(command.end(), flags.begin(), flags.end());
+    commands_[name] = std::move(command);
+  };
+  std::string ids;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    const std::string id = std::to_string(vehicle.id.value);
+    const std::string local = "--middleware_domain=" + std::to_string(lab + vehicle.id.value);
+    ids += (ids.empty() ? "" : ",") + id;
+    const Pose pose = measured_start(scenario, vehicle);
+    auto car = common("vehicle_sim");
+    car.insert(car.end(), {"--vehicle_id=" + id,
+                           "--pose=" + number(pose.x_m) + "," + number(pose.y_m) + "," +
+                               number(pose.heading_rad),
+                           "--record=" + (folder_ / ("vehicle_" + id + ".csv")).string()});
+    add("vehicle_" + id, car, options.vehicle_flags);
+    auto middleware = common("middleware");
+    middleware.insert(middleware.end(), {"--vehicle_ids=" + id, local});
+    add("middleware_" + id, middleware, {});
+    auto controller = common("high_level_controller");
+    controller.insert(controller.end(),
+                      {"--vehicle_ids=" + id, local, "--scenario=" + scenario_.string()});
+    add("high_level_controller_" + id, controller, options.controller_flags);
+  }
+  auto lab_control = common("lab_control");
+  lab_control.insert(lab_control.end(),
+                     {"--vehicle_ids=" + ids, "--steps=" + std::to_string(options.steps),
+                      "--out=" + folder_.string()});
+  add("lab_control", lab_control, {});
+}
+
+LabProcesses::~LabProcesses() {
+  running_.clear();
+  if (!testing::Test::HasFailure()) {
+    std::filesystem::remove_all(folder_);
+  } else {
+    std::cerr << "the run's files are in " << folder_ << '\n';
+  }
+}
+
+std::vector<std::string> LabProcesses::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, command] : commands_) names.push_back(name);
+  return names;
+}
+
+void LabProcesses::start(const std::string& name) {
+  running_.emplace(name, ChildProcess(commands_.at(name), folder_ / "logs" / (name + ".log")));
+}
+
+void LabProcesses::start_all() {
+  for (const std::string& name : names()) start(name);
+}
+
+bool LabProcesses::wait_for_all(std::chrono::seconds time) {
+  const auto deadline = std::chrono::steady_clock::now() + time;
+  return std::ranges::all_of(running_, [&](auto& one) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    return one.second.wait_for(std::max(left, std::chrono::milliseconds(1))).has_value();
+  });
+}
+
+int LabProcesses::summarize() {
+  ChildProcess program(
+      {kBin + "summarize", "--run=" + folder_.string(), "--scenario=" + scenario_.string()},
+      folder_ / "logs" / "summarize.log");
+  return program.wait_for(std::chrono::seconds(30)).value_or(-1);
+}
+
+std::string LabProcesses::log(const std::string& name) const {
+  return read_text(folder_ / "logs" / (name + ".log"));
+}
+
+}  // namespace hlc::test

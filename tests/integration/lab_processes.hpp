@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc::test {
+
+struct LabOptions {
+  std::string scenario{"paper_three_cars"};
+  int steps{25};
+  bool simulated_time{true};
+  std::vector<std::string> vehicle_flags;     ///< further flags of every vehicle_sim
+  std::vector<std::string> controller_flags;  ///< further flags of every high_level_controller
+  std::vector<std::string> absent;            ///< processes that are not started
+  int startup_timeout_s{60};
+};
+
+/// All processes of a run, started one by one in any order, each known by its name: lab_control,
+/// vehicle_1, middleware_1, high_level_controller_1, ... Own DDS domains, own folder.
+class LabProcesses {
+ public:
+  explicit LabProcesses(const LabOptions& options);
+  /// Keeps the run folder if the test has failed.
+  ~LabProcesses();
+
+  [[nodiscard]] std::vector<std::string> names() const;
+  void start(const std::string& name);
+  void start_all();
+
+  [[nodiscard]] ChildProcess& operator[](const std::string& name) { return running_.at(name); }
+  /// Waits for all that were started; false if one still runs at the deadline.
+  [[nodiscard]] bool wait_for_all(std::chrono::seconds time);
+  /// Exit code of summarize.
+  int summarize();
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] std::string log(const std::string& name) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>> commands_;
+  DomainReservation domains_;
+  std::filesystem::path folder_;
+  std::filesystem::path scenario_;
+  std::map<std::string, ChildProcess> running_;
+};
+
+}  // namespace hlc::test

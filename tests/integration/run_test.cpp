@@ -1,0 +1,104 @@
+// Whole runs with real processes in logical time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/integration/lab_processes.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Runs to the end and returns the summary.
+nlohmann::json drive(LabProcesses& lab, const std::vector<std::string>& order) {
+  for (const std::string& name : order) lab.start(name);
+  EXPECT_TRUE(lab.wait_for_all(120s)) << "a process still runs";
+  for (const std::string& name : order) {
+    EXPECT_EQ(lab[name].wait_for(0ms), 0) << name << ": " << lab.log(name);
+  }
+  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
+  return nlohmann::json::parse(read_text(lab.folder() / "summary.json"), nullptr, false);
+}
+
+TEST(Run, ThreeCarsDriveThePapersScenarioToTheEnd) {
+  LabProcesses lab({.steps = 150});
+  const nlohmann::json summary = drive(lab, lab.names());
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["steps"], 150);
+  EXPECT_EQ(summary["collisions"], 0);
+  EXPECT_GT(summary["min_footprint_distance_m"].get<double>(), 0.0);
+  ASSERT_EQ(summary["vehicles"].size(), 3U);
+  for (const nlohmann::json& vehicle : summary["vehicles"]) {
+    EXPECT_EQ(vehicle["fallback_steps"], 0);
+    EXPECT_EQ(vehicle["deadline_misses"], 0);
+    EXPECT_LE(vehicle["tracking_error_mm"]["max"].get<double>(), 20.0) << vehicle["name"];
+    EXPECT_LE(vehicle["tracking_error_mm"]["mean"].get<double>(), 10.0) << vehicle["name"];
+    EXPECT_GT(vehicle["tracking_error_mm"]["max"].get<double>(), 0.0)
+        << "the plan is not the drive";
+  }
+  EXPECT_GE(summary["vehicles"][0]["lap_s"].get<double>(), 15.5);
+  EXPECT_LE(summary["vehicles"][0]["lap_s"].get<double>(), 16.7);
+}
+
+TEST(Run, TheSameScenarioGivesTheSameBytesInWhateverOrderTheProcessesStart) {
+  std::string steps;
+  std::string hash;
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    LabProcesses lab({.steps = 40, .vehicle_flags = {"--noise_seed=7"}});
+    std::vector<std::string> order = lab.names();
+    std::mt19937 random(seed);
+    std::ranges::shuffle(order, random);
+    // Work beside the run, so that processes are not always served in the same order.
+    ChildProcess load({"/bin/sh", "-c", "while :; do :; done"}, lab.folder() / "logs" / "load.log");
+    const nlohmann::json summary = drive(lab, order);
+    ASSERT_TRUE(summary.is_object());
+    const std::string these_steps = read_text(lab.folder() / "steps.csv");
+    EXPECT_GT(these_steps.size(), 1000U);
+    if (seed == 0) {
+      steps = these_steps;
+      hash = summary["trace_sha256"];
+    }
+    EXPECT_EQ(these_steps, steps);
+    EXPECT_EQ(summary["trace_sha256"], hash);
+  }
+}
+
+// The controllers' plans alone move nothing: with the followers' gains at zero the cars stay where
+// they are.
+TEST(Run, WithoutTheFollowersGainsTheRunFails) {
+  LabProcesses lab({.steps = 15, .vehicle_flags = {"--gains_scale=0"}});
+  lab.start_all();
+  ASSERT_TRUE(lab.wait_for_all(120s));
+  EXPECT_EQ(lab.summarize(), 5) << lab.log("summarize");
+}
+
+TEST(Run, MeasurementNoiseDoesNotMakeCarsTouch) {
+  LabProcesses lab({.steps = 100, .vehicle_flags = {"--noise_seed=3"}});
+  const nlohmann::json summary = drive(lab, lab.names());
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["collisions"], 0);
+}
+
+TEST(Run, CarsOnACircleCrossWithoutTouching) {
+  LabProcesses lab({.scenario = "circle", .steps = 60});
+  const nlohmann::json summary = drive(lab, lab.names());
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["collisions"], 0);
+  EXPECT_EQ(summary["vehicles"].size(), 4U);
+  EXPECT_TRUE(summary["vehicles"][0]["lap_s"].is_null());
+}
+
+TEST(Run, RealTimeDrivesToTheEnd) {
+  LabProcesses lab({.steps = 15, .simulated_time = false});
+  for (const std::string& name : lab.names()) lab.start(name);
+  ASSERT_TRUE(lab.wait_for_all(120s));
+  EXPECT_EQ(lab["lab_control"].wait_for(0ms), 0) << lab.log("lab_control");
+  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
+}
+
+}  // namespace
+}  // namespace hlc::test
