@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/hlc/command.hpp"
 #include "hlc_bridge/hlc/observation.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
@@ -15,13 +18,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kReadyRepeat{500};
-constexpr std::chrono::seconds kSilence{10};
+constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kCopyPause{50};
 /// Logical time starts the experiment no earlier: vehicles are trusted after 1 s.
-constexpr Nanoseconds kEarliestStart = 1'000'000'000;
-constexpr int kExitGood = 0;
-constexpr int kExitNotThere = 3;
-constexpr int kExitDied = 4;
+constexpr Nanoseconds kEarliestStart = kNanosecondsPerSecond;
 
 ParticipantOptions on_domain(const HlcProcessOptions& options, std::optional<int> domain,
                              DomainRole role) {
@@ -44,10 +44,6 @@ Nanoseconds share_of_period(const VehicleStateList& list, double share) {
 }
 
 }  // namespace
-
-std::string controller_node_id(VehicleId vehicle) {
-  return "high_level_controller_" + std::to_string(vehicle.value);
-}
 
 HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller)
     : options_(std::move(options)),
@@ -109,7 +105,7 @@ std::vector<VehicleId> HlcProcess::others(const Observation& observation) const 
 std::set<std::string> HlcProcess::peer_names() const {
   std::set<std::string> names;
   for (const VehicleId vehicle : active_) {
-    if (vehicle != controller_->options().vehicle) names.insert(controller_node_id(vehicle));
+    if (vehicle != controller_->options().vehicle) names.insert(controller_name(vehicle.value));
   }
   return names;
 }
@@ -185,7 +181,7 @@ int HlcProcess::run() {
       case Event::kTimeout:
         spdlog::error("{}: {} within {} s", options_.node_id, who_is_missing(),
                       options_.startup_timeout.count());
-        return kExitNotThere;
+        return kExitMissing;
       case Event::kList:
         break;
     }
@@ -226,9 +222,10 @@ void HlcProcess::answer(const VehicleStateList& list) {
   });
   ReportRecord record;
   if (is_started_ || starts_with(list, observation)) {
-    if (is_started_) lists_skipped_ += observation.step.value - last_step_->value - 1;
+    const bool has_skipped = is_started_ && observation.step.value > last_step_->value + 1;
     is_started_ = true;
     record = run_step(list, observation);
+    record.deadline_missed |= has_skipped;
   } else {
     record.report = controller_->stand_by(observation);
     send_command(list, observation.step);
@@ -238,7 +235,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
 }
 
 bool HlcProcess::is_awaited(VehicleId vehicle) const {
-  return !given_up_.contains(vehicle) && controllers_.is_alive(controller_node_id(vehicle));
+  return !given_up_.contains(vehicle) && controllers_.is_alive(controller_name(vehicle.value));
 }
 
 template <class Message>
@@ -258,7 +255,8 @@ void HlcProcess::wait_for(const StepMailbox<Message>& mailbox, const std::vector
   for (const VehicleId vehicle : from) {
     if (signal_.locked([&] { return mailbox.holds(vehicle); })) continue;
     spdlog::warn("{}: {} has said nothing for {} s and is not waited for any more",
-                 options_.node_id, controller_node_id(vehicle), kSilence.count());
+                 options_.node_id, controller_name(vehicle.value),
+                 kMessageTimeout / kNanosecondsPerSecond);
     signal_.locked([&] { given_up_.insert(vehicle); });
   }
 }

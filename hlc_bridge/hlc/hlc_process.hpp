@@ -39,9 +39,6 @@ struct HlcProcessOptions {
   StepDeadlines deadlines;
 };
 
-/// Node ids of a run, by which processes know each other's presence.
-[[nodiscard]] std::string controller_node_id(VehicleId vehicle);
-
 /// The process of one controller: takes state lists from the middleware, steps the controller,
 /// exchanges messages with the other controllers between its phases, answers every list with a
 /// command.
@@ -112,7 +109,6 @@ class HlcProcess {
   bool is_ready_{};
   bool is_started_{};
   std::optional<StepIndex> last_step_;
-  std::uint64_t lists_skipped_{};
   std::chrono::steady_clock::time_point next_ready_at_{};
   std::optional<std::pair<std::chrono::steady_clock::time_point, TrajectoryCommand>> copy_due_;
 
