@@ -122,7 +122,7 @@ void LabRun::gather(LabRunActions& actions) {
     last_progress_ = now_;
     actions.run_state = RunPhase::kRunning;
   } else if (end_asked_ || too_late) {
-    fail(kExitMissing, missing_line());
+    fail(kExitMissing, "after " + seconds(settings_.startup_timeout) + ": " + waiting_for());
     actions.triggers.push_back(kStopSymbol);
     phase_ = Phase::kFinished;
   }
@@ -251,7 +251,7 @@ void LabRun::fail(int exit_code, const std::string& reason) {
   }
 }
 
-std::string LabRun::missing_line() const {
+std::string LabRun::waiting_for() const {
   std::vector<std::string> absent;
   for (const std::string& process : processes_) {
     if (alive_.count(process) == 0 || lost_.count(process) != 0) {
@@ -259,9 +259,9 @@ std::string LabRun::missing_line() const {
     }
   }
   const std::vector<std::string> waiting = not_ready();
-  std::string line = "after " + seconds(settings_.startup_timeout) + ": ";
+  std::string line;
   if (!absent.empty()) {
-    line += "did not appear: " + join(absent);
+    line += "not there: " + join(absent);
   }
   if (!waiting.empty()) {
     line += (absent.empty() ? "" : "; ") + ("not ready: " + join(waiting));

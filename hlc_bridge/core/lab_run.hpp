@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/core/death.hpp"
+#include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 
@@ -22,8 +24,6 @@ struct LabRunSettings {
 inline constexpr Nanoseconds kDriveOutTime = 3 * kNanosecondsPerSecond;
 /// Vehicles brake for 50 ticks after the stop symbol; one more may be under way.
 inline constexpr Nanoseconds kBrakingTime = 51 * kVehiclePeriod;
-/// No process waits longer than this (wall time) for a message of a living one.
-inline constexpr Nanoseconds kMessageTimeout = 10 * kNanosecondsPerSecond;
 /// A process that owes an answer this long (wall time, since the last answer of anybody) is dead.
 /// Longer than kMessageTimeout, so that those who wait for the dead one have given up and answered
 /// before: only the culprit is still silent then.
@@ -32,19 +32,6 @@ inline constexpr Nanoseconds kAnswerTimeout = kMessageTimeout + 2 * kNanoseconds
 inline constexpr Nanoseconds kStandbyTimeout = 10 * kNanosecondsPerSecond;
 /// Wall time for the end of an interrupted run.
 inline constexpr Nanoseconds kInterruptTime = 700'000'000;
-
-/// Exit codes of the lab control.
-inline constexpr int kExitGood = 0;
-inline constexpr int kExitBadInput = 2;
-inline constexpr int kExitMissing = 3;
-inline constexpr int kExitDied = 4;
-inline constexpr int kExitInterrupted = 130;
-
-struct Death {
-  std::string process;
-  std::string sign;  ///< how it was noticed, in words
-  friend bool operator==(const Death&, const Death&) = default;
-};
 
 /// What the lab control has to do now, in this order.
 struct LabRunActions {
@@ -104,6 +91,8 @@ class LabRun {
   [[nodiscard]] bool finished() const { return phase_ == Phase::kFinished; }
   /// Steps that have begun, 0 before k0; at most `steps`.
   [[nodiscard]] std::uint64_t steps_begun() const;
+  /// Who is not there or not ready yet, in words.
+  [[nodiscard]] std::string waiting_for() const;
   /// Complete once finished.
   [[nodiscard]] const LabRunResult& result() const { return result_; }
 
@@ -140,7 +129,6 @@ class LabRun {
   void leave_running_phases(LabRunActions& actions);
   void stop(LabRunActions& actions);
   void fail(int exit_code, const std::string& reason);
-  [[nodiscard]] std::string missing_line() const;
   [[nodiscard]] std::string standby_line() const;
   /// Time of the run at which the present phase ends; kNever if an answer decides.
   [[nodiscard]] Nanoseconds phase_end() const;

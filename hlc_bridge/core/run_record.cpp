@@ -10,6 +10,17 @@ constexpr Nanoseconds kWidestGap = 100'000'000;
 
 }  // namespace
 
+std::optional<std::uint64_t> first_step_of(std::span<const ReportRecord> reports) {
+  std::optional<std::uint64_t> first;
+  for (const ReportRecord& record : reports) {
+    if (record.report.status != StepStatus::kStandby) {
+      const std::uint64_t step = record.report.step.value;
+      first = std::min(first.value_or(step), step);
+    }
+  }
+  return first;
+}
+
 std::optional<Pose> driven_pose_at(std::span<const DrivenSample> drive, Nanoseconds t) {
   const auto after = std::lower_bound(
       drive.begin(), drive.end(), t,

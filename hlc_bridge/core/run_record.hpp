@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/core/death.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/reference_path.hpp"
@@ -32,14 +33,8 @@ struct RunDescription {
   std::vector<VehicleDescription> vehicles;
 };
 
-struct DeathRecord {
-  std::string process;
-  std::string sign;  ///< how it was noticed
-};
-
 /// How the run went, as the lab control saw it.
 struct RunFacts {
-  std::string scenario;
   bool simulated_time{};
   std::vector<std::uint8_t> vehicle_ids;
   Nanoseconds period{};
@@ -49,7 +44,7 @@ struct RunFacts {
   double clock_s{};                         ///< time of the run that passed meanwhile
   int exit_code{};
   std::string reason;  ///< one line; empty if all went well
-  std::vector<DeathRecord> died;
+  std::vector<Death> died;
 };
 
 /// A vehicle's true state at a tick.
@@ -72,6 +67,9 @@ struct StepRecord {
   ReportRecord record;         ///< of step k
   std::optional<Pose> driven;  ///< at t(k); none if it was not recorded
 };
+
+/// The first step that anybody reported as not standby; nothing if nobody started.
+[[nodiscard]] std::optional<std::uint64_t> first_step_of(std::span<const ReportRecord> reports);
 
 /// Pose at `t`: the sample of that time, else linear between its neighbours if they are not farther
 /// apart than 0.1 s (yaw along the shorter arc), else nothing. @pre samples by increasing time

@@ -18,6 +18,9 @@ inline constexpr Nanoseconds kListOffset = 1;
 
 inline constexpr Nanoseconds kNanosecondsPerSecond = 1'000'000'000;
 
+/// No process waits longer than this (wall time) for a message of another one that seems to live.
+inline constexpr Nanoseconds kMessageTimeout = 10 * kNanosecondsPerSecond;
+
 /// Number k of the control step that `t` lies in: t(k) <= t < t(k + 1), t(k) = k * period.
 [[nodiscard]] constexpr std::uint64_t step_at(Nanoseconds t, Nanoseconds period) {
   return t / period;

@@ -141,7 +141,7 @@ TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
   EXPECT_TRUE(run.finished());
   EXPECT_EQ(run.result().exit_code, kExitMissing);
   EXPECT_EQ(run.result().reason,
-            "after 20 s: did not appear: high_level_controller_2; not ready: middleware_2");
+            "after 20 s: not there: high_level_controller_2; not ready: middleware_2");
 }
 
 TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {

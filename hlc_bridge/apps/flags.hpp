@@ -1,0 +1,65 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/dds/transport.hpp"
+
+/// Flags that the processes of a run have in common, as in the lab: `--name=value` and `--name
+/// value`.
+namespace hlc {
+
+struct NetworkFlags {
+  bool simulated_time{false};
+  int dds_domain{0};
+  std::string transport{"lab"};
+  std::string discovery_mode;
+  std::string discovery_server_id;
+  std::string discovery_server_ip;
+  std::string discovery_server_port;
+  int startup_timeout_s{30};
+
+  void declare(CLI::App& app) {
+    app.add_option("--simulated_time", simulated_time, "true: logical time, false: real time")
+        ->capture_default_str();
+    app.add_option("--dds_domain", dds_domain, "lab domain")->capture_default_str();
+    app.add_option("--transport", transport, "lab or loopback")->capture_default_str();
+    app.add_option("--discovery_mode", discovery_mode, "simple or client");
+    app.add_option("--discovery_server_id", discovery_server_id, "GUID prefix");
+    app.add_option("--discovery_server_ip", discovery_server_ip, "IPv4 address");
+    app.add_option("--discovery_server_port", discovery_server_port, "port");
+    app.add_option("--startup_timeout_s", startup_timeout_s,
+                   "exit code 3 if somebody is not there by then")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
+  }
+
+  /// @throws std::invalid_argument naming the flag
+  [[nodiscard]] std::optional<DiscoveryServer> discovery_server() const {
+    return discovery_from_flags(discovery_mode, discovery_server_id, discovery_server_ip,
+                                discovery_server_port);
+  }
+  [[nodiscard]] std::chrono::seconds startup_timeout() const {
+    return std::chrono::seconds{startup_timeout_s};
+  }
+};
+
+/// Nothing if the flags are good; else the exit code, after the help or one line about the bad
+/// flag.
+inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << app.get_name() << ": " << error.what() << '\n';
+    return kExitBadInput;
+  }
+}
+
+}  // namespace hlc

@@ -1,0 +1,103 @@
+// The lab control of a run: starts, releases the ticks of logical time, watches, stops, records.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <vector>
+
+#include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/lab_control/lab_control_process.hpp"
+#include "hlc_bridge/time/stop_signals.hpp"
+
+namespace {
+
+struct Flags {
+  hlc::NetworkFlags network;
+  int controller_domain{-1};
+  std::vector<int> vehicle_ids;
+  std::uint64_t steps{150};
+  std::uint64_t period_ms{200};
+  std::string out;
+  std::string on_death{"stop"};
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  flags.network.startup_timeout_s = 20;
+  flags.network.declare(app);
+  app.add_option("--controller_domain", flags.controller_domain,
+                 "domain of the controllers; default: lab domain + 50");
+  app.add_option("--vehicle_ids", flags.vehicle_ids, "all vehicles of the run: 1,2,3")
+      ->delimiter(',')
+      ->required()
+      ->check(CLI::Range(1, 30));
+  app.add_option("--steps", flags.steps, "control steps of the run")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--period_ms", flags.period_ms, "of the control steps")
+      ->capture_default_str()
+      ->check(CLI::Range(20, 10000));
+  app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
+  app.add_option("--on_death", flags.on_death, "stop: drive out the plans, then end the run")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"stop"}));
+  app.footer(
+      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 somebody died during the run, "
+      "130 interrupted.");
+}
+
+hlc::LabControlOptions process_options(const Flags& flags) {
+  hlc::LabControlOptions options;
+  std::vector<int> ids = flags.vehicle_ids;
+  std::sort(ids.begin(), ids.end());
+  if (std::adjacent_find(ids.begin(), ids.end()) != ids.end()) {
+    throw std::invalid_argument("--vehicle_ids: each id once, allowed 1 ... 30");
+  }
+  for (const int id : ids) {
+    options.run.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
+  }
+  options.run.period = flags.period_ms * 1'000'000;
+  options.run.steps = flags.steps;
+  options.run.startup_timeout =
+      static_cast<hlc::Nanoseconds>(flags.network.startup_timeout_s) * hlc::kNanosecondsPerSecond;
+  options.transport = hlc::transport_from_name(flags.network.transport);
+  options.lab_domain = flags.network.dds_domain;
+  hlc::check_domain_id("--dds_domain", options.lab_domain);
+  options.controller_domain = flags.controller_domain >= 0
+                                  ? flags.controller_domain
+                                  : hlc::default_controller_domain(options.lab_domain);
+  const hlc::Domains domains{
+      .lab = options.lab_domain, .local = std::nullopt, .controller = options.controller_domain};
+  for (const std::string& warning : hlc::check_domains(domains, options.transport)) {
+    spdlog::warn("{}", warning);
+  }
+  options.discovery_server = flags.network.discovery_server();
+  options.logical_time = flags.network.simulated_time;
+  options.out = flags.out;
+  options.is_terminal = isatty(STDERR_FILENO) != 0;
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hlc::StopSignals signals;
+  spdlog::set_default_logger(spdlog::stderr_color_mt(hlc::kLabControlName));
+  CLI::App app{"Lab control: starts, clocks, watches, stops and records a run.",
+               hlc::kLabControlName};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) {
+    return *code;
+  }
+  try {
+    hlc::LabControlProcess process(process_options(flags));
+    signals.on_stop([&process](int) { process.interrupt(); });
+    return process.run();
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return hlc::kExitBadInput;
+  }
+}

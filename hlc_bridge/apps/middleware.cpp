@@ -1,0 +1,91 @@
+// The middleware of one vehicle's controller. Flags as in the lab.
+#include "hlc_bridge/middleware/middleware_process.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <vector>
+
+#include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/time/stop_signals.hpp"
+
+namespace {
+
+struct Flags {
+  hlc::NetworkFlags network;
+  std::string node_id;
+  std::vector<int> vehicle_ids;
+  int middleware_domain{1};
+  hlc::Nanoseconds offset_nanoseconds{hlc::kListOffset};
+  bool wait_for_start{false};
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  flags.network.declare(app);
+  app.add_option("--node_id", flags.node_id, "default: middleware_<id>");
+  app.add_option("--vehicle_ids", flags.vehicle_ids, "the controller's vehicle (one id)")
+      ->delimiter(',')
+      ->required()
+      ->expected(1)
+      ->check(CLI::Range(1, 30));
+  app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
+      ->capture_default_str();
+  app.add_option("--offset_nanoseconds", flags.offset_nanoseconds,
+                 "of the state lists in a period (logical time: 1)")
+      ->capture_default_str();
+  app.add_option("--wait_for_start", flags.wait_for_start,
+                 "only false: lists come from the first period on")
+      ->capture_default_str();
+  app.footer(
+      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died in "
+      "logical time.");
+}
+
+hlc::MiddlewareOptions process_options(const Flags& flags) {
+  hlc::MiddlewareOptions options;
+  options.vehicle_id = static_cast<std::uint8_t>(flags.vehicle_ids.front());
+  options.node_id =
+      flags.node_id.empty() ? hlc::middleware_name(options.vehicle_id) : flags.node_id;
+  options.transport = hlc::transport_from_name(flags.network.transport);
+  options.lab_domain = flags.network.dds_domain;
+  options.local_domain = flags.middleware_domain;
+  const hlc::Domains domains{
+      .lab = options.lab_domain, .local = options.local_domain, .controller = std::nullopt};
+  for (const std::string& warning : hlc::check_domains(domains, options.transport)) {
+    spdlog::warn("{}: {}", options.node_id, warning);
+  }
+  options.discovery_server = flags.network.discovery_server();
+  options.logical_time = flags.network.simulated_time;
+  options.offset = flags.offset_nanoseconds;
+  options.startup_timeout = flags.network.startup_timeout();
+  if (flags.wait_for_start) {
+    throw std::invalid_argument("--wait_for_start = true, allowed false");
+  }
+  if (options.logical_time && options.offset != hlc::kListOffset) {
+    throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +
+                                ", allowed 1 in logical time");
+  }
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hlc::StopSignals signals;
+  CLI::App app{"Middleware: vehicle states to a controller, its commands to the vehicle.",
+               "middleware"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) {
+    return *code;
+  }
+  try {
+    hlc::MiddlewareProcess process(process_options(flags));
+    signals.on_stop([&process](int) { process.stop(); });
+    return process.run();
+  } catch (const std::exception& error) {
+    spdlog::error("middleware: {}", error.what());
+    return hlc::kExitBadInput;
+  }
+}

@@ -1,0 +1,124 @@
+// Reads a run folder, writes steps.csv, timing.csv, summary.json and what was configured, prints
+// the table.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/run_summary.hpp"
+#include "hlc_bridge/core/summary_table.hpp"
+#include "hlc_bridge/record/configuration.hpp"
+#include "hlc_bridge/record/drive_file.hpp"
+#include "hlc_bridge/record/facts_file.hpp"
+#include "hlc_bridge/record/program.hpp"
+#include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/record/step_files.hpp"
+#include "hlc_bridge/record/summary_file.hpp"
+#include "hlc_bridge/record/text_file.hpp"
+#include "planner/scenario/scenario.hpp"
+
+namespace {
+
+hlc::RunDescription description_of(const hlc::Scenario& scenario) {
+  const hlc::UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  hlc::RunDescription description;
+  description.scenario = scenario.name;
+  description.profile = scenario.profile.name;
+  description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
+  description.seed = scenario.seed;
+  description.subgraph = scenario.subgraph->spec().name;
+  description.horizon_steps = scenario.horizon_steps;
+  description.step_s = automaton.step_s;
+  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
+    description.vehicles.push_back(
+        {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
+  }
+  return description;
+}
+
+/// @throws std::runtime_error if the run is not one of this scenario
+void check_scenario(const hlc::RunFacts& facts, const hlc::RunDescription& description) {
+  const double period_s = 1e-9 * static_cast<double>(facts.period);
+  if (std::abs(period_s - description.step_s) > 1e-9) {
+    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
+                             ", must be the step of scenario " + description.scenario + ", " +
+                             hlc::to_text(description.step_s) + " s");
+  }
+  for (const std::uint8_t id : facts.vehicle_ids) {
+    if (std::none_of(description.vehicles.begin(), description.vehicles.end(),
+                     [id](const auto& vehicle) { return vehicle.id.value == id; })) {
+      throw std::runtime_error("run.json: vehicle_ids has " + std::to_string(id) +
+                               ", which is not in scenario " + description.scenario);
+    }
+  }
+}
+
+hlc::Drives read_drives(const std::filesystem::path& run, const hlc::RunFacts& facts) {
+  hlc::Drives drives;
+  for (const std::uint8_t id : facts.vehicle_ids) {
+    const std::filesystem::path file = hlc::drive_file(run, id);
+    if (std::filesystem::exists(file)) {
+      drives[id] = hlc::read_drive(file);
+    } else {
+      std::cerr << "summarize: " << file.string() << " is not there; nothing is said about what "
+                << "vehicle " << id + 0 << " drove\n";
+    }
+  }
+  return drives;
+}
+
+void summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
+  const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
+  hlc::RunFacts facts = hlc::read_facts(run / "run.json");
+  if (!facts.first_step) {
+    facts.first_step = hlc::first_step_of(reports);  // the lab control did not end the run
+  }
+  const hlc::Scenario scenario = hlc::read_scenario(choices);
+  const hlc::RunDescription description = description_of(scenario);
+  check_scenario(facts, description);
+  const hlc::Drives drives = read_drives(run, facts);
+  const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
+
+  hlc::RunSummary summary = hlc::summarize(description, facts, rows, drives);
+  summary.revision = hlc::program_revision();
+  summary.host = hlc::this_host();
+  hlc::write_file(run / "steps.csv", hlc::steps_csv(rows));
+  hlc::write_file(run / "timing.csv", hlc::timing_csv(rows));
+  hlc::write_file(run / "summary.json", hlc::summary_json(summary));
+  std::vector<std::filesystem::path> files{scenario.file, scenario.automaton_file};
+  if (scenario.map_file) {
+    files.push_back(*scenario.map_file);
+  }
+  hlc::keep_configuration(run, files);
+  std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv.", "summarize"};
+  std::filesystem::path run;
+  hlc::ScenarioChoices choices;
+  app.add_option("--run", run, "run folder")->required();
+  app.add_option("--scenario", choices.file, "scenario file (YAML) of the run")->required();
+  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
+  app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
+  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
+  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
+  app.footer("Exit codes: 0 good, 2 bad input.");
+  if (const auto code = hlc::parse_flags(app, argc, argv)) {
+    return *code;
+  }
+  try {
+    summarize_run(run, choices);
+    return hlc::kExitGood;
+  } catch (const std::exception& error) {
+    std::cerr << "summarize: " << error.what() << '\n';
+    return hlc::kExitBadInput;
+  }
+}

@@ -1,0 +1,12 @@
+#pragma once
+
+/// Exit codes of the processes of a run.
+namespace hlc {
+
+inline constexpr int kExitGood = 0;
+inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitMissing = 3;  ///< somebody did not appear in time
+inline constexpr int kExitDied = 4;     ///< somebody died during the run
+inline constexpr int kExitInterrupted = 130;
+
+}  // namespace hlc

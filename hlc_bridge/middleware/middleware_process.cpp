@@ -1,0 +1,395 @@
+#include "hlc_bridge/middleware/middleware_process.hpp"
+
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::chrono::milliseconds kRequestInterval{100};
+constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
+constexpr std::chrono::milliseconds kLeaveTime{500};
+constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
+constexpr const char* kPeriodParameter = "middleware_period_ms";
+constexpr const char* kActiveIdsParameter = "active_vehicle_ids";
+
+ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
+  const bool lab = role == DomainRole::kLab;
+  return {.name = options.node_id,
+          .domain_id = lab ? options.lab_domain : options.local_domain,
+          .role = role,
+          .transport = options.transport,
+          .logical_time = options.logical_time,
+          .discovery_server = lab ? options.discovery_server : std::nullopt};
+}
+
+}  // namespace
+
+MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
+    : options_(std::move(options)),
+      lab_(on_domain(options_, DomainRole::kLab), [this] { signal_.notify(); }),
+      local_(on_domain(options_, DomainRole::kLocal), [this] { signal_.notify(); }),
+      list_writer_(local_, topics::vehicle_state_list(), [this] { signal_.notify(); }),
+      trigger_writer_(local_, topics::system_trigger(), [this] { signal_.notify(); }),
+      command_writer_(lab_, topics::vehicle_command(options_.vehicle_id),
+                      [this] { signal_.notify(); }),
+      ready_writer_(lab_, topics::ready_status(), [this] { signal_.notify(); }),
+      request_writer_(lab_, topics::parameter_request()),
+      parameter_reader_(
+          lab_, topics::parameter(),
+          [this](const Parameter& parameter) { signal_.post([&] { take(parameter); }); }),
+      trigger_reader_(
+          lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) { take(trigger); },
+          [this] { signal_.notify(); }),
+      command_reader_(
+          local_, topics::command(),
+          [this](const TrajectoryCommand& command) {
+            mail_.post([&] { to_carry_.emplace_back(command); });
+          },
+          [this] { signal_.notify(); }),
+      ready_reader_(
+          local_, topics::ready_status(),
+          [this](const ReadyStatus& status) {
+            if (status.source_id == controller_ready_id(options_.vehicle_id)) {
+              signal_.post([this] { controller_ready_ = true; });
+            }
+          },
+          [this] { signal_.notify(); }) {}
+
+MiddlewareProcess::~MiddlewareProcess() = default;
+
+void MiddlewareProcess::stop() {
+  signal_.post([this] {
+    stop_ = true;
+    if (timer_in_use_ != nullptr) {
+      timer_in_use_->stop();
+    }
+  });
+}
+
+int MiddlewareProcess::run() {
+  class Carrier {
+   public:
+    explicit Carrier(MiddlewareProcess& process)
+        : process_{process}, thread_{[&process] { process.carry_everything(); }} {}
+    ~Carrier() {
+      process_.mail_.post([this] { process_.carrier_ends_ = true; });
+      thread_.join();
+    }
+
+   private:
+    MiddlewareProcess& process_;
+    std::thread thread_;
+  };
+  int code = kExitGood;
+  {
+    const Carrier carrier{*this};
+    code = keep_period();
+  }
+  if (signal_.locked([this] { return stop_symbol_; })) {
+    let_controller_leave();
+  }
+  return code;
+}
+
+int MiddlewareProcess::keep_period() {
+  const int problem = prepare();
+  if (problem != kExitGood || signal_.locked([this] { return stop_; })) {
+    return problem;
+  }
+  make_timer();
+  while (const std::optional<Nanoseconds> t_now = timer_->wait_next()) {
+    tick(*t_now);
+  }
+  signal_.locked([this] { timer_in_use_ = logical_timer_ = nullptr; });
+  if (missed_answers_ > 0) {
+    spdlog::warn("{}: {} lists without an answer in time", options_.node_id, missed_answers_);
+  }
+  if (lab_control_lost_) {
+    spdlog::error("{}: {} is gone; logical time stands still", options_.node_id, kLabControlName);
+    return kExitDied;
+  }
+  return kExitGood;
+}
+
+/// The controller gets the stop symbol before its middleware is gone, and so leaves without alarm.
+void MiddlewareProcess::let_controller_leave() const {
+  static_cast<void>(signal_.wait_until(Clock::now() + kLeaveTime,
+                                       [this] { return command_reader_.matched() == 0; }));
+}
+
+// --- start
+// ----------------------------------------------------------------------------------------
+
+void MiddlewareProcess::take(const Parameter& parameter) {
+  if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value);
+      period_ms != nullptr && parameter.name == kPeriodParameter) {
+    period_ = *period_ms * kNanosecondsPerMillisecond;
+  }
+  if (const auto* ids = std::get_if<std::vector<std::int32_t>>(&parameter.value);
+      ids != nullptr && parameter.name == kActiveIdsParameter) {
+    active_ids_ = *ids;
+  }
+}
+
+bool MiddlewareProcess::learn_parameters(Clock::time_point deadline) {
+  const auto is_done = [this] { return stop_ || (period_ && active_ids_); };
+  while (Clock::now() < deadline) {
+    const auto [has_period, has_ids] = signal_.locked([this] {
+      return std::pair{period_.has_value(), active_ids_.has_value()};
+    });
+    if (!has_period) {
+      request_writer_.write({.name = kPeriodParameter});
+    }
+    if (!has_ids) {
+      request_writer_.write({.name = kActiveIdsParameter});
+    }
+    if (signal_.wait_until(std::min(deadline, Clock::now() + kRequestInterval), is_done)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string MiddlewareProcess::parameter_problem() const {
+  if (*period_ <= options_.offset) {
+    return fmt::format("{} = {} ms, must be more than --offset_nanoseconds = {}", kPeriodParameter,
+                       *period_ / kNanosecondsPerMillisecond, options_.offset);
+  }
+  const auto is_wrong = [](std::int32_t id) { return id < 1 || id > 255; };
+  if (std::ranges::any_of(*active_ids_, is_wrong) ||
+      std::ranges::count(*active_ids_, options_.vehicle_id) != 1) {
+    return fmt::format("{} = {}, must be in 1 ... 255 and hold --vehicle_ids = {} once",
+                       kActiveIdsParameter, fmt::join(*active_ids_, ","), options_.vehicle_id);
+  }
+  return {};
+}
+
+void MiddlewareProcess::listen_to_vehicles() {
+  for (const std::int32_t active : *active_ids_) {
+    const auto id = static_cast<std::uint8_t>(active);
+    state_readers_.try_emplace(
+        id, lab_, topics::vehicle_state(id),
+        [this, id](const VehicleState& state) {
+          signal_.post([&] {
+            states_.add(id, state);
+            silent_vehicles_.erase(id);
+          });
+        },
+        [this] { signal_.notify(); });
+  }
+}
+
+int MiddlewareProcess::prepare() {
+  const Clock::time_point deadline = Clock::now() + options_.startup_timeout;
+  if (!learn_parameters(deadline)) {
+    spdlog::error("{}: {} did not tell {} and {} within {} s", options_.node_id, kLabControlName,
+                  kPeriodParameter, kActiveIdsParameter, options_.startup_timeout.count());
+    return kExitMissing;
+  }
+  if (signal_.locked([this] { return stop_; })) {
+    return kExitGood;
+  }
+  if (const std::string problem = parameter_problem(); !problem.empty()) {
+    spdlog::error("{}: {}", options_.node_id, problem);
+    return kExitBadInput;
+  }
+  listen_to_vehicles();
+  if (options_.logical_time &&
+      !signal_.wait_until(deadline, [this] { return stop_ || is_connected(); })) {
+    spdlog::error("{}: not there within {} s: {}", options_.node_id,
+                  options_.startup_timeout.count(), who_is_missing());
+    return kExitMissing;
+  }
+  return kExitGood;
+}
+
+/// Nothing of the run may be lost, since ticks wait for it.
+bool MiddlewareProcess::is_connected() const { return who_is_missing().empty(); }
+
+std::string MiddlewareProcess::who_is_missing() const {
+  std::vector<std::string> missing;
+  if (ready_writer_.matched() == 0 || trigger_reader_.matched() == 0) {
+    missing.emplace_back(kLabControlName);
+  }
+  if (list_writer_.matched() == 0 || trigger_writer_.matched() == 0 ||
+      command_reader_.matched() == 0 || ready_reader_.matched() == 0) {
+    missing.push_back(controller_name(options_.vehicle_id));
+  }
+  for (const auto& [id, reader] : state_readers_) {
+    const bool commanded = id != options_.vehicle_id || command_writer_.matched() > 0;
+    if (reader.matched() == 0 || !commanded) {
+      missing.push_back(vehicle_name(id));
+    }
+  }
+  return fmt::format("{}", fmt::join(missing, ", "));
+}
+
+void MiddlewareProcess::make_timer() {
+  LogicalTimer* logical = nullptr;
+  if (options_.logical_time) {
+    auto timer = std::make_unique<LogicalTimer>(
+        *period_, options_.offset, [this](Nanoseconds next_tick) { send_ready(next_tick); });
+    logical = timer.get();
+    timer_ = std::move(timer);
+  } else {
+    timer_ = std::make_unique<RealTimer>(*period_, options_.offset);
+  }
+  signal_.locked([&] {
+    timer_in_use_ = timer_.get();
+    logical_timer_ = logical;
+    if (stop_) {
+      timer_->stop();
+    }
+  });
+}
+
+void MiddlewareProcess::send_ready(Nanoseconds next_tick) {
+  ready_writer_.write({.source_id = options_.node_id, .next_start = next_tick});
+  if (lab_.is_lost(kLabControlName)) {
+    lab_control_lost_ = true;
+    timer_->stop();
+  }
+}
+
+// --- the period
+// -----------------------------------------------------------------------------------
+
+void MiddlewareProcess::tick(Nanoseconds t_now) {
+  if (options_.logical_time) {
+    wait_for_states(t_now);
+  } else {
+    tell_missed_answer();
+  }
+  const auto [list, tell_ready] = signal_.locked([&] {
+    newest_list_ = t_now;
+    states_.forget_before(t_now);
+    return std::pair{compose_state_list(states_, t_now, *period_, *active_ids_),
+                     controller_ready_ && !triggered_};
+  });
+  list_writer_.write(list);
+  if (options_.logical_time) {
+    wait_for_answer(t_now);
+  } else if (tell_ready) {
+    ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_id)});
+  }
+}
+
+void MiddlewareProcess::wait_for_states(Nanoseconds t_now) {
+  const std::optional<Nanoseconds> stamp = newest_valid_state_stamp(t_now);
+  if (!stamp) {
+    return;
+  }
+  const auto is_here = [&](const auto& vehicle) {
+    return states_.holds(vehicle.first, *stamp) || silent_vehicles_.contains(vehicle.first) ||
+           vehicle.second.matched() == 0;
+  };
+  if (signal_.wait_until(Clock::now() + kSilence,
+                         [&] { return stop_ || std::ranges::all_of(state_readers_, is_here); })) {
+    return;
+  }
+  signal_.locked([&] {
+    for (const auto& vehicle : state_readers_) {
+      if (!is_here(vehicle)) {
+        silent_vehicles_.insert(vehicle.first);
+      }
+    }
+  });
+  spdlog::warn("{}: vehicles {} have said nothing for {} s and are not waited for any more",
+               options_.node_id, fmt::join(silent_vehicles_, ", "),
+               kMessageTimeout / kNanosecondsPerSecond);
+}
+
+void MiddlewareProcess::wait_for_answer(Nanoseconds t_now) {
+  if (signal_.wait_until(Clock::now() + kSilence, [&] {
+        return stop_ || newest_answer_ >= t_now || controller_silent_ ||
+               command_reader_.matched() == 0;
+      })) {
+    return;
+  }
+  spdlog::warn("{}: {} has said nothing for {} s and is not waited for any more", options_.node_id,
+               controller_name(options_.vehicle_id), kMessageTimeout / kNanosecondsPerSecond);
+  signal_.locked([this] { controller_silent_ = true; });
+}
+
+void MiddlewareProcess::tell_missed_answer() {
+  const bool missed = signal_.locked(
+      [this] { return triggered_ && newest_list_ != 0 && newest_answer_ < newest_list_; });
+  if (missed && missed_answers_++ == 0) {
+    spdlog::warn("{}: {} has missed the list of {} ns", options_.node_id,
+                 controller_name(options_.vehicle_id), newest_list_);
+  }
+}
+
+// --- the carrier
+// ----------------------------------------------------------------------------------
+
+/// On a DDS thread.
+void MiddlewareProcess::take(const SystemTrigger& trigger) {
+  mail_.post([&] { to_carry_.emplace_back(trigger); });
+  signal_.post([&] {
+    triggered_ = true;
+    stop_symbol_ = stop_symbol_ || trigger.next_start == kStopSymbol;
+    if (logical_timer_ != nullptr) {
+      logical_timer_->on_trigger(trigger.next_start);
+    }
+  });
+  if (trigger.next_start == kStopSymbol) {
+    stop();
+  }
+}
+
+void MiddlewareProcess::carry_everything() {
+  constexpr std::chrono::hours kLong{1};
+  while (true) {
+    static_cast<void>(mail_.wait_until(Clock::now() + kLong,
+                                       [this] { return carrier_ends_ || !to_carry_.empty(); }));
+    const auto [mail, ends] = mail_.locked([this] {
+      return std::pair{std::exchange(to_carry_, {}), carrier_ends_};
+    });
+    for (const Carried& item : mail) {
+      std::visit([this](const auto& message) { carry_on(message); }, item);
+    }
+    if (mail.empty() && ends) {
+      return;
+    }
+  }
+}
+
+void MiddlewareProcess::carry_on(const SystemTrigger& trigger) { trigger_writer_.write(trigger); }
+
+void MiddlewareProcess::carry_on(const TrajectoryCommand& command) {
+  const Nanoseconds newest_list = signal_.locked([this] { return newest_list_; });
+  const Nanoseconds t_now = options_.logical_time ? newest_list : real_time_now();
+  const std::vector<std::uint8_t> ids{options_.vehicle_id};
+  const CommandVerdict verdict = check_command(command, t_now, newest_list, ids);
+  if (verdict.forward) {
+    command_writer_.write(command);
+  }
+  tell_faults(verdict);
+  signal_.post([&] {
+    newest_answer_ = std::max(newest_answer_, command.create_stamp);
+    controller_silent_ = false;
+  });
+}
+
+void MiddlewareProcess::tell_faults(const CommandVerdict& verdict) {
+  for (const CommandFault fault : verdict.faults) {
+    if (told_faults_.insert(fault).second) {
+      spdlog::warn("{}: command of {}: {}{} (told once)", options_.node_id,
+                   controller_name(options_.vehicle_id), to_string(fault),
+                   verdict.forward ? "" : "; not forwarded");
+    }
+  }
+}
+
+}  // namespace hlc

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hlc_bridge/core/command_check.hpp"
+#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/state_buffer.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/time/logical_timer.hpp"
+#include "hlc_bridge/time/signal.hpp"
+#include "hlc_bridge/time/timer.hpp"
+
+namespace hlc {
+
+struct MiddlewareOptions {
+  std::string node_id;  ///< middleware_<id>
+  std::uint8_t vehicle_id{};
+  Transport transport{Transport::kLab};
+  int lab_domain{};
+  int local_domain{};
+  std::optional<DiscoveryServer> discovery_server;
+  bool logical_time{};
+  Nanoseconds offset{kListOffset};  ///< of the lists in a period
+  std::chrono::seconds startup_timeout{30};
+};
+
+/// Stands between a controller (local domain) and the vehicles (lab domain).
+///
+/// Every period, at t_now = k P + offset, it writes a VehicleStateList with the newest valid state
+/// of every active vehicle. Commands of the controller go on to the vehicle as soon as they come,
+/// after a check (check_command); triggers of the lab control go on to the controller.
+///
+/// Two threads: `run` keeps the period; a carrier forwards commands and triggers, so that neither
+/// waits for the other.
+///
+/// Real time: lists come from the first period on, whoever is there. When the controller is ready,
+/// the lab control is told every period until its first trigger.
+///
+/// Logical time: before its first tick all its endpoints are matched. A tick waits for the state of
+/// every active vehicle that must be in the list, writes the list, and waits until the controller's
+/// answer to it has been carried on: only then the next tick is asked for. Whoever is gone is not
+/// waited for, nor who has been silent for 10 s, until he is heard again.
+class MiddlewareProcess {
+ public:
+  /// @throws std::invalid_argument, std::runtime_error for options that cannot work
+  explicit MiddlewareProcess(MiddlewareOptions options);
+  ~MiddlewareProcess();
+
+  /// Until the stop symbol has come, or `stop` is called. The exit code: 0 good, 2 if the lab
+  /// control's parameters do not fit, 3 if somebody needed did not appear, 4 if the lab control is
+  /// lost in logical time.
+  [[nodiscard]] int run();
+
+  /// Ends `run` soon. From any thread.
+  void stop();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Carried = std::variant<TrajectoryCommand, SystemTrigger>;
+
+  [[nodiscard]] int keep_period();
+  [[nodiscard]] int prepare();
+  void take(const Parameter& parameter);
+  void take(const SystemTrigger& trigger);
+  [[nodiscard]] bool learn_parameters(Clock::time_point deadline);
+  [[nodiscard]] std::string parameter_problem() const;
+  void listen_to_vehicles();
+  [[nodiscard]] bool is_connected() const;
+  [[nodiscard]] std::string who_is_missing() const;
+  void make_timer();
+  void send_ready(Nanoseconds next_tick);
+
+  void tick(Nanoseconds t_now);
+  void wait_for_states(Nanoseconds t_now);
+  void wait_for_answer(Nanoseconds t_now);
+  void tell_missed_answer();
+
+  void carry_everything();
+  void carry_on(const TrajectoryCommand& command);
+  void carry_on(const SystemTrigger& trigger);
+  void tell_faults(const CommandVerdict& verdict);
+  void let_controller_leave() const;
+
+  MiddlewareOptions options_;
+
+  Signal signal_;  // guards what follows, down to the next blank line; the period waits for it
+  StateBuffer states_;
+  std::set<std::uint8_t> silent_vehicles_;
+  Nanoseconds newest_list_{};
+  Nanoseconds newest_answer_{};  ///< largest create_stamp carried on
+  bool controller_silent_{};
+  bool controller_ready_{};
+  bool triggered_{};
+  bool stop_{};
+  bool stop_symbol_{};
+  Timer* timer_in_use_{};
+  LogicalTimer* logical_timer_{};  ///< the same in logical time
+  std::optional<Nanoseconds> period_;
+  std::optional<std::vector<std::int32_t>> active_ids_;
+
+  Signal mail_;  // guards what follows, down to the next blank line; the carrier waits for it
+  std::deque<Carried> to_carry_;
+  bool carrier_ends_{};
+
+  // Of the carrier:
+  std::set<CommandFault> told_faults_;
+  // Of the period:
+  std::uint64_t missed_answers_{};
+  bool lab_control_lost_{};
+
+  std::unique_ptr<Timer> timer_;
+
+  // Destroyed first: no callback comes afterwards.
+  Participant lab_;
+  Participant local_;
+  Writer<VehicleStateList> list_writer_;
+  Writer<SystemTrigger> trigger_writer_;
+  Writer<TrajectoryCommand> command_writer_;
+  Writer<ReadyStatus> ready_writer_;
+  Writer<ParameterRequest> request_writer_;
+  Reader<Parameter> parameter_reader_;
+  Reader<SystemTrigger> trigger_reader_;
+  Reader<TrajectoryCommand> command_reader_;
+  Reader<ReadyStatus> ready_reader_;
+  std::map<std::uint8_t, Reader<VehicleState>> state_readers_;
+};
+
+}  // namespace hlc

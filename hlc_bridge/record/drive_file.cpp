@@ -1,0 +1,31 @@
+#include "hlc_bridge/record/drive_file.hpp"
+
+#include "hlc_bridge/record/text_file.hpp"
+
+namespace hlc {
+
+std::filesystem::path drive_file(const std::filesystem::path& run_folder, std::uint8_t vehicle_id) {
+  return run_folder / ("vehicle_" + std::to_string(vehicle_id) + ".csv");
+}
+
+Drive read_drive(const std::filesystem::path& file) {
+  const CsvTable table{file, kDriveHeading};
+  Drive drive;
+  drive.reserve(table.size());
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    DrivenSample sample;
+    sample.t = table.unsigned_number(row, 0);
+    sample.pose = {table.number(row, 1), table.number(row, 2), table.number(row, 3)};
+    sample.speed_mps = table.number(row, 4);
+    sample.throttle = table.number(row, 5);
+    sample.steering = table.number(row, 6);
+    sample.command_create = table.unsigned_number(row, 7);
+    if (!drive.empty() && sample.t <= drive.back().t) {
+      table.refuse(row, 0, "more than in the row before");
+    }
+    drive.push_back(sample);
+  }
+  return drive;
+}
+
+}  // namespace hlc

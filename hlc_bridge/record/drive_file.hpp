@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "hlc_bridge/core/run_record.hpp"
+
+namespace hlc {
+
+/// Heading of a vehicle's record, one row per tick: the true state at the tick and what acts from
+/// it on.
+inline constexpr std::string_view kDriveHeading =
+    "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns";
+
+/// vehicle_<id>.csv in the run folder.
+[[nodiscard]] std::filesystem::path drive_file(const std::filesystem::path& run_folder,
+                                               std::uint8_t vehicle_id);
+
+/// @throws std::runtime_error naming file, line, column, value and what is allowed; times must
+/// increase
+[[nodiscard]] Drive read_drive(const std::filesystem::path& file);
+
+}  // namespace hlc

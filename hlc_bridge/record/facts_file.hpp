@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hlc_bridge/core/run_record.hpp"
+
+namespace hlc {
+
+/// run.json: how the run went, written by the lab control.
+[[nodiscard]] std::string facts_json(const RunFacts& facts);
+
+/// @throws std::runtime_error naming the file and what is wrong
+[[nodiscard]] RunFacts read_facts(const std::filesystem::path& file);
+
+}  // namespace hlc

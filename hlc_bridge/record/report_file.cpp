@@ -1,0 +1,180 @@
+#include "hlc_bridge/record/report_file.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+
+#include "hlc_bridge/record/text_file.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::string_view kHeading =
+    "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
+    "generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_missed,late_ns";
+
+std::string line(const ReportRecord& record) {
+  const Report& report = record.report;
+  std::string text;
+  const auto add = [&text](const std::string& field) { text += (text.empty() ? "" : ",") + field; };
+  add(std::to_string(report.step.value));
+  add(std::to_string(report.vehicle.value));
+  add(to_string(report.status));
+  add(to_string(report.reason));
+  add(to_text(report.planned_pose.x_m));
+  add(to_text(report.planned_pose.y_m));
+  add(to_text(report.planned_pose.heading_rad));
+  add(std::to_string(report.planned_trim.index + 1));
+  add(to_text(report.cost_m2));
+  add(std::to_string(report.generated));
+  add(std::to_string(report.expanded));
+  add(std::to_string(report.level));
+  add(ids_to_text(report.coupled));
+  add(ids_to_text(report.missing));
+  add(to_text(report.deviation_m));
+  add(std::to_string(record.planning_ns));
+  add(record.deadline_missed ? "1" : "0");
+  add(std::to_string(record.late_ns));
+  return text + "\n";
+}
+
+/// The enumerator with this name, among the first `count`.
+template <class Enum>
+std::optional<Enum> enum_from(const std::string& name, std::uint8_t count) {
+  for (std::uint8_t i = 0; i < count; ++i) {
+    const auto value = static_cast<Enum>(i);
+    if (name == to_string(value)) {
+      return value;
+    }
+  }
+  return std::nullopt;
+}
+
+constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kDriveOut) + 1;
+constexpr std::uint8_t kReasons = static_cast<std::uint8_t>(FallbackReason::kLate) + 1;
+
+/// Reads the fields of one row from left to right.
+class RowReader {
+ public:
+  RowReader(const CsvTable& table, std::size_t row) : table_{table}, row_{row} {}
+
+  double number() { return table_.number(row_, column_++); }
+  std::uint64_t whole(std::uint64_t least = 0, std::uint64_t most = ~std::uint64_t{0}) {
+    const std::uint64_t value = table_.unsigned_number(row_, column_);
+    if (value < least || value > most) {
+      table_.refuse(row_, column_, std::to_string(least) + " ... " + std::to_string(most));
+    }
+    ++column_;
+    return value;
+  }
+  template <class Enum>
+  Enum name(std::uint8_t count) {
+    const std::optional<Enum> value = enum_from<Enum>(table_.text(row_, column_), count);
+    if (!value) {
+      std::string allowed;
+      for (std::uint8_t i = 0; i < count; ++i) {
+        allowed += (i == 0 ? "" : ", ") + std::string{to_string(static_cast<Enum>(i))};
+      }
+      table_.refuse(row_, column_, allowed);
+    }
+    ++column_;
+    return *value;
+  }
+  std::vector<VehicleId> ids() {
+    std::vector<VehicleId> ids;
+    if (!table_.text(row_, column_).empty()) {
+      for (const std::string& piece : split(table_.text(row_, column_), ';')) {
+        if (piece.empty() || piece.size() > 3 ||
+            piece.find_first_not_of("0123456789") != std::string::npos || std::stoi(piece) > 255) {
+          table_.refuse(row_, column_, "vehicle ids, separated by ;");
+        }
+        ids.push_back(VehicleId{static_cast<std::uint8_t>(std::stoi(piece))});
+      }
+    }
+    ++column_;
+    return ids;
+  }
+
+ private:
+  const CsvTable& table_;
+  std::size_t row_;
+  std::size_t column_{};
+};
+
+ReportRecord read_row(RowReader row) {
+  ReportRecord record;
+  Report& report = record.report;
+  report.step = StepIndex{row.whole()};
+  report.vehicle = VehicleId{static_cast<std::uint8_t>(row.whole(0, 255))};
+  report.status = row.name<StepStatus>(kStatuses);
+  report.reason = row.name<FallbackReason>(kReasons);
+  report.planned_pose.x_m = row.number();
+  report.planned_pose.y_m = row.number();
+  report.planned_pose.heading_rad = row.number();
+  report.planned_trim = TrimId{row.whole(1) - 1};
+  report.cost_m2 = row.number();
+  report.generated = row.whole();
+  report.expanded = row.whole();
+  report.level = static_cast<std::uint32_t>(row.whole(0, ~std::uint32_t{0}));
+  report.coupled = row.ids();
+  report.missing = row.ids();
+  report.deviation_m = row.number();
+  record.planning_ns = row.whole();
+  record.deadline_missed = row.whole(0, 1) == 1;
+  record.late_ns = row.whole();
+  return record;
+}
+
+}  // namespace
+
+std::string ids_to_text(const std::vector<VehicleId>& ids) {
+  std::string text;
+  for (const VehicleId id : ids) {
+    text += (text.empty() ? "" : ";") + std::to_string(id.value);
+  }
+  return text;
+}
+
+ReportFile::ReportFile(std::filesystem::path file)
+    : file_{std::move(file)}, stream_{std::fopen(file_.c_str(), "w"), &std::fclose} {
+  if (!stream_ || std::fprintf(stream_.get(), "%s\n", kHeading.data()) < 0 ||
+      std::fflush(stream_.get()) != 0) {
+    throw std::runtime_error(file_.string() + ": cannot be written");
+  }
+}
+
+void ReportFile::append(const ReportRecord& record) {
+  records_.push_back(record);
+  const std::string text = line(record);
+  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size() ||
+      std::fflush(stream_.get()) != 0) {
+    throw std::runtime_error(file_.string() + ": cannot be written");
+  }
+}
+
+void ReportFile::finish() {
+  std::stable_sort(records_.begin(), records_.end(),
+                   [](const ReportRecord& a, const ReportRecord& b) {
+                     return std::tuple{a.report.step, a.report.vehicle} <
+                            std::tuple{b.report.step, b.report.vehicle};
+                   });
+  std::string text = std::string{kHeading} + "\n";
+  for (const ReportRecord& record : records_) {
+    text += line(record);
+  }
+  write_file(file_, text);
+}
+
+std::vector<ReportRecord> read_reports(const std::filesystem::path& file) {
+  const CsvTable table{file, kHeading};
+  std::vector<ReportRecord> records;
+  records.reserve(table.size());
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    records.push_back(read_row({table, row}));
+  }
+  return records;
+}
+
+}  // namespace hlc

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "hlc_bridge/core/run_record.hpp"
+
+namespace hlc {
+
+/// steps.csv: every step of every vehicle, with nothing in it that depends on the wall clock: two
+/// runs of the same scenario in logical time give the same bytes. Driven fields are empty where
+/// nothing was recorded; trims are numbered from 1 as in the paper; ids are separated by `;`.
+[[nodiscard]] std::string steps_csv(std::span<const StepRecord> rows);
+
+/// timing.csv: what the clock had to do with the same steps.
+[[nodiscard]] std::string timing_csv(std::span<const StepRecord> rows);
+
+}  // namespace hlc

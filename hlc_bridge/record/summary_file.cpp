@@ -1,0 +1,78 @@
+#include "hlc_bridge/record/summary_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace hlc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMillimetresPerMetre = 1e3;
+constexpr double kMillisecondsPerSecond = 1e3;
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+/// The named figures of a sample, all null if it is empty.
+Json figures(const std::optional<Statistics>& value, double factor,
+             std::initializer_list<std::pair<const char*, double Statistics::*>> names) {
+  Json json;
+  for (const auto& [name, field] : names) {
+    json[name] = value ? Json((*value).*field * factor) : Json(nullptr);
+  }
+  return json;
+}
+
+Json vehicle_json(const VehicleSummary& vehicle) {
+  Json json;
+  json["id"] = vehicle.id.value;
+  json["name"] = vehicle.name;
+  json["lap_s"] = or_null(vehicle.lap_s);
+  json["reference_error_mm"] =
+      figures(vehicle.reference_error_m, kMillimetresPerMetre,
+              {{"mean", &Statistics::mean}, {"std", &Statistics::std}, {"max", &Statistics::max}});
+  json["tracking_error_mm"] = figures(vehicle.tracking_error_m, kMillimetresPerMetre,
+                                      {{"mean", &Statistics::mean}, {"max", &Statistics::max}});
+  json["generated_vertices"] =
+      figures(vehicle.generated, 1.0, {{"max", &Statistics::max}, {"mean", &Statistics::mean}});
+  json["expanded_vertices"] =
+      figures(vehicle.expanded, 1.0, {{"max", &Statistics::max}, {"mean", &Statistics::mean}});
+  json["planning_time_ms"] = figures(vehicle.planning_s, kMillisecondsPerSecond,
+                                     {{"mean", &Statistics::mean},
+                                      {"std", &Statistics::std},
+                                      {"p99", &Statistics::p99},
+                                      {"max", &Statistics::max}});
+  json["fallback_steps"] = vehicle.fallback_steps;
+  json["deadline_misses"] = vehicle.deadline_misses;
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const RunSummary& summary) {
+  const RunDescription& run = summary.description;
+  Json json;
+  json["scenario"] = run.scenario;
+  json["profile"] = run.profile;
+  json["map"] = run.map.empty() ? Json(nullptr) : Json(run.map);
+  json["seed"] = run.seed;
+  json["subgraph"] = run.subgraph;
+  json["horizon_steps"] = run.horizon_steps;
+  json["step_s"] = run.step_s;
+  json["steps"] = summary.steps;
+  json["vehicles"] = Json::array();
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    json["vehicles"].push_back(vehicle_json(vehicle));
+  }
+  json["generated_vertices_sum_max"] = summary.generated_vertices_sum_max;
+  json["min_footprint_distance_m"] = or_null(summary.min_footprint_distance_m);
+  json["collisions"] = summary.collisions;
+  json["wall_s"] = summary.wall_s;
+  json["realtime_factor"] = summary.realtime_factor;
+  json["trace_sha256"] = summary.trace_sha256;
+  json["revision"] = summary.revision;
+  json["host"] = {
+      {"cpu", summary.host.cpu}, {"cores", summary.host.cores}, {"kernel", summary.host.kernel}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace hlc

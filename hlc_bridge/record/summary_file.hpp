@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "hlc_bridge/core/run_summary.hpp"
+
+namespace hlc {
+
+/// summary.json. Lengths in mm, planning times in ms; null where there is nothing to say.
+[[nodiscard]] std::string summary_json(const RunSummary& summary);
+
+}  // namespace hlc

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hlc {
+
+/// Writes a whole file so that a reader sees the old content or the new one, never a part: into
+/// `<file>.tmp`, then renamed. @throws std::runtime_error naming the file
+void write_file(const std::filesystem::path& file, std::string_view content);
+
+/// @throws std::runtime_error naming the file
+[[nodiscard]] std::string read_file(const std::filesystem::path& file);
+
+/// The shortest decimal number that reads back as the very same double; nan and inf as such.
+[[nodiscard]] std::string to_text(double value);
+
+/// A CSV file of ours: fields hold no commas, quotes or line breaks.
+class CsvTable {
+ public:
+  /// Reads the file and checks its heading. An incomplete last line (the writer was killed) is left
+  /// out.
+  /// @throws std::runtime_error naming file, line and what is expected
+  CsvTable(const std::filesystem::path& file, std::string_view heading);
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+
+  /// Field of a row, converted. @throws std::runtime_error naming file, line, column and value
+  [[nodiscard]] double number(std::size_t row, std::size_t column) const;
+  [[nodiscard]] std::uint64_t unsigned_number(std::size_t row, std::size_t column) const;
+  [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const;
+  /// @throws std::runtime_error that says so, for a value of which only the caller knows what is
+  /// allowed
+  [[noreturn]] void refuse(std::size_t row, std::size_t column, std::string_view allowed) const;
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// The pieces between separators; one empty piece for an empty text.
+[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+
+}  // namespace hlc
