@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 #include <random>
+#include <thread>
 
 #include "hlc_bridge/dds/writer.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
@@ -62,6 +64,25 @@ TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {
   EXPECT_EQ(mailbox.reader().lost(), 0U);
 }
 
+// A control thread may hold no lock over a write, but it can rely on this: the write itself runs no
+// callback.
+TEST(Callbacks, RunOnAnotherThreadThanTheWriterAlsoWithinOneProcess) {
+  const DomainReservation domain;
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
+  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
+  Signal signal;
+  std::vector<std::thread::id> callers;
+  Reader<Outcome> reader{receiver, topics::outcome(), [&](const Outcome&) {
+                           signal.post([&] { callers.push_back(std::this_thread::get_id()); });
+                         }};
+  Writer<Outcome> writer{sender, topics::outcome()};
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(reader.wait_for_matched(1, soon()));
+  ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
+  ASSERT_TRUE(signal.wait_until(soon(), [&] { return !callers.empty(); }));
+  EXPECT_NE(callers.front(), std::this_thread::get_id());
+}
+
 TEST(LargeMessage, OfSeveralDatagramsArrives) {
   const DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
@@ -69,16 +90,17 @@ TEST(LargeMessage, OfSeveralDatagramsArrives) {
   Mailbox<Traffic> mailbox{receiver, topics::traffic()};
   Writer<Traffic> writer{sender, topics::traffic()};
   ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  constexpr std::size_t kDepth = 8;  // of the topic's history: what repairs can be asked for
   Traffic traffic;
   traffic.vehicle = {1};
   traffic.running.areas_m.assign(
       50, ConvexPolygon{std::vector<Point>(200, Point{1.0, 2.0})});  // 160 kB
-  for (std::size_t i = 0; i < 10; ++i) {
+  for (std::size_t i = 0; i < kDepth; ++i) {
     traffic.step = {i};
     ASSERT_TRUE(writer.write(traffic));
   }
-  const std::vector<Traffic> received = mailbox.wait_for(10);
-  ASSERT_EQ(received.size(), 10U);
+  const std::vector<Traffic> received = mailbox.wait_for(kDepth);
+  ASSERT_EQ(received.size(), kDepth);
   EXPECT_EQ(text(received.back()), text(traffic));
 }
 
