@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/hlc/hlc_process.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
