@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "vehicle_sim/tracking/trajectory.hpp"
 
@@ -10,9 +11,6 @@ namespace {
 
 /// A chord of one tick below this (0.02 mm) is rounding, not a direction.
 constexpr double kStandingSpeed_mps = 1e-3;
-/// Lower bound of the speed that a lateral error is related to: without it the first millimetres of
-/// a start would be driven at full lock for an error of a few millimetres.
-constexpr double kLateralSpeedFloor_mps = 0.2;
 
 bool is_finite(const VehicleMotion& motion) {
   return std::isfinite(motion.pose.x_m) && std::isfinite(motion.pose.y_m) &&
@@ -61,7 +59,12 @@ Follower::Output Follower::decided(Nanoseconds t_now, const VehicleMotion& estim
       std::max(t_now + kInputDelayTicks * kVehiclePeriod, command->points.front().t);
   Reference reference;
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    reference[i] = sample(command->points, t_start + i * kVehiclePeriod)->position_m;
+    const std::optional<TrajectorySample> wanted =
+        sample(command->points, t_start + i * kVehiclePeriod);
+    if (!wanted) {
+      return {.input = stop, .status = FollowerStatus::kNotFollowable};
+    }
+    reference[i] = wanted->position_m;
     const double distance_m = (reference[i] - start.pose.position_m()).norm();
     if (!(distance_m <= kMaxDistance_m)) {
       return {.input = stop, .status = FollowerStatus::kTooFar};
@@ -80,8 +83,7 @@ double Follower::steering_for(const Reference& reference, const VehicleMotion& s
     return under_way_.back().steering;
   }
   const double lateral_error_m = cross(chord / speed_mps, reference[0] - start.pose.position_m());
-  const double correction_rad = std::atan(gains_.lateral_per_s * lateral_error_m /
-                                          std::max(speed_mps, kLateralSpeedFloor_mps));
+  const double correction_rad = std::atan2(gains_.lateral_per_s * lateral_error_m, speed_mps);
   const double course_rad = std::atan2(chord.y(), chord.x()) + correction_rad;
   const double slip_rad = wrap_angle(course_rad - start.pose.heading_rad);
   return std::clamp(steering_for_slip(slip_rad, vehicle_), -1.0, 1.0);

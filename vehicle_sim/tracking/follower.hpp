@@ -33,7 +33,7 @@ enum class FollowerStatus {
 /// tick T = 20 ms. With the reference r and its chords c(t) = (r(t + T) - r(t)) / T (chords, not
 /// tangents, because the model drives a straight line in each tick), it wants
 ///
-///     course at t_a           angle(c(t_a)) + atan(k_lat e_lat / max(|c(t_a)|, 0.2 m/s))
+///     course at t_a           angle(c(t_a)) + atan(k_lat e_lat / |c(t_a)|)
 ///     path speed at t_a + T   g |c(t_a + T)| + k_lon e_lon'
 ///
 /// e = r - p at t_a and e' at t_a + T, in the frame of the chord. The model is solved for the

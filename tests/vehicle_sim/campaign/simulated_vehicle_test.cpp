@@ -145,8 +145,11 @@ TEST(SimulatedVehicle, AfterTheStopItBrakesForFiftyTicksAndForgetsItsCommands) {
   vehicle.brake();
   // Commands that go on meanwhile have no effect, not even after the braking.
   const Nanoseconds braked = stop + 50 * kVehiclePeriod;
-  for (const Sample& sample : drive(vehicle, mission, braked, stop)) {
-    EXPECT_EQ(sample.tick.status, FollowerStatus::kNoCommand);
+  for (Nanoseconds t = stop; t < braked; t += kVehiclePeriod) {
+    ASSERT_TRUE(vehicle.is_braking()) << t;
+    for (const Sample& sample : drive(vehicle, mission, t + kVehiclePeriod, t)) {
+      EXPECT_EQ(sample.tick.status, FollowerStatus::kNoCommand);
+    }
   }
   EXPECT_FALSE(vehicle.is_braking());
   EXPECT_NEAR(vehicle.motion().speed_mps, 0.0, 0.02);

@@ -186,6 +186,22 @@ TEST(TrackingQuality, TightestRightTurnLeavesTheReferenceSlowly) {
   }
 }
 
+TEST(TrackingQuality, StartStraightIntoFullLockLeavesTheReferenceSlowly) {
+  // The reference's course turns by 0.33 rad while it starts; the vehicle's slip gives 0.19 rad,
+  // and at its limit no steering is left to catch up.
+  for (const std::size_t lock : {2U, 12U}) {
+    for (std::size_t steps = 1; steps <= 4; ++steps) {
+      std::vector<std::size_t> trims(steps, lock);
+      trims.insert(trims.begin(), 1);
+      trims.push_back(1);
+      const TrackingError error = walked(trims, steps);
+      EXPECT_LE(error.max_m, lock == 12 ? 0.030 : 0.050) << steps;
+      std::cout << "start into trim " << lock << " for " << steps << " steps: " << to_string(error)
+                << '\n';
+    }
+  }
+}
+
 TEST(TrackingQuality, ReturnsToTheReferenceAfterATurnBeyondItsLimit) {
   std::vector<std::size_t> trims{1, 7, 6, 5, 4, 3, 2, 2, 2, 2, 2, 3, 4, 5, 6};
   trims.insert(trims.end(), 10, 7);

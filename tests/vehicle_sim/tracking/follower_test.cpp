@@ -149,6 +149,18 @@ TEST(Follower, WhereTheReferenceStandsItNeitherCreepsNorGoesBack) {
   }
 }
 
+TEST(Follower, AheadOfASlowReferenceItWaitsForIt) {
+  Follower one = follower();
+  const TrajectoryCommand command = straight(0.1);
+  VehicleMotion motion{.pose = {.x_m = 0.2}};
+  for (Nanoseconds t = 0; t < 4'000 * kMillisecond; t += kVehiclePeriod) {
+    static_cast<void>(one.tick(t, motion, &command));
+    motion = stepped(motion, one.acted(), kVehicle);
+    ASSERT_GE(motion.speed_mps, -1e-9) << t;
+  }
+  EXPECT_NEAR(motion.pose.x_m, 0.4, 0.002);
+}
+
 TEST(Follower, ClosesAGapToAStandingReferenceAhead) {
   Follower one = follower();
   const Driven end = drive(one, {}, straight(0.0, 0.1), 4'000);

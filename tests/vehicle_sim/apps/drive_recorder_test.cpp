@@ -1,0 +1,50 @@
+#include "vehicle_sim/apps/drive_recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace hlc {
+namespace {
+
+std::string lines_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class DriveRecorderTest : public testing::Test {
+ protected:
+  DriveRecorderTest() { std::filesystem::create_directories(folder_); }
+  ~DriveRecorderTest() override { std::filesystem::remove_all(folder_); }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / "hlc_drive_recorder_test";
+};
+
+TEST_F(DriveRecorderTest, RowsAreOnTheDiskAtOnceWithAllDigits) {
+  const std::filesystem::path file = folder_ / "drive.csv";
+  DriveRecorder recorder(file);
+  recorder.write({.t = 20'000'000,
+                  .pose = {.x_m = 1.0 / 3.0, .y_m = -2.5, .heading_rad = 1e-20},
+                  .speed_mps = 0.1,
+                  .throttle = -1.0,
+                  .steering = 0.0,
+                  .command_create = 1});
+  EXPECT_EQ(
+      lines_of(file),
+      "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns\n"
+      "20000000,0.33333333333333331,-2.5,9.9999999999999995e-21,0.10000000000000001,-1,0,1\n");
+}
+
+TEST_F(DriveRecorderTest, FileThatCannotBeWrittenIsNamed) {
+  try {
+    DriveRecorder recorder(folder_ / "no_such_folder" / "drive.csv");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no_such_folder"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,282 @@
+// The vehicle's process against a stand-in for lab control and middleware, over DDS on the
+// loopback.
+#include "vehicle_sim/apps/vehicle_process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::seconds;
+
+constexpr Nanoseconds kMillisecond = 1'000'000;
+constexpr Nanoseconds kPeriod = 200 * kMillisecond;
+constexpr std::uint8_t kId = 3;
+const Pose kStart{.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.0};
+
+ParticipantOptions participant(const std::string& name, int domain) {
+  return {.name = name,
+          .domain_id = domain,
+          .role = DomainRole::kLab,
+          .transport = Transport::kLoopback,
+          .logical_time = true,
+          .discovery_server = std::nullopt};
+}
+
+/// From `begin` on along x with 2 m/s^2 up to 0.5 m/s.
+TrajectoryPoint planned(Nanoseconds t, Nanoseconds begin = 1'000 * kMillisecond) {
+  const double s = t < begin ? 0.0 : 1e-9 * static_cast<double>(t - begin);
+  const bool accelerates = s < 0.25;
+  return {.t = t,
+          .x_m = kStart.x_m + (accelerates ? s * s : 0.5 * s - 0.0625),
+          .y_m = kStart.y_m,
+          .vx_mps = accelerates ? 2.0 * s : 0.5};
+}
+
+TrajectoryCommand command_at(Nanoseconds list, Nanoseconds motion_begin = 1'000 * kMillisecond) {
+  TrajectoryCommand command{
+      .vehicle_id = kId, .create_stamp = list, .valid_after_stamp = list, .points = {}};
+  const Nanoseconds begin = list / kPeriod * kPeriod;
+  for (Nanoseconds t = begin; t <= begin + 2'000 * kMillisecond; t += 50 * kMillisecond) {
+    command.points.push_back(planned(t, motion_begin));
+  }
+  return command;
+}
+
+/// Lab control and middleware of one vehicle, driven by the test's thread.
+class Lab {
+ public:
+  explicit Lab(int domain)
+      : lab_control_(participant(kLabControlName, domain), [this] { signal_.notify(); }),
+        middleware_(participant(middleware_name(kId), domain), [this] { signal_.notify(); }),
+        trigger_writer_(lab_control_, topics::system_trigger()),
+        parameter_writer_(lab_control_, topics::parameter()),
+        command_writer_(middleware_, topics::vehicle_command(kId)),
+        request_reader_(lab_control_, topics::parameter_request(),
+                        [this](const ParameterRequest& request) {
+                          signal_.post([&] { requests_.push_back(request.name); });
+                        }),
+        ready_reader_(
+            lab_control_, topics::ready_status(),
+            [this](const ReadyStatus& status) { signal_.post([&] { ready_ = status; }); }),
+        state_reader_(middleware_, topics::vehicle_state(kId), [this](const VehicleState& state) {
+          signal_.post([&] { states_.push_back(state); });
+        }) {}
+
+  /// Answers what the vehicle asks until it asks for its first tick; false if that does not come.
+  [[nodiscard]] bool answer_until_ready(const std::vector<std::int32_t>& active_ids) {
+    const auto deadline = Clock::now() + seconds(20);
+    while (!signal_.locked([this] { return is_closed_; })) {
+      const bool is_asked = signal_.wait_until(
+          deadline, [this] { return is_closed_ || ready_ || !requests_.empty(); });
+      if (!is_asked || signal_.locked([this] { return ready_.has_value(); })) {
+        return is_asked;
+      }
+      for (const std::string& name :
+           signal_.locked([this] { return std::exchange(requests_, {}); })) {
+        if (name == "middleware_period_ms") {
+          parameter_writer_.write({.name = name, .value = std::uint64_t{kPeriod / kMillisecond}});
+        } else if (name == "active_vehicle_ids") {
+          parameter_writer_.write({.name = name, .value = active_ids});
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Releases the tick that the vehicle has asked for and waits until it asks for the next one.
+  [[nodiscard]] bool release_tick(Nanoseconds t, bool is_last = false) {
+    trigger_writer_.write({.next_start = t});
+    return is_last || signal_.wait_until(Clock::now() + seconds(20),
+                                         [&] { return ready_ && ready_->next_start > t; });
+  }
+
+  /// Ends answer_until_ready in another thread.
+  void close() {
+    signal_.post([this] { is_closed_ = true; });
+  }
+  void stop() { trigger_writer_.write({.next_start = kStopSymbol}); }
+  void command(const TrajectoryCommand& command) { command_writer_.write(command); }
+  void release(Nanoseconds t) { trigger_writer_.write({.next_start = t}); }
+
+  [[nodiscard]] std::vector<VehicleState> states(std::size_t count) {
+    static_cast<void>(
+        signal_.wait_until(Clock::now() + seconds(20), [&] { return states_.size() >= count; }));
+    return signal_.locked([this] { return states_; });
+  }
+  [[nodiscard]] ReadyStatus ready() {
+    return signal_.locked([this] { return ready_.value_or(ReadyStatus{}); });
+  }
+
+ private:
+  Signal signal_;
+  bool is_closed_{};
+  std::vector<std::string> requests_;
+  std::optional<ReadyStatus> ready_;
+  std::vector<VehicleState> states_;
+
+  Participant lab_control_;
+  Participant middleware_;
+  Writer<SystemTrigger> trigger_writer_;
+  Writer<Parameter> parameter_writer_;
+  Writer<TrajectoryCommand> command_writer_;
+  Reader<ParameterRequest> request_reader_;
+  Reader<ReadyStatus> ready_reader_;
+  Reader<VehicleState> state_reader_;
+};
+
+class VehicleProcessTest : public testing::Test {
+ protected:
+  [[nodiscard]] VehicleProcessOptions options() const {
+    return {.vehicle = {.vehicle_id = kId, .start = kStart},
+            .transport = Transport::kLoopback,
+            .lab_domain = domain_.first(),
+            .logical_time = true,
+            .startup_timeout = seconds(20)};
+  }
+
+  void TearDown() override {
+    if (process_) {
+      process_->stop();  // else a failed test would wait for its run for ever
+    }
+  }
+
+  void start(const VehicleProcessOptions& options) {
+    process_ = std::make_unique<VehicleProcess>(options);
+    exit_code_ = std::async(std::launch::async, [this] { return process_->run(); });
+  }
+
+  /// -1 if it does not end.
+  [[nodiscard]] int exit_code() {
+    if (exit_code_.wait_for(seconds(20)) != std::future_status::ready) {
+      process_->stop();
+      return -1;
+    }
+    return exit_code_.get();
+  }
+
+  const DomainReservation domain_{1};
+  std::unique_ptr<VehicleProcess> process_;
+  std::future<int> exit_code_;
+};
+
+TEST_F(VehicleProcessTest, DrivesInLogicalTimeUntilTheStopAndBrakesForOneSecond) {
+  Lab lab(domain_.first());
+  start(options());
+  ASSERT_TRUE(lab.answer_until_ready({kId}));
+  EXPECT_EQ(lab.ready().source_id, "vehicle_raspberry_3");
+  EXPECT_EQ(lab.ready().next_start, 0U);
+
+  constexpr Nanoseconds kStop = 3'000 * kMillisecond;
+  Nanoseconds t = 0;
+  for (; t <= kStop; t += kVehiclePeriod) {
+    ASSERT_TRUE(lab.release_tick(t)) << t;
+    if (t % kPeriod == 0) {
+      lab.command(command_at(t + kListOffset));
+    }
+  }
+  lab.stop();
+  for (int i = 1; i <= SimulatedVehicle::kBrakingTicks; ++i, t += kVehiclePeriod) {
+    ASSERT_TRUE(lab.release_tick(t, i == SimulatedVehicle::kBrakingTicks)) << t;
+  }
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+
+  const std::vector<VehicleState> states = lab.states(201);
+  ASSERT_EQ(states.size(), 201U);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    EXPECT_EQ(states[i].create_stamp, i * kVehiclePeriod);
+    EXPECT_EQ(states[i].valid_after_stamp, i * kVehiclePeriod + kStateDelay);
+    if (states[i].create_stamp <= kStop) {
+      EXPECT_NEAR(states[i].pose.x_m, planned(states[i].create_stamp).x_m, 0.005) << i;
+    }
+  }
+  EXPECT_NEAR(states.back().speed_mps, 0.0, 0.05);
+}
+
+TEST_F(VehicleProcessTest, WaitsForTheAnswerToTheLastList) {
+  Lab lab(domain_.first());
+  start(options());
+  ASSERT_TRUE(lab.answer_until_ready({kId}));
+  ASSERT_TRUE(lab.release_tick(0));
+  lab.release(kVehiclePeriod);
+  lab.command(command_at(kListOffset, 100 * kMillisecond));
+  // The command asks for motion that the throttle of this very tick has to begin.
+  const std::vector<VehicleState> states = lab.states(2);
+  ASSERT_EQ(states.size(), 2U);
+  EXPECT_GT(states[1].motor_throttle, 0.0);
+  process_->stop();
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+}
+
+TEST_F(VehicleProcessTest, GoesOnWithoutAnswerWhenTheMiddlewareIsLost) {
+  auto lab_control = std::make_unique<Lab>(domain_.first());
+  start(options());
+  ASSERT_TRUE(lab_control->answer_until_ready({kId}));
+  ASSERT_TRUE(lab_control->release_tick(0));
+  lab_control->release(kVehiclePeriod);
+  // Both leave together: the wait for the answer ends, and then there is no clock any more.
+  lab_control.reset();
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitDied);
+}
+
+TEST_F(VehicleProcessTest, LabControlThatDoesNotAnswerIsMissed) {
+  VehicleProcessOptions impatient = options();
+  impatient.startup_timeout = seconds(1);
+  start(impatient);
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitMissing);
+}
+
+TEST_F(VehicleProcessTest, MiddlewareOfAnotherActiveVehicleIsMissed) {
+  Lab lab(domain_.first());
+  VehicleProcessOptions impatient = options();
+  impatient.startup_timeout = seconds(2);
+  start(impatient);
+  auto answering = std::async(std::launch::async, [&] {
+    return lab.answer_until_ready({kId, kId + 1});
+  });
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitMissing);
+  lab.close();
+}
+
+TEST_F(VehicleProcessTest, VehicleThatIsNotActiveIsBadInput) {
+  Lab lab(domain_.first());
+  start(options());
+  auto answering = std::async(std::launch::async, [&] { return lab.answer_until_ready({1, 2}); });
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitBadInput);
+  lab.close();
+}
+
+TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
+  start(options());  // nobody answers
+  process_->stop();
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+}
+
+TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
+  Lab lab(domain_.first());
+  VehicleProcessOptions real = options();
+  real.logical_time = false;
+  start(real);
+  const std::vector<VehicleState> states = lab.states(10);
+  ASSERT_GE(states.size(), 10U);
+  for (const VehicleState& state : states) {
+    EXPECT_EQ(state.create_stamp % kVehiclePeriod, 0U);
+    EXPECT_EQ(state.pose, kStart);
+  }
+  lab.stop();
+  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+}
+
+}  // namespace
+}  // namespace hlc

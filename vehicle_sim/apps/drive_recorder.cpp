@@ -1,0 +1,24 @@
+#include "vehicle_sim/apps/drive_recorder.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+namespace hlc {
+
+DriveRecorder::DriveRecorder(const std::string& file) : stream_(file) {
+  if (!stream_) {
+    throw std::runtime_error("--record: cannot write " + file);
+  }
+  stream_.imbue(std::locale::classic());
+  stream_.precision(std::numeric_limits<double>::max_digits10);
+  stream_ << "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns\n" << std::flush;
+}
+
+void DriveRecorder::write(const DrivenSample& sample) {
+  stream_ << sample.t << ',' << sample.pose.x_m << ',' << sample.pose.y_m << ','
+          << sample.pose.heading_rad << ',' << sample.speed_mps << ',' << sample.throttle << ','
+          << sample.steering << ',' << sample.command_create << '\n'
+          << std::flush;
+}
+
+}  // namespace hlc

@@ -1,0 +1,285 @@
+#include "vehicle_sim/apps/vehicle_process.hpp"
+
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
+
+namespace hlc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kRequestInterval{100};
+constexpr std::chrono::seconds kSilence{10};
+constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
+/// After this many missed ticks (10 s) the vehicle stands anyway.
+constexpr Nanoseconds kMostMissedTicks = 500;
+constexpr const char* kPeriodParameter = "middleware_period_ms";
+constexpr const char* kActiveIdsParameter = "active_vehicle_ids";
+
+const char* reason(FollowerStatus status) {
+  switch (status) {
+    case FollowerStatus::kFollowing:
+      return "it follows";
+    case FollowerStatus::kNoCommand:
+      return "no usable command";
+    case FollowerStatus::kNotFollowable:
+      return "the command is empty, malformed, too short or too wild";
+    case FollowerStatus::kTooFar:
+      return "too far from its reference";
+    case FollowerStatus::kNoEstimate:
+      return "its own state is not finite";
+  }
+  return "";
+}
+
+}  // namespace
+
+VehicleProcess::VehicleProcess(VehicleProcessOptions options)
+    : options_(std::move(options)),
+      name_(vehicle_name(options_.vehicle.vehicle_id)),
+      middleware_(middleware_name(options_.vehicle.vehicle_id)),
+      controller_(controller_name(options_.vehicle.vehicle_id)),
+      vehicle_(options_.vehicle),
+      recorder_(options_.record_file.empty() ? std::nullopt
+                                             : std::optional<DriveRecorder>(options_.record_file)),
+      timer_(make_timer()),
+      lab_({.name = name_,
+            .domain_id = options_.lab_domain,
+            .role = DomainRole::kLab,
+            .transport = options_.transport,
+            .logical_time = options_.logical_time,
+            .discovery_server = options_.discovery_server},
+           [this] { signal_.notify(); }),
+      state_writer_(lab_, topics::vehicle_state(options_.vehicle.vehicle_id),
+                    [this] { signal_.notify(); }),
+      ready_writer_(lab_, topics::ready_status(), [this] { signal_.notify(); }),
+      request_writer_(lab_, topics::parameter_request()),
+      command_reader_(
+          lab_, topics::vehicle_command(options_.vehicle.vehicle_id),
+          [this](const TrajectoryCommand& command) {
+            signal_.post([&] {
+              newest_answer_ = std::max(newest_answer_, command.create_stamp);
+              gave_up_waiting_ = false;
+              inbox_.push_back(command);
+            });
+          },
+          [this] { signal_.notify(); }),
+      parameter_reader_(
+          lab_, topics::parameter(),
+          [this](const Parameter& parameter) { signal_.post([&] { take(parameter); }); }),
+      trigger_reader_(
+          lab_, topics::system_trigger(),
+          [this](const SystemTrigger& trigger) {
+            if (trigger.next_start == kStopSymbol) {
+              signal_.post([this] { stop_symbol_ = true; });
+            } else if (logical_timer_ != nullptr) {
+              logical_timer_->on_trigger(trigger.next_start);
+            }
+          },
+          [this] { signal_.notify(); }) {}
+
+std::unique_ptr<Timer> VehicleProcess::make_timer() {
+  if (!options_.logical_time) {
+    return std::make_unique<RealTimer>(kVehiclePeriod, 0);
+  }
+  auto timer = std::make_unique<LogicalTimer>(
+      kVehiclePeriod, 0, [this](Nanoseconds next_tick) { send_ready(next_tick); });
+  logical_timer_ = timer.get();
+  return timer;
+}
+
+void VehicleProcess::stop() {
+  signal_.post([this] { stop_ = true; });
+  timer_->stop();
+}
+
+int VehicleProcess::run() {
+  const Pose& pose = options_.vehicle.start;
+  spdlog::info("{}: at ({:.3f} m, {:.3f} m, {:.3f} rad)", name_, pose.x_m, pose.y_m,
+               pose.heading_rad);
+  if (options_.logical_time) {
+    const int problem = prepare();
+    if (problem != kExitGood || is_ending_now()) {
+      return problem;
+    }
+  }
+  std::optional<Nanoseconds> t_now = timer_->wait_next();
+  while (t_now && tick(*t_now)) {
+    t_now = timer_->wait_next();
+  }
+  if (lab_control_lost_ && !is_stopping_ && !is_ending_now()) {
+    spdlog::error("{}: {} is gone; logical time stands still", name_, kLabControlName);
+    return kExitDied;
+  }
+  return kExitGood;
+}
+
+// --- start in logical time ----------------------------------------------------------------------
+
+void VehicleProcess::take(const Parameter& parameter) {
+  if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value);
+      period_ms != nullptr && *period_ms > 0 && parameter.name == kPeriodParameter) {
+    period_ = *period_ms * kNanosecondsPerMillisecond;
+  }
+  if (const auto* ids = std::get_if<std::vector<std::int32_t>>(&parameter.value);
+      ids != nullptr && parameter.name == kActiveIdsParameter) {
+    active_ids_ = *ids;
+  }
+}
+
+bool VehicleProcess::learn_parameters(Clock::time_point deadline) {
+  const auto is_done = [this] { return is_ending() || (period_ && active_ids_); };
+  while (Clock::now() < deadline) {
+    const auto [has_period, has_ids] =
+        signal_.locked([this] { return std::pair(period_.has_value(), active_ids_.has_value()); });
+    if (!has_period) {
+      request_writer_.write({.name = kPeriodParameter});
+    }
+    if (!has_ids) {
+      request_writer_.write({.name = kActiveIdsParameter});
+    }
+    if (signal_.wait_until(Clock::now() + kRequestInterval, is_done)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A state or a command of the run that nobody hears is lost, and then a tick would wait for it.
+bool VehicleProcess::is_connected() const {
+  const std::set<std::string> hearers = state_writer_.matched_names();
+  const bool all_middlewares_hear = std::ranges::all_of(*active_ids_, [&](std::int32_t id) {
+    return hearers.contains(middleware_name(static_cast<std::uint8_t>(id)));
+  });
+  return all_middlewares_hear && command_reader_.matched_names().contains(middleware_) &&
+         ready_writer_.matched() > 0 && trigger_reader_.matched() > 0;
+}
+
+std::string VehicleProcess::who_is_missing() const {
+  std::vector<std::string> missing;
+  if (ready_writer_.matched() == 0 || trigger_reader_.matched() == 0) {
+    missing.emplace_back(kLabControlName);
+  }
+  const std::set<std::string> hearers = state_writer_.matched_names();
+  for (const std::int32_t id : *active_ids_) {
+    const std::string middleware = middleware_name(static_cast<std::uint8_t>(id));
+    const bool commands =
+        middleware != middleware_ || command_reader_.matched_names().contains(middleware);
+    if (!hearers.contains(middleware) || !commands) {
+      missing.push_back(middleware);
+    }
+  }
+  return fmt::format("{}", fmt::join(missing, ", "));
+}
+
+int VehicleProcess::prepare() {
+  const Clock::time_point deadline = Clock::now() + options_.startup_timeout;
+  if (!learn_parameters(deadline)) {
+    spdlog::error("{}: {} did not tell {} and {} within {} s", name_, kLabControlName,
+                  kPeriodParameter, kActiveIdsParameter, options_.startup_timeout.count());
+    return kExitMissing;
+  }
+  if (is_ending_now()) {
+    return kExitGood;
+  }
+  if (std::ranges::count(*active_ids_, options_.vehicle.vehicle_id) == 0) {
+    spdlog::error("{}: --vehicle_id={} is not among the {}: {}", name_, options_.vehicle.vehicle_id,
+                  kActiveIdsParameter, fmt::join(*active_ids_, ", "));
+    return kExitBadInput;
+  }
+  if (!signal_.wait_until(deadline, [this] { return is_ending() || is_connected(); })) {
+    spdlog::error("{}: not there within {} s: {}", name_, options_.startup_timeout.count(),
+                  who_is_missing());
+    return kExitMissing;
+  }
+  return kExitGood;
+}
+
+void VehicleProcess::send_ready(Nanoseconds next_tick) {
+  ready_writer_.write({.source_id = name_, .next_start = next_tick});
+  if (lab_.is_lost(kLabControlName)) {
+    lab_control_lost_ = true;
+    timer_->stop();
+  }
+}
+
+// --- one tick -----------------------------------------------------------------------------------
+
+bool VehicleProcess::tick(Nanoseconds t_now) {
+  if (options_.logical_time) {
+    wait_for_answer(t_now);
+  } else {
+    make_up_for_missed_ticks(t_now);
+  }
+  const bool begins_to_brake =
+      signal_.locked([this] { return std::exchange(stop_symbol_, false); });
+  if (begins_to_brake) {
+    spdlog::info("{}: stop", name_);
+    vehicle_.brake();
+    is_stopping_ = true;
+  }
+  const SimulatedVehicle::Tick done = step(t_now);
+  state_writer_.write(done.state);
+  tell_why_it_stops(done);
+  last_tick_ = t_now;
+  if (is_stopping_ && !vehicle_.is_braking()) {
+    is_stopping_ = false;
+    return options_.keep_running;
+  }
+  return true;
+}
+
+bool VehicleProcess::is_answered(Nanoseconds list) const {
+  return is_ending() || newest_answer_ >= list || gave_up_waiting_ || lab_.is_lost(middleware_) ||
+         lab_.is_lost(controller_);
+}
+
+void VehicleProcess::wait_for_answer(Nanoseconds t_now) {
+  const std::optional<Nanoseconds> list = last_list_before(t_now, *period_);
+  if (!list || vehicle_.is_braking() ||
+      signal_.wait_until(Clock::now() + kSilence, [&] { return is_answered(*list); })) {
+    return;
+  }
+  spdlog::warn("{}: no answer to the list of {} ns within {} s; waits no more", name_, *list,
+               kSilence.count());
+  signal_.post([this] { gave_up_waiting_ = true; });
+}
+
+void VehicleProcess::make_up_for_missed_ticks(Nanoseconds t_now) {
+  if (!last_tick_) {
+    return;
+  }
+  const Nanoseconds earliest = t_now - std::min(t_now, kMostMissedTicks * kVehiclePeriod);
+  for (Nanoseconds t = std::max(*last_tick_ + kVehiclePeriod, earliest); t < t_now;
+       t += kVehiclePeriod) {
+    step(t);
+  }
+}
+
+SimulatedVehicle::Tick VehicleProcess::step(Nanoseconds t_now) {
+  for (TrajectoryCommand& command : signal_.locked([this] { return std::exchange(inbox_, {}); })) {
+    vehicle_.receive(std::move(command));
+  }
+  SimulatedVehicle::Tick done = vehicle_.tick(t_now);
+  if (recorder_) {
+    recorder_->write(done.driven);
+  }
+  return done;
+}
+
+void VehicleProcess::tell_why_it_stops(const SimulatedVehicle::Tick& done) {
+  if (last_status_ == FollowerStatus::kFollowing && done.status != last_status_ && !is_stopping_) {
+    spdlog::warn("{}: stops at {} ns: {}", name_, done.driven.t, reason(done.status));
+  }
+  last_status_ = done.status;
+}
+
+}  // namespace hlc
