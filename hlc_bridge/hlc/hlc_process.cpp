@@ -112,7 +112,7 @@ std::set<std::string> HlcProcess::peer_names() const {
 
 /// Nothing that this process says may be lost: every writer has its readers matched.
 bool HlcProcess::has_everybody() {
-  if (is_ready_) return true;
+  if (is_ready_ || active_.empty()) return is_ready_;
   const std::set<std::string> peers = peer_names();
   const auto reaches = [&peers](const auto& writer) {
     return std::ranges::includes(writer.matched_names(), peers);
@@ -163,7 +163,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
     const bool happened = signal_.wait_until(
         wake, [this] { return stop_ || !lists_.empty() || !local_.lost().empty(); });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
-    if (!active_.empty() && !local_.lost().empty()) return Event::kMiddlewareLost;
+    if (!local_.lost().empty()) return Event::kMiddlewareLost;
     if (happened && signal_.locked([this] { return !lists_.empty(); })) return Event::kList;
     if (!is_ready_ && Clock::now() > started_at_ + options_.startup_timeout) return Event::kTimeout;
   }
@@ -177,7 +177,7 @@ int HlcProcess::run() {
       case Event::kMiddlewareLost:
         spdlog::error("{}: {} is gone; nothing reaches the vehicle any more", options_.node_id,
                       joined(local_.lost()));
-        return kExitDied;
+        return is_ready_ ? kExitDied : kExitMissing;
       case Event::kTimeout:
         spdlog::error("{}: {} within {} s", options_.node_id, who_is_missing(),
                       options_.startup_timeout.count());

@@ -42,7 +42,8 @@ LabProcesses::LabProcesses(const LabOptions& options)
     return std::vector<std::string>{
         kBin + program, "--dds_domain=" + std::to_string(lab), "--transport=loopback",
         std::string("--simulated_time=") + (options.simulated_time ? "true" : "false"),
-        "--startup_timeout_s=" + std::to_string(options.startup_timeout_s)};
+        "--startup_timeout_s=" +
+            std::to_string(options.startup_timeout_s + (program == "lab_control" ? 0 : 10))};
   };
   const auto add = [&](const std::string& name, std::vector<std::string> command,
                        const std::vector<std::string>& flags) {
@@ -100,13 +101,15 @@ void LabProcesses::start_all() {
   for (const std::string& name : names()) start(name);
 }
 
-bool LabProcesses::wait_for_all(std::chrono::seconds time) {
+std::vector<std::string> LabProcesses::still_running_after(std::chrono::seconds time) {
   const auto deadline = std::chrono::steady_clock::now() + time;
-  return std::ranges::all_of(running_, [&](auto& one) {
+  std::vector<std::string> late;
+  for (auto& [name, process] : running_) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         deadline - std::chrono::steady_clock::now());
-    return one.second.wait_for(std::max(left, std::chrono::milliseconds(1))).has_value();
-  });
+    if (!process.wait_for(std::max(left, std::chrono::milliseconds(1)))) late.push_back(name);
+  }
+  return late;
 }
 
 int LabProcesses::summarize() {

@@ -17,7 +17,7 @@ struct LabOptions {
   std::vector<std::string> vehicle_flags;     ///< further flags of every vehicle_sim
   std::vector<std::string> controller_flags;  ///< further flags of every high_level_controller
   std::vector<std::string> absent;            ///< processes that are not started
-  int startup_timeout_s{60};
+  int startup_timeout_s{60};                  ///< of lab control; the others wait 10 s longer
 };
 
 /// All processes of a run, started one by one in any order, each known by its name: lab_control,
@@ -33,8 +33,8 @@ class LabProcesses {
   void start_all();
 
   [[nodiscard]] ChildProcess& operator[](const std::string& name) { return running_.at(name); }
-  /// Waits for all that were started; false if one still runs at the deadline.
-  [[nodiscard]] bool wait_for_all(std::chrono::seconds time);
+  /// Waits for all that were started. Names of those that still run at the deadline.
+  [[nodiscard]] std::vector<std::string> still_running_after(std::chrono::seconds time);
   /// Exit code of summarize.
   int summarize();
 
