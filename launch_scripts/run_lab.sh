@@ -103,7 +103,9 @@ if [[ -z $dds_domain ]]; then
   done
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
-[[ $dds_domain =~ ^[0-9]+$ ]] || fail "--dds_domain = $dds_domain, allowed 0 ... 232"
+if [[ ! $dds_domain =~ ^[0-9]{1,3}$ || $((10#$dds_domain + largest_id)) -gt 50 ]]; then
+  fail "--dds_domain = $dds_domain, allowed 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
+fi
 
 if [[ -z $out ]]; then
   out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
@@ -167,6 +169,8 @@ done
 ((code == 0)) || cat "$out/logs/vehicles.log" >&2
 
 if [[ -s $out/reports.csv ]]; then
-  "$bin/summarize" --run "$out" "${choices[@]}" || ((code != 0)) || code=$?
+  "$bin/summarize" --run "$out" "${choices[@]}"
+  summarized=$?
+  ((code != 0)) || code=$summarized
 fi
 exit "$code"

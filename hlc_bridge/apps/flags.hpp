@@ -1,13 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
-#include <iostream>
 #include <optional>
 #include <string>
 
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/dds/transport.hpp"
+#include "planner/apps/flags.hpp"
 
 /// Flags that the processes of a run have in common, as in the lab: `--name=value` and `--name
 /// value`.
@@ -47,19 +46,5 @@ struct NetworkFlags {
     return std::chrono::seconds{startup_timeout_s};
   }
 };
-
-/// Nothing if the flags are good; else the exit code, after the help or one line about the bad
-/// flag.
-inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-    return std::nullopt;
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << app.get_name() << ": " << error.what() << '\n';
-    return kExitBadInput;
-  }
-}
 
 }  // namespace hlc

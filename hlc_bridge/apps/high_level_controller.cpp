@@ -31,12 +31,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->required()
       ->expected(1)
       ->check(CLI::Range(1, 30));
-  app.add_option("--scenario", flags.scenario.file, "scenario file (YAML)")->required();
-  app.add_option("--profile", flags.scenario.profile, "rules: default or 2022")
-      ->capture_default_str();
-  app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
-  app.add_option("--map", flags.scenario.map_file, "CommonRoad XML instead of the scenario's");
-  app.add_option("--cars", flags.scenario.cars, "number of cars (scenarios on a circle)");
+  hlc::declare_scenario_flags(app, flags.scenario);
   app.add_option("--node_id", flags.node_id, "default: high_level_controller_<id>");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();

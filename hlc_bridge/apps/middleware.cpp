@@ -37,9 +37,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--wait_for_start", flags.wait_for_start,
                  "only false: lists come from the first period on")
       ->capture_default_str();
-  app.footer(
-      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died in "
-      "logical time.");
+  app.footer("Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died.");
 }
 
 hlc::MiddlewareOptions process_options(const Flags& flags) {

@@ -1,6 +1,5 @@
 // Reads a run folder, writes steps.csv, timing.csv, summary.json and what was configured, prints
 // the table.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -72,7 +71,18 @@ hlc::Drives read_drives(const std::filesystem::path& run, const hlc::RunFacts& f
   return drives;
 }
 
-void summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
+/// A run that the planner's guarantees do not cover: a vehicle was farther from its plan than a
+/// controller puts up with, or touched another one.
+bool is_well_driven(const hlc::RunSummary& summary) {
+  const double bound_m = hlc::ControllerOptions{}.max_deviation_m;
+  return summary.collisions == 0 &&
+         std::ranges::all_of(summary.vehicles, [bound_m](const hlc::VehicleSummary& vehicle) {
+           return !vehicle.tracking_error_m || vehicle.tracking_error_m->max <= bound_m;
+         });
+}
+
+/// Returns the exit code.
+int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
   const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
   hlc::RunFacts facts = hlc::read_facts(run / "run.json");
   if (!facts.first_step) {
@@ -96,6 +106,9 @@ void summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices&
   }
   hlc::keep_configuration(run, files);
   std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
+  if (is_well_driven(summary)) return hlc::kExitGood;
+  std::cerr << "summarize: a vehicle left its plan or touched another one\n";
+  return hlc::kExitDrivenBadly;
 }
 
 }  // namespace
@@ -105,18 +118,15 @@ int main(int argc, char** argv) {
   std::filesystem::path run;
   hlc::ScenarioChoices choices;
   app.add_option("--run", run, "run folder")->required();
-  app.add_option("--scenario", choices.file, "scenario file (YAML) of the run")->required();
-  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
-  app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
-  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
-  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
-  app.footer("Exit codes: 0 good, 2 bad input.");
+  hlc::declare_scenario_flags(app, choices);
+  app.footer(
+      "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left its plan or touched another "
+      "one.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) {
     return *code;
   }
   try {
-    summarize_run(run, choices);
-    return hlc::kExitGood;
+    return summarize_run(run, choices);
   } catch (const std::exception& error) {
     std::cerr << "summarize: " << error.what() << '\n';
     return hlc::kExitBadInput;

@@ -21,6 +21,13 @@ inline constexpr Nanoseconds kNanosecondsPerSecond = 1'000'000'000;
 /// No process waits longer than this (wall time) for a message of another one that seems to live.
 inline constexpr Nanoseconds kMessageTimeout = 10 * kNanosecondsPerSecond;
 
+/// In real time, when the lab control has died: controllers drive out their plans for so long and
+/// leave, then the middlewares leave, then the vehicles, which stand by then. (In logical time the
+/// clock stands still without it, and everybody leaves at once.)
+inline constexpr Nanoseconds kControllerStays = 3 * kNanosecondsPerSecond;
+inline constexpr Nanoseconds kMiddlewareStays = 4 * kNanosecondsPerSecond;
+inline constexpr Nanoseconds kVehicleStays = 5 * kNanosecondsPerSecond;
+
 /// Number k of the control step that `t` lies in: t(k) <= t < t(k + 1), t(k) = k * period.
 [[nodiscard]] constexpr std::uint64_t step_at(Nanoseconds t, Nanoseconds period) {
   return t / period;

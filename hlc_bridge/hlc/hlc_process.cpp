@@ -49,7 +49,8 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
     : options_(std::move(options)),
       controller_(std::move(controller)),
       started_at_(Clock::now()),
-      lab_(on_domain(options_, options_.domains.lab, DomainRole::kLab)),
+      lab_(on_domain(options_, options_.domains.lab, DomainRole::kLab),
+           [this] { signal_.notify(); }),
       local_(on_domain(options_, options_.domains.local, DomainRole::kLocal),
              [this] { signal_.notify(); }),
       controllers_(on_domain(options_, options_.domains.controller, DomainRole::kController),
@@ -153,9 +154,19 @@ void HlcProcess::send_copy_when_due() {
   copy_due_.reset();
 }
 
+/// Without the lab control nobody can stop the cars: they drive out their plans.
+void HlcProcess::watch_lab_control() {
+  if (lab_control_lost_at_ || !lab_.is_lost(kLabControlName)) return;
+  spdlog::error("{}: {} is gone; the running plan is driven to its end", options_.node_id,
+                kLabControlName);
+  lab_control_lost_at_ = Clock::now();
+  signal_.post([this] { drive_out_ = true; });
+}
+
 HlcProcess::Event HlcProcess::wait_for_event() {
   while (true) {
     send_copy_when_due();
+    watch_lab_control();
     static_cast<void>(has_everybody());
     send_ready_now_and_then();
     Clock::time_point wake = Clock::now() + kReadyRepeat;
@@ -164,6 +175,10 @@ HlcProcess::Event HlcProcess::wait_for_event() {
         wake, [this] { return stop_ || !lists_.empty() || !local_.lost().empty(); });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
     if (!local_.lost().empty()) return Event::kMiddlewareLost;
+    if (lab_control_lost_at_ &&
+        Clock::now() > *lab_control_lost_at_ + std::chrono::nanoseconds(kControllerStays)) {
+      return Event::kLabControlLost;
+    }
     if (happened && signal_.locked([this] { return !lists_.empty(); })) return Event::kList;
     if (!is_ready_ && Clock::now() > started_at_ + options_.startup_timeout) return Event::kTimeout;
   }
@@ -178,6 +193,8 @@ int HlcProcess::run() {
         spdlog::error("{}: {} is gone; nothing reaches the vehicle any more", options_.node_id,
                       joined(local_.lost()));
         return is_ready_ ? kExitDied : kExitMissing;
+      case Event::kLabControlLost:
+        return kExitDied;
       case Event::kTimeout:
         spdlog::error("{}: {} within {} s", options_.node_id, who_is_missing(),
                       options_.startup_timeout.count());

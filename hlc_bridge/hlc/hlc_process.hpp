@@ -59,9 +59,10 @@ class HlcProcess {
   void stop();
 
  private:
-  enum class Event { kList, kStop, kMiddlewareLost, kTimeout };
+  enum class Event { kList, kStop, kMiddlewareLost, kLabControlLost, kTimeout };
 
   [[nodiscard]] Event wait_for_event();
+  void watch_lab_control();
   void send_ready_now_and_then();
   void send_copy_when_due();
   [[nodiscard]] bool has_everybody();
@@ -106,6 +107,7 @@ class HlcProcess {
   Writer<ReportRecord> report_writer_;
 
   std::vector<VehicleId> active_;
+  std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
   bool is_ready_{};
   bool is_started_{};
   std::optional<StepIndex> last_step_;

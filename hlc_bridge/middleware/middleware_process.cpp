@@ -109,16 +109,29 @@ int MiddlewareProcess::keep_period() {
   make_timer();
   while (const std::optional<Nanoseconds> t_now = timer_->wait_next()) {
     tick(*t_now);
+    if (!options_.logical_time) watch_lab_control(*t_now);
   }
   signal_.locked([this] { timer_in_use_ = logical_timer_ = nullptr; });
   if (missed_answers_ > 0) {
     spdlog::warn("{}: {} lists without an answer in time", options_.node_id, missed_answers_);
   }
   if (lab_control_lost_) {
-    spdlog::error("{}: {} is gone; logical time stands still", options_.node_id, kLabControlName);
+    spdlog::error("{}: {} is gone", options_.node_id, kLabControlName);
     return kExitDied;
   }
   return kExitGood;
+}
+
+/// Real time: the controller needs lists until its car stands.
+void MiddlewareProcess::watch_lab_control(Nanoseconds t_now) {
+  if (!lab_.is_lost(kLabControlName)) {
+    lab_control_lost_at_.reset();
+  } else if (!lab_control_lost_at_) {
+    lab_control_lost_at_ = t_now;
+  } else if (t_now > *lab_control_lost_at_ + kMiddlewareStays) {
+    lab_control_lost_ = true;
+    timer_->stop();
+  }
 }
 
 /// The controller gets the stop symbol before its middleware is gone, and so leaves without alarm.

@@ -59,7 +59,7 @@ class MiddlewareProcess {
 
   /// Until the stop symbol has come, or `stop` is called. The exit code: 0 good, 2 if the lab
   /// control's parameters do not fit, 3 if somebody needed did not appear, 4 if the lab control is
-  /// lost in logical time.
+  /// lost.
   [[nodiscard]] int run();
 
   /// Ends `run` soon. From any thread.
@@ -91,6 +91,7 @@ class MiddlewareProcess {
   void carry_on(const SystemTrigger& trigger);
   void tell_faults(const CommandVerdict& verdict);
   void let_controller_leave() const;
+  void watch_lab_control(Nanoseconds t_now);
 
   MiddlewareOptions options_;
 
@@ -118,6 +119,7 @@ class MiddlewareProcess {
   // Of the period:
   std::uint64_t missed_answers_{};
   bool lab_control_lost_{};
+  std::optional<Nanoseconds> lab_control_lost_at_;  ///< real time
 
   std::unique_ptr<Timer> timer_;
 

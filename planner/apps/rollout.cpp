@@ -1,7 +1,6 @@
 // Planning and coordination alone: all controllers of a scenario in one process, with vehicles that
 // follow their plans perfectly. For a quick look at a scenario, without DDS and without vehicle
 // dynamics.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include <iostream>
 #include <map>
 
+#include "planner/apps/flags.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -104,25 +104,17 @@ int run(const hlc::ScenarioChoices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Plans a scenario with vehicles that follow perfectly, in one process."};
+  CLI::App app{"Plans a scenario with vehicles that follow perfectly, in one process.", "rollout"};
   hlc::ScenarioChoices choices;
-  app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
-  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
-  app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
-  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
+  hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(CLI::Range(1, 100000));
-  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
   app.footer("Exit codes: 0 good, 2 bad input.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   try {
     return run(choices);
   } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << "rollout: " << error.what() << '\n';
     return 2;
   }
 }

@@ -1,9 +1,9 @@
 // Checks a scenario and prints who drives where; with --starts in a form for scripts.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 
+#include "planner/apps/flags.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
@@ -36,25 +36,17 @@ void print_starts(const hlc::Scenario& scenario) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Checks a scenario file and prints what a run of it is."};
+  CLI::App app{"Checks a scenario file and prints what a run of it is.", "show_scenario"};
   hlc::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
-  app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
-  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
-  app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
-  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
+  hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(CLI::Range(1, 100000));
-  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.footer("Exit codes: 0 good, 2 bad input.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   try {
     const hlc::Scenario scenario = hlc::read_scenario(choices);
     if (starts) {
@@ -65,7 +57,7 @@ int main(int argc, char** argv) {
       print_table(scenario);
     }
   } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << "show_scenario: " << error.what() << '\n';
     return 2;
   }
   return 0;

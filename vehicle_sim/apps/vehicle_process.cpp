@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kRequestInterval{100};
-constexpr std::chrono::seconds kSilence{10};
+constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
 /// After this many missed ticks (10 s) the vehicle stands anyway.
 constexpr Nanoseconds kMostMissedTicks = 500;
@@ -113,10 +113,11 @@ int VehicleProcess::run() {
   }
   std::optional<Nanoseconds> t_now = timer_->wait_next();
   while (t_now && tick(*t_now)) {
+    if (!options_.logical_time) watch_lab_control(*t_now);
     t_now = timer_->wait_next();
   }
   if (lab_control_lost_ && !is_stopping_ && !is_ending_now()) {
-    spdlog::error("{}: {} is gone; logical time stands still", name_, kLabControlName);
+    spdlog::error("{}: {} is gone", name_, kLabControlName);
     return kExitDied;
   }
   return kExitGood;
@@ -211,6 +212,18 @@ void VehicleProcess::send_ready(Nanoseconds next_tick) {
   }
 }
 
+/// Real time: the plan is driven to its end before the vehicle leaves.
+void VehicleProcess::watch_lab_control(Nanoseconds t_now) {
+  if (options_.keep_running || !lab_.is_lost(kLabControlName)) {
+    lab_control_lost_at_.reset();
+  } else if (!lab_control_lost_at_) {
+    lab_control_lost_at_ = t_now;
+  } else if (t_now > *lab_control_lost_at_ + kVehicleStays) {
+    lab_control_lost_ = true;
+    timer_->stop();
+  }
+}
+
 // --- one tick -----------------------------------------------------------------------------------
 
 bool VehicleProcess::tick(Nanoseconds t_now) {
@@ -249,7 +262,7 @@ void VehicleProcess::wait_for_answer(Nanoseconds t_now) {
     return;
   }
   spdlog::warn("{}: no answer to the list of {} ns within {} s; waits no more", name_, *list,
-               kSilence.count());
+               kMessageTimeout / kNanosecondsPerSecond);
   signal_.post([this] { gave_up_waiting_ = true; });
 }
 

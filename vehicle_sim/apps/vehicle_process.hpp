@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
@@ -41,16 +42,11 @@ struct VehicleProcessOptions {
 /// lost, or after 10 s (then nobody waits for them until a command is heard again).
 class VehicleProcess {
  public:
-  static constexpr int kExitGood = 0;
-  static constexpr int kExitBadInput = 2;
-  static constexpr int kExitMissing = 3;
-  static constexpr int kExitDied = 4;
-
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit VehicleProcess(VehicleProcessOptions options);
 
   /// Until the stop symbol has come and the vehicle has braked, or `stop` is called. The exit code:
-  /// also 3 if somebody needed did not appear, and 4 if the lab control dies in logical time.
+  /// also 3 if somebody needed did not appear, and 4 if the lab control dies.
   [[nodiscard]] int run();
 
   /// Ends the run soon. From any thread.
@@ -74,6 +70,7 @@ class VehicleProcess {
   /// Tells the lab control that everything before `next_tick` is done; ends the timer if it is
   /// gone.
   void send_ready(Nanoseconds next_tick);
+  void watch_lab_control(Nanoseconds t_now);
 
   /// True if the run goes on after this tick.
   [[nodiscard]] bool tick(Nanoseconds t_now);
@@ -92,6 +89,7 @@ class VehicleProcess {
   FollowerStatus last_status_{FollowerStatus::kNoCommand};
   bool is_stopping_{};  ///< the stop symbol has come, and the vehicle brakes
   bool lab_control_lost_{};
+  std::optional<Nanoseconds> lab_control_lost_at_;  ///< real time
 
   Signal signal_;
   // Guarded by the signal:

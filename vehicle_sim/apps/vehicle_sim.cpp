@@ -108,12 +108,12 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
     spdlog::error("{}", error.what());
-    return hlc::VehicleProcess::kExitBadInput;
+    return hlc::kExitBadInput;
   }
   try {
     return run(flags, signals);
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
-    return hlc::VehicleProcess::kExitBadInput;
+    return hlc::kExitBadInput;
   }
 }

@@ -190,7 +190,7 @@ TEST_F(VehicleProcessTest, DrivesInLogicalTimeUntilTheStopAndBrakesForOneSecond)
   for (int i = 1; i <= SimulatedVehicle::kBrakingTicks; ++i, t += kVehiclePeriod) {
     ASSERT_TRUE(lab.release_tick(t, i == SimulatedVehicle::kBrakingTicks)) << t;
   }
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
 
   const std::vector<VehicleState> states = lab.states(201);
   ASSERT_EQ(states.size(), 201U);
@@ -216,7 +216,7 @@ TEST_F(VehicleProcessTest, WaitsForTheAnswerToTheLastList) {
   ASSERT_EQ(states.size(), 2U);
   EXPECT_GT(states[1].motor_throttle, 0.0);
   process_->stop();
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
 }
 
 TEST_F(VehicleProcessTest, GoesOnWithoutAnswerWhenTheMiddlewareIsLost) {
@@ -227,14 +227,14 @@ TEST_F(VehicleProcessTest, GoesOnWithoutAnswerWhenTheMiddlewareIsLost) {
   lab_control->release(kVehiclePeriod);
   // Both leave together: the wait for the answer ends, and then there is no clock any more.
   lab_control.reset();
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitDied);
+  EXPECT_EQ(exit_code(), kExitDied);
 }
 
 TEST_F(VehicleProcessTest, LabControlThatDoesNotAnswerIsMissed) {
   VehicleProcessOptions impatient = options();
   impatient.startup_timeout = seconds(1);
   start(impatient);
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitMissing);
+  EXPECT_EQ(exit_code(), kExitMissing);
 }
 
 TEST_F(VehicleProcessTest, MiddlewareOfAnotherActiveVehicleIsMissed) {
@@ -245,7 +245,7 @@ TEST_F(VehicleProcessTest, MiddlewareOfAnotherActiveVehicleIsMissed) {
   auto answering = std::async(std::launch::async, [&] {
     return lab.answer_until_ready({kId, kId + 1});
   });
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitMissing);
+  EXPECT_EQ(exit_code(), kExitMissing);
   lab.close();
 }
 
@@ -253,14 +253,14 @@ TEST_F(VehicleProcessTest, VehicleThatIsNotActiveIsBadInput) {
   Lab lab(domain_.first());
   start(options());
   auto answering = std::async(std::launch::async, [&] { return lab.answer_until_ready({1, 2}); });
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitBadInput);
+  EXPECT_EQ(exit_code(), kExitBadInput);
   lab.close();
 }
 
 TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
   start(options());  // nobody answers
   process_->stop();
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
 }
 
 TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
@@ -275,7 +275,7 @@ TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
     EXPECT_EQ(state.pose, kStart);
   }
   lab.stop();
-  EXPECT_EQ(exit_code(), VehicleProcess::kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "planner/scenario/scenario.hpp"
+
+/// What the command lines of all programs have in common: `--name=value` and `--name value`,
+/// unknown flags refused, one line and exit code 2 for bad ones.
+namespace hlc {
+
+/// Nothing if the flags are good; else the exit code, after the help or one line about the bad
+/// flag.
+inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << app.get_name() << ": " << error.what() << '\n';
+    return 2;
+  }
+}
+
+/// The flags that choose a scenario.
+inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
+  app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
+  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
+  app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
+  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
+  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
+}
+
+}  // namespace hlc
