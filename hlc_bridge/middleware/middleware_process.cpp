@@ -348,15 +348,22 @@ void MiddlewareProcess::tell_missed_answer() {
 
 /// On a DDS thread.
 void MiddlewareProcess::take(const SystemTrigger& trigger) {
-  mail_.post([&] { to_carry_.emplace_back(trigger); });
+  const bool is_stop = trigger.next_start == kStopSymbol;
+  const bool is_first = signal_.locked([this] { return !triggered_; });
+  // The lab's controllers are used to all triggers, those of the vehicles' ticks too. Ours needs
+  // the first one and the stop, and 50 more a second would cost a run in logical time a good part
+  // of its speed. To be carried on before the period learns of the stop: then the carrier ends.
+  if (is_stop || is_first || !options_.logical_time || options_.transport == Transport::kLab) {
+    mail_.post([&] { to_carry_.emplace_back(trigger); });
+  }
   signal_.post([&] {
     triggered_ = true;
-    stop_symbol_ = stop_symbol_ || trigger.next_start == kStopSymbol;
+    stop_symbol_ = stop_symbol_ || is_stop;
     if (logical_timer_ != nullptr) {
       logical_timer_->on_trigger(trigger.next_start);
     }
   });
-  if (trigger.next_start == kStopSymbol) {
+  if (is_stop) {
     stop();
   }
 }

@@ -39,7 +39,8 @@ struct MiddlewareOptions {
 ///
 /// Every period, at t_now = k P + offset, it writes a VehicleStateList with the newest valid state
 /// of every active vehicle. Commands of the controller go on to the vehicle as soon as they come,
-/// after a check (check_command); triggers of the lab control go on to the controller.
+/// after a check (check_command); triggers of the lab control go on to the controller
+/// (loopback in logical time: only the first one and the stop symbol).
 ///
 /// Two threads: `run` keeps the period; a carrier forwards commands and triggers, so that neither
 /// waits for the other.
