@@ -325,7 +325,8 @@ Report Controller::settle(std::span<const Prediction> predictions,
                           std::span<const Outcome> outcomes) {
   if (!step_.candidate) return finish(false, step_.obstacle);
   if (options_.settle_rule == SettleRule::kStrict) {
-    return finish(is_new_plan_safe(predictions), step_.obstacle);
+    const bool is_safe = is_new_plan_safe(predictions);
+    return finish(is_safe, step_.obstacle);
   }
   return finish(has_component_agreed(outcomes), FallbackReason::kNeighbour);
 }

@@ -4,26 +4,20 @@
 
 #include <memory>
 
-#include "planner/maneuver_design/automaton_builder.hpp"
-#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "tests/planner/automaton/paper_automaton.hpp"
 
 namespace hlc {
 namespace {
 
 class PlanTest : public testing::Test {
  protected:
-  PlanTest() {
-    const AutomatonConfiguration configuration = read_automaton_configuration(
-        std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/paper.yaml");
-    automaton_ = std::make_shared<const UniversalAutomaton>(build_automaton(configuration));
-  }
   const Maneuver* edge(std::size_t from, std::size_t to) const {
     const Maneuver* found = automaton_->find({from}, {to}, from == to ? "trim" : "J2");
     EXPECT_NE(found, nullptr);
     return found;
   }
 
-  std::shared_ptr<const UniversalAutomaton> automaton_;
+  std::shared_ptr<const UniversalAutomaton> automaton_{paper_automaton()};
 };
 
 TEST_F(PlanTest, APlanWithoutManeuversStandsForEver) {

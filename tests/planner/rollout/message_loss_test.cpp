@@ -10,9 +10,8 @@
 #include <numbers>
 #include <random>
 
-#include "planner/maneuver_design/automaton_builder.hpp"
-#include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/rollout/rollout.hpp"
+#include "tests/planner/automaton/paper_automaton.hpp"
 
 namespace hlc {
 namespace {
@@ -20,12 +19,8 @@ namespace {
 constexpr std::uint64_t kSteps = 8 + 2;  // until every plan of the step stands
 
 std::shared_ptr<const Subgraph> paper_subgraph() {
-  static const auto subgraph = [] {
-    const AutomatonConfiguration configuration = read_automaton_configuration(
-        std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/paper.yaml");
-    return std::make_shared<const Subgraph>(build_shared_automaton(configuration),
-                                            configuration.subgraphs.front());
-  }();
+  static const auto subgraph =
+      std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
   return subgraph;
 }
 

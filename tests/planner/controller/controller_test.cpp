@@ -1,0 +1,315 @@
+#include "planner/controller/controller.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/automaton/paper_automaton.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::shared_ptr<const Subgraph> subgraph() {
+  static const auto result =
+      std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
+  return result;
+}
+
+/// A controller whose car shall drive east along y = `y_m`, standing at x = 0 at step 100.
+std::unique_ptr<Controller> controller(std::uint8_t vehicle, double y_m = 0.0,
+                                       SettleRule rule = SettleRule::kStrict) {
+  return std::make_unique<Controller>(
+      ControllerOptions{.vehicle = {vehicle}, .settle_rule = rule}, subgraph(),
+      ReferencePath({Point(0.0, y_m), Point(10.0, y_m)}, false), Corridor{});
+}
+
+MeasuredVehicle seen(std::uint8_t vehicle, double x_m, double y_m, double speed_mps = 0.0) {
+  const double yaw =
+      yaw_minus_heading_rad(0.0, paper_automaton()->vehicle, paper_automaton()->identified);
+  return {.vehicle = {vehicle}, .pose = {x_m, y_m, yaw}, .speed_mps = speed_mps, .age_s = 0.0};
+}
+
+/// One step of a controller that is alone or hears what is given; returns its report.
+Report step(Controller& one, const Observation& observation,
+            const std::vector<Traffic>& traffic = {},
+            const std::vector<Prediction>& predictions = {},
+            const std::vector<Outcome>& outcomes = {}) {
+  static_cast<void>(one.observe(observation));
+  one.couple(traffic);
+  static_cast<void>(one.plan(predictions));
+  return one.settle(predictions, outcomes);
+}
+
+Observation at(std::uint64_t k, std::vector<MeasuredVehicle> states) {
+  Observation observation{.step = {k}, .states = std::move(states)};
+  for (const MeasuredVehicle& state : observation.states)
+    observation.active.push_back(state.vehicle);
+  return observation;
+}
+
+/// What the planned car's vehicle shows if it follows perfectly.
+MeasuredVehicle following(const Controller& one, std::uint64_t k) {
+  const State state = one.plan_in_force().state_at({k}, 0.0, paper_automaton()->vehicle);
+  MeasuredVehicle result = seen(one.options().vehicle.value, state.pose.x_m, state.pose.y_m);
+  result.speed_mps = state.speed_mps;
+  return result;
+}
+
+TEST(Controller, BeforeTheStartItStandsWhereItIsSeen) {
+  const auto one = controller(1);
+  EXPECT_FALSE(one->has_plan());
+  EXPECT_EQ(one->stand_by(at(99, {})).status, StepStatus::kStandby);
+  EXPECT_FALSE(one->has_plan());
+  const Report report = one->stand_by(at(100, {seen(1, 0.5, 0.1)}));
+  ASSERT_TRUE(one->has_plan());
+  EXPECT_NEAR(report.planned_pose.x_m, 0.5, 1e-12);
+  EXPECT_NEAR(report.planned_pose.heading_rad, 0.0, 1e-12) << "the yaw is mapped to a heading";
+  EXPECT_EQ(one->plan_in_force().end(), StepIndex{100});
+}
+
+TEST(Controller, AloneItDrivesAlongItsPathAndEveryPlanEndsStanding) {
+  const auto one = controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  for (std::uint64_t k = 101; k < 121; ++k) {
+    const Report report = step(*one, at(k, {following(*one, k)}));
+    ASSERT_EQ(report.status, StepStatus::kPlanned) << k;
+    EXPECT_LE(one->plan_in_force().end().value, k + 1 + one->options().horizon_steps);
+    EXPECT_TRUE(paper_automaton()
+                    ->trims[one->plan_in_force().trim_at(one->plan_in_force().end()).index]
+                    .is_equilibrium());
+  }
+  const Pose& pose = one->plan_in_force().pose_at({121});
+  EXPECT_GT(pose.x_m, 2.5);
+  EXPECT_NEAR(pose.y_m, 0.0, 1e-9);
+}
+
+TEST(Controller, TheReachableAreaHoldsThePlansOfTheStep) {
+  const auto one = controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  for (std::uint64_t k = 101; k < 111; ++k) {
+    const Traffic traffic = one->observe(at(k, {following(*one, k)}));
+    one->couple({});
+    const Prediction prediction = one->plan({});
+    for (const OccupiedAreas* areas : {&traffic.running, &prediction.areas}) {
+      for (const ConvexPolygon& area : areas->areas_m) {
+        for (const Point& corner : area.vertices_m) {
+          ASSERT_TRUE(contains(traffic.reachable_area_m, corner, 1e-9)) << k;
+        }
+      }
+    }
+    static_cast<void>(one->settle({}, {}));
+  }
+}
+
+// Two cars, one behind the other: 2 stands in the way of 1.
+class TwoCars : public testing::Test {
+ protected:
+  TwoCars() : first_(controller(1)), second_(controller(2)) {
+    static_cast<void>(first_->stand_by(at(100, states_)));
+    static_cast<void>(second_->stand_by(at(100, states_)));
+  }
+  std::vector<MeasuredVehicle> states_{seen(1, 0.0, 0.0), seen(2, 0.9, 0.0)};
+  std::unique_ptr<Controller> first_;
+  std::unique_ptr<Controller> second_;
+};
+
+TEST_F(TwoCars, TheSmallerIdHasNoPredecessorAndTheOtherHasOne) {
+  const Traffic t1 = first_->observe(at(101, states_));
+  const Traffic t2 = second_->observe(at(101, states_));
+  first_->couple(std::vector{t2});
+  second_->couple(std::vector{t1});
+  EXPECT_THAT(first_->predecessors(), IsEmpty());
+  EXPECT_THAT(first_->coupled(), ElementsAre(VehicleId{2}));
+  EXPECT_THAT(second_->predecessors(), ElementsAre(VehicleId{1}));
+}
+
+TEST_F(TwoCars, ASilentPredecessorIsMissingNotAbsent) {
+  const Traffic t1 = first_->observe(at(101, states_));
+  static_cast<void>(second_->observe(at(101, states_)));
+  second_->couple(std::vector{t1});
+  const Prediction prediction = second_->plan({});  // nothing heard of its predecessor's plan
+  const OccupiedAreas& areas = prediction.areas;
+  if (prediction.is_new) {
+    EXPECT_TRUE(are_free(areas, t1.reachable_area_m, {102}, 8));
+  }
+  EXPECT_EQ(second_->settle({}, {}).step, StepIndex{101});
+}
+
+TEST_F(TwoCars, AVehicleThatSaysNothingAtAllIsListedAndKeptAwayFrom) {
+  static_cast<void>(second_->observe(at(101, states_)));
+  second_->couple({});
+  const Prediction prediction = second_->plan({});
+  const Report report = second_->settle({}, {});
+  EXPECT_THAT(report.missing, ElementsAre(VehicleId{1}));
+  // Car 1 may come 0.8 m/s fast from 0.9 m behind; where it may be grows with time.
+  if (prediction.is_new) {
+    const MissingVehicleRules rules{.max_speed_mps = 0.8, .circumradius_m = 0.12};
+    for (std::uint64_t j = 1; j <= 8; ++j) {
+      EXPECT_FALSE(intersects(prediction.areas.during({101 + j}),
+                              reachable_disc(states_[0], 0.2 * static_cast<double>(j + 1), rules)));
+    }
+  } else {
+    EXPECT_EQ(report.status, StepStatus::kFallback);
+  }
+}
+
+TEST_F(TwoCars, WithoutAStateOfASilentVehicleNothingNewIsPlanned) {
+  Observation observation = at(101, {seen(2, 0.9, 0.0)});
+  observation.active = {VehicleId{1}, VehicleId{2}};
+  const Report report = step(*second_, observation);
+  EXPECT_EQ(report.status, StepStatus::kFallback);
+  EXPECT_EQ(report.reason, FallbackReason::kMissing);
+}
+
+TEST_F(TwoCars, UnderTheStrictRuleASuccessorsPredictionIsNeeded) {
+  const Traffic t2 = second_->observe(at(101, states_));
+  static_cast<void>(first_->observe(at(101, states_)));
+  first_->couple(std::vector{t2});
+  ASSERT_TRUE(first_->plan({}).is_new);
+  const Report report = first_->settle({}, {});  // the prediction of 2 is lost
+  EXPECT_EQ(report.status, StepStatus::kFallback);
+  EXPECT_EQ(report.reason, FallbackReason::kMissing);
+}
+
+TEST_F(TwoCars, AConflictingPredictionKeepsTheRunningPlan) {
+  const Traffic t2 = second_->observe(at(101, states_));
+  static_cast<void>(first_->observe(at(101, states_)));
+  first_->couple(std::vector{t2});
+  const Prediction own = first_->plan({});
+  ASSERT_TRUE(own.is_new);
+  Prediction other{.vehicle = {2}, .step = {101}, .is_new = true, .areas = own.areas};
+  const Report report = first_->settle(std::vector{other}, {});
+  EXPECT_EQ(report.status, StepStatus::kFallback);
+  EXPECT_EQ(report.reason, FallbackReason::kConflict);
+  EXPECT_EQ(first_->plan_in_force().end(), StepIndex{100});
+}
+
+TEST_F(TwoCars, MessagesOfAnotherStepAreNotTakenForThisOne) {
+  Traffic old = second_->observe(at(101, states_));
+  static_cast<void>(first_->observe(at(102, states_)));
+  first_->couple(std::vector{old});
+  EXPECT_THAT(first_->coupled(), IsEmpty());
+  static_cast<void>(first_->plan({}));
+  EXPECT_THAT(first_->settle({}, {}).missing, ElementsAre(VehicleId{2}));
+}
+
+TEST_F(TwoCars, WhoIsNotHeardByItsNeighbourAgreesToNothingNew) {
+  Traffic t2 = second_->observe(at(101, states_));
+  t2.silent = {VehicleId{1}};
+  const Report report = step(*first_, at(101, states_), {t2});
+  EXPECT_EQ(report.status, StepStatus::kFallback);
+  EXPECT_EQ(report.reason, FallbackReason::kMissing);
+}
+
+TEST_F(TwoCars, ASilentVehicleThatStandsForGoodIsDrivenAround) {
+  // Beside the path of car 1, so that there is room to pass; silent from the beginning.
+  states_[1] = seen(2, 0.9, 0.35);
+  Report report;
+  for (std::uint64_t k = 101; k < 140; ++k) {
+    states_[0] = following(*first_, k);
+    report = step(*first_, at(k, states_));
+  }
+  EXPECT_EQ(report.status, StepStatus::kPlanned);
+  EXPECT_GT(report.planned_pose.x_m, 1.5) << "it has passed the standing vehicle";
+}
+
+TEST(Controller, UnderTheAgreedRuleOneFallbackInTheComponentIsEverybodys) {
+  const std::vector<MeasuredVehicle> states{seen(1, 0.0, 0.0), seen(2, 0.9, 0.0)};
+  for (const bool other_falls_back : {false, true}) {
+    const auto one = controller(1, 0.0, SettleRule::kAgreed);
+    const auto other = controller(2, 0.0, SettleRule::kAgreed);
+    static_cast<void>(one->stand_by(at(100, states)));
+    static_cast<void>(other->stand_by(at(100, states)));
+    const Traffic t2 = other->observe(at(101, states));
+    static_cast<void>(one->observe(at(101, states)));
+    one->couple(std::vector{t2});
+    ASSERT_TRUE(one->plan({}).is_new);
+    EXPECT_FALSE(one->vote().wants_fallback);
+    const Outcome outcome{.vehicle = {2}, .step = {101}, .wants_fallback = other_falls_back};
+    const Report report = one->settle({}, std::vector{outcome});
+    EXPECT_EQ(report.status, other_falls_back ? StepStatus::kFallback : StepStatus::kPlanned);
+  }
+}
+
+TEST(Controller, UnderTheAgreedRuleAMissingOutcomeIsAFallback) {
+  const std::vector<MeasuredVehicle> states{seen(1, 0.0, 0.0), seen(2, 0.9, 0.0)};
+  const auto one = controller(1, 0.0, SettleRule::kAgreed);
+  const auto other = controller(2, 0.0, SettleRule::kAgreed);
+  static_cast<void>(one->stand_by(at(100, states)));
+  static_cast<void>(other->stand_by(at(100, states)));
+  const Report report = step(*one, at(101, states), {other->observe(at(101, states))});
+  EXPECT_EQ(report.status, StepStatus::kFallback);
+  EXPECT_EQ(report.reason, FallbackReason::kNeighbour);
+}
+
+class Deviation : public testing::Test {
+ protected:
+  /// A car in the middle of its drive.
+  Deviation() {
+    static_cast<void>(one_->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+    for (std::uint64_t k = 101; k < 106; ++k) {
+      static_cast<void>(step(*one_, at(k, {following(*one_, k)})));
+    }
+  }
+  std::unique_ptr<Controller> one_{controller(1)};
+};
+
+TEST_F(Deviation, WithinTheBoundIsReportedOnly) {
+  MeasuredVehicle off = following(*one_, 106);
+  off.pose.y_m += 0.03;
+  const Report report = step(*one_, at(106, {off}));
+  EXPECT_EQ(report.status, StepStatus::kPlanned);
+  EXPECT_NEAR(report.deviation_m, 0.03, 1e-9);
+}
+
+TEST_F(Deviation, BeyondTheBoundThePlanIsDrivenToItsEndAndAnchoredAnew) {
+  const Plan before = one_->plan_in_force();
+  for (std::uint64_t k = 106; k <= before.end().value; ++k) {
+    MeasuredVehicle off = following(*one_, k);
+    off.pose.y_m += 0.1;
+    off.speed_mps = k == before.end().value ? 0.0 : 0.5;
+    const Report report = step(*one_, at(k, {off}));
+    if (k < before.end().value) {
+      ASSERT_EQ(report.status, StepStatus::kFallback) << k;
+      ASSERT_EQ(report.reason, FallbackReason::kDeviation) << k;
+    } else {
+      EXPECT_EQ(report.status, StepStatus::kPlanned);
+      EXPECT_NEAR(report.planned_pose.y_m, off.pose.y_m, 1e-9);
+    }
+  }
+}
+
+TEST_F(Deviation, TheMeasurementIsComparedWithThePlanOfItsOwnTime) {
+  // Seen 60 ms before t(k), where the plan was then.
+  const State then = one_->plan_in_force().state_at({105}, 0.14, paper_automaton()->vehicle);
+  MeasuredVehicle old = seen(1, then.pose.x_m, then.pose.y_m, then.speed_mps);
+  old.age_s = 0.06;
+  EXPECT_NEAR(step(*one_, at(106, {old})).deviation_m, 0.0, 1e-9);
+}
+
+TEST(Controller, DrivingOutPlansNothingNew) {
+  const auto one = controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  static_cast<void>(step(*one, at(101, {seen(1, 0.0, 0.0)})));
+  const StepIndex end = one->plan_in_force().end();
+  one->drive_out();
+  for (std::uint64_t k = 102; k < 112; ++k) {
+    const Report report = step(*one, at(k, {following(*one, k)}));
+    EXPECT_EQ(report.status, StepStatus::kDriveOut);
+    EXPECT_EQ(one->plan_in_force().end(), end);
+  }
+}
+
+TEST(Controller, ACloneGoesItsOwnWay) {
+  const auto one = controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  const auto other = one->clone();
+  static_cast<void>(step(*other, at(101, {seen(1, 0.0, 0.0)})));
+  EXPECT_EQ(one->plan_in_force().end(), StepIndex{100});
+  EXPECT_GT(other->plan_in_force().end(), StepIndex{100});
+}
+
+}  // namespace
+}  // namespace hlc
