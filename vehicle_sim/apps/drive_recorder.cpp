@@ -1,7 +1,10 @@
 #include "vehicle_sim/apps/drive_recorder.hpp"
 
 #include <limits>
+#include <locale>
 #include <stdexcept>
+
+#include "hlc_bridge/record/drive_file.hpp"
 
 namespace hlc {
 
@@ -11,7 +14,7 @@ DriveRecorder::DriveRecorder(const std::string& file) : stream_(file) {
   }
   stream_.imbue(std::locale::classic());
   stream_.precision(std::numeric_limits<double>::max_digits10);
-  stream_ << "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns\n" << std::flush;
+  stream_ << kDriveHeading << '\n' << std::flush;
 }
 
 void DriveRecorder::write(const DrivenSample& sample) {

@@ -7,9 +7,9 @@
 
 namespace hlc {
 
-/// Writes what a vehicle truly drives as CSV, one row per tick:
-///
-///     t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns
+/// Writes what a vehicle truly drives as CSV with the heading `kDriveHeading`, one row per tick:
+/// where it is, and the inputs given then (they act 80 ms later).
+/// `hlc_bridge/record/drive_file.hpp` reads it.
 ///
 /// Numbers have 17 significant digits, so reading them back gives the same bits. Every row is
 /// flushed: the record survives a crash.

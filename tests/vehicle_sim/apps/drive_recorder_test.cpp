@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "hlc_bridge/record/drive_file.hpp"
+
 namespace hlc {
 namespace {
 
@@ -35,6 +37,19 @@ TEST_F(DriveRecorderTest, RowsAreOnTheDiskAtOnceWithAllDigits) {
       lines_of(file),
       "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns\n"
       "20000000,0.33333333333333331,-2.5,9.9999999999999995e-21,0.10000000000000001,-1,0,1\n");
+}
+
+TEST_F(DriveRecorderTest, WhatIsWrittenIsReadBackBitForBit) {
+  const std::filesystem::path file = folder_ / "drive.csv";
+  DriveRecorder recorder(file);
+  const Pose pose{.x_m = 1.0 / 3.0, .y_m = -0.1, .heading_rad = 1e-17};
+  recorder.write({.t = 20'000'000, .pose = pose, .speed_mps = 0.7, .steering = -0.2});
+  const Drive drive = read_drive(file);
+  ASSERT_EQ(drive.size(), 1U);
+  EXPECT_EQ(drive[0].t, 20'000'000U);
+  EXPECT_EQ(drive[0].pose, pose);
+  EXPECT_EQ(drive[0].speed_mps, 0.7);
+  EXPECT_EQ(drive[0].steering, -0.2);
 }
 
 TEST_F(DriveRecorderTest, FileThatCannotBeWrittenIsNamed) {
