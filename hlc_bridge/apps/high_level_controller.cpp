@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,9 +65,11 @@ int run(const Flags& flags, hlc::StopSignals& signals) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(flags.vehicle_ids.front())};
   const hlc::HlcProcessOptions options = process_options(flags, id);
   const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
-  hlc::HlcProcess process(options, hlc::make_controller(scenario, id));
-  signals.on_stop([&process](int) { process.stop(); });
-  return process.run();
+  // Shared with the signals' thread, which lives longer than this function.
+  const auto process =
+      std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
+  signals.on_stop([process](int) { process->stop(); });
+  return process->run();
 }
 
 }  // namespace

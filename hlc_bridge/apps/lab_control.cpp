@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
@@ -93,9 +94,10 @@ int main(int argc, char** argv) {
     return *code;
   }
   try {
-    hlc::LabControlProcess process(process_options(flags));
-    signals.on_stop([&process](int) { process.interrupt(); });
-    return process.run();
+    // Shared with the signals' thread, which lives longer than this block.
+    const auto process = std::make_shared<hlc::LabControlProcess>(process_options(flags));
+    signals.on_stop([process](int) { process->interrupt(); });
+    return process->run();
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return hlc::kExitBadInput;

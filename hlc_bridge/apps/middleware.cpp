@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <memory>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
@@ -79,9 +80,10 @@ int main(int argc, char** argv) {
     return *code;
   }
   try {
-    hlc::MiddlewareProcess process(process_options(flags));
-    signals.on_stop([&process](int) { process.stop(); });
-    return process.run();
+    // Shared with the signals' thread, which lives longer than this block.
+    const auto process = std::make_shared<hlc::MiddlewareProcess>(process_options(flags));
+    signals.on_stop([process](int) { process->stop(); });
+    return process->run();
   } catch (const std::exception& error) {
     spdlog::error("middleware: {}", error.what());
     return hlc::kExitBadInput;
