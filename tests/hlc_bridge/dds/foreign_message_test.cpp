@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <fastdds/dds/topic/TopicDataType.hpp>
+#include <limits>
 
 #include "hlc_bridge/dds/participant_core.hpp"
 #include "hlc_bridge/dds/writer.hpp"
@@ -53,33 +54,70 @@ class ForeignMessages : public testing::Test {
 };
 
 TEST_F(ForeignMessages, BytesThatAreNoMessageAreSkippedAndTheReaderGoesOn) {
-  const Topic<ReadyStatus> topic = topics::ready_status();
-  Mailbox<ReadyStatus> mailbox{receiver_, topic};
-  Writer<ReadyStatus> writer{honest_, topic};
+  const Topic<VehicleState> topic = topics::vehicle_state(1);
+  Mailbox<VehicleState> mailbox{receiver_, topic};
+  Writer<VehicleState> writer{honest_, topic};
   WriterEndpoint endpoint{foreign_.core(),
                           topic.name,
-                          fdds::TypeSupport{new BytesType{"ReadyStatus"}},
+                          fdds::TypeSupport{new BytesType{"VehicleState"}},
                           topic_qos(topic.id, DomainRole::kLab, Transport::kLoopback).writer,
                           {}};
   ASSERT_TRUE(mailbox.reader().wait_for_matched({"honest", "foreign"}, soon()));
   ASSERT_TRUE(writer.wait_for_matched(1, soon()));
   ASSERT_TRUE(endpoint.peers().wait_for(1, soon()));
-  const std::vector<std::vector<unsigned char>> payloads{
-      {},
-      {0, 1, 0, 0},
-      {0, 1, 0, 0, 255, 255, 255, 255, 'a'},
-      {0, 9, 0, 0, 5, 0, 0, 0, 'a', 'b', 'c', 'd', 0},
-      {0, 1, 0, 0, 5, 0, 0, 0, 'a', 'b', 'c', 'd', 0, 0, 0, 0, 1},
-      std::vector<unsigned char>(1000, 0xAB)};
+  std::vector<unsigned char> neither_true_nor_false(4 + 145, 0);
+  neither_true_nor_false[1] = 1;  // little-endian CDR
+  neither_true_nor_false.back() = 7;
+  const std::vector<std::vector<unsigned char>> payloads{{},
+                                                         {0, 1, 0, 0},
+                                                         {0, 9, 0, 0, 1, 2, 3},
+                                                         std::vector<unsigned char>(1000, 0xAB),
+                                                         neither_true_nor_false};
   for (std::vector<unsigned char> payload : payloads) {
     endpoint.write(&payload);
-    ASSERT_TRUE(writer.write({"still here", 1}));
+    VehicleState state;
+    state.vehicle_id = 1;
+    ASSERT_TRUE(writer.write(state));
   }
   const auto received = mailbox.wait_for(payloads.size());
   ASSERT_EQ(received.size(), payloads.size());
-  for (const ReadyStatus& status : received) {
-    EXPECT_EQ(status.source_id, "still here");
+  for (const VehicleState& state : received) {
+    EXPECT_EQ(state.vehicle_id, 1);
   }
+}
+
+// A list that claims to be longer than its message must not make the reader ask for that much
+// memory.
+TEST_F(ForeignMessages, ListsThatClaimToBeEndlessAreSkipped) {
+  const Topic<ReadyStatus> good = topics::ready_status();
+  Mailbox<ReadyStatus> mailbox{receiver_, good};
+  Writer<ReadyStatus> writer{honest_, good};
+  const Topic<Parameter> topic = topics::parameter();
+  Mailbox<Parameter> parameters{receiver_, topic};
+  WriterEndpoint endpoint{foreign_.core(),
+                          topic.name,
+                          fdds::TypeSupport{new BytesType{"Parameter"}},
+                          topic_qos(topic.id, DomainRole::kLab, Transport::kLoopback).writer,
+                          {}};
+  ASSERT_TRUE(parameters.reader().wait_for_matched({"foreign"}, soon()));
+  ASSERT_TRUE(endpoint.peers().wait_for(1, soon()));
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  std::vector<unsigned char> endless_name{0, 1, 0, 0, 255, 255, 255, 255, 'a'};
+  endpoint.write(&endless_name);
+  std::vector<unsigned char> endless_list(4 + 64, 0);
+  endless_list[1] = 1;
+  endless_list[4] = 1;  // the empty name
+  for (int i = 0; i < 4; ++i) {
+    endless_list[4U + 24U + static_cast<unsigned>(i)] = 255;  // length of values_int32
+  }
+  endpoint.write(&endless_list);
+  std::vector<unsigned char> at_last(4 + 64, 0);
+  at_last[1] = 1;
+  at_last[4] = 1;
+  endpoint.write(&at_last);
+  EXPECT_EQ(parameters.wait_for(1).size(), 1U);
+  ASSERT_TRUE(writer.write({"still here", 1}));
+  EXPECT_EQ(mailbox.wait_for(1).size(), 1U);
 }
 
 TEST_F(ForeignMessages, InvalidValuesAreDroppedAndCounted) {

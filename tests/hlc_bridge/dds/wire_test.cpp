@@ -1,0 +1,91 @@
+#include "hlc_bridge/dds/wire.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
+
+namespace hlc {
+namespace {
+
+using eprosima::fastrtps::rtps::SerializedPayload_t;
+using Bytes = std::vector<unsigned char>;
+
+template <class Message>
+Bytes serialized(const Message& message) {
+  const auto type = type_support<Message>();
+  typename Wire<Message>::Type wire;
+  to_wire(message, wire);
+  SerializedPayload_t payload{type->getSerializedSizeProvider(&wire)()};
+  EXPECT_TRUE(type->serialize(&wire, &payload));
+  return Bytes(payload.data, payload.data + payload.length);
+}
+
+template <class Message>
+bool deserializes(const Bytes& bytes) {
+  const auto type = type_support<Message>();
+  SerializedPayload_t payload{static_cast<std::uint32_t>(bytes.size())};
+  std::copy(bytes.begin(), bytes.end(), payload.data);
+  payload.length = static_cast<std::uint32_t>(bytes.size());
+  typename Wire<Message>::Type wire;
+  return type->deserialize(&payload, &wire);
+}
+
+TEST(WireType, ABooleanThatIsNeitherTrueNorFalseIsNoMessage) {
+  Bytes bytes = serialized(VehicleState{});
+  ASSERT_TRUE(deserializes<VehicleState>(bytes));
+  bytes.back() = 7;
+  EXPECT_FALSE(deserializes<VehicleState>(bytes));
+}
+
+template <class Message>
+class WireTypes : public testing::Test {};
+using Messages =
+    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
+                   ReadyStatus, SystemTrigger, Parameter, ParameterRequest, StopRequest, Log,
+                   LogLevel, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+TYPED_TEST_SUITE(WireTypes, Messages);
+
+// Cut off, overwritten in places, or both: a message or not, but never an exception, and never a
+// value that our checks let through although it is not finite (from_wire is called on whatever can
+// be read).
+TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
+  const unsigned seed = 5;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random{seed};
+  const auto type = type_support<TypeParam>();
+  for (int i = 0; i < 2000; ++i) {
+    Bytes bytes = serialized(sample<TypeParam>(random));
+    const auto cut = random() % 2 == 0 ? bytes.size() : random() % (bytes.size() + 1);
+    bytes.resize(cut);
+    for (std::uint64_t hits = random() % 4; hits > 0 && !bytes.empty(); --hits) {
+      bytes[random() % bytes.size()] =
+          static_cast<unsigned char>(random() % 3 == 0 ? 255 : random());
+    }
+    SerializedPayload_t payload{static_cast<std::uint32_t>(bytes.size() + 1)};
+    std::copy(bytes.begin(), bytes.end(), payload.data);
+    payload.length = static_cast<std::uint32_t>(bytes.size());
+    typename Wire<TypeParam>::Type wire;
+    bool readable = false;
+    ASSERT_NO_THROW(readable = type->deserialize(&payload, &wire));
+    if (readable) {
+      const Incoming<TypeParam> incoming = from_wire(wire);
+      ASSERT_TRUE(incoming.message.has_value() || incoming.invalid > 0);
+      if (incoming.message) {
+        const std::string content = text(*incoming.message);
+        if constexpr (!std::is_same_v<TypeParam, ReadyStatus> && !std::is_same_v<TypeParam, Log> &&
+                      !std::is_same_v<TypeParam, Parameter> &&
+                      !std::is_same_v<TypeParam, ParameterRequest>) {
+          ASSERT_EQ(content.find("nan"), std::string::npos);
+          ASSERT_EQ(content.find("inf"), std::string::npos);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hlc
