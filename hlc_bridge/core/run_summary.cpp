@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hlc_bridge/core/encounters.hpp"
-#include "hlc_bridge/core/lap.hpp"
+#include "planner/road/lap.hpp"
 #include "hlc_bridge/core/trace_hash.hpp"
 
 namespace hlc {

@@ -2,48 +2,52 @@
 // follow their plans perfectly. For a quick look at a scenario, without DDS and without vehicle
 // dynamics.
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <map>
+#include <optional>
+#include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
 
 struct Tally {
-  double error_sum_mm{};
-  double error_max_mm{};
-  double last_s_m{};
-  double way_m{};
-  double lap_s{-1.0};
+  std::vector<hlc::Point> positions_m;  ///< planned, at the steps
   std::uint64_t generated_max{};
   std::uint64_t expanded_max{};
   int fallbacks{};
   int changed{};  ///< steps in which the others changed the plan
 };
 
-void add(Tally& tally, const hlc::Report& report, const hlc::ScenarioVehicle& vehicle,
-         double time_s, double step_s) {
-  const auto projection = vehicle.path.project_within(report.planned_pose.position_m(),
-                                                      tally.last_s_m - 0.3, tally.last_s_m + 1.0);
-  const double error_mm = 1e3 * projection.distance_m;
-  tally.error_sum_mm += error_mm;
-  tally.error_max_mm = std::max(tally.error_max_mm, error_mm);
-  const double length = vehicle.path.length_m();
-  double moved = projection.s_m - tally.last_s_m;
-  if (vehicle.path.is_closed()) moved -= length * std::round(moved / length);
-  if (tally.lap_s < 0.0 && vehicle.path.is_closed() && tally.way_m + moved >= length) {
-    tally.lap_s = time_s - step_s * (tally.way_m + moved - length) / moved;
-  }
-  tally.way_m += moved;
-  tally.last_s_m = projection.s_m;
+void add(Tally& tally, const hlc::Report& report) {
+  tally.positions_m.push_back(report.planned_pose.position_m());
   tally.generated_max = std::max(tally.generated_max, report.generated);
   tally.expanded_max = std::max(tally.expanded_max, report.expanded);
   if (report.status == hlc::StepStatus::kFallback) ++tally.fallbacks;
+}
+
+void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_s) {
+  const hlc::Progress progress = hlc::progress_along(vehicle.path, tally.positions_m);
+  std::vector<double> times_s;
+  double sum_m = 0.0;
+  double max_m = 0.0;
+  for (const double distance_m : progress.distance_m) {
+    times_s.push_back(step_s * static_cast<double>(times_s.size()));
+    sum_m += distance_m;
+    max_m = std::max(max_m, distance_m);
+  }
+  const std::optional<double> lap_s = hlc::lap_s(vehicle.path, progress, times_s);
+  char lap[16] = "-";
+  if (lap_s) std::snprintf(lap, sizeof(lap), "%.2f", *lap_s);
+  std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n", vehicle.name.c_str(), lap,
+              1e3 * sum_m / static_cast<double>(times_s.size()), 1e3 * max_m,
+              static_cast<unsigned long long>(tally.generated_max),
+              static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks, tally.changed);
 }
 
 /// True if the plan of this step would have been another one without the other vehicles.
@@ -64,7 +68,6 @@ int run(const hlc::ScenarioChoices& choices) {
   for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
     controllers.push_back(hlc::make_controller(scenario, vehicle.id));
     starts.push_back(vehicle.start);
-    tallies[vehicle.id].last_s_m = vehicle.start_s_m;
   }
   hlc::Rollout rollout(std::move(controllers), starts);
   const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
@@ -76,9 +79,8 @@ int run(const hlc::ScenarioChoices& choices) {
     const std::vector<hlc::Report> reports = rollout.step();
     for (std::size_t j = 0; j < reports.size(); ++j) {
       const hlc::Report& report = reports[j];
-      Tally& tally = tallies.at(report.vehicle);
-      add(tally, report, hlc::vehicle_of(scenario, report.vehicle), static_cast<double>(i) * step_s,
-          step_s);
+      Tally& tally = tallies[report.vehicle];
+      add(tally, report);
       if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;
     }
   }
@@ -87,15 +89,7 @@ int run(const hlc::ScenarioChoices& choices) {
 
   std::printf("%-10s %8s %12s %11s %14s %13s %10s %8s\n", "vehicle", "lap [s]", "error [mm]",
               "max [mm]", "max generated", "max expanded", "fallbacks", "changed");
-  for (const auto& [id, tally] : tallies) {
-    std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n",
-                hlc::vehicle_of(scenario, id).name.c_str(),
-                tally.lap_s < 0.0 ? "-" : std::to_string(tally.lap_s).substr(0, 6).c_str(),
-                tally.error_sum_mm / static_cast<double>(scenario.steps), tally.error_max_mm,
-                static_cast<unsigned long long>(tally.generated_max),
-                static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks,
-                tally.changed);
-  }
+  for (const auto& [id, tally] : tallies) print(tally, hlc::vehicle_of(scenario, id), step_s);
   std::printf("changed: steps in which the others changed the vehicle's plan\n");
   std::printf("%zu steps in %.1f ms\n", scenario.steps, wall_ms);
   return 0;

@@ -12,11 +12,12 @@
 
 #include "planner/rollout/rollout.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/support/plans_in_force.hpp"
 
 namespace hlc {
 namespace {
 
-constexpr std::uint64_t kSteps = 8 + 2;  // until every plan of the step stands
+using test::plans_in_force_are_free;
 
 std::shared_ptr<const Subgraph> paper_subgraph() {
   static const auto subgraph =
@@ -42,20 +43,6 @@ Rollout three_cars_that_meet(SettleRule rule,
     starts.push_back(start);
   }
   return Rollout(std::move(controllers), starts);
-}
-
-bool plans_in_force_are_free(const Rollout& rollout) {
-  const auto& controllers = rollout.controllers();
-  const StepIndex now{rollout.next_step().value - 1};
-  for (std::size_t i = 0; i < controllers.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!are_free(controllers[i]->plan_in_force().areas_from(now),
-                    controllers[j]->plan_in_force().areas_from(now), now, kSteps)) {
-        return false;
-      }
-    }
-  }
-  return true;
 }
 
 /// Bit of a message in a pattern: 6 per kind, one for each ordered pair of the vehicles 1, 2, 3.

@@ -10,8 +10,10 @@
 #include <tuple>
 
 #include "planner/geometry/footprint.hpp"
+#include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/plans_in_force.hpp"
 
 namespace hlc {
 namespace {
@@ -26,35 +28,6 @@ struct Course {
   std::uint64_t max_generated{};
   int fallbacks{};
   int steps_changed{};  ///< steps in which another vehicle changed somebody's plan
-};
-
-/// Unwrapped way along a closed path.
-class Lap {
- public:
-  Lap(const ReferencePath& path, double start_m) : path_(path), s_m_(start_m) {}
-  double error_mm(const Point& position) {
-    const auto projection = path_.project_within(position, s_m_ - 0.3, s_m_ + 1.0);
-    const double length = path_.length_m();
-    double moved = projection.s_m - s_m_;
-    moved -= length * std::round(moved / length);
-    if (!lap_steps_ && way_m_ + moved >= length) {
-      lap_steps_ = step_ - (way_m_ + moved - length) / moved;
-    }
-    way_m_ += moved;
-    s_m_ = projection.s_m;
-    ++step_;
-    return 1e3 * projection.distance_m;
-  }
-  [[nodiscard]] std::optional<double> lap_s(double step_s) const {
-    return lap_steps_ ? std::optional(*lap_steps_ * step_s) : std::nullopt;
-  }
-
- private:
-  const ReferencePath& path_;
-  double s_m_;
-  double way_m_{};
-  double step_{};
-  std::optional<double> lap_steps_;
 };
 
 Rollout rollout_of(const Scenario& scenario) {
@@ -104,27 +77,14 @@ void place_at_random(Scenario& scenario, std::mt19937& random) {
   } while (overlap());
 }
 
-bool plans_in_force_are_free(const Rollout& rollout) {
-  const auto& controllers = rollout.controllers();
-  const StepIndex now{rollout.next_step().value - 1};
-  for (std::size_t i = 0; i < controllers.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!are_free(controllers[i]->plan_in_force().areas_from(now),
-                    controllers[j]->plan_in_force().areas_from(now), now, 10)) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 /// Drives `scenario` and looks at its first vehicle.
 Course drive(const Scenario& scenario) {
   Rollout rollout = rollout_of(scenario);
   const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   const auto alone = make_best_first_planner(*scenario.subgraph, reachable,
                                              {.cost_to_go = scenario.profile.cost_to_go});
-  Lap lap(scenario.vehicles.front().path, scenario.vehicles.front().start_s_m);
+  std::vector<Point> positions_m;
+  std::vector<double> times_s;
   Course course;
   for (std::size_t step = 0; step < scenario.steps; ++step) {
     bool is_changed = false;
@@ -140,11 +100,16 @@ Course drive(const Scenario& scenario) {
       is_changed |= i > 0 && alone->plan(problem).cost < reports[i].cost_m2 - 1e-9;
     }
     if (is_changed) ++course.steps_changed;
-    course.mean_error_mm += lap.error_mm(reports.front().planned_pose.position_m()) /
-                            static_cast<double>(scenario.steps);
+    positions_m.push_back(reports.front().planned_pose.position_m());
+    times_s.push_back(scenario.subgraph->automaton().step_s * static_cast<double>(step));
     course.max_generated = std::max(course.max_generated, reports.front().generated);
   }
-  course.lap_s = lap.lap_s(scenario.subgraph->automaton().step_s);
+  const ReferencePath& path = scenario.vehicles.front().path;
+  const Progress progress = progress_along(path, positions_m);
+  course.lap_s = lap_s(path, progress, times_s);
+  for (const double distance_m : progress.distance_m) {
+    course.mean_error_mm += 1e3 * distance_m / static_cast<double>(scenario.steps);
+  }
   return course;
 }
 
@@ -199,7 +164,7 @@ TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
     place_at_random(scenario, random);
     const Rollout rollout =
         drive_on(scenario, [&](const Rollout& now, const std::vector<Report>& reports) {
-          ASSERT_TRUE(plans_in_force_are_free(now));
+          ASSERT_TRUE(test::plans_in_force_are_free(now));
           steps += reports.size();
           fallbacks += static_cast<std::size_t>(std::ranges::count_if(
               reports, [](const Report& one) { return one.status != StepStatus::kPlanned; }));

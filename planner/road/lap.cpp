@@ -1,4 +1,4 @@
-#include "hlc_bridge/core/lap.hpp"
+#include "planner/road/lap.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,57 @@
+#include "hlc_bridge/record/drive_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <random>
+#include <stdexcept>
+
+#include "tests/hlc_bridge/record/temporary_folder.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const std::string kHeading{kDriveHeading};
+
+TEST(DriveFile, SeventeenDigitsReadBackAsTheSameBits) {
+  const unsigned seed = 5;
+  SCOPED_TRACE(seed);
+  std::mt19937 random{seed};
+  std::uniform_real_distribution<double> value{-5.0, 5.0};
+  const TemporaryFolder folder;
+  std::string text = kHeading + "\n";
+  std::vector<Pose> poses;
+  for (int i = 0; i < 200; ++i) {
+    poses.push_back({value(random), value(random), value(random)});
+    char line[256];
+    std::snprintf(line, sizeof(line), "%d,%.17g,%.17g,%.17g,0.5,0.25,-0.125,%d\n", i * 20'000'000,
+                  poses.back().x_m, poses.back().y_m, poses.back().heading_rad, i);
+    text += line;
+  }
+  put(drive_file(folder.path(), 3), text);
+  const Drive drive = read_drive(folder / "vehicle_3.csv");
+  ASSERT_EQ(drive.size(), poses.size());
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    EXPECT_EQ(drive[i].t, i * 20'000'000);
+    EXPECT_EQ(drive[i].pose, poses[i]);
+    EXPECT_EQ(drive[i].speed_mps, 0.5);
+    EXPECT_EQ(drive[i].throttle, 0.25);
+    EXPECT_EQ(drive[i].steering, -0.125);
+    EXPECT_EQ(drive[i].command_create, i);
+  }
+}
+
+TEST(DriveFile, TimesMustIncrease) {
+  const TemporaryFolder folder;
+  put(folder / "d.csv", kHeading + "\n20,0,0,0,0,0,0,0\n20,0,0,0,0,0,0,0\n");
+  EXPECT_THAT([&] { (void)read_drive(folder / "d.csv"); },
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("d.csv:3: t_ns = \"20\", allowed more than in the row before")));
+}
+
+}  // namespace
+}  // namespace hlc

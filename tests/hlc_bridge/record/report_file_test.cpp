@@ -1,0 +1,127 @@
+#include "hlc_bridge/record/report_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "hlc_bridge/record/text_file.hpp"
+#include "tests/hlc_bridge/record/temporary_folder.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uint8_t id) {
+  std::uniform_real_distribution<double> value{-10.0, 10.0};
+  ReportRecord record;
+  Report& report = record.report;
+  report.step = StepIndex{step};
+  report.vehicle = VehicleId{id};
+  report.status = static_cast<StepStatus>(random() % 4);
+  report.reason = static_cast<FallbackReason>(random() % 8);
+  report.planned_pose = {value(random), value(random), value(random)};
+  report.planned_trim = TrimId{random() % 12};
+  report.cost_m2 = value(random);
+  report.generated = random();
+  report.expanded = random() % 1000;
+  report.level = static_cast<std::uint32_t>(random());
+  for (std::uint64_t i = random() % 3; i > 0; --i) {
+    report.coupled.push_back(VehicleId{static_cast<std::uint8_t>(random())});
+    report.missing.push_back(VehicleId{static_cast<std::uint8_t>(random())});
+  }
+  report.deviation_m = value(random);
+  record.planning_ns = random();
+  record.deadline_missed = random() % 2 == 0;
+  record.late_ns = random();
+  return record;
+}
+
+void expect_equal(const ReportRecord& a, const ReportRecord& b) {
+  EXPECT_EQ(a.report.step, b.report.step);
+  EXPECT_EQ(a.report.vehicle, b.report.vehicle);
+  EXPECT_EQ(a.report.status, b.report.status);
+  EXPECT_EQ(a.report.reason, b.report.reason);
+  EXPECT_EQ(a.report.planned_pose, b.report.planned_pose);
+  EXPECT_EQ(a.report.planned_trim, b.report.planned_trim);
+  EXPECT_EQ(a.report.cost_m2, b.report.cost_m2);
+  EXPECT_EQ(a.report.generated, b.report.generated);
+  EXPECT_EQ(a.report.expanded, b.report.expanded);
+  EXPECT_EQ(a.report.level, b.report.level);
+  EXPECT_EQ(a.report.coupled, b.report.coupled);
+  EXPECT_EQ(a.report.missing, b.report.missing);
+  EXPECT_EQ(a.report.deviation_m, b.report.deviation_m);
+  EXPECT_EQ(a.planning_ns, b.planning_ns);
+  EXPECT_EQ(a.deadline_missed, b.deadline_missed);
+  EXPECT_EQ(a.late_ns, b.late_ns);
+}
+
+TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
+  const unsigned seed = 23;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random{seed};
+  const TemporaryFolder folder;
+  std::vector<ReportRecord> sorted;
+  for (std::uint64_t step = 0; step < 30; ++step) {
+    for (std::uint8_t id = 1; id <= 3; ++id) {
+      sorted.push_back(random_record(random, step, id));
+    }
+  }
+  std::vector<ReportRecord> arriving = sorted;
+  std::shuffle(arriving.begin(), arriving.end(), random);
+
+  ReportFile file{folder / "reports.csv"};
+  for (std::size_t i = 0; i < arriving.size(); ++i) {
+    file.append(arriving[i]);
+    // As if the program died now: everything so far is there.
+    ASSERT_EQ(read_reports(folder / "reports.csv").size(), i + 1);
+  }
+  expect_equal(read_reports(folder / "reports.csv").back(), arriving.back());
+
+  file.finish();
+  const std::vector<ReportRecord> read = read_reports(folder / "reports.csv");
+  ASSERT_EQ(read.size(), sorted.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_equal(read[i], sorted[i]);
+  }
+}
+
+TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
+  const TemporaryFolder folder;
+  ReportFile file{folder / "reports.csv"};
+  std::mt19937_64 random{1};
+  ReportRecord record = random_record(random, 1, 2);
+  record.report.status = StepStatus::kPlanned;
+  record.report.coupled = {VehicleId{3}};
+  record.report.missing = {};
+  file.append(record);
+  const std::string good = read_file(folder / "reports.csv");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string bad = good;
+    bad.replace(bad.find(from, bad.find('\n')), from.size(), to);
+    put(folder / "bad.csv", bad);
+    return [&] { (void)read_reports(folder / "bad.csv"); };
+  };
+  EXPECT_THAT(with(",planned,", ",flying,"),
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("bad.csv:2: status = \"flying\", allowed standby, planned, fallback")));
+  EXPECT_THAT(with("1,2,", "1,256,"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("id = \"256\", allowed 0 ... 255")));
+  EXPECT_THAT(with(",3,,", ",3;x,,"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("coupled = \"3;x\"")));
+  EXPECT_THAT(with(",3,,", ",300,,"),
+              ThrowsMessage<std::runtime_error>(HasSubstr("coupled = \"300\"")));
+}
+
+TEST(ReportFile, FolderThatIsNotThereIsNamed) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { ReportFile{folder / "no" / "reports.csv"}; },
+              ThrowsMessage<std::runtime_error>(HasSubstr("no/reports.csv: cannot be written")));
+}
+
+}  // namespace
+}  // namespace hlc

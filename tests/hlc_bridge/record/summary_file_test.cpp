@@ -1,0 +1,80 @@
+#include "hlc_bridge/record/summary_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace hlc {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> keys(const nlohmann::ordered_json& json) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) {
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+RunSummary some_summary() {
+  RunSummary summary;
+  summary.description.scenario = "circle";
+  summary.steps = 60;
+  VehicleSummary vehicle;
+  vehicle.id = VehicleId{4};
+  vehicle.name = "four";
+  vehicle.lap_s = 15.5;
+  vehicle.reference_error_m =
+      Statistics{.count = 9, .mean = 0.02, .std = 0.01, .p99 = 0.04, .min = 0.0, .max = 0.05};
+  vehicle.planning_s =
+      Statistics{.count = 9, .mean = 0.001, .std = 0.002, .p99 = 0.003, .min = 0.0, .max = 0.004};
+  vehicle.generated =
+      Statistics{.count = 9, .mean = 20.5, .std = 1, .p99 = 30, .min = 1, .max = 40};
+  vehicle.fallback_steps = 3;
+  summary.vehicles.push_back(vehicle);
+  summary.trace_sha256 = "abc";
+  return summary;
+}
+
+TEST(SummaryFile, HasTheAgreedKeysInOrder) {
+  const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
+  EXPECT_THAT(
+      keys(json),
+      ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps", "step_s",
+                  "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
+                  "collisions", "wall_s", "realtime_factor", "trace_sha256", "revision", "host"));
+  const auto& vehicle = json["vehicles"][0];
+  EXPECT_THAT(keys(vehicle),
+              ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
+                          "generated_vertices", "expanded_vertices", "planning_time_ms",
+                          "fallback_steps", "deadline_misses"));
+  EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
+  EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));
+  EXPECT_THAT(keys(vehicle["generated_vertices"]), ElementsAre("max", "mean"));
+  EXPECT_THAT(keys(vehicle["expanded_vertices"]), ElementsAre("max", "mean"));
+  EXPECT_THAT(keys(vehicle["planning_time_ms"]), ElementsAre("mean", "std", "p99", "max"));
+  EXPECT_THAT(keys(json["host"]), ElementsAre("cpu", "cores", "kernel"));
+}
+
+TEST(SummaryFile, UnitsAreThoseOfTheKeys) {
+  const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
+  const auto& vehicle = json["vehicles"][0];
+  EXPECT_NEAR(vehicle["reference_error_mm"]["mean"].get<double>(), 20.0, 1e-9);
+  EXPECT_NEAR(vehicle["reference_error_mm"]["max"].get<double>(), 50.0, 1e-9);
+  EXPECT_NEAR(vehicle["planning_time_ms"]["p99"].get<double>(), 3.0, 1e-9);
+  EXPECT_EQ(vehicle["generated_vertices"]["max"].get<double>(), 40.0);
+  EXPECT_EQ(vehicle["lap_s"].get<double>(), 15.5);
+  EXPECT_EQ(vehicle["fallback_steps"].get<int>(), 3);
+}
+
+TEST(SummaryFile, WhatIsUnknownIsNull) {
+  const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
+  EXPECT_TRUE(json["map"].is_null());
+  EXPECT_TRUE(json["min_footprint_distance_m"].is_null());
+  EXPECT_TRUE(json["vehicles"][0]["tracking_error_mm"]["mean"].is_null());
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,113 @@
+#include "hlc_bridge/record/text_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "tests/hlc_bridge/record/temporary_folder.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(TextFile, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  for (const std::string& content :
+       {std::string{}, std::string{"a\nb"}, std::string(100'000, 'x')}) {
+    write_file(folder / "file", content);
+    EXPECT_EQ(read_file(folder / "file"), content);
+  }
+}
+
+TEST(TextFile, WritingLeavesNothingElseBehind) {
+  const TemporaryFolder folder;
+  write_file(folder / "file", "old");
+  write_file(folder / "file", "new");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator{folder.path()}) {
+    EXPECT_EQ(entry.path().filename(), "file");
+    ++files;
+  }
+  EXPECT_EQ(files, 1U);
+}
+
+TEST(TextFile, FailureNamesTheFile) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { write_file(folder / "no" / "file", "x"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("no/file: cannot be written")));
+  EXPECT_THAT([&] { (void)read_file(folder / "nothing"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("nothing: cannot be read")));
+}
+
+TEST(ToText, ReadsBackAsTheSameBits) {
+  std::mt19937_64 random{17};
+  for (int i = 0; i < 10'000; ++i) {
+    const auto value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) {
+      continue;
+    }
+    const std::string text = to_text(value);
+    double back{};
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(back), std::bit_cast<std::uint64_t>(value)) << text;
+  }
+  EXPECT_EQ(to_text(0.1), "0.1");
+  EXPECT_EQ(to_text(-0.0), "-0");
+}
+
+TEST(Split, KeepsEmptyPieces) {
+  EXPECT_THAT(split("a,,b,", ','), ElementsAre("a", "", "b", ""));
+  EXPECT_THAT(split("", ','), ElementsAre(""));
+}
+
+class CsvTableTest : public testing::Test {
+ protected:
+  CsvTable table(const std::string& content) {
+    put(folder_ / "t.csv", content);
+    return {folder_ / "t.csv", "a,b"};
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(CsvTableTest, GivesTheFieldsOfItsRows) {
+  const CsvTable csv = table("a,b\n1.5,7\n-2,0\n");
+  ASSERT_EQ(csv.size(), 2U);
+  EXPECT_EQ(csv.number(0, 0), 1.5);
+  EXPECT_EQ(csv.unsigned_number(0, 1), 7U);
+  EXPECT_EQ(csv.number(1, 0), -2.0);
+}
+
+TEST_F(CsvTableTest, IncompleteLastLineIsLeftOut) {
+  EXPECT_EQ(table("a,b\n1,2\n3,").size(), 1U);
+  EXPECT_EQ(table("a,b\n1,2\n3,4").size(), 1U);
+}
+
+TEST_F(CsvTableTest, RefusesAnotherHeadingAndMissingFields) {
+  EXPECT_THAT([&] { table("a,c\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:1: the heading must be a,b")));
+  EXPECT_THAT([&] { table(""); }, ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:1")));
+  EXPECT_THAT([&] { table("a,b\n1,2\n3\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:3: 1 fields, must be 2")));
+}
+
+TEST_F(CsvTableTest, RefusesWhatIsNoNumberAndNamesThePlace) {
+  const CsvTable csv = table("a,b\n1,2\n1x,-3\n,4\n");
+  EXPECT_THAT(
+      [&] { (void)csv.number(1, 0); },
+      ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:3: a = \"1x\", allowed a number")));
+  EXPECT_THAT([&] { (void)csv.unsigned_number(1, 1); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("b = \"-3\", allowed a whole number")));
+  EXPECT_THROW((void)csv.number(2, 0), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace hlc
