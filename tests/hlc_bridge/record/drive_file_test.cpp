@@ -25,18 +25,18 @@ TEST(DriveFile, SeventeenDigitsReadBackAsTheSameBits) {
   const TemporaryFolder folder;
   std::string text = kHeading + "\n";
   std::vector<Pose> poses;
-  for (int i = 0; i < 200; ++i) {
+  for (Nanoseconds i = 0; i < 200; ++i) {
     poses.push_back({value(random), value(random), value(random)});
-    char line[256];
-    std::snprintf(line, sizeof(line), "%d,%.17g,%.17g,%.17g,0.5,0.25,-0.125,%d\n", i * 20'000'000,
-                  poses.back().x_m, poses.back().y_m, poses.back().heading_rad, i);
-    text += line;
+    char numbers[128];
+    std::snprintf(numbers, sizeof(numbers), "%.17g,%.17g,%.17g,0.5,0.25,-0.125,", poses.back().x_m,
+                  poses.back().y_m, poses.back().heading_rad);
+    text += std::to_string(i * kVehiclePeriod) + "," + numbers + std::to_string(i) + "\n";
   }
   put(drive_file(folder.path(), 3), text);
   const Drive drive = read_drive(folder / "vehicle_3.csv");
   ASSERT_EQ(drive.size(), poses.size());
   for (std::size_t i = 0; i < drive.size(); ++i) {
-    EXPECT_EQ(drive[i].t, i * 20'000'000);
+    EXPECT_EQ(drive[i].t, i * kVehiclePeriod);
     EXPECT_EQ(drive[i].pose, poses[i]);
     EXPECT_EQ(drive[i].speed_mps, 0.5);
     EXPECT_EQ(drive[i].throttle, 0.25);
