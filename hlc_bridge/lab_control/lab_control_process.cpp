@@ -213,7 +213,7 @@ void LabControlProcess::show_progress() {
     return;
   }
   if (run_->phase() == LabRun::Phase::kGathering) {
-    progress_.update(wall, "waiting for " + run_->waiting_for());
+    progress_.update(wall, "waiting, " + run_->waiting_for());
     return;
   }
   const double period_s = static_cast<double>(options_.run.period) * kSecondsPerNanosecond;

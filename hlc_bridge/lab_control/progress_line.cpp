@@ -3,11 +3,16 @@
 namespace hlc {
 
 void ProgressLine::update(Nanoseconds now, const std::string& text) {
-  if (now < next_) {
+  if (!next_) {
+    next_ = now + kQuietTime;
+  }
+  if (now < *next_) {
     return;
   }
   if (is_terminal_) {
-    std::fprintf(stream_, "\r\x1b[K%s", text.c_str());  // to the line's begin, clear it
+    const std::string line =
+        text.size() <= kTerminalColumns ? text : text.substr(0, kTerminalColumns - 3) + "...";
+    std::fprintf(stream_, "\r\x1b[K%s", line.c_str());  // to the line's begin, clear it
   } else {
     std::fprintf(stream_, "%s\n", text.c_str());
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "hlc_bridge/core/messages.hpp"
@@ -11,15 +13,19 @@ namespace hlc {
 /// a line every five seconds.
 class ProgressLine {
  public:
+  /// Nothing is shown before: most starts and short runs are over by then.
+  static constexpr Nanoseconds kQuietTime = 1'000'000'000;
+  static constexpr std::size_t kTerminalColumns = 79;
   static constexpr Nanoseconds kTerminalInterval = 100'000'000;
   static constexpr Nanoseconds kLogInterval = 5'000'000'000;
 
   ProgressLine(std::FILE* stream, bool is_terminal) : stream_{stream}, is_terminal_{is_terminal} {}
 
-  /// Shows `text` if the interval has passed since it did so last; `now` in wall time.
+  /// Shows `text` if the interval has passed since it did so last, and kQuietTime since the first
+  /// call; `now` in wall time. On a terminal cut to one line.
   void update(Nanoseconds now, const std::string& text);
   /// When the next update would be shown.
-  [[nodiscard]] Nanoseconds next() const { return next_; }
+  [[nodiscard]] Nanoseconds next() const { return next_.value_or(0); }
   /// Ends a rewritten line, so that other output stands below it.
   void end_line();
 
@@ -27,7 +33,7 @@ class ProgressLine {
   std::FILE* stream_;
   bool is_terminal_;
   bool is_open_{};  ///< the terminal's line has no line break yet
-  Nanoseconds next_{};
+  std::optional<Nanoseconds> next_;
 };
 
 }  // namespace hlc
