@@ -115,7 +115,7 @@ void LabRun::gather(LabRunActions& actions) {
     }
   }
   const bool too_late = now_ - gathering_since_ >= settings_.startup_timeout;
-  if (!end_asked_ && not_ready().empty()) {
+  if (!end_asked_ && reaches_all_timers() && not_ready().empty()) {
     phase_ = Phase::kRunning;
     began_ = now_;
     began_clock_ = clock();
@@ -128,10 +128,14 @@ void LabRun::gather(LabRunActions& actions) {
   }
 }
 
+bool LabRun::reaches_all_timers() const {
+  return trigger_readers_ >= 2 * settings_.vehicle_ids.size();
+}
+
 void LabRun::notice_deaths(LabRunActions& actions) {
   for (const std::string& process : processes_) {
     if (lost_.count(process) != 0) {
-      bury(process, "it left or fell silent: no sign of its participant", actions);
+      bury(process, "its participant has left or fallen silent", actions);
     }
   }
   const std::vector<std::string> debtors = owing();
@@ -258,7 +262,15 @@ std::string LabRun::waiting_for() const {
       absent.push_back(process);
     }
   }
-  const std::vector<std::string> waiting = not_ready();
+  std::vector<std::string> waiting;
+  for (const std::string& what : not_ready()) {
+    if (std::find(absent.begin(), absent.end(), what) == absent.end()) {
+      waiting.push_back(what);
+    }
+  }
+  if (absent.empty() && waiting.empty() && !reaches_all_timers()) {
+    waiting.push_back("triggers, which reach only " + std::to_string(trigger_readers_) + " timers");
+  }
   std::string line;
   if (!absent.empty()) {
     line += "not there: " + join(absent);

@@ -74,7 +74,8 @@ class LabRun {
 
   /// Who is there, and who was there and is not any more; a name in both is lost.
   void presence(const std::set<std::string>& alive, const std::set<std::string>& lost);
-  /// How many readers the lab control's triggers reach.
+  /// How many readers the lab control's triggers reach: before the run begins, those of all timers,
+  /// one of every vehicle and one of every middleware, so that the first trigger is not lost.
   void trigger_readers(std::size_t matched) { trigger_readers_ = matched; }
   virtual void ready(const ReadyStatus& status) = 0;
   virtual void state(const VehicleState& /*state*/) {}
@@ -91,7 +92,7 @@ class LabRun {
   [[nodiscard]] bool finished() const { return phase_ == Phase::kFinished; }
   /// Steps that have begun, 0 before k0; at most `steps`.
   [[nodiscard]] std::uint64_t steps_begun() const;
-  /// Who is not there or not ready yet, in words.
+  /// Before the beginning: "not there: a, b; not ready: c".
   [[nodiscard]] std::string waiting_for() const;
   /// Complete once finished.
   [[nodiscard]] const LabRunResult& result() const { return result_; }
@@ -99,7 +100,7 @@ class LabRun {
  protected:
   static constexpr Nanoseconds kNever = ~Nanoseconds{0};
 
-  /// What the start waits for, one line each; empty: the run can begin.
+  /// Processes that have not yet said that they are ready; empty: the run can begin.
   [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
   /// Triggers that are due. Called at every advance from the beginning on.
   virtual void go_on(LabRunActions& actions) = 0;
@@ -117,12 +118,12 @@ class LabRun {
   void note_progress() { progress_ = true; }
   [[nodiscard]] const LabRunSettings& settings() const { return settings_; }
   [[nodiscard]] Nanoseconds now() const { return now_; }
-  [[nodiscard]] std::size_t trigger_readers() const { return trigger_readers_; }
   /// Step up to which the controller has reported; nothing before its first report.
   [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
 
  private:
   void gather(LabRunActions& actions);
+  [[nodiscard]] bool reaches_all_timers() const;
   void notice_deaths(LabRunActions& actions);
   void bury(const std::string& process, const char* sign, LabRunActions& actions);
   void record_death(const Death& death);

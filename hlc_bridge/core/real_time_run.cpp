@@ -27,12 +27,6 @@ std::vector<std::string> RealTimeRun::not_ready() const {
       }
     }
   }
-  // A vehicle and a middleware have a timer each.
-  const std::size_t needed = 2 * settings().vehicle_ids.size();
-  if (lines.empty() && trigger_readers() < needed) {
-    lines.push_back("only " + std::to_string(trigger_readers()) + " of " + std::to_string(needed) +
-                    " timers listen to the trigger");
-  }
   return lines;
 }
 

@@ -209,7 +209,7 @@ void LabControlProcess::perform(const LabRunActions& actions) {
 
 void LabControlProcess::show_progress() {
   const Nanoseconds wall = now();
-  if (wall < progress_.next()) {
+  if (wall < progress_.next() || run_->finished()) {
     return;
   }
   if (run_->phase() == LabRun::Phase::kGathering) {

@@ -115,6 +115,7 @@ TEST(LogicalRun, InterruptionStopsAtOnceAndLetsTheVehiclesBrake) {
 
 TEST(LogicalRun, InterruptedRunEndsInTimeEvenIfNobodyAnswers) {
   LogicalRun run{settings({1}, 20)};
+  run.trigger_readers(2);
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(100).triggers, ElementsAre(0));
@@ -127,6 +128,7 @@ TEST(LogicalRun, InterruptedRunEndsInTimeEvenIfNobodyAnswers) {
 
 TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
   LogicalRun run{settings({1, 2}, 20)};
+  run.trigger_readers(4);
   run.presence({vehicle_name(1), middleware_name(1), controller_name(1), vehicle_name(2),
                 middleware_name(2)},
                {});
@@ -146,6 +148,7 @@ TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
 
 TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {
   LogicalRun run{settings({1}, 20)};
+  run.trigger_readers(2);
   run.ready({vehicle_name(1), 0});
   run.presence({}, {vehicle_name(1)});
   EXPECT_THAT(run.advance(1).triggers, IsEmpty());
@@ -156,8 +159,21 @@ TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {
   EXPECT_THAT(run.advance(3).triggers, ElementsAre(0));
 }
 
+TEST(LogicalRun, FirstTriggerWaitsUntilItReachesEveryTimer) {
+  LogicalRun run{settings({1}, 20)};
+  run.presence({vehicle_name(1), middleware_name(1), controller_name(1)}, {});
+  run.trigger_readers(1);
+  run.ready({vehicle_name(1), 0});
+  run.ready({middleware_name(1), kListOffset});
+  EXPECT_THAT(run.advance(1).triggers, IsEmpty());
+  EXPECT_THAT(run.waiting_for(), HasSubstr("reach only 1 timers"));
+  run.trigger_readers(2);
+  EXPECT_THAT(run.advance(2).triggers, ElementsAre(0));
+}
+
 TEST(LogicalRun, LostTriggerIsSentAgain) {
   LogicalRun run{settings({1}, 20)};
+  run.trigger_readers(2);
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
@@ -170,6 +186,7 @@ TEST(LogicalRun, LostTriggerIsSentAgain) {
 
 TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
   LogicalRun run{settings({1, 2}, 20)};
+  run.trigger_readers(4);
   for (const std::uint8_t id : std::vector<std::uint8_t>{1, 2}) {
     run.ready({vehicle_name(id), 0});
     run.ready({middleware_name(id), kListOffset});

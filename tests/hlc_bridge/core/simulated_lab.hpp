@@ -54,6 +54,7 @@ class SimulatedLab {
   bool run() {
     for (std::size_t i = 0; i < 1'000'000; ++i) {
       run_.presence(alive_, lost_);
+      run_.trigger_readers(2 * settings_.vehicle_ids.size());
       perform(run_.advance(wall_));
       if (run_.finished()) {
         return true;

@@ -1,0 +1,294 @@
+#include "hlc_bridge/middleware/middleware_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <future>
+#include <memory>
+
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr Nanoseconds kMs = 1'000'000;
+constexpr Nanoseconds kPeriod = 200 * kMs;
+
+/// The lab control and vehicles 1 and 2, as far as the middleware of vehicle 1 meets them.
+class FakeLab {
+ public:
+  explicit FakeLab(int domain)
+      : participant_{on_loopback(kLabControlName, domain, DomainRole::kLab)},
+        parameter_writer_{participant_, topics::parameter()},
+        triggers{participant_, topics::system_trigger()},
+        state_1{participant_, topics::vehicle_state(1)},
+        state_2{participant_, topics::vehicle_state(2)},
+        ready{participant_, topics::ready_status()},
+        commands{participant_, topics::vehicle_command(1)},
+        requests_{participant_, topics::parameter_request(),
+                  [this](const ParameterRequest& request) {
+                    signal_.post([&] { asked_.push_back(request.name); });
+                  }} {}
+
+  /// Answers until both parameters have been asked for.
+  void tell_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
+    bool period_told = false;
+    bool ids_told = false;
+    while (!period_told || !ids_told) {
+      ASSERT_TRUE(signal_.wait_until(soon(), [this] { return !asked_.empty(); }));
+      for (const std::string& name : signal_.locked([this] { return std::exchange(asked_, {}); })) {
+        if (name == "middleware_period_ms") {
+          period_told = parameter_writer_.write({.name = name, .value = period_ms});
+        } else if (name == "active_vehicle_ids") {
+          ids_told = parameter_writer_.write({.name = name, .value = active_ids});
+        }
+      }
+    }
+  }
+
+ private:
+  Participant participant_;
+  Signal signal_;
+  std::vector<std::string> asked_;
+  Writer<Parameter> parameter_writer_;
+
+ public:
+  Writer<SystemTrigger> triggers;
+  Writer<VehicleState> state_1;
+  Writer<VehicleState> state_2;
+  Mailbox<ReadyStatus> ready;
+  Mailbox<TrajectoryCommand> commands;
+
+ private:
+  Reader<ParameterRequest> requests_;
+};
+
+class FakeController {
+ public:
+  explicit FakeController(int domain)
+      : participant_{on_loopback(controller_name(1), domain, DomainRole::kLocal)},
+        ready{participant_, topics::ready_status()},
+        commands{participant_, topics::command()},
+        triggers{participant_, topics::system_trigger()},
+        lists{participant_, topics::vehicle_state_list()} {}
+
+ private:
+  Participant participant_;
+
+ public:
+  Writer<ReadyStatus> ready;
+  Writer<TrajectoryCommand> commands;
+  Mailbox<SystemTrigger> triggers;
+  Mailbox<VehicleStateList> lists;
+};
+
+VehicleState state(std::uint8_t id, Nanoseconds create) {
+  VehicleState state;
+  state.vehicle_id = id;
+  state.create_stamp = create;
+  state.valid_after_stamp = create + kStateDelay;
+  return state;
+}
+
+TrajectoryCommand command(Nanoseconds t_now, std::uint8_t id = 1) {
+  TrajectoryCommand command;
+  command.vehicle_id = id;
+  command.create_stamp = command.valid_after_stamp = t_now;
+  for (Nanoseconds i = 0; i < 4; ++i) {
+    // The point before t_now is left out in the first period, where it would be before time begins.
+    command.points.push_back({t_now + i * 50 * kMs, 1.0, 2.0, 0.5, 0.0});
+  }
+  return command;
+}
+
+class MiddlewareTest : public testing::Test {
+ protected:
+  void start(bool logical_time) {
+    MiddlewareOptions options;
+    options.node_id = middleware_name(1);
+    options.vehicle_id = 1;
+    options.transport = Transport::kLoopback;
+    options.lab_domain = domains_.first();
+    options.local_domain = domains_.first() + 1;
+    options.logical_time = logical_time;
+    options.startup_timeout = startup_timeout_;
+    process_ = std::make_unique<MiddlewareProcess>(options);
+    code_ = std::async(std::launch::async, [this] { return process_->run(); });
+  }
+
+  void start_in_logical_time() {
+    start(true);
+    lab_.tell_parameters(kPeriod / kMs, {1, 2});
+    ASSERT_EQ(lab_.ready.wait_for(1).at(0).next_start, kListOffset);
+  }
+
+  /// Releases the tick, answers its list, waits for the next request.
+  void drive_through(Nanoseconds tick) {
+    lab_.triggers.write({tick});
+    ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+    controller_->commands.write(command(tick));
+    wait_for_request(tick + kPeriod);
+  }
+
+  /// Requests are repeated every second: what counts is that this one comes.
+  void wait_for_request(Nanoseconds tick) {
+    for (std::size_t count = 1; count < 200; ++count) {
+      const std::vector<ReadyStatus> requests = lab_.ready.wait_for(count);
+      ASSERT_GE(requests.size(), count);
+      if (requests.at(count - 1).next_start == tick) {
+        EXPECT_EQ(requests.at(count - 1).source_id, middleware_name(1));
+        return;
+      }
+    }
+    FAIL() << "no request for " << tick;
+  }
+
+  int end_by_stop_symbol() {
+    lab_.triggers.write({kStopSymbol});
+    return code_.get();
+  }
+
+  DomainReservation domains_{2};
+  std::chrono::seconds startup_timeout_{60};
+  FakeLab lab_{domains_.first()};
+  std::unique_ptr<FakeController> controller_ =
+      std::make_unique<FakeController>(domains_.first() + 1);
+  std::unique_ptr<MiddlewareProcess> process_;
+  std::future<int> code_;
+};
+
+TEST_F(MiddlewareTest, FirstListHasPlaceholdersAndTheNextTickIsAskedForAfterTheAnswer) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  const VehicleStateList list = controller_->lists.wait_for(1).at(0);
+  EXPECT_EQ(list.t_now, kListOffset);
+  EXPECT_EQ(list.period_ms, 200U);
+  EXPECT_THAT(list.active_vehicle_ids, ElementsAre(1, 2));
+  ASSERT_EQ(list.states.size(), 2U);
+  EXPECT_EQ(list.states[0].vehicle_id, 0);
+  EXPECT_EQ(list.states[1].vehicle_id, 0);
+  EXPECT_EQ(lab_.commands.wait_for(1).at(0).create_stamp, kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, ListWaitsForTheStateThatBelongsInItWheneverThatArrives) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  lab_.state_1.write(state(1, 140 * kMs));
+  lab_.state_2.write(state(2, 120 * kMs));  // valid, but not the newest one
+  lab_.triggers.write({kPeriod + kListOffset});
+  lab_.state_1.write(state(1, 160 * kMs));  // not yet valid
+  lab_.state_2.write(state(2, 140 * kMs));
+  const std::vector<VehicleStateList> lists = controller_->lists.wait_for(2);
+  ASSERT_EQ(lists.size(), 2U);
+  ASSERT_EQ(lists[1].states.size(), 2U);
+  EXPECT_EQ(lists[1].states[0].create_stamp, 140 * kMs);
+  EXPECT_EQ(lists[1].states[1].create_stamp, 140 * kMs);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, OnlyCommandsThatAVehicleCanDriveGoOn) {
+  start_in_logical_time();
+  lab_.triggers.write({kListOffset});
+  ASSERT_EQ(controller_->lists.wait_for(1).size(), 1U);
+  TrajectoryCommand repeated_times = command(kListOffset);
+  repeated_times.points[2].t = repeated_times.points[1].t;
+  controller_->commands.write(command(kListOffset, 2));
+  controller_->commands.write(repeated_times);
+  controller_->commands.write(command(kListOffset));
+  TrajectoryCommand copy = command(kListOffset);
+  copy.valid_after_stamp += 100 * kMs;
+  controller_->commands.write(copy);
+  const std::vector<TrajectoryCommand> received = lab_.commands.wait_for(2);
+  ASSERT_EQ(received.size(), 2U);
+  EXPECT_EQ(received[0].points.size(), 4U);
+  EXPECT_EQ(received[0].valid_after_stamp, kListOffset);
+  EXPECT_LT(received[0].points[1].t, received[0].points[2].t);
+  EXPECT_EQ(received[1].valid_after_stamp, kListOffset + 100 * kMs);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+  EXPECT_EQ(lab_.commands.wait_for(2).size(), 2U);
+}
+
+TEST_F(MiddlewareTest, GoesOnWithoutAControllerThatIsLost) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  controller_.reset();
+  lab_.state_1.write(state(1, 140 * kMs));
+  lab_.state_2.write(state(2, 140 * kMs));
+  lab_.triggers.write({kPeriod + kListOffset});
+  wait_for_request(2 * kPeriod + kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, StopSymbolReachesTheControllerBeforeTheMiddlewareLeaves) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+  process_.reset();
+  const std::vector<SystemTrigger> triggers = controller_->triggers.wait_for(2);
+  ASSERT_EQ(triggers.size(), 2U);
+  EXPECT_EQ(triggers[0].next_start, kListOffset);
+  EXPECT_EQ(triggers[1].next_start, kStopSymbol);
+}
+
+TEST_F(MiddlewareTest, StopEndsItWhileItWaitsForAnAnswer) {
+  start_in_logical_time();
+  lab_.triggers.write({kListOffset});
+  ASSERT_EQ(controller_->lists.wait_for(1).size(), 1U);
+  process_->stop();
+  EXPECT_EQ(code_.get(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, StopEndsItBeforeTheLabControlHasSaidAnything) {
+  start(true);
+  process_->stop();
+  EXPECT_EQ(code_.get(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, EndsIfTheLabControlSaysNothing) {
+  startup_timeout_ = std::chrono::seconds{1};
+  start(true);
+  EXPECT_EQ(code_.get(), kExitMissing);
+}
+
+TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
+  startup_timeout_ = std::chrono::seconds{2};
+  controller_.reset();
+  start(true);
+  lab_.tell_parameters(200, {1, 2});
+  EXPECT_EQ(code_.get(), kExitMissing);
+}
+
+TEST_F(MiddlewareTest, RefusesParametersWithoutItsVehicle) {
+  start(true);
+  lab_.tell_parameters(200, {2, 3});
+  EXPECT_EQ(code_.get(), kExitBadInput);
+}
+
+TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIsReady) {
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_GE(controller_->lists.wait_for(3).size(), 3U);
+  const std::vector<VehicleStateList> lists = controller_->lists.wait_for(3);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    EXPECT_EQ(lists[i].t_now % (20 * kMs), kListOffset);
+    EXPECT_TRUE(i == 0 || lists[i].t_now > lists[i - 1].t_now);
+  }
+  EXPECT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+  EXPECT_EQ(lab_.ready.wait_for(1).at(0).source_id, "MW for muCars 1 ready.");
+  lab_.triggers.write({5});
+  lab_.triggers.write({6});
+  const std::vector<SystemTrigger> triggers = controller_->triggers.wait_for(2);
+  ASSERT_EQ(triggers.size(), 2U);
+  EXPECT_EQ(triggers[0].next_start, 5U);
+  EXPECT_EQ(triggers[1].next_start, 6U);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+}  // namespace
+}  // namespace hlc
