@@ -16,10 +16,14 @@ preset=release
 targets=()
 while (($#)); do
   case "$1" in
-    --preset) preset=${2:-}; shift ;;
+    --preset)
+      (($# >= 2)) || { echo "build.sh: --preset needs a value" >&2; exit 2; }
+      preset=$2
+      shift
+      ;;
     --preset=*) preset=${1#*=} ;;
     --programs)
-      targets=(--target vehicle_sim middleware high_level_controller lab_control summarize show_scenario)
+      targets=(--target vehicle_sim middleware high_level_controller lab_control summarize show_scenario rollout)
       ;;
     -h | --help) usage; exit 0 ;;
     *) echo "build.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;

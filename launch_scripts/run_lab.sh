@@ -59,6 +59,13 @@ done
 [[ $simulated_time == true || $simulated_time == false ]] ||
   fail "--simulated_time = $simulated_time, allowed true, false"
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
+whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
+for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
+[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
+case "$preset" in
+  release | debug | asan | tsan) ;;
+  *) fail "--preset = $preset, allowed release, debug, asan, tsan" ;;
+esac
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
 
@@ -86,15 +93,18 @@ block_is_free() { # first domain
   local domain fds=()
   for ((domain = $1; domain <= $1 + largest_id; domain++)); do
     local fd
-    exec {fd}>"/tmp/hlc_dds_domain_$domain.lock" || return 1
-    fds+=("$fd")
-    if ! flock -n "$fd"; then
-      for fd in "${fds[@]}"; do exec {fd}>&-; done
-      return 1
-    fi
+    { exec {fd}>"/tmp/hlc_dds_domain_$domain.lock"; } 2>/dev/null && fds+=("$fd") && flock -n "$fd" && continue
+    for fd in "${fds[@]}"; do exec {fd}>&-; done
+    return 1
   done
 }
-if [[ -z $dds_domain ]]; then
+if [[ -n $dds_domain ]]; then
+  dds_domain=$((10#$dds_domain))
+  ((dds_domain + largest_id <= 50)) ||
+    fail "--dds_domain = $dds_domain, allowed 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
+  block_is_free "$dds_domain" ||
+    fail "--dds_domain = $dds_domain: another run uses one of $dds_domain ... $((dds_domain + largest_id))"
+else
   for ((first = 1; first + largest_id <= 50; first++)); do
     if block_is_free "$first"; then
       dds_domain=$first
@@ -103,9 +113,7 @@ if [[ -z $dds_domain ]]; then
   done
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
-if [[ ! $dds_domain =~ ^[0-9]{1,3}$ || $((10#$dds_domain + largest_id)) -gt 50 ]]; then
-  fail "--dds_domain = $dds_domain, allowed 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
-fi
+
 
 if [[ -z $out ]]; then
   out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
@@ -150,9 +158,13 @@ children+=("$lab_control")
 
 wait "$lab_control"
 code=$?
+if ((code > 130)); then
+  echo "lab_control died (signal $((code - 128)))" >&2
+  code=4
+fi
 
 # The others end by themselves once lab control has said stop; whoever does not, is ended.
-deadline=$((SECONDS + 8))
+deadline=$((SECONDS + 12))
 running() {
   local pid
   for pid in "${children[@]}"; do kill -0 "$pid" 2>/dev/null && return 0; done
@@ -160,7 +172,7 @@ running() {
 }
 ((code == 0 || code == 4)) || kill -TERM "${children[@]}" 2>/dev/null
 while running && ((SECONDS < deadline)); do sleep 0.05; done
-kill -TERM "${children[@]}" 2>/dev/null
+kill -TERM "${children[@]}" 2>/dev/null # vehicle.sh ends whoever does not follow
 for pid in "${children[@]}"; do
   wait "$pid"
   child=$?

@@ -52,7 +52,12 @@ while (($#)); do
   esac
 done
 [[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, allowed 1 ... 30"
-[[ $dds_domain =~ ^[0-9]+$ ]] || fail "--dds_domain = $dds_domain, allowed 0 ... 232"
+id=$((10#$id))
+whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
+for name in cars dds_domain middleware_domain controller_domain noise_seed startup_timeout_s; do
+  whole_number "$name" "${!name}"
+done
+[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
@@ -79,10 +84,14 @@ controller=("${choices[@]}")
 [[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
 
 pids=()
+killer=""
 # shellcheck disable=SC2317 # called by the trap
 end_all() {
   trap '' INT TERM
   ((${#pids[@]} == 0)) || kill -TERM "${pids[@]}" 2>/dev/null
+  # Whoever does not end, because it hangs or is stopped, is ended.
+  { sleep 3; kill -KILL "${pids[@]}"; } >/dev/null 2>&1 &
+  killer=$!
 }
 trap end_all INT TERM
 
@@ -114,4 +123,5 @@ while ((${#names[@]})); do
   fi
   unset "names[$ended]"
 done
+[[ -z $killer ]] || kill "$killer" 2>/dev/null
 exit "$first"

@@ -39,7 +39,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   flags.network.declare(app);
-  app.footer("Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware died.");
+  app.footer(
+      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "
+      "died.");
 }
 
 hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {

@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "hlc_bridge/core/exit_codes.hpp"
@@ -40,7 +42,9 @@ std::string joined(const std::set<std::string>& names) {
 }
 
 Nanoseconds share_of_period(const VehicleStateList& list, double share) {
-  return list.t_now + static_cast<Nanoseconds>(share * 1e6 * static_cast<double>(list.period_ms));
+  const Nanoseconds period = list.period_ms * kNanosecondsPerSecond / 1000;
+  return step_at(list.t_now, period) * period +
+         static_cast<Nanoseconds>(share * static_cast<double>(period));
 }
 
 }  // namespace
@@ -91,7 +95,21 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
                       }),
       list_reader_(local_, topics::vehicle_state_list(), [this](const VehicleStateList& list) {
         signal_.post([&] { lists_.push_back(list); });
-      }) {}
+      }) {
+  check_plan_fits_commands();
+}
+
+void HlcProcess::check_plan_fits_commands() const {
+  const ControllerOptions& options = controller_->options();
+  const double step_s = controller_->subgraph().automaton().step_s;
+  const double drivable_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime);
+  if (static_cast<double>(options.horizon_steps + 1) * step_s > drivable_s + 1e-9) {
+    throw std::invalid_argument("horizon_steps = " + std::to_string(options.horizon_steps) +
+                                ", allowed at most " +
+                                std::to_string(std::lround(drivable_s / step_s) - 1) +
+                                ": a vehicle drops its command before a longer plan has ended");
+  }
+}
 
 void HlcProcess::stop() {
   signal_.post([this] { stop_ = true; });
@@ -210,6 +228,7 @@ int HlcProcess::run() {
       return next;
     });
     answer(list);
+    if (has_bad_period_) return kExitBadInput;
   }
 }
 
@@ -225,6 +244,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
   if (list.period_ms == 0 || std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) > 1e-9) {
     spdlog::error("{}: the middleware's period is {} ms, the automaton's step is {} s",
                   options_.node_id, list.period_ms, step_s);
+    has_bad_period_ = true;
     return;
   }
   const Observation observation = observation_of(list);
@@ -319,6 +339,7 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
 }
 
 void HlcProcess::send_command(const VehicleStateList& list, StepIndex step) {
+  if (copy_due_) command_writer_.write(copy_due_->second);
   const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
   const TrajectoryCommand command =
       command_of(controller_->options().vehicle, plan, step, list.t_now, list.period_ms * 1'000'000,

@@ -20,7 +20,7 @@
 
 namespace hlc {
 
-/// When the waits of a step end in real time, as shares of the period after t_now. In logical time
+/// When the waits of a step end in real time, as shares of the period after t(k). In logical time
 /// a wait ends when everybody alive has answered.
 struct StepDeadlines {
   double traffic{0.20};
@@ -63,6 +63,7 @@ class HlcProcess {
 
   [[nodiscard]] Event wait_for_event();
   void watch_lab_control();
+  void check_plan_fits_commands() const;
   void send_ready_now_and_then();
   void send_copy_when_due();
   [[nodiscard]] bool has_everybody();
@@ -109,6 +110,7 @@ class HlcProcess {
   std::vector<VehicleId> active_;
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
   bool is_ready_{};
+  bool has_bad_period_{};
   bool is_started_{};
   std::optional<StepIndex> last_step_;
   std::chrono::steady_clock::time_point next_ready_at_{};

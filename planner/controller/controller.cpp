@@ -81,6 +81,7 @@ std::unique_ptr<Controller> Controller::clone() const {
   result->plan_ = plan_;
   result->path_s_m_ = path_s_m_;
   result->last_heard_ = last_heard_;
+  result->last_not_standing_ = last_not_standing_;
   result->drives_out_ = drives_out_;
   return result;
 }
@@ -96,13 +97,15 @@ void Controller::anchor(const MeasuredVehicle& measured, StepIndex step) {
   Pose pose = measured.pose;
   pose.heading_rad -= yaw_minus_heading_rad(0.0, automaton.vehicle, automaton.identified);
   plan_.emplace(step, pose, *standstill_);
-  path_s_m_.reset();
 }
 
 Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;
-  if (const MeasuredVehicle* own = measured(options_.vehicle)) anchor(*own, observation.step);
+  if (const MeasuredVehicle* own = measured(options_.vehicle)) {
+    anchor(*own, observation.step);
+    path_s_m_.reset();
+  }
   Report report{.vehicle = options_.vehicle, .step = observation.step};
   if (plan_) {
     report.planned_pose = plan_->pose_at(observation.step);
@@ -116,7 +119,10 @@ void Controller::watch_deviation() {
   const MeasuredVehicle* own = measured(options_.vehicle);
   const StepIndex now = step_.observation.step;
   const double step_s = subgraph_->automaton().step_s;
-  if (own == nullptr || own->age_s < 0.0) return;
+  if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
+    step_.obstacle = FallbackReason::kDeviation;
+    return;
+  }
   const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
   if (now.value < plan_->first().value + steps_back) return;
   const State planned = plan_->state_at({now.value - steps_back},
@@ -179,6 +185,7 @@ void Controller::couple(std::span<const Traffic> heard) {
     last_heard_[other] = now;
     traffic.push_back(*message);
   }
+  note_who_stands();
   const CouplingGraph graph(std::move(traffic));
   step_.coupled = graph.neighbours(options_.vehicle);
   step_.predecessors = hlc::predecessors(graph, options_.vehicle);
@@ -191,6 +198,17 @@ void Controller::couple(std::span<const Traffic> heard) {
         step_.obstacle == FallbackReason::kNone) {
       step_.obstacle = FallbackReason::kMissing;
     }
+  }
+}
+
+/// Of every other vehicle the last step in which the list did not show it standing.
+void Controller::note_who_stands() {
+  const StepIndex now = step_.observation.step;
+  for (const VehicleId other : step_.observation.active) {
+    const MeasuredVehicle* state = measured(other);
+    const bool stands = state != nullptr && is_seen_standing(*state, missing_rules_);
+    const auto [last, is_first] = last_not_standing_.try_emplace(other, now);
+    if (!stands && !is_first) last->second = now;
   }
 }
 
@@ -219,8 +237,10 @@ void Controller::add_missing_obstacles(HorizonProblem& problem) const {
   const double step_s = subgraph_->automaton().step_s;
   for (const VehicleId other : step_.report.missing) {
     const MeasuredVehicle& state = *measured(other);
-    const bool stands = stands_for_good(state, step_.observation.step, last_heard_.at(other),
-                                        options_.horizon_steps, missing_rules_);
+    const bool stands = stands_for_good({.now = step_.observation.step,
+                                         .last_heard = last_heard_.at(other),
+                                         .last_not_standing = last_not_standing_.at(other)},
+                                        options_.horizon_steps);
     for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
       problem.obstacles_m[j - 1].push_back(
           stands ? standing_area(state, missing_rules_)

@@ -123,6 +123,7 @@ class Controller {
 
   void anchor(const MeasuredVehicle& measured, StepIndex step);
   void watch_deviation();
+  void note_who_stands();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
   [[nodiscard]] HorizonProblem pose_problem();
   void add_coupled_obstacles(HorizonProblem& problem) const;
@@ -143,6 +144,7 @@ class Controller {
   std::optional<Plan> plan_;
   std::optional<double> path_s_m_;  ///< where the vehicle was on its path
   std::map<VehicleId, StepIndex> last_heard_;
+  std::map<VehicleId, StepIndex> last_not_standing_;
   bool drives_out_{false};
   Step step_;
 };

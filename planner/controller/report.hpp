@@ -21,7 +21,7 @@ enum class FallbackReason : std::uint8_t {
   kMissing,     ///< a coupled vehicle said nothing and its reachable set leaves no room
   kConflict,    ///< the new plan meets another vehicle's new or running plan
   kNeighbour,   ///< settle rule `agreed`: a vehicle of the same component fell back
-  kDeviation,   ///< the measured pose is too far from the planned one
+  kDeviation,   ///< the own vehicle is too far from its planned pose, or not seen
   kLate,        ///< a deadline of the step had passed
 };
 

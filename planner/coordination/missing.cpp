@@ -19,11 +19,15 @@ ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
   return octagon;
 }
 
-bool stands_for_good(const MeasuredVehicle& measured, StepIndex now, StepIndex last_heard,
-                     std::size_t horizon_steps, const MissingVehicleRules& rules) {
+bool is_seen_standing(const MeasuredVehicle& measured, const MissingVehicleRules& rules) {
   return measured.age_s <= rules.max_age_s &&
-         std::abs(measured.speed_mps) <= rules.standing_speed_mps &&
-         now.value > last_heard.value + kSilentSteps + horizon_steps + 1;
+         std::abs(measured.speed_mps) <= rules.standing_speed_mps;
+}
+
+bool stands_for_good(const Silence& silence, std::size_t horizon_steps) {
+  const std::uint64_t longest = kSilentSteps + horizon_steps + 1;
+  return silence.now.value > silence.last_heard.value + longest &&
+         silence.now.value > silence.last_not_standing.value + longest;
 }
 
 ConvexPolygon standing_area(const MeasuredVehicle& measured, const MissingVehicleRules& rules) {

@@ -32,17 +32,27 @@ struct MissingVehicleRules {
 /// A vehicle that was not heard for this many steps in a row is listed in Traffic::silent.
 inline constexpr std::uint64_t kSilentSteps = 3;
 
-/// Whether a silent vehicle is a standing obstacle and no longer missing: a fresh state shows it
-/// standing, and every plan that it can have agreed to has run out.
+/// A fresh state shows the vehicle standing.
+[[nodiscard]] bool is_seen_standing(const MeasuredVehicle& measured,
+                                    const MissingVehicleRules& rules);
+
+/// What is remembered of a vehicle that says nothing.
+struct Silence {
+  StepIndex now;
+  StepIndex last_heard;         ///< last step in which it spoke
+  StepIndex last_not_standing;  ///< last step in which the state list did not show it standing
+};
+
+/// Whether a silent vehicle is a standing obstacle and no longer missing: every plan that it can
+/// have agreed to before it was heard last has run out, and so has every plan that it was driving
+/// when it was last seen moving: it stood in every list of the last horizon_steps + 1 +
+/// kSilentSteps steps.
 ///
-/// `last_heard` is the last step it spoke in. Messages may be lost in one direction only, so it may
-/// have heard us and gone on planning; but from step last_heard + kSilentSteps on our traffic lists
-/// it as silent, and who hears that (or hears nothing of us) agrees to nothing new near us. The
-/// last plan it can have agreed to is that of step last_heard + kSilentSteps; it stands
-/// `horizon_steps` + 1 steps later.
-[[nodiscard]] bool stands_for_good(const MeasuredVehicle& measured, StepIndex now,
-                                   StepIndex last_heard, std::size_t horizon_steps,
-                                   const MissingVehicleRules& rules);
+/// Messages may be lost in one direction only, so it may hear us and go on planning. From step
+/// last_heard + kSilentSteps on our traffic lists it as silent, and who hears that of a vehicle
+/// that it is coupled with (or hears nothing of it) agrees to nothing new. What it agreed to while
+/// it was not coupled with us it has begun to drive, or it stands since longer than any plan lasts.
+[[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 
 /// The footprint of a standing vehicle with its margin.
 [[nodiscard]] ConvexPolygon standing_area(const MeasuredVehicle& measured,

@@ -19,8 +19,12 @@ namespace hlc {
 /// A vehicle that did not hear both of j keeps old_i, unless new_i stays out of everything j can
 /// reach. No vehicle needs to know what another one decided, so no third round of messages is
 /// needed for safety. Because every vehicle also plans around the old plans of those that plan
-/// after it, old_i stays a solution of its own problem: without a fault the search is never
-/// infeasible.
+/// after it, old_i stays a solution of its own problem: without a fault, and within its budget, the
+/// search always finds a plan.
+///
+/// All this is about plans. A vehicle that has left its plan by more than a controller puts up with
+/// stands elsewhere; its plan is then anchored anew where it stands, and the others learn of that
+/// with its next traffic.
 ///
 /// `kAgreed` (the authors', profile `2022`): a new plan respects the new plans of predecessors and
 /// the footprints of standing successors only. Who finds none wants to fall back, and then all of

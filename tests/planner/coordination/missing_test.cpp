@@ -36,23 +36,29 @@ TEST(Missing, TheDiscHoldsTheFootprintOfEveryMotionWithinTheTopSpeed) {
   }
 }
 
+constexpr std::size_t kHorizon = 8;
+constexpr std::uint64_t kLongest = kSilentSteps + kHorizon + 1;
+
 TEST(Missing, AVehicleStandsForGoodOnlyWhenEveryPlanItCanHaveHasRunOut) {
-  const std::size_t horizon = 8;
-  const StepIndex heard{100};
-  EXPECT_FALSE(
-      stands_for_good(standing(), {100 + kSilentSteps + horizon + 1}, heard, horizon, kRules));
-  EXPECT_TRUE(
-      stands_for_good(standing(), {100 + kSilentSteps + horizon + 2}, heard, horizon, kRules));
+  const StepIndex early{1};
+  EXPECT_FALSE(stands_for_good({{100 + kLongest}, {100}, early}, kHorizon));
+  EXPECT_TRUE(stands_for_good({{101 + kLongest}, {100}, early}, kHorizon));
 }
 
-TEST(Missing, AMovingOrLongUnseenVehicleDoesNotStandForGood) {
-  const StepIndex later{1000};
+TEST(Missing, AStopInTheMiddleOfAPlanIsNotStandingForGood) {
+  const StepIndex early{1};
+  EXPECT_FALSE(stands_for_good({{100 + kLongest}, early, {100}}, kHorizon));
+  EXPECT_TRUE(stands_for_good({{101 + kLongest}, early, {100}}, kHorizon));
+}
+
+TEST(Missing, OnlyAFreshStateShowsAVehicleStanding) {
+  EXPECT_TRUE(is_seen_standing(standing(), kRules));
   MeasuredVehicle moving = standing();
   moving.speed_mps = 0.1;
-  EXPECT_FALSE(stands_for_good(moving, later, {1}, 8, kRules));
+  EXPECT_FALSE(is_seen_standing(moving, kRules));
   MeasuredVehicle unseen = standing();
   unseen.age_s = 0.3;
-  EXPECT_FALSE(stands_for_good(unseen, later, {1}, 8, kRules));
+  EXPECT_FALSE(is_seen_standing(unseen, kRules));
 }
 
 }  // namespace
