@@ -28,12 +28,17 @@ std::vector<Nanoseconds> instants(const Drive& a, const Drive& b, Nanoseconds fr
   return times;
 }
 
+/// A vehicle whose record has ended stands where it was seen last: it can still be hit.
+std::optional<Pose> pose_at(const Drive& drive, Nanoseconds t) {
+  return !drive.empty() && t > drive.back().t ? drive.back().pose : driven_pose_at(drive, t);
+}
+
 void look_at_pair(const VehicleDescription& a, const Drive& drive_a, const VehicleDescription& b,
                   const Drive& drive_b, Nanoseconds from, Nanoseconds to, Encounters& result) {
   bool touched = false;
   for (const Nanoseconds t : instants(drive_a, drive_b, from, to)) {
-    const std::optional<Pose> pose_a = driven_pose_at(drive_a, t);
-    const std::optional<Pose> pose_b = driven_pose_at(drive_b, t);
+    const std::optional<Pose> pose_a = pose_at(drive_a, t);
+    const std::optional<Pose> pose_b = pose_at(drive_b, t);
     if (!pose_a || !pose_b) {
       continue;
     }

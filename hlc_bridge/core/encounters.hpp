@@ -15,8 +15,8 @@ struct Encounters {
 };
 
 /// Looks at every instant in [from, to] at which a vehicle was recorded, for every pair of vehicles
-/// that both have a pose then (driven_pose_at). Footprints are rectangles along the yaw, without
-/// margin.
+/// that both have a pose then (driven_pose_at; after the end of its record a vehicle stands where
+/// it was seen last). Footprints are rectangles along the yaw, without margin.
 /// @param vehicles  their footprints; vehicles without a drive are passed over
 [[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
                                     const Drives& drives, Nanoseconds from, Nanoseconds to);

@@ -67,6 +67,11 @@ TEST(Encounters, OnlyTheAskedTimeCounts) {
   EXPECT_NEAR(result.min_distance_m.value(), 0.4 - 0.22, 1e-12);
 }
 
+TEST(Encounters, VehicleWhoseRecordEndsCanStillBeHit) {
+  const Drives drives{{1, drive({{0, 0, 0}})}, {2, drive({{1, 0, 0}, {0.5, 0, 0}, {0.1, 0, 0}})}};
+  EXPECT_EQ(encounters(vehicles(2), drives, 0, kLongTime).collisions, 1U);
+}
+
 TEST(Encounters, OneVehicleHasNone) {
   const Drives drives{{1, drive({{0, 0, 0}})}};
   EXPECT_FALSE(encounters(vehicles(1), drives, 0, kLongTime).min_distance_m);
