@@ -146,11 +146,11 @@ void MiddlewareProcess::let_controller_leave() const {
 void MiddlewareProcess::take(const Parameter& parameter) {
   if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value);
       period_ms != nullptr && parameter.name == kPeriodParameter) {
-    period_ = *period_ms * kNanosecondsPerMillisecond;
+    if (!period_) period_ = *period_ms * kNanosecondsPerMillisecond;  // the first answer counts
   }
   if (const auto* ids = std::get_if<std::vector<std::int32_t>>(&parameter.value);
       ids != nullptr && parameter.name == kActiveIdsParameter) {
-    active_ids_ = *ids;
+    if (!active_ids_) active_ids_ = *ids;
   }
 }
 
@@ -310,16 +310,16 @@ void MiddlewareProcess::wait_for_states(Nanoseconds t_now) {
                          [&] { return stop_ || std::ranges::all_of(state_readers_, is_here); })) {
     return;
   }
-  signal_.locked([&] {
+  const std::set<std::uint8_t> silent = signal_.locked([&] {
     for (const auto& vehicle : state_readers_) {
       if (!is_here(vehicle)) {
         silent_vehicles_.insert(vehicle.first);
       }
     }
+    return silent_vehicles_;
   });
   spdlog::warn("{}: vehicles {} have said nothing for {} s and are not waited for any more",
-               options_.node_id, fmt::join(silent_vehicles_, ", "),
-               kMessageTimeout / kNanosecondsPerSecond);
+               options_.node_id, fmt::join(silent, ", "), kMessageTimeout / kNanosecondsPerSecond);
 }
 
 void MiddlewareProcess::wait_for_answer(Nanoseconds t_now) {

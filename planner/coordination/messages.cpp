@@ -1,8 +1,25 @@
 #include "planner/coordination/messages.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace hlc {
+namespace {
+
+bool are_well_formed(const OccupiedAreas& areas, StepIndex first) {
+  return areas.first == first && !areas.final_area_m.empty() &&
+         std::ranges::none_of(areas.areas_m, &ConvexPolygon::empty);
+}
+
+}  // namespace
+
+bool is_well_formed(const Traffic& traffic) {
+  return !traffic.reachable_area_m.empty() && are_well_formed(traffic.running, traffic.step);
+}
+
+bool is_well_formed(const Prediction& prediction) {
+  return are_well_formed(prediction.areas, {prediction.step.value + 1});
+}
 
 const ConvexPolygon& OccupiedAreas::during(StepIndex step) const {
   assert(step >= first);

@@ -57,6 +57,12 @@ struct Prediction {
   OccupiedAreas areas;  ///< first = k + 1
 };
 
+/// False for a message that no controller sends: an empty area (which would mean that the sender is
+/// nowhere), or areas that do not begin at t(k) in traffic, at t(k+1) in a prediction. It counts as
+/// not heard.
+[[nodiscard]] bool is_well_formed(const Traffic& traffic);
+[[nodiscard]] bool is_well_formed(const Prediction& prediction);
+
 /// Third message of step k: what came of it, as far as the sender can say by itself.
 struct Outcome {
   VehicleId vehicle;

@@ -128,11 +128,11 @@ int VehicleProcess::run() {
 void VehicleProcess::take(const Parameter& parameter) {
   if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value);
       period_ms != nullptr && *period_ms > 0 && parameter.name == kPeriodParameter) {
-    period_ = *period_ms * kNanosecondsPerMillisecond;
+    if (!period_) period_ = *period_ms * kNanosecondsPerMillisecond;  // the first answer counts
   }
   if (const auto* ids = std::get_if<std::vector<std::int32_t>>(&parameter.value);
       ids != nullptr && parameter.name == kActiveIdsParameter) {
-    active_ids_ = *ids;
+    if (!active_ids_) active_ids_ = *ids;
   }
 }
 

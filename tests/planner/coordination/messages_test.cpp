@@ -18,5 +18,23 @@ TEST(OccupiedAreas, EveryStepHasItsAreaAndTheFinalOneHoldsForEver) {
   EXPECT_EQ(areas.during({700}), square_at(2.0));
 }
 
+TEST(Messages, AnEmptyAreaOrAWrongBeginIsNotWellFormed) {
+  Traffic traffic;
+  traffic.step = {5};
+  traffic.running = {.first = {5}, .areas_m = {square_at(0.0)}, .final_area_m = square_at(1.0)};
+  traffic.reachable_area_m = square_at(0.0);
+  EXPECT_TRUE(is_well_formed(traffic));
+  Traffic nowhere = traffic;
+  nowhere.reachable_area_m = {};
+  EXPECT_FALSE(is_well_formed(nowhere));
+  Traffic hole = traffic;
+  hole.running.areas_m[0] = {};
+  EXPECT_FALSE(is_well_formed(hole));
+  Prediction late{.vehicle = {1}, .step = {5}, .areas = traffic.running};
+  EXPECT_FALSE(is_well_formed(late)) << "a prediction begins at the next step";
+  late.areas.first = {6};
+  EXPECT_TRUE(is_well_formed(late));
+}
+
 }  // namespace
 }  // namespace hlc
