@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <limits>
 
@@ -32,7 +32,7 @@ class BytesType : public fdds::TopicDataType {
   bool serialize(void* data, Payload* payload) override {
     const Bytes& bytes = *static_cast<Bytes*>(data);
     payload->encapsulation = CDR_LE;
-    std::memcpy(payload->data, bytes.data(), bytes.size());
+    std::copy(bytes.begin(), bytes.end(), payload->data);
     payload->length = static_cast<std::uint32_t>(bytes.size());
     return true;
   }
