@@ -49,20 +49,17 @@ void LabRun::report(const ReportRecord& record) {
     return;
   }
   const std::uint64_t step = record.report.step.value;
-  const auto [reported, is_first] = reports_.try_emplace(id);
-  if (is_first || step > reported->second.last_step) {
-    note_progress();
-  }
-  reported->second.last_step = std::max(reported->second.last_step, step);
+  std::uint64_t& last_step = last_reports_.try_emplace(id, step).first->second;
+  last_step = std::max(last_step, step);
+  note_progress();
   if (record.report.status != StepStatus::kStandby) {
-    reported->second.standby = false;
     result_.first_step = std::min(result_.first_step.value_or(step), step);
   }
 }
 
 std::optional<std::uint64_t> LabRun::last_report(std::uint8_t vehicle_id) const {
-  const auto found = reports_.find(vehicle_id);
-  return found == reports_.end() ? std::nullopt : std::optional{found->second.last_step};
+  const auto found = last_reports_.find(vehicle_id);
+  return found == last_reports_.end() ? std::nullopt : std::optional{found->second};
 }
 
 void LabRun::interrupt() {

@@ -134,11 +134,6 @@ class LabRun {
   /// Time of the run at which the present phase ends; kNever if an answer decides.
   [[nodiscard]] Nanoseconds phase_end() const;
 
-  struct Reported {
-    std::uint64_t last_step{};
-    bool standby{true};
-  };
-
   LabRunSettings settings_;
   Phase phase_{Phase::kGathering};
   LabRunResult result_;
@@ -146,7 +141,7 @@ class LabRun {
   std::set<std::string> alive_;
   std::set<std::string> lost_;
   std::set<std::string> dropped_;
-  std::map<std::uint8_t, Reported> reports_;
+  std::map<std::uint8_t, std::uint64_t> last_reports_;  ///< step, by vehicle
   std::size_t trigger_readers_{};
   bool end_asked_{};  ///< interrupted, or a controller asked for the stop
   bool progress_{};

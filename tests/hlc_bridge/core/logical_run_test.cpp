@@ -171,6 +171,18 @@ TEST(LogicalRun, FirstTriggerWaitsUntilItReachesEveryTimer) {
   EXPECT_THAT(run.advance(2).triggers, ElementsAre(0));
 }
 
+TEST(LogicalRun, ControllerWithoutMiddlewareOwesNoReports) {
+  LogicalRun run{settings({1}, 20)};
+  run.trigger_readers(2);
+  run.ready({vehicle_name(1), 0});
+  run.ready({middleware_name(1), kListOffset});
+  EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
+  run.ready({vehicle_name(1), kVehiclePeriod});
+  EXPECT_THAT(run.advance(2).triggers, ElementsAre(kListOffset));
+  run.presence({controller_name(1), vehicle_name(1)}, {middleware_name(1)});
+  EXPECT_THAT(run.advance(3).triggers, ElementsAre(kVehiclePeriod));
+}
+
 TEST(LogicalRun, LostTriggerIsSentAgain) {
   LogicalRun run{settings({1}, 20)};
   run.trigger_readers(2);
