@@ -12,6 +12,7 @@
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/hlc/hlc_process.hpp"
+#include "hlc_bridge/time/exit_watchdog.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -71,7 +72,7 @@ int run(const Flags& flags, hlc::StopSignals& signals) {
   const auto process =
       std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
   signals.on_stop([process](int) { process->stop(); });
-  return process->run();
+  return hlc::run_to_the_end(*process);
 }
 
 }  // namespace

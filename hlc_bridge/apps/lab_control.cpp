@@ -11,6 +11,7 @@
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/lab_control/lab_control_process.hpp"
+#include "hlc_bridge/time/exit_watchdog.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 
 namespace {
@@ -97,7 +98,7 @@ int main(int argc, char** argv) {
     // Shared with the signals' thread, which lives longer than this block.
     const auto process = std::make_shared<hlc::LabControlProcess>(process_options(flags));
     signals.on_stop([process](int) { process->interrupt(); });
-    return process->run();
+    return hlc::run_to_the_end(*process);
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return hlc::kExitBadInput;

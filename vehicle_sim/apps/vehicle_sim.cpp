@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/time/exit_watchdog.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 #include "vehicle_sim/apps/start_pose.hpp"
 #include "vehicle_sim/apps/vehicle_process.hpp"
@@ -92,7 +93,7 @@ int run(const Flags& flags, hlc::StopSignals& signals) {
   // Shared with the signals' thread, which lives longer than this function.
   const auto process = std::make_shared<hlc::VehicleProcess>(process_options(flags));
   signals.on_stop([process](int) { process->stop(); });
-  return process->run();
+  return hlc::run_to_the_end(*process);
 }
 
 }  // namespace
