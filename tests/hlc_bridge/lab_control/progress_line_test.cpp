@@ -27,17 +27,25 @@ TEST_F(ProgressLineTest, LogFileGetsALineEveryFiveSeconds) {
     line.update(t, std::to_string(t / kSecond));
   }
   line.end_line();
-  EXPECT_EQ(written(), "100\n105\n110\n");
+  EXPECT_EQ(written(), "101\n106\n") << "nothing in the first second";
 }
 
 TEST_F(ProgressLineTest, TerminalHasOneLineThatIsRewritten) {
   ProgressLine line{file_.get(), true};
-  line.update(100 * kSecond, "step 1");
-  line.update(100 * kSecond + 1, "not yet");
+  line.update(100 * kSecond, "too soon");
+  line.update(line.next(), "step 1");
+  line.update(line.next() - 1, "not yet");
   line.update(line.next(), "step 2");
   line.end_line();
   line.end_line();
   EXPECT_EQ(written(), "\r\x1b[Kstep 1\r\x1b[Kstep 2\n");
+}
+
+TEST_F(ProgressLineTest, TerminalLineIsCutToItsWidth) {
+  ProgressLine line{file_.get(), true};
+  line.update(0, "");
+  line.update(line.next(), std::string(500, 'x'));
+  EXPECT_LE(written().size(), ProgressLine::kTerminalColumns + std::string("\r\x1b[K").size());
 }
 
 TEST_F(ProgressLineTest, NothingShownNeedsNoEnd) {
