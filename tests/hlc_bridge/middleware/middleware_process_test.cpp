@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include <future>
 #include <memory>
 
@@ -125,6 +127,13 @@ class MiddlewareTest : public testing::Test {
     start(true);
     lab_.tell_parameters(kPeriod / kMs, {1, 2});
     ASSERT_EQ(lab_.ready.wait_for(1).at(0).next_start, kListOffset);
+    // The middleware has matched everybody; what is written before it is matched here, too, would
+    // be lost.
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    ASSERT_TRUE(lab_.state_1.wait_for_matched(1, deadline));
+    ASSERT_TRUE(lab_.state_2.wait_for_matched(1, deadline));
+    ASSERT_TRUE(lab_.triggers.wait_for_matched(1, deadline));
+    ASSERT_TRUE(controller_->commands.wait_for_matched(1, deadline));
   }
 
   /// Releases the tick, answers its list, waits for the next request.
