@@ -164,6 +164,22 @@ TEST(Participant, EndsUnderFullTraffic) {
   traffic.join();
 }
 
+// A hang, not a wrong value, is what this is about: without clearing its history first, a writer
+// that still sends heartbeats could be taken down for ever.
+TEST(Endpoints, WritersEndWhileMessagesAreUnacknowledged) {
+  const DomainReservation domain;
+  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kLab)};
+  Participant sender{on_loopback("sender", domain.first(), DomainRole::kLab)};
+  Mailbox<SystemTrigger> mailbox{receiver, topics::system_trigger()};
+  for (int i = 0; i < 250; ++i) {
+    Writer<SystemTrigger> writer{sender, topics::system_trigger()};
+    ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+    for (Nanoseconds t = 0; t < 512; ++t) {
+      ASSERT_TRUE(writer.write({t}));
+    }
+  }
+}
+
 TEST(Participant, BadOptionsAreRefusedAndTheProcessGoesOn) {
   for (const int domain : {-1, 233, 1000}) {
     EXPECT_THROW(Participant{on_loopback("red", domain, DomainRole::kLab)}, std::invalid_argument);
