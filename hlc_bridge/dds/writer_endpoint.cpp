@@ -1,5 +1,6 @@
 #include "hlc_bridge/dds/writer_endpoint.hpp"
 
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -22,6 +23,10 @@ WriterEndpoint::WriterEndpoint(std::shared_ptr<ParticipantCore> core, const std:
 WriterEndpoint::~WriterEndpoint() {
   peers_->close();
   writer_->set_listener(nullptr);
+  // Fast DDS 2.9 releases the history piece by piece while a heartbeat on another thread may still
+  // walk over it, for ever in the worst case. What is not acknowledged by now is lost either way.
+  std::size_t removed = 0;
+  writer_->clear_history(&removed);
   core_->publisher().delete_datawriter(writer_);
 }
 

@@ -67,8 +67,9 @@ class Watcher {
     return signal_.wait_until(soon(), [&] { return condition(participant_); });
   }
   Participant& participant() { return participant_; }
-  int changes() {
-    return signal_.locked([this] { return changes_; });
+  /// The change of state is visible before it is told: waits for the telling.
+  bool wait_for_changes(int at_least) {
+    return signal_.wait_until(soon(), [&] { return changes_ >= at_least; });
   }
 
  private:
@@ -95,7 +96,7 @@ TEST(Participant, SeesOthersAppearAndLeave) {
   Participant again{on_loopback("red", domain.first(), DomainRole::kController)};
   ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("red"); }));
   EXPECT_FALSE(watcher.participant().is_lost("red"));
-  EXPECT_GE(watcher.changes(), 5);
+  EXPECT_TRUE(watcher.wait_for_changes(5)) << "three times somebody came, twice somebody left";
 }
 
 TEST(Participant, WaitForEndsAtTheDeadline) {
@@ -162,22 +163,6 @@ TEST(Participant, EndsUnderFullTraffic) {
   }
   done = true;
   traffic.join();
-}
-
-// A hang, not a wrong value, is what this is about: without clearing its history first, a writer
-// that still sends heartbeats could be taken down for ever.
-TEST(Endpoints, WritersEndWhileMessagesAreUnacknowledged) {
-  const DomainReservation domain;
-  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kLab)};
-  Participant sender{on_loopback("sender", domain.first(), DomainRole::kLab)};
-  Mailbox<SystemTrigger> mailbox{receiver, topics::system_trigger()};
-  for (int i = 0; i < 250; ++i) {
-    Writer<SystemTrigger> writer{sender, topics::system_trigger()};
-    ASSERT_TRUE(writer.wait_for_matched(1, soon()));
-    for (Nanoseconds t = 0; t < 512; ++t) {
-      ASSERT_TRUE(writer.write({t}));
-    }
-  }
 }
 
 TEST(Participant, BadOptionsAreRefusedAndTheProcessGoesOn) {
