@@ -57,6 +57,20 @@ const Message* find_message(std::span<const Message> messages, VehicleId vehicle
   return nullptr;
 }
 
+FallbackReason reason_of(SettleVerdict verdict) {
+  switch (verdict) {
+    case SettleVerdict::kInForce:
+      break;
+    case SettleVerdict::kConflict:
+      return FallbackReason::kConflict;
+    case SettleVerdict::kUnheard:
+      return FallbackReason::kMissing;
+    case SettleVerdict::kFallback:
+      return FallbackReason::kNeighbour;
+  }
+  return FallbackReason::kNone;
+}
+
 bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
   return std::ranges::find(vehicles, vehicle) != vehicles.end();
 }
@@ -317,43 +331,34 @@ Outcome Controller::vote() const {
           .wants_fallback = !step_.candidate.has_value()};
 }
 
-/// Settle rule `strict`; the search has already kept the candidate free of everything in its
-/// problem.
-bool Controller::is_new_plan_safe(std::span<const Prediction> predictions) {
+SettleVerdict Controller::strict_verdict(std::span<const Prediction> predictions) const {
   const StepIndex now = step_.observation.step;
-  const StepIndex next{now.value + 1};
+  std::vector<HeardCoupled> coupled;
   for (const VehicleId other : step_.coupled) {
-    if (step_.respected.contains(other)) continue;
-    if (const Prediction* message = find_message(predictions, other, now)) {
-      if (!are_free(step_.prediction.areas, message->areas, next, options_.horizon_steps)) {
-        step_.obstacle = FallbackReason::kConflict;
-        return false;
-      }
-    } else if (!are_free(step_.prediction.areas, step_.heard.at(other).reachable_area_m, next,
-                         options_.horizon_steps)) {
-      step_.obstacle = FallbackReason::kMissing;
-      return false;
-    }
+    if (step_.respected.contains(other)) continue;  // an obstacle of the search
+    const Prediction* message = find_message(predictions, other, now);
+    coupled.push_back({.reachable_area_m = &step_.heard.at(other).reachable_area_m,
+                       .predicted = message == nullptr ? nullptr : &message->areas});
   }
-  return true;
+  return settle_strictly(step_.prediction.areas, coupled, {now.value + 1}, options_.horizon_steps);
 }
 
-bool Controller::has_component_agreed(std::span<const Outcome> outcomes) const {
-  return std::ranges::all_of(step_.component, [&](VehicleId other) {
-    if (other == options_.vehicle) return true;
-    const Outcome* outcome = find_message(outcomes, other, step_.observation.step);
-    return outcome != nullptr && !outcome->wants_fallback;
-  });
+SettleVerdict Controller::agreed_verdict(std::span<const Outcome> outcomes) const {
+  std::vector<const Outcome*> votes;
+  for (const VehicleId other : step_.component) {
+    if (other == options_.vehicle) continue;
+    votes.push_back(find_message(outcomes, other, step_.observation.step));
+  }
+  return settle_by_votes(votes);
 }
 
 Report Controller::settle(std::span<const Prediction> predictions,
                           std::span<const Outcome> outcomes) {
   if (!step_.candidate) return finish(false, step_.obstacle);
-  if (options_.settle_rule == SettleRule::kStrict) {
-    const bool is_safe = is_new_plan_safe(predictions);
-    return finish(is_safe, step_.obstacle);
-  }
-  return finish(has_component_agreed(outcomes), FallbackReason::kNeighbour);
+  const SettleVerdict verdict = options_.settle_rule == SettleRule::kStrict
+                                    ? strict_verdict(predictions)
+                                    : agreed_verdict(outcomes);
+  return finish(verdict == SettleVerdict::kInForce, reason_of(verdict));
 }
 
 Report Controller::give_up(FallbackReason reason) { return finish(false, reason); }

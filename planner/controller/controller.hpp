@@ -128,8 +128,8 @@ class Controller {
   [[nodiscard]] HorizonProblem pose_problem();
   void add_coupled_obstacles(HorizonProblem& problem) const;
   void add_missing_obstacles(HorizonProblem& problem) const;
-  [[nodiscard]] bool is_new_plan_safe(std::span<const Prediction> predictions);
-  [[nodiscard]] bool has_component_agreed(std::span<const Outcome> outcomes) const;
+  [[nodiscard]] SettleVerdict strict_verdict(std::span<const Prediction> predictions) const;
+  [[nodiscard]] SettleVerdict agreed_verdict(std::span<const Outcome> outcomes) const;
   [[nodiscard]] Report finish(bool accepted, FallbackReason reason);
 
   ControllerOptions options_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "planner/coordination/messages.hpp"
 
 namespace hlc {
@@ -28,9 +30,37 @@ namespace hlc {
 ///
 /// `kAgreed` (the authors', profile `2022`): a new plan respects the new plans of predecessors and
 /// the footprints of standing successors only. Who finds none wants to fall back, and then all of
-/// its weakly connected component do, trusting that everybody hears of it. Safe only while no
-/// message is lost.
+/// its weakly connected component do, trusting that everybody hears of it. Safe only while every
+/// vehicle of the component hears every vote before its deadline, and while nobody falls back who
+/// has voted for its new plan: a vote that is lost or late leaves two views, and a voter that is
+/// itself too late to command its new plan (FallbackReason::kLate) drives its old one, which the
+/// others have not kept clear of.
 enum class SettleRule { kStrict, kAgreed };
+
+enum class SettleVerdict {
+  kInForce,   ///< the new plan comes into force
+  kConflict,  ///< it meets the new plan of another vehicle
+  kUnheard,   ///< it may meet the new plan of a vehicle that was not heard
+  kFallback,  ///< somebody in the component falls back
+};
+
+/// What has been heard of a coupled vehicle in this step. Not owned.
+struct HeardCoupled {
+  const ConvexPolygon* reachable_area_m{};  ///< of its traffic; it was heard, else not coupled
+  const OccupiedAreas* predicted{};         ///< of its prediction; nullptr: not heard
+};
+
+/// Rule `kStrict`: whether `planned` (of a new plan) comes into force at t(from), as far as the
+/// vehicles in `coupled` are concerned. Names the first of them that is in the way.
+/// @pre the search has kept the plan free of what every coupled vehicle drives now. Who predicted
+/// before the search, so that this was kept free of its prediction too, may be left out.
+[[nodiscard]] SettleVerdict settle_strictly(const OccupiedAreas& planned,
+                                            std::span<const HeardCoupled> coupled, StepIndex from,
+                                            std::size_t steps);
+
+/// Rule `kAgreed`: whether the new plan comes into force, by the votes of the others in the
+/// component; nullptr: not heard, which counts as a fallback.
+[[nodiscard]] SettleVerdict settle_by_votes(std::span<const Outcome* const> votes);
 
 /// True if, step by step from t(from) until t(from + steps) and standing at the end, the two share
 /// no point. Plans that end standing within that time stay free for ever after, since the last area
