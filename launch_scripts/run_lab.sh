@@ -61,6 +61,7 @@ done
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
 for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
+[[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
 case "$preset" in
   release | debug | asan | tsan) ;;
@@ -90,11 +91,14 @@ mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 # the controllers'. The locks are held by this shell and its children.
 largest_id=${ids[-1]}
 block_is_free() { # first domain
-  local domain fds=()
+  local domain file fd fds=()
   for ((domain = $1; domain <= $1 + largest_id; domain++)); do
-    local fd
-    { exec {fd}>"/tmp/hlc_dds_domain_$domain.lock"; } 2>/dev/null && fds+=("$fd") && flock -n "$fd" && continue
-    for fd in "${fds[@]}"; do exec {fd}>&-; done
+    file=/tmp/hlc_dds_domain_$domain.lock
+    # Other users lock the same files: everybody may open them, and they are opened for reading only, since
+    # Linux refuses to open another user's file in /tmp with O_CREAT.
+    [[ -e $file ]] || { (umask 000 && : >>"$file"); } 2>/dev/null
+    { exec {fd}<"$file"; } 2>/dev/null && fds+=("$fd") && flock -n "$fd" && continue
+    for fd in "${fds[@]}"; do exec {fd}<&-; done
     return 1
   done
 }
@@ -114,7 +118,6 @@ else
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
 
-
 if [[ -z $out ]]; then
   out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
   base=$out
@@ -129,13 +132,42 @@ else
   mkdir -p "$out" || exit 2
 fi
 out=$(cd "$out" && pwd)
-mkdir -p "$out/logs"
+mkdir -p "$out/logs" "$out/configuration" || exit 2
 
-children=()
+# What this run is driven with, beside the files that summarize puts there.
+quoted() { if [[ -n $1 ]]; then printf "'%s'" "${1//\'/\'\'}"; else echo null; fi; } # for YAML
+cat >"$out/configuration/flags.yaml" <<TEXT
+# Flags of run_lab.sh; null: not given. Car N measures with the noise of seed noise_seed + N.
+scenario: $(quoted "$(realpath "$scenario")")
+profile: $(quoted "$profile")
+subgraph: $(quoted "$subgraph")
+map: $(quoted "$map")
+cars: ${cars:-null}
+steps: $steps
+simulated_time: $simulated_time
+noise_seed: ${noise_seed:-null}
+gains_scale: ${gains_scale:-1}
+transport: $transport
+dds_domain: $dds_domain
+startup_timeout_s: $startup_timeout_s
+programs: $(quoted "$(realpath "$bin")")
+TEXT
+
+children=() lab_control=""
+any_runs() {
+  local pid
+  for pid in "$@"; do kill -0 "$pid" 2>/dev/null && return 0; done
+  return 1
+}
+wait_until() { # $SECONDS, for the children to end
+  while any_runs "${children[@]}" && ((SECONDS < $1)); do sleep 0.05; done
+}
 # shellcheck disable=SC2317 # called by the trap
 interrupted() {
   trap '' INT TERM
   ((${#children[@]} == 0)) || kill -TERM "${children[@]}" 2>/dev/null
+  wait_until $((SECONDS + 8)) # vehicle.sh ends whoever of its processes does not follow
+  [[ -z $lab_control ]] || kill -KILL "$lab_control" 2>/dev/null
   local pid
   for pid in "${children[@]}"; do wait "$pid" 2>/dev/null; done
   exit 130
@@ -151,11 +183,19 @@ for id in "${ids[@]}"; do
   "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done
+vehicles=("${children[@]}")
 "$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
   --startup_timeout_s "$startup_timeout_s" </dev/null &
+children+=($!)
 lab_control=$!
-children+=("$lab_control")
 
+# Lab control is the last to end, or nearly so: when it outlives all vehicles by far, it hangs.
+while any_runs "$lab_control" && any_runs "${vehicles[@]}"; do wait -n "${children[@]}" 2>/dev/null; done
+any_runs "$lab_control" && wait_until $((SECONDS + startup_timeout_s + 15))
+if ! any_runs "${vehicles[@]}" && any_runs "$lab_control"; then
+  echo "lab_control hangs" >&2
+  kill -KILL "$lab_control"
+fi
 wait "$lab_control"
 code=$?
 if ((code > 130)); then
@@ -164,14 +204,8 @@ if ((code > 130)); then
 fi
 
 # The others end by themselves once lab control has said stop; whoever does not, is ended.
-deadline=$((SECONDS + 12))
-running() {
-  local pid
-  for pid in "${children[@]}"; do kill -0 "$pid" 2>/dev/null && return 0; done
-  return 1
-}
 ((code == 0 || code == 4)) || kill -TERM "${children[@]}" 2>/dev/null
-while running && ((SECONDS < deadline)); do sleep 0.05; done
+wait_until $((SECONDS + 12))
 kill -TERM "${children[@]}" 2>/dev/null # vehicle.sh ends whoever does not follow
 for pid in "${children[@]}"; do
   wait "$pid"
@@ -181,7 +215,7 @@ done
 ((code == 0)) || cat "$out/logs/vehicles.log" >&2
 
 if [[ -s $out/reports.csv ]]; then
-  "$bin/summarize" --run "$out" "${choices[@]}"
+  "$bin/summarize" --run "$out" "${choices[@]}" ${noise_seed:+--noise_seed "$noise_seed"}
   summarized=$?
   ((code != 0)) || code=$summarized
 fi

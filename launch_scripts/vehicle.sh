@@ -15,7 +15,8 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --cars N                number of cars (scenarios on a circle)
   --simulated_time BOOL   true: logical time (default), false: real time
   --transport NAME        loopback (default) or lab
-  --dds_domain N          lab domain (default 1)
+  --dds_domain N          lab domain (default 1). Nothing is locked: unlike run_lab.sh, several vehicles share it.
+                          To stay apart from other runs on this machine is up to who chooses it
   --middleware_domain N   local domain of this vehicle (default: lab domain + id)
   --controller_domain N   domain of the controllers (default: lab domain + 50)
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
@@ -83,15 +84,17 @@ vehicle=(--vehicle_id="$id" --pose="$pose" --record="$out/vehicle_$id.csv")
 controller=("${choices[@]}")
 [[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
 
-pids=()
-killer=""
+declare -A names=() # of those that have not ended, by pid
+is_ending=false
 # shellcheck disable=SC2317 # called by the trap
 end_all() {
-  trap '' INT TERM
-  ((${#pids[@]} == 0)) || kill -TERM "${pids[@]}" 2>/dev/null
-  # Whoever does not end, because it hangs or is stopped, is ended.
-  { sleep 3; kill -KILL "${pids[@]}"; } >/dev/null 2>&1 &
-  killer=$!
+  trap : INT TERM # not '', which children would inherit
+  is_ending=true
+  ((${#names[@]} > 0)) || return
+  kill -TERM "${!names[@]}" 2>/dev/null
+  local deadline=$((SECONDS + 4))
+  while kill -0 "${!names[@]}" 2>/dev/null && ((SECONDS < deadline)); do sleep 0.05; done
+  kill -KILL "${!names[@]}" 2>/dev/null # whoever does not end, because it hangs or is stopped
 }
 trap end_all INT TERM
 
@@ -99,10 +102,8 @@ start() { # name, program and flags
   local name=$1
   shift
   "$@" >"$out/logs/$name.log" 2>&1 </dev/null &
-  pids+=($!)
   names[$!]=$name
 }
-declare -A names=()
 start "vehicle_$id" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
 start "middleware_$id" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
   --middleware_domain="$middleware_domain"
@@ -110,18 +111,22 @@ start "high_level_controller_$id" "$bin/high_level_controller" "${common[@]}" --
   --middleware_domain="$middleware_domain" "${controller[@]}"
 printf '%s\n' "${!names[@]}" | while read -r pid; do echo "$pid ${names[$pid]}"; done \
   >"$out/logs/vehicle_$id.pids"
+! $is_ending || end_all # told so in the middle of starting
 
 first=0
-while ((${#names[@]})); do
-  ended=""
-  wait -n -p ended "${!names[@]}"
-  code=$?
-  [[ -n $ended ]] || continue # a trap interrupted the wait
-  if ((code != 0)); then
-    echo "${names[$ended]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$ended]}.log")" >&2
-    ((first != 0)) || first=$code
-  fi
-  unset "names[$ended]"
+while true; do
+  for pid in "${!names[@]}"; do
+    kill -0 "$pid" 2>/dev/null && continue
+    wait "$pid"
+    code=$?
+    if ((code != 0)); then
+      echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
+      ((first != 0)) || first=$code
+    fi
+    unset "names[$pid]"
+  done
+  ((${#names[@]} > 0)) || break
+  # Only to sleep until somebody ends: whom a signal killed while another command ran, it does not report.
+  wait -n "${!names[@]}" 2>/dev/null
 done
-[[ -z $killer ]] || kill "$killer" 2>/dev/null
 exit "$first"

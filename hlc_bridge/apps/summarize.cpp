@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -23,13 +24,14 @@
 
 namespace {
 
-hlc::RunDescription description_of(const hlc::Scenario& scenario) {
+hlc::RunDescription description_of(const hlc::Scenario& scenario,
+                                   std::optional<std::uint64_t> noise_seed) {
   const hlc::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   hlc::RunDescription description;
   description.scenario = scenario.name;
   description.profile = scenario.profile.name;
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
-  description.seed = scenario.seed;
+  description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;
   description.horizon_steps = scenario.horizon_steps;
   description.step_s = automaton.step_s;
@@ -82,14 +84,15 @@ bool is_well_driven(const hlc::RunSummary& summary) {
 }
 
 /// Returns the exit code.
-int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
+int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices,
+                  std::optional<std::uint64_t> noise_seed) {
   const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
   hlc::RunFacts facts = hlc::read_facts(run / "run.json");
   if (!facts.first_step) {
     facts.first_step = hlc::first_step_of(reports);  // the lab control did not end the run
   }
   const hlc::Scenario scenario = hlc::read_scenario(choices);
-  const hlc::RunDescription description = description_of(scenario);
+  const hlc::RunDescription description = description_of(scenario, noise_seed);
   check_scenario(facts, description);
   const hlc::Drives drives = read_drives(run, facts);
   const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
@@ -117,8 +120,11 @@ int main(int argc, char** argv) {
   CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv.", "summarize"};
   std::filesystem::path run;
   hlc::ScenarioChoices choices;
+  std::optional<std::uint64_t> noise_seed;
   app.add_option("--run", run, "run folder")->required();
   hlc::declare_scenario_flags(app, choices);
+  app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
+      ->check(CLI::NonNegativeNumber);
   app.footer(
       "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left its plan or touched another "
       "one.");
@@ -126,7 +132,7 @@ int main(int argc, char** argv) {
     return *code;
   }
   try {
-    return summarize_run(run, choices);
+    return summarize_run(run, choices, noise_seed);
   } catch (const std::exception& error) {
     std::cerr << "summarize: " << error.what() << '\n';
     return hlc::kExitBadInput;

@@ -26,7 +26,7 @@ struct RunDescription {
   std::string scenario;
   std::string profile;
   std::string map;
-  std::uint64_t seed{};
+  std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;
   std::size_t horizon_steps{};
   double step_s{};

@@ -45,9 +45,10 @@ std::string row(const VehicleSummary& vehicle) {
 std::string summary_table(const RunSummary& summary) {
   const RunDescription& run = summary.description;
   std::string text = print(
-      "%s: %zu steps of %g s, horizon %zu, subgraph %s, profile %s, map %s, seed %llu\n\n",
+      "%s: %zu steps of %g s, horizon %zu, subgraph %s, profile %s, map %s, %s\n\n",
       run.scenario.c_str(), summary.steps, run.step_s, run.horizon_steps, run.subgraph.c_str(),
-      run.profile.c_str(), run.map.c_str(), static_cast<unsigned long long>(run.seed));
+      run.profile.c_str(), run.map.c_str(),
+      run.noise_seed ? ("noise seed " + std::to_string(*run.noise_seed)).c_str() : "no noise");
   text += print("%3s  %-8s %14s %7s %19s %23s %12s %13s\n", "", "", "reference", "lap",
                 "vertices, max", "planning time", "tracking", "steps");
   text += print("%3s  %-8s %14s %7s %9s %9s %15s %7s %12s %6s %6s\n", "id", "vehicle", "error [mm]",
@@ -66,8 +67,7 @@ std::string summary_table(const RunSummary& summary) {
   text += print("  collisions                                   %zu\n", summary.collisions);
   text += print("  wall time, real-time factor                  %.2f s, %.1f\n", summary.wall_s,
                 summary.realtime_factor);
-  text +=
-      print("  planned and driven poses, SHA-256  %s\n", summary.trace_sha256.c_str());
+  text += print("  planned and driven poses, SHA-256  %s\n", summary.trace_sha256.c_str());
   text += print("  program, host                                %s, %s, %u cores, %s\n",
                 summary.revision.c_str(), summary.host.cpu.c_str(), summary.host.cores,
                 summary.host.kernel.c_str());

@@ -54,7 +54,7 @@ std::string summary_json(const RunSummary& summary) {
   json["scenario"] = run.scenario;
   json["profile"] = run.profile;
   json["map"] = run.map.empty() ? Json(nullptr) : Json(run.map);
-  json["seed"] = run.seed;
+  json["seed"] = run.noise_seed ? Json(*run.noise_seed) : Json(nullptr);
   json["subgraph"] = run.subgraph;
   json["horizon_steps"] = run.horizon_steps;
   json["step_s"] = run.step_s;

@@ -157,7 +157,6 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.automaton_file = beside(choices.file, node.required<std::string>("automaton"));
   const auto steps = node.required<std::size_t>("steps", between(1.0, 100000.0));
   scenario.steps = choices.steps.value_or(steps);
-  scenario.seed = node.optional<std::size_t>("seed", 0);
   scenario.horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0));
   scenario.reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0));
   scenario.max_expansions =

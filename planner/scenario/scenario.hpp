@@ -31,7 +31,6 @@ struct Scenario {
   std::filesystem::path automaton_file;
   std::optional<std::filesystem::path> map_file;  ///< none: open ground without lanes
   std::size_t steps{};
-  std::uint64_t seed{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
   std::size_t max_expansions{};

@@ -30,7 +30,7 @@ class RunSummaryTest : public testing::Test {
     description_ = {.scenario = "test",
                     .profile = "default",
                     .map = "circle",
-                    .seed = 1,
+                    .noise_seed = 1,
                     .subgraph = "B",
                     .horizon_steps = 8,
                     .step_s = 0.2,
