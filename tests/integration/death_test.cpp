@@ -40,6 +40,14 @@ std::map<std::uint64_t, DrivenPose> read_drive(const std::filesystem::path& file
   return drive;
 }
 
+std::vector<std::map<std::uint64_t, DrivenPose>> read_drives(const LabProcesses& lab) {
+  std::vector<std::map<std::uint64_t, DrivenPose>> drives;
+  for (const char* id : {"1", "2", "3"}) {
+    drives.push_back(read_drive(lab.folder() / (std::string("vehicle_") + id + ".csv")));
+  }
+  return drives;
+}
+
 /// A vehicle whose record has ended stands where it was seen last: it can still be hit.
 void expect_no_touch(const std::vector<std::map<std::uint64_t, DrivenPose>>& drives) {
   constexpr Footprint kCar{0.220, 0.107};
@@ -54,6 +62,26 @@ void expect_no_touch(const std::vector<std::map<std::uint64_t, DrivenPose>>& dri
       }
     }
   }
+}
+
+/// The vehicle stood when the stop symbol came: so the plan stopped it, not the braking. It brakes
+/// for the last SimulatedVehicle::kBrakingTicks rows, whatever the time.
+void expect_stood_before_the_stop(const std::map<std::uint64_t, DrivenPose>& drive,
+                                  const std::string& id) {
+  constexpr int kBrakingTicks = 50;
+  ASSERT_GT(drive.size(), static_cast<std::size_t>(kBrakingTicks)) << "vehicle " << id;
+  const DrivenPose& at_stop = std::prev(drive.end(), kBrakingTicks + 1)->second;
+  EXPECT_LT(std::abs(at_stop.speed_mps), 0.05) << "vehicle " << id;
+}
+
+/// Rows of reports.csv in which the vehicle drove out its plan. Columns: step, id, status, ...
+std::size_t count_drive_out_rows(const std::filesystem::path& file, const std::string& id) {
+  std::size_t rows = 0;
+  std::istringstream text(read_text(file));
+  for (std::string line; std::getline(text, line);) {
+    if (line.find("," + id + ",drive_out,") == line.find(',')) ++rows;
+  }
+  return rows;
 }
 
 std::size_t count_lines(const std::filesystem::path& file) {
@@ -87,13 +115,15 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
   if (death.signal == SIGSTOP) lab[death.victim].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(30s), testing::IsEmpty());
 
-  std::vector<std::map<std::uint64_t, DrivenPose>> drives;
-  for (const char* id : {"1", "2", "3"}) {
-    drives.push_back(read_drive(lab.folder() / (std::string("vehicle_") + id + ".csv")));
-    ASSERT_FALSE(drives.back().empty());
-    if (death.victim != std::string("vehicle_") + id) {
-      EXPECT_LT(std::abs(drives.back().rbegin()->second.speed_mps), 0.05) << "vehicle " << id;
-    }
+  const std::vector<std::map<std::uint64_t, DrivenPose>> drives = read_drives(lab);
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const std::string id = std::to_string(i + 1);
+    ASSERT_FALSE(drives[i].empty());
+    if (death.victim != "vehicle_" + id) expect_stood_before_the_stop(drives[i], id);
+  }
+  for (const char* survivor : {"1", "3"}) {
+    EXPECT_GT(count_drive_out_rows(lab.folder() / "reports.csv", survivor), 0U)
+        << "vehicle " << survivor;
   }
   expect_no_touch(drives);
   EXPECT_GT(count_lines(lab.folder() / "reports.csv"), 30U) << "results so far are kept";
@@ -121,6 +151,12 @@ TEST_P(LabControlDeath, EndsEveryProcess) {
   ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
   lab["lab_control"].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
+  const std::vector<std::map<std::uint64_t, DrivenPose>> drives = read_drives(lab);
+  expect_no_touch(drives);
+  if (GetParam()) return;  // without the lab control logical time stands still, and so do the cars
+  for (const auto& drive : drives) {
+    EXPECT_LT(std::abs(drive.rbegin()->second.speed_mps), 0.05);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LabControlDeath, testing::Values(true, false),

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
-
-#include "planner/scenario/scenario.hpp"
 
 namespace hlc::test {
 namespace {
@@ -29,14 +28,23 @@ std::filesystem::path new_folder() {
   return folder;
 }
 
+std::vector<std::string> scenario_flags(const ScenarioChoices& choices) {
+  std::vector<std::string> flags{"--scenario=" + choices.file.string(),
+                                 "--profile=" + choices.profile};
+  if (choices.map_file) flags.push_back("--map=" + choices.map_file->string());
+  return flags;
+}
+
 }  // namespace
 
 LabProcesses::LabProcesses(const LabOptions& options)
     : domains_(1 + kLargestVehicles),
       folder_(new_folder()),
-      scenario_(std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" + options.scenario +
-                ".yaml") {
-  const Scenario scenario = read_scenario({.file = scenario_});
+      choices_{.file = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" +
+                       options.scenario + ".yaml",
+               .profile = options.profile} {
+  if (!options.map_file.empty()) choices_.map_file = options.map_file;
+  const Scenario scenario = read_scenario(choices_);
   const int lab = domains_.first();
   const auto common = [&](const std::string& program) {
     return std::vector<std::string>{
@@ -67,9 +75,8 @@ LabProcesses::LabProcesses(const LabOptions& options)
     middleware.insert(middleware.end(), {"--vehicle_ids=" + id, local});
     add("middleware_" + id, middleware, {});
     auto controller = common("high_level_controller");
-    controller.insert(controller.end(),
-                      {"--vehicle_ids=" + id, local, "--scenario=" + scenario_.string()});
-    add("high_level_controller_" + id, controller, options.controller_flags);
+    controller.insert(controller.end(), {"--vehicle_ids=" + id, local});
+    add("high_level_controller_" + id, controller, scenario_flags(choices_));
   }
   auto lab_control = common("lab_control");
   lab_control.insert(lab_control.end(),
@@ -113,10 +120,10 @@ std::vector<std::string> LabProcesses::still_running_after(std::chrono::seconds 
 }
 
 int LabProcesses::summarize() {
-  ChildProcess program(
-      {kBin + "summarize", "--run=" + folder_.string(), "--scenario=" + scenario_.string()},
-      folder_ / "logs" / "summarize.log");
-  return program.wait_for(std::chrono::seconds(30)).value_or(-1);
+  std::vector<std::string> command{kBin + "summarize", "--run=" + folder_.string()};
+  std::ranges::move(scenario_flags(choices_), std::back_inserter(command));
+  ChildProcess program(command, folder_ / "logs" / "summarize.log");
+  return program.wait_for(std::chrono::seconds(60)).value_or(-1);
 }
 
 std::string LabProcesses::log(const std::string& name) const {

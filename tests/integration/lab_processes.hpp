@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/scenario/scenario.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
 
@@ -12,12 +13,13 @@ namespace hlc::test {
 
 struct LabOptions {
   std::string scenario{"paper_three_cars"};
+  std::string profile{"default"};
+  std::string map_file{};  ///< instead of the scenario's
   int steps{25};
   bool simulated_time{true};
-  std::vector<std::string> vehicle_flags;     ///< further flags of every vehicle_sim
-  std::vector<std::string> controller_flags;  ///< further flags of every high_level_controller
-  std::vector<std::string> absent;            ///< processes that are not started
-  int startup_timeout_s{60};                  ///< of lab control; the others wait 10 s longer
+  std::vector<std::string> vehicle_flags;  ///< further flags of every vehicle_sim
+  std::vector<std::string> absent;         ///< processes that are not started
+  int startup_timeout_s{60};               ///< of lab control; the others wait 10 s longer
 };
 
 /// All processes of a run, started one by one in any order, each known by its name: lab_control,
@@ -45,7 +47,7 @@ class LabProcesses {
   std::map<std::string, std::vector<std::string>> commands_;
   DomainReservation domains_;
   std::filesystem::path folder_;
-  std::filesystem::path scenario_;
+  ScenarioChoices choices_;
   std::map<std::string, ChildProcess> running_;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -43,6 +44,40 @@ TEST(Run, ThreeCarsDriveThePapersScenarioToTheEnd) {
   EXPECT_GE(summary["vehicles"][0]["lap_s"].get<double>(), 15.5);
   EXPECT_LE(summary["vehicles"][0]["lap_s"].get<double>(), 16.7);
 }
+
+struct Variant {
+  std::string name;
+  std::string profile;
+  std::string map_file;
+};
+
+class Variants : public testing::TestWithParam<Variant> {};
+
+TEST_P(Variants, ThreeCarsDriveToTheEndWithoutFallbacks) {
+  const Variant& variant = GetParam();
+  if (!variant.map_file.empty() && !std::filesystem::exists(variant.map_file)) {
+    GTEST_SKIP() << variant.map_file << " is not there";
+  }
+  LabProcesses lab({.profile = variant.profile, .map_file = variant.map_file, .steps = 150});
+  const nlohmann::json summary = drive(lab, lab.names());
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["profile"], variant.profile);
+  EXPECT_EQ(summary["steps"], 150);
+  EXPECT_EQ(summary["collisions"], 0);
+  ASSERT_EQ(summary["vehicles"].size(), 3U);
+  for (const nlohmann::json& vehicle : summary["vehicles"]) {
+    EXPECT_EQ(vehicle["fallback_steps"], 0) << vehicle["name"];
+    EXPECT_TRUE(vehicle["lap_s"].is_number()) << vehicle["name"];
+  }
+}
+
+const std::string kLabsMap = std::string(HLC_SOURCE_DIR) + "/../shared/data/LabMapCommonRoad.xml";
+
+INSTANTIATE_TEST_SUITE_P(Run, Variants,
+                         testing::Values(Variant{"Profile2022", "2022", ""},
+                                         Variant{"LabsMap", "default", kLabsMap},
+                                         Variant{"LabsMapProfile2022", "2022", kLabsMap}),
+                         [](const auto& one) { return one.param.name; });
 
 TEST(Run, TheSameScenarioGivesTheSameBytesInWhateverOrderTheProcessesStart) {
   std::string steps;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tests/support/child_process.hpp"
 
@@ -14,6 +16,18 @@ using namespace std::chrono_literals;
 
 const std::string kScripts = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
 const std::string kBin = std::string(HLC_BINARY_DIR) + "/bin";
+
+/// The child of a process that runs this program.
+std::optional<pid_t> child_of(pid_t parent, const std::string& program) {
+  const std::string id = std::to_string(parent);
+  std::ifstream children("/proc/" + id + "/task/" + id + "/children");
+  for (pid_t pid = 0; children >> pid;) {
+    const std::string command = read_text("/proc/" + std::to_string(pid) + "/cmdline");
+    const std::string first = command.substr(0, command.find('\0'));
+    if (first.ends_with("/" + program)) return pid;
+  }
+  return std::nullopt;
+}
 
 class Scripts : public testing::Test {
  protected:
@@ -42,7 +56,79 @@ TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
   for (const char* file : {"summary.json", "steps.csv", "timing.csv", "reports.csv", "run.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / file)) << file;
   }
-  EXPECT_NE(::kill(-run.pid(), 0), 0) << "somebody of the run is still there";
+  EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+      << "somebody of the run is still there";
+}
+
+TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab(
+      {"--steps", "10", "--noise_seed", "010", "--gains_scale", "0.9", "--out", out.string()});
+  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  const std::string flags = read_text(out / "configuration" / "flags.yaml");
+  for (const char* line : {"profile: 'default'", "subgraph: null", "steps: 10", "noise_seed: 10",
+                           "gains_scale: 0.9", "simulated_time: true"}) {
+    EXPECT_NE(flags.find(std::string("\n") + line + "\n"), std::string::npos) << line << " in\n"
+                                                                              << flags;
+  }
+  const auto summary = nlohmann::json::parse(read_text(out / "summary.json"), nullptr, false);
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["seed"], 10);
+}
+
+struct Hung {
+  std::string process;
+  std::string simulated_time;
+  std::string named;
+};
+
+class HungProcess : public Scripts, public testing::WithParamInterface<Hung> {
+ protected:
+  /// Of a process of the run in `out`, or 0.
+  static pid_t pid_of(const std::filesystem::path& out, const std::string& process) {
+    std::ifstream pids(out / "logs" / "vehicle_2.pids");
+    std::string name;
+    for (pid_t pid = 0; pids >> pid >> name;) {
+      if (name == process) return pid;
+    }
+    return 0;
+  }
+};
+
+TEST_P(HungProcess, EndsTheRunWithCode4AndIsNamed) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab(
+      {"--steps", "5000", "--simulated_time", GetParam().simulated_time, "--out", out.string()});
+  ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 4000; }))
+      << output();
+  const pid_t hung = pid_of(out, GetParam().process);
+  ASSERT_GT(hung, 0);
+  ASSERT_EQ(::kill(hung, SIGSTOP), 0);
+  EXPECT_EQ(run.wait_for(120s), 4) << output();
+  EXPECT_NE(output().find(GetParam().named + " died"), std::string::npos) << output();
+  EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+      << "somebody of the run is still there";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scripts, HungProcess,
+                         testing::Values(Hung{"high_level_controller_2", "true",
+                                              "high_level_controller_2"},
+                                         Hung{"vehicle_2", "true", "vehicle_raspberry_2"},
+                                         Hung{"middleware_2", "false", "middleware_2"}),
+                         [](const auto& one) { return one.param.process; });
+
+TEST_F(Scripts, ALabControlThatHangsIsEnded) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab({"--steps", "5000", "--out", out.string()});
+  ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 4000; }))
+      << output();
+  const std::optional<pid_t> lab_control = child_of(run.pid(), "lab_control");
+  ASSERT_TRUE(lab_control);
+  ASSERT_EQ(::kill(*lab_control, SIGSTOP), 0);
+  EXPECT_EQ(run.wait_for(180s), 4) << output();
+  EXPECT_NE(output().find("lab_control hangs"), std::string::npos) << output();
+  EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+      << "somebody of the run is still there";
 }
 
 TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
@@ -53,7 +139,7 @@ TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
         << output();
     run.send(signal);
     EXPECT_EQ(run.wait_for(30s), 130) << output();
-    EXPECT_TRUE(eventually(5s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+    EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
         << "somebody of the run is still there";
   }
 }
@@ -86,6 +172,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"CarsWhereTheyHaveNames", {"--cars", "3"}, "--cars"},
                     BadInput{"TooManyCars", {"--scenario", "circle", "--cars", "99"}, "99"},
                     BadInput{"DomainTooLarge", {"--dds_domain", "233"}, "233"},
+                    BadInput{"NoiseSeedNotANumber", {"--noise_seed", "abc"}, "noise_seed = abc"},
+                    BadInput{"GainsNotANumber", {"--gains_scale", "abc"}, "gains_scale = abc"},
+                    BadInput{"NoSuchPreset", {"--preset", "foo"}, "preset = foo"},
                     BadInput{"DomainNotANumber", {"--dds_domain", "x"}, "dds_domain"}),
     [](const auto& one) { return one.param.name; });
 
