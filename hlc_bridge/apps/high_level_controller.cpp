@@ -2,18 +2,16 @@
 // or by launch_scripts/vehicle.sh.
 #include <spdlog/spdlog.h>
 
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/hlc/hlc_process.hpp"
-#include "hlc_bridge/time/exit_watchdog.hpp"
-#include "hlc_bridge/time/stop_signals.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
@@ -64,15 +62,11 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   return options;
 }
 
-int run(const Flags& flags, hlc::StopSignals& signals) {
+std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(flags.vehicle_ids.front())};
   const hlc::HlcProcessOptions options = process_options(flags, id);
   const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
-  // Shared with the signals' thread, which lives longer than this function.
-  const auto process =
-      std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
-  signals.on_stop([process](int) { process->stop(); });
-  return hlc::run_to_the_end(*process);
+  return std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
 }
 
 }  // namespace
@@ -84,10 +78,7 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
-    return run(flags, signals);
-  } catch (const std::exception& error) {
-    spdlog::error("high_level_controller: {}", error.what());
-    return hlc::kExitBadInput;
-  }
+  return hlc::run_program(
+      "high_level_controller", signals, [&] { return make_process(flags); },
+      [](hlc::HlcProcess& process) { process.stop(); });
 }

@@ -4,15 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/lab_control/lab_control_process.hpp"
-#include "hlc_bridge/time/exit_watchdog.hpp"
-#include "hlc_bridge/time/stop_signals.hpp"
 
 namespace {
 
@@ -60,7 +58,7 @@ hlc::LabControlOptions process_options(const Flags& flags) {
   for (const int id : ids) {
     options.run.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
   }
-  options.run.period = flags.period_ms * 1'000'000;
+  options.run.period = flags.period_ms * hlc::kNanosecondsPerMillisecond;
   options.run.steps = flags.steps;
   options.run.startup_timeout =
       static_cast<hlc::Nanoseconds>(flags.network.startup_timeout_s) * hlc::kNanosecondsPerSecond;
@@ -94,13 +92,8 @@ int main(int argc, char** argv) {
   if (const auto code = hlc::parse_flags(app, argc, argv)) {
     return *code;
   }
-  try {
-    // Shared with the signals' thread, which lives longer than this block.
-    const auto process = std::make_shared<hlc::LabControlProcess>(process_options(flags));
-    signals.on_stop([process](int) { process->interrupt(); });
-    return hlc::run_to_the_end(*process);
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return hlc::kExitBadInput;
-  }
+  return hlc::run_program(
+      hlc::kLabControlName, signals,
+      [&] { return std::make_shared<hlc::LabControlProcess>(process_options(flags)); },
+      [](hlc::LabControlProcess& process) { process.interrupt(); });
 }

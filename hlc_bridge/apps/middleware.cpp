@@ -3,14 +3,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include <exception>
 #include <memory>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/time/exit_watchdog.hpp"
-#include "hlc_bridge/time/stop_signals.hpp"
 
 namespace {
 
@@ -80,13 +78,8 @@ int main(int argc, char** argv) {
   if (const auto code = hlc::parse_flags(app, argc, argv)) {
     return *code;
   }
-  try {
-    // Shared with the signals' thread, which lives longer than this block.
-    const auto process = std::make_shared<hlc::MiddlewareProcess>(process_options(flags));
-    signals.on_stop([process](int) { process->stop(); });
-    return hlc::run_to_the_end(*process);
-  } catch (const std::exception& error) {
-    spdlog::error("middleware: {}", error.what());
-    return hlc::kExitBadInput;
-  }
+  return hlc::run_program(
+      "middleware", signals,
+      [&] { return std::make_shared<hlc::MiddlewareProcess>(process_options(flags)); },
+      [](hlc::MiddlewareProcess& process) { process.stop(); });
 }

@@ -17,6 +17,8 @@ using Nanoseconds = std::uint64_t;
 inline constexpr Nanoseconds kStopSymbol = 0xFFFF'FFFF'FFFF'FFFFULL;
 /// A vehicle's state is valid this long after it was created.
 inline constexpr Nanoseconds kStateDelay = 60'000'000;
+/// A vehicle drops a command this long after its valid_after stamp.
+inline constexpr Nanoseconds kCommandLifetime = 1'000'000'000;
 /// Period of the vehicle's ticks.
 inline constexpr Nanoseconds kVehiclePeriod = 20'000'000;
 

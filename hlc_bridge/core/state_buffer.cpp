@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hlc_bridge/core/time_grid.hpp"
+
 namespace hlc {
 
 void StateBuffer::add(std::uint8_t vehicle_id, const VehicleState& state) {
@@ -47,7 +49,6 @@ void StateBuffer::forget_before(Nanoseconds t_now) {
 VehicleStateList compose_state_list(const StateBuffer& buffer, Nanoseconds t_now,
                                     Nanoseconds period,
                                     std::span<const std::int32_t> active_vehicle_ids) {
-  constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
   VehicleStateList list;
   list.t_now = t_now;
   list.period_ms = period / kNanosecondsPerMillisecond;

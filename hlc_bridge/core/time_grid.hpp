@@ -17,6 +17,7 @@ namespace hlc {
 inline constexpr Nanoseconds kListOffset = 1;
 
 inline constexpr Nanoseconds kNanosecondsPerSecond = 1'000'000'000;
+inline constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
 
 /// No process waits longer than this (wall time) for a message of another one that seems to live.
 inline constexpr Nanoseconds kMessageTimeout = 10 * kNanosecondsPerSecond;

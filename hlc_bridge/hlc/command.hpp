@@ -7,8 +7,6 @@
 
 namespace hlc {
 
-/// A vehicle drops a command this long after its valid_after stamp (wire contract 6.1).
-inline constexpr Nanoseconds kCommandLifetime = 1'000'000'000;
 /// The second copy of a command becomes valid this long after the first, so that the vehicle can
 /// drive the whole plan even if its controller dies at once.
 inline constexpr Nanoseconds kCopyDelay = 800'000'000;

@@ -42,8 +42,8 @@ std::string joined(const std::set<std::string>& names) {
 }
 
 Nanoseconds share_of_period(const VehicleStateList& list, double share) {
-  const Nanoseconds period = list.period_ms * kNanosecondsPerSecond / 1000;
-  return step_at(list.t_now, period) * period +
+  const Nanoseconds period = period_of(list);
+  return step_of(list).value * period +
          static_cast<Nanoseconds>(share * static_cast<double>(period));
 }
 
@@ -162,7 +162,7 @@ bool HlcProcess::wait_for_everybody() {
 void HlcProcess::send_ready_now_and_then() {
   const bool triggered = signal_.locked([this] { return start_.has_value(); });
   if (!is_ready_ || triggered || Clock::now() < next_ready_at_) return;
-  ready_writer_.write({.source_id = "hlc_" + std::to_string(controller_->options().vehicle.value)});
+  ready_writer_.write({.source_id = controller_ready_id(controller_->options().vehicle.value)});
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
@@ -342,7 +342,7 @@ void HlcProcess::send_command(const VehicleStateList& list, StepIndex step) {
   if (copy_due_) command_writer_.write(copy_due_->second);
   const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
   const TrajectoryCommand command =
-      command_of(controller_->options().vehicle, plan, step, list.t_now, list.period_ms * 1'000'000,
+      command_of(controller_->options().vehicle, plan, step, list.t_now, period_of(list),
                  controller_->subgraph().automaton().vehicle);
   command_writer_.write(command);
   copy_due_.reset();

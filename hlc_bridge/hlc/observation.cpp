@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/coordination/missing.hpp"
+
 namespace hlc {
 namespace {
 
-constexpr Nanoseconds kMaxStateAge = 200'000'000;
-constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
+constexpr auto kMaxStateAge = static_cast<Nanoseconds>(1e9 * kMaxStateAge_s);
 constexpr std::int32_t kMaxVehicleId = 255;
 
 bool is_finite(const VehicleState& state) {
@@ -17,9 +18,7 @@ bool is_finite(const VehicleState& state) {
 
 }  // namespace
 
-StepIndex step_of(const VehicleStateList& list) {
-  return {list.t_now / (list.period_ms * kNanosecondsPerMillisecond)};
-}
+StepIndex step_of(const VehicleStateList& list) { return {step_at(list.t_now, period_of(list))}; }
 
 bool is_usable(const VehicleState& state, Nanoseconds t_now) {
   return state.vehicle_id != 0 && is_finite(state) && state.valid_after_stamp <= t_now &&
@@ -28,8 +27,7 @@ bool is_usable(const VehicleState& state, Nanoseconds t_now) {
 
 Observation observation_of(const VehicleStateList& list) {
   Observation observation{.step = step_of(list)};
-  const Nanoseconds step_start =
-      observation.step.value * list.period_ms * kNanosecondsPerMillisecond;
+  const Nanoseconds step_start = observation.step.value * period_of(list);
   for (const std::int32_t id : list.active_vehicle_ids) {
     if (id > 0 && id <= kMaxVehicleId) {
       observation.active.push_back({static_cast<std::uint8_t>(id)});

@@ -1,15 +1,19 @@
 #pragma once
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
 #include "planner/controller/controller.hpp"
 
 namespace hlc {
+
+[[nodiscard]] inline Nanoseconds period_of(const VehicleStateList& list) {
+  return list.period_ms * kNanosecondsPerMillisecond;
+}
 
 /// Number of the control step that a list belongs to: k = t_now / period. @pre list.period_ms > 0
 [[nodiscard]] StepIndex step_of(const VehicleStateList& list);
 
 /// A state that may be used at t_now: of a vehicle (placeholders have id 0), finite, already valid,
-/// and not older than 0.2 s.
+/// and not older than kMaxStateAge_s.
 [[nodiscard]] bool is_usable(const VehicleState& state, Nanoseconds t_now);
 
 /// What the list tells the controller: usable states only, with their age at t(k). Vehicle ids out

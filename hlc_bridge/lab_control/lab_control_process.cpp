@@ -12,6 +12,7 @@
 #include "hlc_bridge/core/logical_run.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/real_time_run.hpp"
+#include "hlc_bridge/core/run_parameters.hpp"
 #include "hlc_bridge/core/run_record.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/text_file.hpp"
@@ -20,7 +21,6 @@
 namespace hlc {
 namespace {
 
-constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
 constexpr double kSecondsPerNanosecond = 1e-9;
 constexpr std::chrono::milliseconds kLeaveTime{800};
 constexpr std::chrono::milliseconds kHurriedLeaveTime{200};
@@ -90,14 +90,15 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
   }
 }
 
-/// Real time: a vehicle is there when its first state has come.
+/// Real time: a vehicle is there when a state has come. While the run gathers, every state counts,
+/// since a vehicle may leave and come back; later ones tell nothing new.
 void LabControlProcess::listen_to_vehicles() {
   for (const std::uint8_t id : options_.run.vehicle_ids) {
     state_readers_.try_emplace(id, lab_, topics::vehicle_state(id),
-                               [this, is_known = false](const VehicleState& mail) mutable {
-                                 if (!std::exchange(is_known, true)) {
-                                   signal_.post([&] { mail_.emplace_back(mail); });
-                                 }
+                               [this](const VehicleState& mail) {
+                                 signal_.post([&] {
+                                   if (is_gathering_) mail_.emplace_back(mail);
+                                 });
                                });
   }
 }
@@ -168,10 +169,10 @@ void LabControlProcess::read(const ReportRecord& record) {
 }
 
 void LabControlProcess::read(const ParameterRequest& request) {
-  if (request.name == "middleware_period_ms") {
+  if (request.name == kPeriodParameter) {
     const std::uint64_t period_ms = options_.run.period / kNanosecondsPerMillisecond;
     parameter_writer_.write({.name = request.name, .value = period_ms});
-  } else if (request.name == "active_vehicle_ids") {
+  } else if (request.name == kActiveIdsParameter) {
     const std::vector<std::uint8_t>& ids = options_.run.vehicle_ids;
     parameter_writer_.write(
         {.name = request.name, .value = std::vector<std::int32_t>(ids.begin(), ids.end())});
@@ -197,6 +198,7 @@ void LabControlProcess::perform(const LabRunActions& actions) {
                        .level = 1});
   }
   if (actions.run_state) {
+    signal_.locked([this] { is_gathering_ = false; });
     run_state_writer_.write({.phase = *actions.run_state});
   }
   for (const Nanoseconds trigger : actions.triggers) {

@@ -73,6 +73,7 @@ class LabControlProcess {
   Signal signal_;  // guards what follows, down to the next blank line
   std::vector<Mail> mail_;
   bool presence_changed_{true};
+  bool is_gathering_{true};
   bool interrupted_{};
 
   // Destroyed first: no callback comes afterwards.

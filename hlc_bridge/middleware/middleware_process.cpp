@@ -18,9 +18,6 @@ namespace {
 constexpr std::chrono::milliseconds kRequestInterval{100};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kLeaveTime{500};
-constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
-constexpr const char* kPeriodParameter = "middleware_period_ms";
-constexpr const char* kActiveIdsParameter = "active_vehicle_ids";
 
 ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
   const bool lab = role == DomainRole::kLab;
@@ -44,9 +41,10 @@ MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
                       [this] { signal_.notify(); }),
       ready_writer_(lab_, topics::ready_status(), [this] { signal_.notify(); }),
       request_writer_(lab_, topics::parameter_request()),
-      parameter_reader_(
-          lab_, topics::parameter(),
-          [this](const Parameter& parameter) { signal_.post([&] { take(parameter); }); }),
+      parameter_reader_(lab_, topics::parameter(),
+                        [this](const Parameter& parameter) {
+                          signal_.post([&] { parameters_.take(parameter); });
+                        }),
       trigger_reader_(
           lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) { take(trigger); },
           [this] { signal_.notify(); }),
@@ -140,55 +138,35 @@ void MiddlewareProcess::let_controller_leave() const {
                                        [this] { return command_reader_.matched() == 0; }));
 }
 
-// --- start
-// ----------------------------------------------------------------------------------------
-
-void MiddlewareProcess::take(const Parameter& parameter) {
-  if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value);
-      period_ms != nullptr && parameter.name == kPeriodParameter) {
-    if (!period_) period_ = *period_ms * kNanosecondsPerMillisecond;  // the first answer counts
-  }
-  if (const auto* ids = std::get_if<std::vector<std::int32_t>>(&parameter.value);
-      ids != nullptr && parameter.name == kActiveIdsParameter) {
-    if (!active_ids_) active_ids_ = *ids;
-  }
-}
+// --- start --------------------------------------------------------------------------------------
 
 bool MiddlewareProcess::learn_parameters(Clock::time_point deadline) {
-  const auto is_done = [this] { return stop_ || (period_ && active_ids_); };
-  while (Clock::now() < deadline) {
-    const auto [has_period, has_ids] = signal_.locked([this] {
-      return std::pair{period_.has_value(), active_ids_.has_value()};
-    });
-    if (!has_period) {
-      request_writer_.write({.name = kPeriodParameter});
-    }
-    if (!has_ids) {
-      request_writer_.write({.name = kActiveIdsParameter});
-    }
-    if (signal_.wait_until(std::min(deadline, Clock::now() + kRequestInterval), is_done)) {
-      return true;
-    }
-  }
-  return false;
+  return signal_.repeat_until(
+      deadline, kRequestInterval, [this] { return stop_ || parameters_.complete(); },
+      [this] {
+        for (const std::string& name : signal_.locked([this] { return parameters_.missing(); })) {
+          request_writer_.write({.name = name});
+        }
+      });
 }
 
 std::string MiddlewareProcess::parameter_problem() const {
-  if (*period_ <= options_.offset) {
+  if (parameters_.period() <= options_.offset) {
     return fmt::format("{} = {} ms, must be more than --offset_nanoseconds = {}", kPeriodParameter,
-                       *period_ / kNanosecondsPerMillisecond, options_.offset);
+                       parameters_.period() / kNanosecondsPerMillisecond, options_.offset);
   }
   const auto is_wrong = [](std::int32_t id) { return id < 1 || id > 255; };
-  if (std::ranges::any_of(*active_ids_, is_wrong) ||
-      std::ranges::count(*active_ids_, options_.vehicle_id) != 1) {
+  if (std::ranges::any_of(parameters_.active_ids(), is_wrong) ||
+      std::ranges::count(parameters_.active_ids(), options_.vehicle_id) != 1) {
     return fmt::format("{} = {}, must be in 1 ... 255 and hold --vehicle_ids = {} once",
-                       kActiveIdsParameter, fmt::join(*active_ids_, ","), options_.vehicle_id);
+                       kActiveIdsParameter, fmt::join(parameters_.active_ids(), ","),
+                       options_.vehicle_id);
   }
   return {};
 }
 
 void MiddlewareProcess::listen_to_vehicles() {
-  for (const std::int32_t active : *active_ids_) {
+  for (const std::int32_t active : parameters_.active_ids()) {
     const auto id = static_cast<std::uint8_t>(active);
     state_readers_.try_emplace(
         id, lab_, topics::vehicle_state(id),
@@ -250,12 +228,13 @@ std::string MiddlewareProcess::who_is_missing() const {
 void MiddlewareProcess::make_timer() {
   LogicalTimer* logical = nullptr;
   if (options_.logical_time) {
-    auto timer = std::make_unique<LogicalTimer>(
-        *period_, options_.offset, [this](Nanoseconds next_tick) { send_ready(next_tick); });
+    auto timer =
+        std::make_unique<LogicalTimer>(parameters_.period(), options_.offset,
+                                       [this](Nanoseconds next_tick) { send_ready(next_tick); });
     logical = timer.get();
     timer_ = std::move(timer);
   } else {
-    timer_ = std::make_unique<RealTimer>(*period_, options_.offset);
+    timer_ = std::make_unique<RealTimer>(parameters_.period(), options_.offset);
   }
   signal_.locked([&] {
     timer_in_use_ = timer_.get();
@@ -274,8 +253,7 @@ void MiddlewareProcess::send_ready(Nanoseconds next_tick) {
   }
 }
 
-// --- the period
-// -----------------------------------------------------------------------------------
+// --- the period ---------------------------------------------------------------------------------
 
 void MiddlewareProcess::tick(Nanoseconds t_now) {
   if (options_.logical_time) {
@@ -286,8 +264,9 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
   const auto [list, tell_ready] = signal_.locked([&] {
     newest_list_ = t_now;
     states_.forget_before(t_now);
-    return std::pair{compose_state_list(states_, t_now, *period_, *active_ids_),
-                     controller_ready_ && !triggered_};
+    return std::pair{
+        compose_state_list(states_, t_now, parameters_.period(), parameters_.active_ids()),
+        controller_ready_ && !triggered_};
   });
   list_writer_.write(list);
   if (options_.logical_time) {
@@ -343,8 +322,7 @@ void MiddlewareProcess::tell_missed_answer() {
   }
 }
 
-// --- the carrier
-// ----------------------------------------------------------------------------------
+// --- the carrier --------------------------------------------------------------------------------
 
 /// On a DDS thread.
 void MiddlewareProcess::take(const SystemTrigger& trigger) {

@@ -12,6 +12,7 @@
 
 #include "hlc_bridge/core/command_check.hpp"
 #include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/run_parameters.hpp"
 #include "hlc_bridge/core/state_buffer.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/dds/participant.hpp"
@@ -72,7 +73,6 @@ class MiddlewareProcess {
 
   [[nodiscard]] int keep_period();
   [[nodiscard]] int prepare();
-  void take(const Parameter& parameter);
   void take(const SystemTrigger& trigger);
   [[nodiscard]] bool learn_parameters(Clock::time_point deadline);
   [[nodiscard]] std::string parameter_problem() const;
@@ -108,8 +108,7 @@ class MiddlewareProcess {
   bool stop_symbol_{};
   Timer* timer_in_use_{};
   LogicalTimer* logical_timer_{};  ///< the same in logical time
-  std::optional<Nanoseconds> period_;
-  std::optional<std::vector<std::int32_t>> active_ids_;
+  RunParameters parameters_;
 
   Signal mail_;  // guards what follows, down to the next blank line; the carrier waits for it
   std::deque<Carried> to_carry_;

@@ -20,12 +20,4 @@ inline void end_within(std::chrono::seconds time, int exit_code) {
 /// Longer than any take-down that goes well (less than 1 s).
 inline constexpr std::chrono::seconds kTakeDownTime{2};
 
-/// Runs a process and returns its exit code for main.
-template <class Process>
-int run_to_the_end(Process& process) {
-  const int exit_code = process.run();
-  end_within(kTakeDownTime, exit_code);
-  return exit_code;
-}
-
 }  // namespace hlc

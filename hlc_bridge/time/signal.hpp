@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
@@ -11,9 +13,10 @@ namespace hlc {
 /// until what it needs is there, or until a deadline.
 ///
 ///     Signal signal;
-///     std::vector<TrajectoryCommand> inbox;                                     // guarded by
-///     signal Reader<TrajectoryCommand> reader{participant, topic,
-///         [&](const TrajectoryCommand& c) { signal.post([&] { inbox.push_back(c); }); }};
+///     std::vector<TrajectoryCommand> inbox;  // guarded by signal
+///     Reader<TrajectoryCommand> reader{participant, topic, [&](const TrajectoryCommand& c) {
+///       signal.post([&] { inbox.push_back(c); });
+///     }};
 ///     bool there = signal.wait_until(deadline, [&] { return !inbox.empty(); });
 ///     auto commands = signal.locked([&] { return std::exchange(inbox, {}); });
 ///
@@ -52,6 +55,21 @@ class Signal {
   [[nodiscard]] bool wait_until(const TimePoint& deadline, Condition&& condition) const {
     std::unique_lock lock{mutex_};
     return changed_.wait_until(lock, deadline, std::forward<Condition>(condition));
+  }
+
+  /// Calls `act` (with no lock held) at once and then every `interval` until `condition` holds, at
+  /// most until `deadline`; the condition's last value. For questions whose answer can be lost.
+  template <class Condition, class Act>
+  [[nodiscard]] bool repeat_until(std::chrono::steady_clock::time_point deadline,
+                                  std::chrono::milliseconds interval, Condition&& condition,
+                                  Act&& act) const {
+    while (!wait_until(std::chrono::steady_clock::now(), condition)) {
+      const auto now = std::chrono::steady_clock::now();
+      if (now >= deadline) return false;
+      act();
+      if (wait_until(std::min(deadline, now + interval), condition)) return true;
+    }
+    return true;
   }
 
  private:

@@ -20,7 +20,7 @@ ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
 }
 
 bool is_seen_standing(const MeasuredVehicle& measured, const MissingVehicleRules& rules) {
-  return measured.age_s <= rules.max_age_s &&
+  return measured.age_s <= kMaxStateAge_s &&
          std::abs(measured.speed_mps) <= rules.standing_speed_mps;
 }
 

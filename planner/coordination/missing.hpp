@@ -14,12 +14,14 @@ struct MeasuredVehicle {
   double age_s{};  ///< t(k) minus the time at which the state was measured
 };
 
+/// A state older than this shows nothing.
+inline constexpr double kMaxStateAge_s = 0.2;
+
 /// What a silent vehicle may occupy.
 struct MissingVehicleRules {
   double max_speed_mps{};           ///< no vehicle of the lab drives faster under its controller
   double circumradius_m{};          ///< of the footprint with its safety margin
   double standing_speed_mps{0.02};  ///< slower counts as standing
-  double max_age_s{0.2};            ///< a state older than this shows nothing
   Footprint footprint;
   double safety_margin_m{};
 };

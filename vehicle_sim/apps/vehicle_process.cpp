@@ -18,11 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kRequestInterval{100};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
-constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
 /// After this many missed ticks (10 s) the vehicle stands anyway.
 constexpr Nanoseconds kMostMissedTicks = 500;
-constexpr const char* kPeriodParameter = "middleware_period_ms";
-constexpr const char* kActiveIdsParameter = "active_vehicle_ids";
 
 const char* reason(FollowerStatus status) {
   switch (status) {
@@ -72,9 +69,10 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             });
           },
           [this] { signal_.notify(); }),
-      parameter_reader_(
-          lab_, topics::parameter(),
-          [this](const Parameter& parameter) { signal_.post([&] { take(parameter); }); }),
+      parameter_reader_(lab_, topics::parameter(),
+                        [this](const Parameter& parameter) {
+                          signal_.post([&] { parameters_.take(parameter); });
+                        }),
       trigger_reader_(
           lab_, topics::system_trigger(),
           [this](const SystemTrigger& trigger) {
@@ -125,41 +123,23 @@ int VehicleProcess::run() {
 
 // --- start in logical time ----------------------------------------------------------------------
 
-void VehicleProcess::take(const Parameter& parameter) {
-  if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value);
-      period_ms != nullptr && *period_ms > 0 && parameter.name == kPeriodParameter) {
-    if (!period_) period_ = *period_ms * kNanosecondsPerMillisecond;  // the first answer counts
-  }
-  if (const auto* ids = std::get_if<std::vector<std::int32_t>>(&parameter.value);
-      ids != nullptr && parameter.name == kActiveIdsParameter) {
-    if (!active_ids_) active_ids_ = *ids;
-  }
-}
-
 bool VehicleProcess::learn_parameters(Clock::time_point deadline) {
-  const auto is_done = [this] { return is_ending() || (period_ && active_ids_); };
-  while (Clock::now() < deadline) {
-    const auto [has_period, has_ids] =
-        signal_.locked([this] { return std::pair(period_.has_value(), active_ids_.has_value()); });
-    if (!has_period) {
-      request_writer_.write({.name = kPeriodParameter});
-    }
-    if (!has_ids) {
-      request_writer_.write({.name = kActiveIdsParameter});
-    }
-    if (signal_.wait_until(Clock::now() + kRequestInterval, is_done)) {
-      return true;
-    }
-  }
-  return false;
+  return signal_.repeat_until(
+      deadline, kRequestInterval, [this] { return is_ending() || parameters_.complete(); },
+      [this] {
+        for (const std::string& name : signal_.locked([this] { return parameters_.missing(); })) {
+          request_writer_.write({.name = name});
+        }
+      });
 }
 
 /// A state or a command of the run that nobody hears is lost, and then a tick would wait for it.
 bool VehicleProcess::is_connected() const {
   const std::set<std::string> hearers = state_writer_.matched_names();
-  const bool all_middlewares_hear = std::ranges::all_of(*active_ids_, [&](std::int32_t id) {
-    return hearers.contains(middleware_name(static_cast<std::uint8_t>(id)));
-  });
+  const bool all_middlewares_hear =
+      std::ranges::all_of(parameters_.active_ids(), [&](std::int32_t id) {
+        return hearers.contains(middleware_name(static_cast<std::uint8_t>(id)));
+      });
   return all_middlewares_hear && command_reader_.matched_names().contains(middleware_) &&
          ready_writer_.matched() > 0 && trigger_reader_.matched() > 0;
 }
@@ -170,7 +150,7 @@ std::string VehicleProcess::who_is_missing() const {
     missing.emplace_back(kLabControlName);
   }
   const std::set<std::string> hearers = state_writer_.matched_names();
-  for (const std::int32_t id : *active_ids_) {
+  for (const std::int32_t id : parameters_.active_ids()) {
     const std::string middleware = middleware_name(static_cast<std::uint8_t>(id));
     const bool commands =
         middleware != middleware_ || command_reader_.matched_names().contains(middleware);
@@ -191,9 +171,13 @@ int VehicleProcess::prepare() {
   if (is_ending_now()) {
     return kExitGood;
   }
-  if (std::ranges::count(*active_ids_, options_.vehicle.vehicle_id) == 0) {
+  if (parameters_.period() == 0) {
+    spdlog::error("{}: {} = 0, must be more", name_, kPeriodParameter);
+    return kExitBadInput;
+  }
+  if (std::ranges::count(parameters_.active_ids(), options_.vehicle.vehicle_id) == 0) {
     spdlog::error("{}: --vehicle_id={} is not among the {}: {}", name_, options_.vehicle.vehicle_id,
-                  kActiveIdsParameter, fmt::join(*active_ids_, ", "));
+                  kActiveIdsParameter, fmt::join(parameters_.active_ids(), ", "));
     return kExitBadInput;
   }
   if (!signal_.wait_until(deadline, [this] { return is_ending() || is_connected(); })) {
@@ -256,7 +240,7 @@ bool VehicleProcess::is_answered(Nanoseconds list) const {
 }
 
 void VehicleProcess::wait_for_answer(Nanoseconds t_now) {
-  const std::optional<Nanoseconds> list = last_list_before(t_now, *period_);
+  const std::optional<Nanoseconds> list = last_list_before(t_now, parameters_.period());
   if (!list || vehicle_.is_braking() ||
       signal_.wait_until(Clock::now() + kSilence, [&] { return is_answered(*list); })) {
     return;

@@ -8,6 +8,7 @@
 
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/run_parameters.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
@@ -55,7 +56,6 @@ class VehicleProcess {
  private:
   // Under the signal's lock:
   [[nodiscard]] bool is_ending() const { return stop_ || stop_symbol_; }
-  void take(const Parameter& parameter);
   [[nodiscard]] bool is_connected() const;
   [[nodiscard]] bool is_answered(Nanoseconds list) const;
 
@@ -98,8 +98,7 @@ class VehicleProcess {
   bool gave_up_waiting_{};
   bool stop_{};
   bool stop_symbol_{};
-  std::optional<Nanoseconds> period_;
-  std::optional<std::vector<std::int32_t>> active_ids_;
+  RunParameters parameters_;
 
   LogicalTimer* logical_timer_{};  ///< timer_, if time is logical
   std::unique_ptr<Timer> timer_;

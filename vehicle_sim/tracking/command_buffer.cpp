@@ -27,7 +27,7 @@ const TrajectoryCommand* CommandBuffer::usable_at(Nanoseconds t_now) {
   // Whatever was valid has either been taken or is older than what is active.
   std::erase_if(waiting_,
                 [&](const Arrival& arrival) { return arrival.command.valid_after_stamp <= t_now; });
-  const bool is_usable = active_ && t_now - active_->command.valid_after_stamp < kLifetime;
+  const bool is_usable = active_ && t_now - active_->command.valid_after_stamp < kCommandLifetime;
   return is_usable ? &active_->command : nullptr;
 }
 

@@ -12,7 +12,8 @@ namespace hlc {
 /// The trajectory commands that a vehicle has received, and which of them it follows.
 ///
 /// The lab's rule: of the commands with valid_after <= t_now the one with the largest create_stamp
-/// is active, of equal ones the later arrival. It is usable while t_now - valid_after < 1 s. If it
+/// is active, of equal ones the later arrival. It is usable while t_now - valid_after <
+/// kCommandLifetime. If it
 /// is not, none is, even if an older command is valid for longer: a newer word replaces an older
 /// one for good.
 ///
@@ -21,7 +22,6 @@ namespace hlc {
 class CommandBuffer {
  public:
   static constexpr std::size_t kCapacity = 100;
-  static constexpr Nanoseconds kLifetime = 1'000'000'000;
 
   /// Calls must follow the order of arrival.
   void add(TrajectoryCommand command);

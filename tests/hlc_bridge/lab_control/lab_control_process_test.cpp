@@ -251,6 +251,58 @@ TEST_F(EmptyLabTest, NamesWhoDoesNotAppear) {
             "after 1 s: not there: vehicle_raspberry_7, middleware_7, high_level_controller_7");
 }
 
+/// Says something again and again, as vehicles do, until it has the effect.
+template <class Condition, class Act>
+bool repeat_until(Condition condition, Act act) {
+  return Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, condition, act);
+}
+
+/// A vehicle of the real-time run as far as the lab control meets it.
+struct FakeRealVehicle {
+  explicit FakeRealVehicle(int domain)
+      : participant{on_loopback(vehicle_name(7), domain, DomainRole::kLab)},
+        states{participant, topics::vehicle_state(7)},
+        triggers{participant, topics::system_trigger()} {}
+  Participant participant;
+  Writer<VehicleState> states;
+  Mailbox<SystemTrigger> triggers;
+};
+
+TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgain) {
+  options_.logical_time = false;
+  options_.run.startup_timeout = 60 * kNanosecondsPerSecond;
+  options_.out.clear();
+  LabControlProcess process{options_};
+  std::future<int> code = std::async(std::launch::async, [&] { return process.run(); });
+  const VehicleState state{.vehicle_id = 7};
+  {
+    FakeRealVehicle first{domain_.first()};
+    // The lab control has read a state when it has answered a question that was asked after it.
+    Participant asking{on_loopback("asking", domain_.first(), DomainRole::kLab)};
+    Mailbox<Parameter> answers{asking, topics::parameter()};
+    Writer<ParameterRequest> requests{asking, topics::parameter_request()};
+    ASSERT_TRUE(first.states.wait_for_matched(1, soon()));
+    ASSERT_TRUE(repeat_until([&] { return !answers.wait_for(0).empty(); },
+                             [&] {
+                               first.states.write(state);
+                               requests.write({"middleware_period_ms"});
+                             }));
+  }
+  FakeRealVehicle second{domain_.first()};
+  Participant middleware{on_loopback(middleware_name(7), domain_.first(), DomainRole::kLab)};
+  Mailbox<SystemTrigger> triggers{middleware, topics::system_trigger()};
+  Writer<ReadyStatus> ready{middleware, topics::ready_status()};
+  ASSERT_TRUE(repeat_until([&] { return !second.triggers.wait_for(0).empty(); },
+                           [&] {
+                             ready.write({middleware_ready_id(7), 0});
+                             second.states.write(state);
+                           }))
+      << "the run does not begin";
+  EXPECT_LT(second.triggers.wait_for(0).front().next_start, kStopSymbol);
+  process.interrupt();
+  EXPECT_EQ(code.get(), kExitInterrupted);
+}
+
 TEST_F(EmptyLabTest, DoesNotWriteIntoAFolderThatHoldsARun) {
   put(folder_ / "reports.csv", "mine");
   EXPECT_THAT([&] { LabControlProcess{options_}; },

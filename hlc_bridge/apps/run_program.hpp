@@ -1,0 +1,41 @@
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <string>
+
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/time/exit_watchdog.hpp"
+#include "hlc_bridge/time/stop_signals.hpp"
+
+namespace hlc {
+
+/// main of a process of a run, once its flags are parsed; returns main's exit code.
+///
+/// `make` reads the input and makes the process (a shared_ptr to something with `int run()`); an
+/// exception from it is bad input, kExitBadInput. SIGINT and SIGTERM call `stop(process)`. An
+/// exception from the run is a failure of this very process: for the others it has died, kExitDied.
+/// Either is told in one line.
+template <class Make, class Stop>
+int run_program(const std::string& name, StopSignals& signals, Make make, Stop stop) {
+  decltype(make()) process;
+  try {
+    process = make();
+  } catch (const std::exception& error) {
+    spdlog::error("{}: {}", name, error.what());
+    return kExitBadInput;
+  }
+  // Shared with the signals' thread, which lives longer than this function.
+  signals.on_stop([process, stop](int) { stop(*process); });
+  int exit_code = kExitDied;
+  try {
+    exit_code = process->run();
+  } catch (const std::exception& error) {
+    spdlog::error("{}: failed during the run: {}", name, error.what());
+  }
+  end_within(kTakeDownTime, exit_code);
+  return exit_code;
+}
+
+}  // namespace hlc
