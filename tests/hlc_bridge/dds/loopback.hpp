@@ -42,6 +42,12 @@ class Mailbox {
     return signal_.locked([&] { return messages_; });
   }
 
+  /// For conditions on the reader's matches.
+  template <class Condition>
+  [[nodiscard]] bool wait_until(Condition condition) const {
+    return signal_.wait_until(soon(), condition);
+  }
+
   [[nodiscard]] Reader<Message>& reader() { return reader_; }
 
  private:

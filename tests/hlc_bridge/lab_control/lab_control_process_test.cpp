@@ -6,7 +6,9 @@
 #include <deque>
 #include <fstream>
 #include <future>
+#include <map>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "hlc_bridge/core/node_names.hpp"
@@ -23,6 +25,12 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 constexpr Nanoseconds kPeriod = 200'000'000;
+
+/// Says something again and again, as vehicles do, until it has the effect.
+template <class Condition, class Act>
+bool repeat_until(Condition condition, Act act) {
+  return Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, condition, act);
+}
 
 /// Vehicle 1, its middleware and its controller as far as the lab control meets them: two timers
 /// that answer every trigger at once, and a report for every list; it leaves standby with step 5.
@@ -179,17 +187,26 @@ TEST_F(LabControlTest, DrivesTheStepsAndKeepsTheReports) {
 }
 
 TEST_F(LabControlTest, AnswersWhatItIsAskedFor) {
+  steps_ = 5000;
   start();
-  ASSERT_TRUE(vehicle_.requests.wait_for_matched(1, soon()));
-  ASSERT_TRUE(vehicle_.parameters.reader().wait_for_matched(1, soon()));
-  vehicle_.requests.write({"middleware_period_ms"});
-  vehicle_.requests.write({"no_such_parameter"});
-  vehicle_.requests.write({"active_vehicle_ids"});
-  const std::vector<Parameter> answers = vehicle_.parameters.wait_for(2);
-  ASSERT_EQ(answers.size(), 2U);
-  EXPECT_EQ(std::get<std::uint64_t>(answers[0].value), 200U);
-  EXPECT_THAT(std::get<std::vector<std::int32_t>>(answers[1].value), ElementsAre(1));
+  std::map<std::string, ParameterValue> answers;
+  EXPECT_TRUE(repeat_until(
+      [&] {
+        for (const Parameter& answer : vehicle_.parameters.wait_for(0)) {
+          answers[answer.name] = answer.value;
+        }
+        return answers.size() >= 2;
+      },
+      [&] {
+        vehicle_.requests.write({"middleware_period_ms"});
+        vehicle_.requests.write({"no_such_parameter"});
+        vehicle_.requests.write({"active_vehicle_ids"});
+      }));
+  process_->interrupt();
   code_.get();
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers["middleware_period_ms"], ParameterValue{std::uint64_t{200}});
+  EXPECT_EQ(answers["active_vehicle_ids"], (ParameterValue{std::vector<std::int32_t>{1}}));
 }
 
 TEST_F(LabControlTest, TellsThatTheRunGoesOnAndThenWhoDied) {
@@ -205,13 +222,17 @@ TEST_F(LabControlTest, TellsThatTheRunGoesOnAndThenWhoDied) {
   const std::vector<Log> logs = vehicle_.logs.wait_for(1);
   ASSERT_EQ(logs.size(), 1U);
   EXPECT_THAT(logs[0].content, HasSubstr("high_level_controller_1 died"));
-  EXPECT_GE(read_reports(folder_ / "run" / "reports.csv").size(), 12U);
+  // Its last reports may have died with it.
+  EXPECT_GE(read_reports(folder_ / "run" / "reports.csv").size(), 10U);
 }
 
 TEST_F(LabControlTest, InterruptionStopsTheRunAndKeepsWhatThereIs) {
   steps_ = 5000;
   start();
   vehicle_.wait_for_vehicle_tick(3 * kPeriod);
+  // Three reports have been written, and perhaps not yet all read.
+  EXPECT_TRUE(repeat_until(
+      [&] { return read_reports(folder_ / "run" / "reports.csv").size() >= 3; }, [] {}));
   process_->interrupt();
   EXPECT_EQ(code_.get(), kExitInterrupted);
   EXPECT_EQ(facts().exit_code, kExitInterrupted);
@@ -249,12 +270,6 @@ TEST_F(EmptyLabTest, NamesWhoDoesNotAppear) {
   EXPECT_EQ(process.run(), kExitMissing);
   EXPECT_EQ(read_facts(folder_ / "run.json").reason,
             "after 1 s: not there: vehicle_raspberry_7, middleware_7, high_level_controller_7");
-}
-
-/// Says something again and again, as vehicles do, until it has the effect.
-template <class Condition, class Act>
-bool repeat_until(Condition condition, Act act) {
-  return Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, condition, act);
 }
 
 /// A vehicle of the real-time run as far as the lab control meets it.

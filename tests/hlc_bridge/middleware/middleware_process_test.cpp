@@ -39,6 +39,7 @@ class FakeLab {
 
   /// Answers until both parameters have been asked for.
   void tell_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
+    ASSERT_TRUE(parameter_writer_.wait_for_matched(1, soon()));  // else an answer is lost
     bool period_told = false;
     bool ids_told = false;
     while (!period_told || !ids_told) {
@@ -266,7 +267,7 @@ TEST_F(MiddlewareTest, EndsIfTheLabControlSaysNothing) {
 }
 
 TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
-  startup_timeout_ = std::chrono::seconds{2};
+  startup_timeout_ = std::chrono::seconds{5};
   controller_.reset();
   start(true);
   lab_.tell_parameters(200, {1, 2});
@@ -288,6 +289,8 @@ TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIs
     EXPECT_EQ(lists[i].t_now % (20 * kMs), kListOffset);
     EXPECT_TRUE(i == 0 || lists[i].t_now > lists[i - 1].t_now);
   }
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
   EXPECT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
   EXPECT_EQ(lab_.ready.wait_for(1).at(0).source_id, "MW for muCars 1 ready.");
   lab_.triggers.write({5});

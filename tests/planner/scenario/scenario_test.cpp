@@ -41,7 +41,7 @@ class ScenarioErrors : public testing::Test {
 using testing::HasSubstr;
 
 TEST_F(ScenarioErrors, AnUnknownKeyIsNamedWithItsLine) {
-  EXPECT_THAT(error_of("max_exp", "mox_exp"), AllOf(HasSubstr(".yaml:8:"), HasSubstr("mox_exp")));
+  EXPECT_THAT(error_of("max_exp", "mox_exp"), AllOf(HasSubstr(".yaml:9:"), HasSubstr("mox_exp")));
 }
 
 TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {

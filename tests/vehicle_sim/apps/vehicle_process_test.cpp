@@ -76,12 +76,12 @@ class Lab {
 
   /// Answers what the vehicle asks until it asks for its first tick; false if that does not come.
   [[nodiscard]] bool answer_until_ready(const std::vector<std::int32_t>& active_ids) {
-    const auto deadline = Clock::now() + seconds(20);
+    const auto deadline = Clock::now() + seconds(60);
     while (!signal_.locked([this] { return is_closed_; })) {
       const bool is_asked = signal_.wait_until(
           deadline, [this] { return is_closed_ || ready_ || !requests_.empty(); });
       if (!is_asked || signal_.locked([this] { return ready_.has_value(); })) {
-        return is_asked;
+        return is_asked && is_heard();
       }
       for (const std::string& name :
            signal_.locked([this] { return std::exchange(requests_, {}); })) {
@@ -98,7 +98,7 @@ class Lab {
   /// Releases the tick that the vehicle has asked for and waits until it asks for the next one.
   [[nodiscard]] bool release_tick(Nanoseconds t, bool is_last = false) {
     trigger_writer_.write({.next_start = t});
-    return is_last || signal_.wait_until(Clock::now() + seconds(20),
+    return is_last || signal_.wait_until(Clock::now() + seconds(60),
                                          [&] { return ready_ && ready_->next_start > t; });
   }
 
@@ -106,13 +106,19 @@ class Lab {
   void close() {
     signal_.post([this] { is_closed_ = true; });
   }
+  /// The vehicle has matched this lab when it is ready, but not yet the other way round.
+  [[nodiscard]] bool is_heard() const {
+    const auto deadline = Clock::now() + seconds(60);
+    return trigger_writer_.wait_for_matched(1, deadline) &&
+           command_writer_.wait_for_matched(1, deadline);
+  }
   void stop() { trigger_writer_.write({.next_start = kStopSymbol}); }
   void command(const TrajectoryCommand& command) { command_writer_.write(command); }
   void release(Nanoseconds t) { trigger_writer_.write({.next_start = t}); }
 
   [[nodiscard]] std::vector<VehicleState> states(std::size_t count) {
     static_cast<void>(
-        signal_.wait_until(Clock::now() + seconds(20), [&] { return states_.size() >= count; }));
+        signal_.wait_until(Clock::now() + seconds(60), [&] { return states_.size() >= count; }));
     return signal_.locked([this] { return states_; });
   }
   [[nodiscard]] ReadyStatus ready() {
@@ -143,7 +149,7 @@ class VehicleProcessTest : public testing::Test {
             .transport = Transport::kLoopback,
             .lab_domain = domain_.first(),
             .logical_time = true,
-            .startup_timeout = seconds(20)};
+            .startup_timeout = seconds(60)};
   }
 
   void TearDown() override {
@@ -159,7 +165,7 @@ class VehicleProcessTest : public testing::Test {
 
   /// -1 if it does not end.
   [[nodiscard]] int exit_code() {
-    if (exit_code_.wait_for(seconds(20)) != std::future_status::ready) {
+    if (exit_code_.wait_for(seconds(60)) != std::future_status::ready) {
       process_->stop();
       return -1;
     }
@@ -240,7 +246,7 @@ TEST_F(VehicleProcessTest, LabControlThatDoesNotAnswerIsMissed) {
 TEST_F(VehicleProcessTest, MiddlewareOfAnotherActiveVehicleIsMissed) {
   Lab lab(domain_.first());
   VehicleProcessOptions impatient = options();
-  impatient.startup_timeout = seconds(2);
+  impatient.startup_timeout = seconds(5);
   start(impatient);
   auto answering = std::async(std::launch::async, [&] {
     return lab.answer_until_ready({kId, kId + 1});
@@ -274,6 +280,7 @@ TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
     EXPECT_EQ(state.create_stamp % kVehiclePeriod, 0U);
     EXPECT_EQ(state.pose, kStart);
   }
+  ASSERT_TRUE(lab.is_heard());
   lab.stop();
   EXPECT_EQ(exit_code(), kExitGood);
 }
