@@ -87,6 +87,11 @@ class LabRun {
   [[nodiscard]] LabRunActions advance(Nanoseconds now);
   /// Wall time at which advance() must be called even if nothing arrives.
   [[nodiscard]] Nanoseconds wake_up() const;
+  /// Answers without which advance() has nothing to do, once the run has begun; 0 if anything that
+  /// arrives may count.
+  [[nodiscard]] std::size_t answers_owed() const {
+    return phase_ == Phase::kGathering ? 0 : owing().size();
+  }
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] bool finished() const { return phase_ == Phase::kFinished; }

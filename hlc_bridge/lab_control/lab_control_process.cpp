@@ -22,6 +22,8 @@ namespace hlc {
 namespace {
 
 constexpr double kSecondsPerNanosecond = 1e-9;
+/// What does not complete a tick is read this late at most.
+constexpr Nanoseconds kMailMayLie = 50'000'000;
 constexpr std::chrono::milliseconds kLeaveTime{800};
 constexpr std::chrono::milliseconds kHurriedLeaveTime{200};
 
@@ -136,12 +138,14 @@ int LabControlProcess::run() {
 }
 
 void LabControlProcess::wait_for_mail() {
-  const auto has_mail = [this] { return !mail_.empty() || presence_changed_ || interrupted_; };
+  // In logical time a tick's answers come one by one, and only the last of them matters.
+  const std::size_t enough = std::max<std::size_t>(run_->answers_owed(), 1);
+  const auto has_mail = [&] { return mail_.size() >= enough || presence_changed_ || interrupted_; };
   // Wake-up times and progress are in now()'s time; a wait in steps of at most an hour suffices.
+  const Nanoseconds longest = enough > 1 ? kMailMayLie : 3600 * kNanosecondsPerSecond;
   const Nanoseconds wake = std::min(run_->wake_up(), progress_.next());
   const Nanoseconds from = now();
-  const std::chrono::nanoseconds pause{
-      std::min(wake - std::min(wake, from), 3600 * kNanosecondsPerSecond)};
+  const std::chrono::nanoseconds pause{std::min(wake - std::min(wake, from), longest)};
   static_cast<void>(signal_.wait_until(std::chrono::steady_clock::now() + pause, has_mail));
 }
 

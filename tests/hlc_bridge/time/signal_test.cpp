@@ -45,6 +45,46 @@ TEST(Signal, NotifyMakesTheWaitingThreadLookAgain) {
   notifier.join();
 }
 
+TEST(Signal, PostsThatDoNotFulfilTheConditionWakeNobody) {
+  Signal signal;
+  int count = 0;
+  int looks = 0;  // of the waiting thread, guarded by the signal's lock
+  const std::thread::id waiting = std::this_thread::get_id();
+  std::thread poster{[&] {
+    for (int i = 0; i < 1000; ++i) {
+      signal.post([&] { ++count; });
+      std::this_thread::yield();
+    }
+  }};
+  EXPECT_TRUE(signal.wait_until(steady_clock::now() + 1min, [&] {
+    looks += std::this_thread::get_id() == waiting ? 1 : 0;
+    return count == 1000;
+  }));
+  poster.join();
+  EXPECT_LE(looks, 10)
+      << "once at the start, once at the end, and the system may wake it for nothing";
+}
+
+TEST(Signal, EveryWaitingThreadIsWokenByWhatItWaitsFor) {
+  Signal signal;
+  int count = 0;
+  std::vector<std::thread> waiting;
+  std::atomic<int> there{0};
+  for (int wanted = 1; wanted <= 3; ++wanted) {
+    waiting.emplace_back([&, wanted] {
+      there +=
+          signal.wait_until(steady_clock::now() + 1min, [&, wanted] { return count >= wanted; });
+    });
+  }
+  for (int i = 0; i < 3; ++i) {
+    signal.post([&] { ++count; });
+  }
+  for (std::thread& thread : waiting) {
+    thread.join();
+  }
+  EXPECT_EQ(there, 3);
+}
+
 TEST(Signal, LockedHandsOutWhatItHolds) {
   Signal signal;
   std::vector<int> inbox;
