@@ -5,8 +5,8 @@ namespace hlc {
 
 inline constexpr int kExitGood = 0;
 inline constexpr int kExitBadInput = 2;
-inline constexpr int kExitMissing = 3;      ///< somebody did not appear in time
-inline constexpr int kExitDied = 4;         ///< somebody died during the run, or this process failed in it
+inline constexpr int kExitMissing = 3;  ///< somebody did not appear in time
+inline constexpr int kExitDied = 4;     ///< somebody died during the run, or this process failed
 inline constexpr int kExitDrivenBadly = 5;  ///< a vehicle left its plan or touched another one
 inline constexpr int kExitInterrupted = 130;
 

@@ -7,8 +7,9 @@
 
 #include "planner/geometry/pose.hpp"
 
-/// The lab's messages as plain data, field for field what a controller, a middleware and a vehicle need of
-/// them (cpm lab wire contract). Times are nanoseconds of the run's clock. `hlc_bridge/dds` converts.
+/// The lab's messages as plain data, field for field what a controller, a middleware and a vehicle
+/// need of them (cpm lab wire contract). Times are nanoseconds of the run's clock. `hlc_bridge/dds`
+/// converts.
 namespace hlc {
 
 using Nanoseconds = std::uint64_t;
@@ -26,7 +27,7 @@ struct VehicleState {
   std::uint8_t vehicle_id{};
   Nanoseconds create_stamp{};
   Nanoseconds valid_after_stamp{};
-  Pose pose;                     ///< heading_rad is the vehicle's yaw
+  Pose pose;  ///< heading_rad is the vehicle's yaw
   Nanoseconds ips_update_age{};
   double odometer_distance_m{};
   double imu_acceleration_forward_mps2{};
@@ -81,10 +82,10 @@ struct SystemTrigger {
   Nanoseconds next_start{};
 };
 
-/// Value of a lab parameter; the alternatives stand in the order of the lab's ParameterType. The first one
-/// (Invalid) is what an unknown parameter has.
-using ParameterValue = std::variant<std::monostate, bool, std::int32_t, std::uint64_t, double, std::string,
-                                    std::vector<std::int32_t>, std::vector<double>>;
+/// Value of a lab parameter; the alternatives stand in the order of the lab's ParameterType. The
+/// first one (Invalid) is what an unknown parameter has.
+using ParameterValue = std::variant<std::monostate, bool, std::int32_t, std::uint64_t, double,
+                                    std::string, std::vector<std::int32_t>, std::vector<double>>;
 
 struct Parameter {
   std::string name;
@@ -102,7 +103,7 @@ struct StopRequest {
 
 /// One line of a program for the operator. Level 1 is critical, 3 is verbose.
 struct Log {
-  std::string id;       ///< of the program
+  std::string id;  ///< of the program
   std::string content;
   Nanoseconds stamp{};
   std::uint16_t level{1};

@@ -7,8 +7,8 @@
 
 namespace hlc {
 
-/// Heading of a vehicle's record, one row per tick: the true state at the tick and what acts from
-/// it on.
+/// Heading of a vehicle's record, one row per tick: the true state at the tick, the inputs that are
+/// commanded then (they act 80 ms later), and the command that they come from.
 inline constexpr std::string_view kDriveHeading =
     "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns";
 

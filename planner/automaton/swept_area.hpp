@@ -47,8 +47,7 @@ struct SweptAreas {
 ///
 /// and the derivatives with respect to delta are bounded by
 ///
-///     beta = atan(q t):                beta1 = q (1+t^2) / (1 + q^2 t^2)      grows with t, as q
-///     <= 1
+///     beta = atan(q t):                beta1 = q (1+t^2) / (1 + q^2 t^2)   grows with t (q <= 1)
 ///                                      beta2 = 2 q t (1-q^2) (1+t^2)
 ///     kappa = t / (L sqrt(1+q^2 t^2)): kappa1 = (1+t^2) / L
 ///                                      kappa2 = t (1+t^2) (|2-3q^2| + q^2 t^2) / L

@@ -30,8 +30,11 @@ struct Allowed {
 ///     const YamlNode file = YamlNode::read_file("car.yaml");
 ///     const auto length_m = file.required<double>("length_m", above(0.0));
 ///     const auto name = file.optional<std::string>("name", "car");
-///     for (const YamlNode& wheel : file.list("wheels")) { ... wheel.required<double>("radius_m")
-///     ... } file.check_no_unknown_keys();  // for every map, after its last field
+///     for (const YamlNode& wheel : file.list("wheels")) {
+///       radii_m.push_back(wheel.required<double>("radius_m"));
+///       wheel.check_no_unknown_keys();
+///     }
+///     file.check_no_unknown_keys();  // for every map, after its last field
 ///
 /// All errors are std::invalid_argument with one line, "file:line: key = value, allowed ...". Keys
 /// are printed with the way to them, list entries counted from 1: `trims[3].speed_mps`.

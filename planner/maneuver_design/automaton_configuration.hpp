@@ -24,19 +24,20 @@ struct AutomatonConfiguration {
 
 /// Reads a configuration. Keys:
 ///
-///     vehicle: {wheelbase_m, rear_axle_to_cg_m, length_m, width_m,
-///               safety_margin_m (default 0.010), identified: {... (see IdentifiedVehicle), all
-///               optional}}
-///     limits: {acceleration_mps2, steering_rate_radps, speed_min_mps, speed_max_mps,
-///     steering_max_rad} trims: list of {speed_mps, steering_rad}; trim numbers count from 1 in
-///     this order step_s intervals (default 20) criteria: list of names subgraphs: list of {name,
-///     label: one of the criteria, trims: all, or a list of trim numbers}
+///     vehicle:    {wheelbase_m, rear_axle_to_cg_m, length_m, width_m,
+///                  safety_margin_m (default 0.010),
+///                  identified: {... (see IdentifiedVehicle), all optional}}
+///     limits:     {acceleration_mps2, steering_rate_radps, speed_min_mps, speed_max_mps,
+///                  steering_max_rad}
+///     trims:      list of {speed_mps, steering_rad}; their numbers count from 1 in this order
+///     step_s
+///     intervals   (default 20)
+///     criteria:   list of names
+///     subgraphs:  list of {name, label: one of the criteria, trims: all, or a list of numbers}
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", for whatever
-/// is
-///         missing, unknown, of the wrong type or outside its range: trims must respect the limits
-///         and differ, there must be a trim of speed 0 in every subgraph, subgraphs' names must
-///         differ.
+/// is missing, unknown, of the wrong type or outside its range: trims must respect the limits and
+/// differ, there must be a trim of speed 0 in every subgraph, subgraphs' names must differ.
 [[nodiscard]] AutomatonConfiguration read_automaton_configuration(
     const std::filesystem::path& path);
 

@@ -48,10 +48,9 @@ struct LaneletMap {
 /// obstacles, ...) is skipped, so an id that a lanelet shares with another kind of element does no
 /// harm.
 /// @throws std::runtime_error one line, `file:line: what is wrong and what is allowed`: file that
-/// cannot
-///         be read, not XML, other root or version, no benchmarkID, no lanelet; a lanelet with
-///         missing, repeated or unknown id, a bound missing, with fewer than 2 points or not as
-///         long as the other, a number that is broken or not finite
+/// cannot be read, not XML, other root or version, no benchmarkID, no lanelet; a lanelet with
+/// missing, repeated or unknown id, a bound missing, with fewer than 2 points or not as long as the
+/// other, a number that is broken or not finite
 [[nodiscard]] LaneletMap read_lanelet_map(const std::filesystem::path& file);
 
 /// The same from a text; `name` stands for the file in error messages.

@@ -16,11 +16,13 @@ struct Profile {
   SettleRule settle_rule{};
 };
 
-/// | name | reference points | cost-to-go | new plans come into force |
-/// |---|---|---|---|
-/// | `default` | first step with the mean of current and reference speed | admissible: every plan
-/// is optimal | strict: safe whatever message is lost | | `2022` | last step halved, as when the
-/// paper's numbers arose | the authors', inadmissible | agreed: as the authors did |
+/// |                           | `default`                       | `2022`                       |
+/// |---------------------------|---------------------------------|------------------------------|
+/// | reference points          | first step with the mean of     | last step halved, as when    |
+/// |                           | current and reference speed     | the paper's numbers arose    |
+/// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
+/// | new plans come into force | strict: safe whatever is lost   | agreed: as the authors did   |
+///
 /// @throws std::invalid_argument for any other name
 [[nodiscard]] Profile profile_from_name(const std::string& name);
 

@@ -15,12 +15,14 @@ namespace hlc {
 ///
 /// `solve` asks the termination condition between expansions and returns
 ///
-/// | status | meaning | in the problem definition |
-/// |---|---|---|
-/// | EXACT_SOLUTION | least cost (see SearchStatus::kOptimal) | PathGeometric of n + 1 states with
-/// its cost | | ABORT | no path exists | a SolutionNonExistenceProof | | TIMEOUT | budget used up,
-/// or terminated | | | INVALID_START | start states are not the problem's one start | | |
-/// UNRECOGNIZED_GOAL_TYPE | not a HorizonProblemDefinition | |
+/// | status                 | meaning                                                      |
+/// |------------------------|--------------------------------------------------------------|
+/// | EXACT_SOLUTION         | least cost (see SearchStatus::kOptimal); the definition gets |
+/// |                        | a PathGeometric of n + 1 states with its cost                |
+/// | ABORT                  | no path exists; it gets a SolutionNonExistenceProof          |
+/// | TIMEOUT                | budget used up, or terminated                                |
+/// | INVALID_START          | start states are not the problem's one start                 |
+/// | UNRECOGNIZED_GOAL_TYPE | not a HorizonProblemDefinition                               |
 ///
 /// Each `solve` searches from the beginning.
 class RecedingHorizonPlanner final : public ompl::base::Planner {

@@ -31,6 +31,16 @@ std::optional<pid_t> child_of(pid_t parent, const std::string& program) {
 
 class Scripts : public testing::Test {
  protected:
+  /// Pid of one of vehicle 2's processes in the run, or 0.
+  static pid_t pid_of(const std::filesystem::path& out, const std::string& process) {
+    std::ifstream pids(out / "logs" / "vehicle_2.pids");
+    std::string name;
+    for (pid_t pid = 0; pids >> pid >> name;) {
+      if (name == process) return pid;
+    }
+    return 0;
+  }
+
   Scripts()
       : folder_(std::filesystem::path(testing::TempDir()) /
                 ("hlc_script_" + std::to_string(::getpid()))) {
@@ -82,18 +92,7 @@ struct Hung {
   std::string named;
 };
 
-class HungProcess : public Scripts, public testing::WithParamInterface<Hung> {
- protected:
-  /// Of a process of the run in `out`, or 0.
-  static pid_t pid_of(const std::filesystem::path& out, const std::string& process) {
-    std::ifstream pids(out / "logs" / "vehicle_2.pids");
-    std::string name;
-    for (pid_t pid = 0; pids >> pid >> name;) {
-      if (name == process) return pid;
-    }
-    return 0;
-  }
-};
+class HungProcess : public Scripts, public testing::WithParamInterface<Hung> {};
 
 TEST_P(HungProcess, EndsTheRunWithCode4AndIsNamed) {
   const std::filesystem::path out = folder_ / "run";
@@ -116,6 +115,22 @@ INSTANTIATE_TEST_SUITE_P(Scripts, HungProcess,
                                          Hung{"vehicle_2", "true", "vehicle_raspberry_2"},
                                          Hung{"middleware_2", "false", "middleware_2"}),
                          [](const auto& one) { return one.param.process; });
+
+TEST_F(Scripts, ProcessesThatDieAtOnceEndTheRunWithCode4) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab({"--steps", "5000", "--out", out.string()});
+  ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 4000; }))
+      << output();
+  for (const char* process : {"vehicle_2", "middleware_2", "high_level_controller_2"}) {
+    const pid_t pid = pid_of(out, process);
+    ASSERT_GT(pid, 0);
+    ASSERT_EQ(::kill(pid, SIGKILL), 0);
+  }
+  EXPECT_EQ(run.wait_for(120s), 4) << output();
+  EXPECT_NE(output().find("middleware_2 died"), std::string::npos) << output();
+  EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+      << "somebody of the run is still there";
+}
 
 TEST_F(Scripts, ALabControlThatHangsIsEnded) {
   const std::filesystem::path out = folder_ / "run";

@@ -53,8 +53,8 @@ class Plant {
   [[nodiscard]] Measurement measure();
 
   /// Queues `commanded` and drives one tick with the input that has reached the actuators. Inputs
-  /// beyond
-  /// [-1, 1] are clamped; an input that is not finite counts as the stop law at the present speed.
+  /// beyond [-1, 1] are clamped; one that is not finite counts as the stop law at the present
+  /// speed.
   void step(const ActuatorInput& commanded);
 
  private:

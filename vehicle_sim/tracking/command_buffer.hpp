@@ -13,9 +13,8 @@ namespace hlc {
 ///
 /// The lab's rule: of the commands with valid_after <= t_now the one with the largest create_stamp
 /// is active, of equal ones the later arrival. It is usable while t_now - valid_after <
-/// kCommandLifetime. If it
-/// is not, none is, even if an older command is valid for longer: a newer word replaces an older
-/// one for good.
+/// kCommandLifetime. If it is not, none is, even if an older command is valid for longer: a newer
+/// word replaces an older one for good.
 ///
 /// At most `kCapacity` commands wait for their time; beyond that the earliest arrival makes room.
 /// The active one never has to.

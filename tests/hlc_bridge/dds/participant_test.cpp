@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "hlc_bridge/dds/writer.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
@@ -42,11 +43,16 @@ class Peer {
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
-  /// Ends it with this signal; its exit code, nothing if the signal killed it.
+  /// Ends it with this signal; its exit code, nothing if a signal killed it (SIGKILL, if it does
+  /// not follow).
   std::optional<int> end(int signal_number) {
     int status = 0;
     kill(pid_, signal_number);
-    waitpid(pid_, &status, 0);
+    const auto deadline = soon();
+    while (waitpid(pid_, &status, WNOHANG) == 0) {
+      if (std::chrono::steady_clock::now() > deadline) kill(pid_, SIGKILL);
+      std::this_thread::sleep_for(std::chrono::milliseconds{2});
+    }
     pid_ = 0;
     return WIFEXITED(status) ? std::optional{WEXITSTATUS(status)} : std::nullopt;
   }

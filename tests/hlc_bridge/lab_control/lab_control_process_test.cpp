@@ -162,6 +162,17 @@ class LabControlTest : public testing::Test {
     code_ = std::async(std::launch::async, [this] { return process_->run(); });
   }
 
+  void TearDown() override {
+    if (process_) process_->interrupt();  // else a failed test would wait for its run for ever
+  }
+
+  /// -1 if it does not end.
+  [[nodiscard]] int exit_code() {
+    if (code_.wait_until(soon()) == std::future_status::ready) return code_.get();
+    process_->interrupt();
+    return -1;
+  }
+
   RunFacts facts() { return read_facts(folder_ / "run" / "run.json"); }
 
   DomainReservation domain_;
@@ -174,7 +185,7 @@ class LabControlTest : public testing::Test {
 
 TEST_F(LabControlTest, DrivesTheStepsAndKeepsTheReports) {
   start();
-  EXPECT_EQ(code_.get(), kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
   const std::vector<ReportRecord> reports = read_reports(folder_ / "run" / "reports.csv");
   ASSERT_EQ(reports.size(), 9U);  // standby 0 ... 4, steps 5 ... 7, one period more
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -203,7 +214,7 @@ TEST_F(LabControlTest, AnswersWhatItIsAskedFor) {
         vehicle_.requests.write({"active_vehicle_ids"});
       }));
   process_->interrupt();
-  code_.get();
+  EXPECT_EQ(exit_code(), kExitInterrupted);
   ASSERT_EQ(answers.size(), 2U);
   EXPECT_EQ(answers["middleware_period_ms"], ParameterValue{std::uint64_t{200}});
   EXPECT_EQ(answers["active_vehicle_ids"], (ParameterValue{std::vector<std::int32_t>{1}}));
@@ -215,7 +226,7 @@ TEST_F(LabControlTest, TellsThatTheRunGoesOnAndThenWhoDied) {
   ASSERT_EQ(vehicle_.run_states->wait_for(1).size(), 1U);
   EXPECT_EQ(vehicle_.run_states->wait_for(1)[0].phase, RunPhase::kRunning);
   vehicle_.kill_controller_at(12);
-  EXPECT_EQ(code_.get(), kExitDied);
+  EXPECT_EQ(exit_code(), kExitDied);
   ASSERT_GE(facts().died.size(), 1U);
   EXPECT_EQ(facts().died[0].process, controller_name(1));
   EXPECT_EQ(facts().reason, "died: high_level_controller_1");
@@ -234,7 +245,7 @@ TEST_F(LabControlTest, InterruptionStopsTheRunAndKeepsWhatThereIs) {
   EXPECT_TRUE(repeat_until(
       [&] { return read_reports(folder_ / "run" / "reports.csv").size() >= 3; }, [] {}));
   process_->interrupt();
-  EXPECT_EQ(code_.get(), kExitInterrupted);
+  EXPECT_EQ(exit_code(), kExitInterrupted);
   EXPECT_EQ(facts().exit_code, kExitInterrupted);
   EXPECT_GE(read_reports(folder_ / "run" / "reports.csv").size(), 3U);
 }
@@ -245,7 +256,7 @@ TEST_F(LabControlTest, StopRequestOfAControllerEndsTheRun) {
   vehicle_.wait_for_vehicle_tick(kPeriod);
   ASSERT_TRUE(vehicle_.stop_requests.wait_for_matched(1, soon()));
   vehicle_.stop_requests.write({1});
-  EXPECT_EQ(code_.get(), kExitDied);
+  EXPECT_EQ(exit_code(), kExitDied);
   EXPECT_EQ(facts().reason, "high_level_controller_1 asked for the stop");
 }
 

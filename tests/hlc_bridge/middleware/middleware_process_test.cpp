@@ -160,7 +160,18 @@ class MiddlewareTest : public testing::Test {
 
   int end_by_stop_symbol() {
     lab_.triggers.write({kStopSymbol});
-    return code_.get();
+    return exit_code();
+  }
+
+  void TearDown() override {
+    if (process_) process_->stop();  // else a failed test would wait for its run for ever
+  }
+
+  /// -1 if it does not end.
+  [[nodiscard]] int exit_code() {
+    if (code_.wait_until(soon()) == std::future_status::ready) return code_.get();
+    process_->stop();
+    return -1;
   }
 
   DomainReservation domains_{2};
@@ -251,19 +262,19 @@ TEST_F(MiddlewareTest, StopEndsItWhileItWaitsForAnAnswer) {
   lab_.triggers.write({kListOffset});
   ASSERT_EQ(controller_->lists.wait_for(1).size(), 1U);
   process_->stop();
-  EXPECT_EQ(code_.get(), kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
 }
 
 TEST_F(MiddlewareTest, StopEndsItBeforeTheLabControlHasSaidAnything) {
   start(true);
   process_->stop();
-  EXPECT_EQ(code_.get(), kExitGood);
+  EXPECT_EQ(exit_code(), kExitGood);
 }
 
 TEST_F(MiddlewareTest, EndsIfTheLabControlSaysNothing) {
   startup_timeout_ = std::chrono::seconds{1};
   start(true);
-  EXPECT_EQ(code_.get(), kExitMissing);
+  EXPECT_EQ(exit_code(), kExitMissing);
 }
 
 TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
@@ -271,13 +282,13 @@ TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
   controller_.reset();
   start(true);
   lab_.tell_parameters(200, {1, 2});
-  EXPECT_EQ(code_.get(), kExitMissing);
+  EXPECT_EQ(exit_code(), kExitMissing);
 }
 
 TEST_F(MiddlewareTest, RefusesParametersWithoutItsVehicle) {
   start(true);
   lab_.tell_parameters(200, {2, 3});
-  EXPECT_EQ(code_.get(), kExitBadInput);
+  EXPECT_EQ(exit_code(), kExitBadInput);
 }
 
 TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIsReady) {

@@ -213,8 +213,7 @@ TEST(Route, NeighboursInACircleEnd) {
   EXPECT_FALSE(build_route(map_of({a, b}), {1}, false).corridor.pieces().empty());
 }
 
-// ---- the circuits that the paper's scenario drives, on the lab's map and on ours
-// ------------------
+// --- the circuits that the paper's scenario drives, on the lab's map and on ours -----------------
 
 struct Circuits {
   RoadNetwork network;

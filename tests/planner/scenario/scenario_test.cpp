@@ -86,7 +86,9 @@ TEST_F(ScenarioErrors, BrokenYamlIsNamedWithItsFile) {
   EXPECT_THAT(error_of("vehicles:", "vehicles: [}"), HasSubstr(".yaml"));
 }
 
-TEST_F(ScenarioErrors, TheUnchangedFileIsGood) { EXPECT_EQ(error_of("steps: 150", "steps: 150"), ""); }
+TEST_F(ScenarioErrors, TheUnchangedFileIsGood) {
+  EXPECT_EQ(error_of("steps: 150", "steps: 150"), "");
+}
 
 TEST(Scenario, AnUnknownProfileIsRefused) {
   EXPECT_THROW(static_cast<void>(profile_from_name("2023")), std::invalid_argument);
