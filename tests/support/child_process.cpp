@@ -21,6 +21,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
   if (pid_ > 0) return;
   // In the child: only calls that are safe after fork.
   ::setpgid(0, 0);
+  for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);  // whoever started the test
   const int out = ::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   const int in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(in, STDIN_FILENO);
