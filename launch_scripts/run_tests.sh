@@ -5,8 +5,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: run_tests.sh [--sanitize] [--unit] [--filter REGEX]
-  --sanitize      also build and run the presets asan and tsan
+usage: run_tests.sh [--sanitize] [--long] [--unit] [--filter REGEX]
+  --sanitize      then the same under the address and undefined behaviour sanitizers (preset asan), and the
+                  unit tests under the thread sanitizer (preset tsan)
+  --long          ten times as many seeds in property tests, and integration tests until one of five times fails
   --unit          only unit tests, no processes
   --filter REGEX  only tests whose name matches
 Exit codes: 0 all passed, 1 setup, build or a test failed, 2 bad input
@@ -15,10 +17,13 @@ TEXT
 
 presets=(release)
 select=()
+unit=false
+long=false
 while (($#)); do
   case "$1" in
     --sanitize) presets=(release asan tsan) ;;
-    --unit) select+=(-L unit) ;;
+    --long) long=true ;;
+    --unit) unit=true ;;
     --filter) (($# >= 2)) || { echo "run_tests.sh: --filter needs a value" >&2; exit 2; }
       select+=(-R "$2"); shift ;;
     --filter=*) select+=(-R "${1#*=}") ;;
@@ -28,14 +33,32 @@ while (($#)); do
   shift
 done
 
-"$root/launch_scripts/setup.sh" || exit 1
+cd "$root"
+if $long; then export HLC_TEST_LONG=1; fi # tests/support/num_seeds.hpp
+
+# run PRESET CTEST_FLAG...
+run() {
+  local preset=$1
+  shift
+  ctest --preset "$preset" -j "$(nproc)" "${select[@]}" "$@" || code=1
+}
+
+./launch_scripts/setup.sh || exit 1
 code=0
 for preset in "${presets[@]}"; do
-  "$root/launch_scripts/build.sh" --preset "$preset" || exit 1
-  echo "Testing ($preset)"
-  scope=()
   # Fast DDS itself is not built for the thread sanitizer: processes are tested with asan.
-  [[ $preset != tsan ]] || scope=(-L unit)
-  (cd "$root" && ctest --preset "$preset" --no-tests=error -j "$(nproc)" "${select[@]}" "${scope[@]}") || code=1
+  if $unit || [[ $preset == tsan ]]; then
+    ./launch_scripts/build.sh --preset "$preset" --unit_tests || exit 1
+    echo "Testing ($preset, unit tests)"
+    run "$preset" --no-tests=error -L unit
+  else
+    ./launch_scripts/build.sh --preset "$preset" || exit 1
+    echo "Testing ($preset)"
+    run "$preset" --no-tests=error
+    if $long; then
+      echo "Repeating ($preset)"
+      run "$preset" --no-tests=ignore -L integration --repeat until-fail:5
+    fi
+  fi
 done
 exit "$code"

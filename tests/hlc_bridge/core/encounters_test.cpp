@@ -7,6 +7,7 @@
 #include <random>
 
 #include "planner/geometry/polygon.hpp"
+#include "tests/support/num_seeds.hpp"
 
 namespace hlc {
 namespace {
@@ -80,7 +81,7 @@ TEST(Encounters, OneVehicleHasNone) {
 
 // Property: the short cut by circles changes nothing.
 TEST(Encounters, AgreesWithLookingAtEveryPairAndInstant) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(40); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random{seed};
     std::uniform_real_distribution<double> step_m{-0.15, 0.15};

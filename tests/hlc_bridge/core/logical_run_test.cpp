@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/hlc_bridge/core/simulated_lab.hpp"
+#include "tests/support/num_seeds.hpp"
 
 namespace hlc {
 namespace {
@@ -21,7 +22,7 @@ LabRunSettings settings(std::vector<std::uint8_t> ids, std::uint64_t steps) {
 }
 
 TEST(LogicalRun, ReleasesEveryTickInOrderWhateverTheOrderOfEvents) {
-  for (unsigned seed = 0; seed < 30; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(30); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::size_t n = 1 + seed % 4;
     std::vector<std::uint8_t> ids;
@@ -53,7 +54,7 @@ TEST(LogicalRun, ReleasesEveryTickInOrderWhateverTheOrderOfEvents) {
 // Property: whoever dies, at whatever time, in whichever way: nothing blocks, the right one is
 // named, the living go on for three seconds.
 TEST(LogicalRun, DeathsDoNotBlockAndAreNamed) {
-  for (unsigned seed = 0; seed < 120; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(120); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random{seed};
     SimulatedLab lab{settings({1, 2, 3}, 20), seed};

@@ -6,6 +6,8 @@
 #include <optional>
 #include <random>
 
+#include "tests/support/num_seeds.hpp"
+
 namespace hlc {
 namespace {
 
@@ -57,7 +59,7 @@ TEST(StateBuffer, HoldsAStampOnceThatOrALaterOneHasArrived) {
 // Property: whatever the order of arrival and whenever old ones are forgotten, the answer is that
 // of a search through all states ever sent.
 TEST(StateBuffer, OrderOfArrivalAndForgettingChangeNoAnswer) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(200); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random{seed};
     std::vector<VehicleState> sent;

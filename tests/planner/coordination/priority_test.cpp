@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planner/geometry/footprint.hpp"
+#include "tests/support/num_seeds.hpp"
 
 namespace hlc {
 namespace {
@@ -32,7 +33,7 @@ TEST(Priority, PredecessorsAreTheCoupledVehiclesThatPlanEarlier) {
 
 // The directed coupling has no cycle, so nobody waits for somebody who waits for him.
 TEST(Priority, EveryPredecessorIsOnALowerLevel) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(200); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(0.0, 4.0);

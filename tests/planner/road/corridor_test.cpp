@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/num_seeds.hpp"
+
 namespace hlc {
 namespace {
 
@@ -35,7 +37,7 @@ TEST(Corridor, ClosedRouteRepeatsAndGivesEachPieceOnce) {
 }
 
 TEST(Corridor, PieceIsGivenIfAndOnlyIfOneOfItsRepetitionsMeetsTheWindow) {
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_seeds(500); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const double length_m = std::uniform_real_distribution(1.0, 10.0)(random);

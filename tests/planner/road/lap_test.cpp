@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support/num_seeds.hpp"
+
 namespace hlc {
 namespace {
 
@@ -96,7 +98,7 @@ TEST(Progress, StaysOnItsStrandWhereAnotherPassesCloseBy) {
 // Property: along a smooth closed path, with offsets to both sides, progress equals the arc length
 // of the foot, unwrapped over several laps.
 TEST(Progress, IsTheUnwrappedArcLengthOfTheFoot) {
-  for (unsigned seed = 0; seed < 50; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(50); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random{seed};
     std::uniform_real_distribution<double> unit{0.0, 1.0};

@@ -8,6 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/support/num_seeds.hpp"
+
 namespace hlc {
 namespace {
 
@@ -76,7 +78,7 @@ TEST(ReferencePath, ProjectionOnAJointIsTheSmallestArcLength) {
 }
 
 TEST(ReferencePath, ProjectionIsTheNearestPointOfThePath) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_seeds(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const ReferencePath path(random_points(random, 15), seed % 2 == 0);
@@ -95,7 +97,7 @@ TEST(ReferencePath, ProjectionIsTheNearestPointOfThePath) {
 }
 
 TEST(ReferencePath, ProjectionWithinAWindowIsTheNearestPointOfTheWindow) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_seeds(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const ReferencePath path(random_points(random, 15), seed % 2 == 0);

@@ -13,6 +13,7 @@
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/plans_in_force.hpp"
 
 namespace hlc {
@@ -157,7 +158,7 @@ TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
   const Scenario shipped = read("paper_three_cars");
   std::size_t fallbacks = 0;
   std::size_t steps = 0;
-  for (unsigned seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < test::num_seeds(12); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     Scenario scenario = shipped;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/exhaustive_search.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
@@ -80,7 +81,8 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
       test::make_test_subgraph(test::make_test_automaton(param.surge_mps2), param.trims));
   std::uint64_t infeasible = 0;
   std::uint64_t obstructed = 0;
-  for (std::uint64_t seed = 0; seed < param.problems; ++seed) {
+  const std::uint64_t problems = test::num_seeds(param.problems);
+  for (std::uint64_t seed = 0; seed < problems; ++seed) {
     std::mt19937_64 random(seed);
     const HorizonProblem problem =
         test::random_problem(searcher.subgraph, param.horizon_steps, random);
@@ -103,8 +105,8 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
     }
   }
   // The problems must be hard enough to say something.
-  EXPECT_GE(infeasible, 1 + param.problems / 50);
-  EXPECT_GE(obstructed, param.problems / 10);
+  EXPECT_GE(infeasible, 1 + problems / 50);
+  EXPECT_GE(obstructed, problems / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -120,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(BestFirstSearch, TwoSearchesOfOneProblemAgreeInEverything) {
   Searcher first(test::make_test_subgraph());
   Searcher second(first.subgraph);
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(30); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     const HorizonProblem problem = test::random_problem(first.subgraph, 7, random);
@@ -298,7 +300,7 @@ TEST(BestFirstSearch, The2022CostToGoFindsAValidPathThatMayCostMore) {
   Searcher exact(subgraph);
   Searcher authors(subgraph, {CostToGo::k2022, 1'000'000});
   std::size_t suboptimal = 0;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
     std::mt19937_64 random(seed);
     const HorizonProblem problem = test::random_problem(subgraph, 6, random);
     const SearchResult best = exact.search(problem);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
@@ -41,7 +42,7 @@ ConvexPolygon small_square(const Point& centre_m, double half_m) {
 TEST_F(CollisionCheckTest, AgreesWithPolygonByPolygonOnEveryEdgeOfRandomWalks) {
   std::size_t collisions = 0;
   std::size_t edges = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(300); ++seed) {
     std::mt19937_64 random(seed);
     const HorizonProblem problem = test::random_problem(subgraph_, kHorizonSteps, random);
     check_.prepare(problem);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/exhaustive_search.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
@@ -90,7 +91,7 @@ class CostToGoTest : public testing::TestWithParam<Automaton> {
 };
 
 TEST_P(CostToGoTest, NeverExceedsTheTrueCostOfRandomVertices) {
-  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(600); ++seed) {
     std::mt19937_64 random(seed);
     const VertexCase vertex = random_vertex(subgraph_, random);
     ASSERT_LE(cost_to_go(subgraph_, reachable_, vertex, CostToGo::kReachable),
@@ -100,7 +101,7 @@ TEST_P(CostToGoTest, NeverExceedsTheTrueCostOfRandomVertices) {
 }
 
 TEST_P(CostToGoTest, NeverExceedsTheTrueCostAtFullSpeed) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(200); ++seed) {
     std::mt19937_64 random(seed);
     const VertexCase vertex = full_speed_vertex(straight_, random);
     ASSERT_LE(cost_to_go(subgraph_, reachable_, vertex, CostToGo::kReachable),

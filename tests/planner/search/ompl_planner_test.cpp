@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "planner/search/best_first_search.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
@@ -72,7 +73,7 @@ void expect_path_is_plan(const ompl::geometric::PathGeometric& path, const Searc
 TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
   const auto engine = make_engine();
   std::size_t solved = 0;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(40); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     const HorizonProblem problem = test::random_problem(subgraph_, 6, random);
@@ -104,7 +105,7 @@ TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
 TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
   const auto engine = make_engine();
   const auto planner = make_best_first_planner(subgraph_, reachable_, {});
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     const std::size_t horizon_steps = 1 + test::pick(random, kMaxSteps);

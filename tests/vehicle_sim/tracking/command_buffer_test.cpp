@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/num_seeds.hpp"
+
 namespace hlc {
 namespace {
 
@@ -130,7 +132,7 @@ const TrajectoryCommand* by_the_rule(const std::vector<TrajectoryCommand>& arriv
 }
 
 TEST(CommandBuffer, AnswersByTheRuleForRandomArrivals) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(200); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     CommandBuffer buffer;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/tracking/trajectory.hpp"
 
 namespace hlc {
@@ -179,7 +180,7 @@ TEST(Follower, TrajectoryThatBeginsJustBeforeTheFirstLookIsFollowed) {
 }
 
 TEST(Follower, InputsAreAlwaysFiniteAndWithinTheActuators) {
-  for (std::uint64_t seed = 0; seed < 2'000; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(2'000); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
