@@ -119,8 +119,8 @@ TEST(ReferencePath, ProjectionWithinAWindowIsTheNearestPointOfTheWindow) {
         const double after_from = std::fmod(projection.s_m - from + 3.0 * length_m, length_m);
         EXPECT_TRUE(after_from <= to - from + 1e-9 || after_from >= length_m - 1e-9);
       } else {
-        EXPECT_GE(projection.s_m, std::clamp(from, 0.0, length_m));
-        EXPECT_LE(projection.s_m, std::clamp(to, 0.0, length_m));
+        EXPECT_GE(projection.s_m, std::clamp(from, 0.0, length_m) - 1e-12);
+        EXPECT_LE(projection.s_m, std::clamp(to, 0.0, length_m) + 1e-12);
       }
     }
   }
