@@ -81,7 +81,7 @@ UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) 
     }
   }
   for (const std::string& criterion : configuration.criteria) {
-    const std::unique_ptr<RunningCost> cost = make_criterion(criterion);
+    const std::unique_ptr<RunningCost> cost = make_criterion(criterion, configuration.vehicle);
     for (const TrimPair& edge : edges) {
       automaton.maneuvers.push_back(designed(edge, criterion, *cost, configuration));
     }

@@ -1,20 +1,61 @@
 #include "planner/maneuver_design/criteria.hpp"
 
+#include <array>
 #include <stdexcept>
 
+#include "planner/maneuver_design/comfort.hpp"
+#include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/effort.hpp"
+#include "planner/maneuver_design/energy.hpp"
+#include "planner/maneuver_design/stopping_distance.hpp"
+#include "planner/maneuver_design/travel_time.hpp"
+#include "planner/maneuver_design/weighted_sum.hpp"
 
 namespace hlc {
+namespace {
 
-std::vector<std::string> criterion_names() { return {"J2"}; }
+using Cost = std::unique_ptr<RunningCost>;
 
-std::unique_ptr<RunningCost> make_criterion(const std::string& name) {
-  if (name == "J2") {
-    return std::make_unique<Effort>();
+struct Criterion {
+  const char* name;
+  Cost (*make)(const VehicleParameters& vehicle);
+};
+
+Cost make_j3(const VehicleParameters& /*vehicle*/) {
+  return std::make_unique<WeightedSum>(std::vector<WeightedCost>{
+      {0.5, std::make_shared<Distance>()}, {0.5, std::make_shared<Effort>()}});
+}
+
+const std::array<Criterion, 7> kCriteria{{
+    {"J1", [](const VehicleParameters&) -> Cost { return std::make_unique<Distance>(); }},
+    {"J2", [](const VehicleParameters&) -> Cost { return std::make_unique<Effort>(); }},
+    {"J3", make_j3},
+    {"comfort", [](const VehicleParameters& v) -> Cost { return std::make_unique<Comfort>(v); }},
+    {"energy", [](const VehicleParameters&) -> Cost { return std::make_unique<Energy>(); }},
+    {"stopping_distance",
+     [](const VehicleParameters&) -> Cost { return std::make_unique<StoppingDistance>(); }},
+    {"travel_time",
+     [](const VehicleParameters&) -> Cost { return std::make_unique<TravelTime>(); }},
+}};
+
+}  // namespace
+
+std::vector<std::string> criterion_names() {
+  std::vector<std::string> names;
+  for (const Criterion& criterion : kCriteria) {
+    names.emplace_back(criterion.name);
   }
+  return names;
+}
+
+std::unique_ptr<RunningCost> make_criterion(const std::string& name,
+                                            const VehicleParameters& vehicle) {
   std::string names;
-  for (const std::string& known : criterion_names()) {
-    names += (names.empty() ? "" : ", ") + known;
+  for (const Criterion& criterion : kCriteria) {
+    if (name == criterion.name) {
+      return criterion.make(vehicle);
+    }
+    names += std::string(names.empty() ? "" : ", ") + criterion.name;
   }
   throw std::invalid_argument("criterion = " + name + ", allowed " + names);
 }

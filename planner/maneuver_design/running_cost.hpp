@@ -15,12 +15,15 @@ struct CostGradient {
 /// Running cost l(x, u) of a criterion J = integral_0^T l(x, u) dt (paper, Section 3); J is
 /// minimised.
 ///
-/// A further criterion is one file that implements this, and one line in criteria.cpp.
+/// A further criterion is one file that implements this, its test, and one line in criteria.cpp.
 class RunningCost {
  public:
   virtual ~RunningCost() = default;
   [[nodiscard]] virtual double value(const StateVector& x, const Input& u) const = 0;
   [[nodiscard]] virtual CostGradient gradient(const StateVector& x, const Input& u) const = 0;
+  /// True if l depends on the pose, so that a shift of the pose changes J. Without it, l(x, 0) is
+  /// constant along a trim: the trim's unit cost.
+  [[nodiscard]] virtual bool depends_on_pose() const { return false; }
 };
 
 }  // namespace hlc

@@ -83,7 +83,7 @@ TEST(AutomatonBuilder, EveryManeuverIsAStationaryPointOfItsCriterion) {
     if (maneuver.from == maneuver.to) {
       continue;
     }
-    const auto cost = make_criterion(maneuver.label);
+    const auto cost = make_criterion(maneuver.label, paper_configuration().vehicle);
     const Shot shot = shoot(maneuver.states.front(), maneuver.inputs, maneuver.duration_s, *cost,
                             automaton->vehicle, WithGradient::kYes);
     for (const Eigen::Vector2d& gradient : shot.gradient) {

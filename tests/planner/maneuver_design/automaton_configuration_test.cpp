@@ -143,7 +143,9 @@ TEST(AutomatonConfiguration, RefusesTrimsOutsideTheLimitsTwiceOrWithoutStandstil
 }
 
 TEST(AutomatonConfiguration, RefusesUnknownCriteriaAndBadSubgraphs) {
-  EXPECT_EQ(message("criteria: [J2]", "criteria: [J0]"), "FILE:12: criteria[1] = J0, allowed J2");
+  EXPECT_EQ(message("criteria: [J2]", "criteria: [J0]"),
+            "FILE:12: criteria[1] = J0, allowed J1, J2, J3, comfort, energy, stopping_distance, "
+            "travel_time");
   EXPECT_EQ(message("criteria: [J2]", "criteria: []"),
             "FILE:12: criteria = (a list), allowed at least one criterion");
   EXPECT_EQ(message("criteria: [J2]", "criteria: [J2, J2]"),

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/effort.hpp"
 #include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
-#include "tests/planner/maneuver_design/distance_cost.hpp"
 
 namespace hlc {
 namespace {
@@ -85,7 +85,7 @@ TEST(ManeuverSolver, ReachesTheReferenceEndPosesOfJ2) {
 }
 
 TEST(ManeuverSolver, ReachesTheReferenceValuesOfACostFarFromConvex) {
-  const DistanceCost distance;
+  const Distance distance;
   SolverOptions options;
   options.guess = Guess::kBangBang;
   struct Reference {
@@ -105,7 +105,7 @@ TEST(ManeuverSolver, ReachesTheReferenceValuesOfACostFarFromConvex) {
 }
 
 TEST(ManeuverSolver, KeepsBoundsOnStatesThatTheFreeOptimumViolates) {
-  const DistanceCost distance;
+  const Distance distance;
   SolverOptions options;
   options.guess = Guess::kBangBang;
   ManeuverProblem problem = paper_problem(pi(7), pi(8));
@@ -140,7 +140,7 @@ class NearnessCost final : public RunningCost {
   }
 
  private:
-  DistanceCost distance_;
+  Distance distance_;
 };
 
 TEST(ManeuverSolver, KeepsTheLowerBoundOnTheSpeedAndBothBoundsOnSteering) {
@@ -162,7 +162,7 @@ TEST(ManeuverSolver, KeepsTheLowerBoundOnTheSpeedAndBothBoundsOnSteering) {
     problem.to.steering_rad = sign * 0.15;
     SolverOptions options;
     options.guess = Guess::kBangBang;
-    const ManeuverSolution turning = solve(problem, DistanceCost{}, options);
+    const ManeuverSolution turning = solve(problem, Distance{}, options);
     ASSERT_EQ(turning.status, ManeuverStatus::kOptimal) << turning.reason;
     expect_no_residuals(turning.residuals);
   }
@@ -213,7 +213,7 @@ TEST(ManeuverSolver, SaysSoWhenItDoesNotConverge) {
   SolverOptions options;
   options.guess = Guess::kBangBang;
   options.max_evaluations = 3;
-  const ManeuverSolution solution = solve(paper_problem(pi(7), pi(8)), DistanceCost{}, options);
+  const ManeuverSolution solution = solve(paper_problem(pi(7), pi(8)), Distance{}, options);
   EXPECT_EQ(solution.status, ManeuverStatus::kNotConverged);
   EXPECT_EQ(solution.reason, "not converged after 3 evaluations");
 }

@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/effort.hpp"
-#include "tests/planner/maneuver_design/distance_cost.hpp"
 
 namespace hlc {
 namespace {
@@ -24,7 +24,7 @@ TEST(Shooting, StatesAreThoseOfTheIntegrator) {
   const std::vector<Input> inputs = random_inputs(random, 20);
   const State start{{0.1, 0.2, 0.3}, 1.0, 0.1};
   const VehicleParameters vehicle;
-  const Shot shot = shoot(start, inputs, 0.2, DistanceCost{}, vehicle, WithGradient::kNo);
+  const Shot shot = shoot(start, inputs, 0.2, Distance{}, vehicle, WithGradient::kNo);
   ASSERT_EQ(shot.states.size(), 21U);
   EXPECT_TRUE(shot.gradient.empty());
   State state = start;
@@ -38,7 +38,7 @@ TEST(Shooting, CostIsTheIntegralOfTheRunningCost) {
   // Straight at v = 1 m/s: J1 = -integral of t^2 = -T^3 / 3. Runge-Kutta is exact for it.
   const std::vector<Input> none(7);
   const State start{{}, 1.0, 0.0};
-  EXPECT_NEAR(shoot(start, none, 0.3, DistanceCost{}, {}, WithGradient::kNo).cost, -0.009, 1e-15);
+  EXPECT_NEAR(shoot(start, none, 0.3, Distance{}, {}, WithGradient::kNo).cost, -0.009, 1e-15);
   const std::vector<Input> inputs{{3.0, 4.0}, {0.0, 1.0}};
   EXPECT_NEAR(shoot(start, inputs, 0.2, Effort{}, {}, WithGradient::kNo).cost, 2.6, 1e-14);
 }
@@ -47,7 +47,7 @@ TEST(Shooting, GradientIsTheDerivativeOfTheCost) {
   constexpr unsigned kSeed = 62;
   SCOPED_TRACE(kSeed);
   std::mt19937 random(kSeed);
-  const DistanceCost distance;
+  const Distance distance;
   const Effort effort;
   const VehicleParameters vehicle;
   constexpr double kStep = 1e-4;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "planner/vehicle/single_track.hpp"
+
+namespace hlc {
+
+/// a_lat [m/s^2] and its derivatives.
+struct LateralAcceleration {
+  double value_mps2{};
+  double by_speed{};     ///< da_lat/dv
+  double by_steering{};  ///< da_lat/ddelta
+};
+
+/// a_lat = v psi' = v^2 kappa(delta), positive to the left.
+///
+/// In a trim this is the acceleration across the path. While the steering moves, the course turns
+/// by beta' u_delta more than the heading; this share is left out, as is usual for this model,
+/// because it would jump with the input.
+[[nodiscard]] LateralAcceleration lateral_acceleration(const StateVector& x,
+                                                       const VehicleParameters& vehicle);
+
+}  // namespace hlc

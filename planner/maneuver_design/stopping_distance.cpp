@@ -1,0 +1,15 @@
+#include "planner/maneuver_design/stopping_distance.hpp"
+
+namespace hlc {
+
+double StoppingDistance::value(const StateVector& x, const Input& /*u*/) const {
+  return x.head<2>().squaredNorm();
+}
+
+CostGradient StoppingDistance::gradient(const StateVector& x, const Input& /*u*/) const {
+  CostGradient gradient;
+  gradient.state.head<2>() = 2.0 * x.head<2>();
+  return gradient;
+}
+
+}  // namespace hlc

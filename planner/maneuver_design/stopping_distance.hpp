@@ -1,0 +1,18 @@
+#pragma once
+
+#include "planner/maneuver_design/running_cost.hpp"
+
+namespace hlc {
+
+/// l = s_x^2 + s_y^2 [m^2], with s measured from the maneuver's start: least for the motion that
+/// stays near its start. Meant for maneuvers into standstill: the emergency brake of a trim.
+///
+/// It depends on the position as J1 does (see Distance).
+class StoppingDistance final : public RunningCost {
+ public:
+  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] bool depends_on_pose() const override { return true; }
+};
+
+}  // namespace hlc
