@@ -35,6 +35,7 @@ hlc::RunDescription description_of(const hlc::Scenario& scenario,
   description.subgraph = scenario.subgraph->spec().name;
   description.horizon_steps = scenario.horizon_steps;
   description.step_s = automaton.step_s;
+  description.automaton = scenario.subgraph;
   for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
     description.vehicles.push_back(
         {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
@@ -73,13 +74,13 @@ hlc::Drives read_drives(const std::filesystem::path& run, const hlc::RunFacts& f
   return drives;
 }
 
-/// A run that the planner's guarantees do not cover: a vehicle was farther from its plan than a
-/// controller puts up with, or touched another one.
+/// False for a run that the planner's guarantees do not cover: a vehicle's footprint was farther
+/// from its plan than the safety margin (planner/automaton/deviation.hpp), or touched another one.
 bool is_well_driven(const hlc::RunSummary& summary) {
-  const double bound_m = hlc::ControllerOptions{}.max_deviation_m;
+  const double bound_m = summary.description.automaton->automaton().vehicle.safety_margin_m;
   return summary.collisions == 0 &&
          std::ranges::all_of(summary.vehicles, [bound_m](const hlc::VehicleSummary& vehicle) {
-           return !vehicle.tracking_error_m || vehicle.tracking_error_m->max <= bound_m;
+           return vehicle.deviation_max_m.value_or(0.0) <= bound_m;
          });
 }
 

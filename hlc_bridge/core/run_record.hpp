@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "hlc_bridge/core/death.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
+#include "planner/automaton/subgraph.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/reference_path.hpp"
 
@@ -31,6 +33,8 @@ struct RunDescription {
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;
+  /// What was planned on: knows the planned poses between steps. None: only those at the steps.
+  std::shared_ptr<const Subgraph> automaton;
 };
 
 /// How the run went, as the lab control saw it.

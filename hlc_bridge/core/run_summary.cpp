@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "hlc_bridge/core/encounters.hpp"
-#include "planner/road/lap.hpp"
 #include "hlc_bridge/core/trace_hash.hpp"
+#include "planner/automaton/deviation.hpp"
+#include "planner/road/lap.hpp"
 
 namespace hlc {
 namespace {
@@ -50,7 +51,55 @@ void add_search(std::span<const StepRecord* const> rows, VehicleSummary& summary
   summary.planning_s = statistics(planning_s);
 }
 
-void add_tracking(std::span<const StepRecord* const> rows, VehicleSummary& summary) {
+/// The maneuver planned for the step of `row`; nullptr if the reports do not say.
+const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
+                                const Subgraph& automaton) {
+  if (next == nullptr || next->step != row.step + 1 ||
+      !automaton.is_on(row.record.report.planned_trim)) {
+    return nullptr;
+  }
+  for (const Edge& edge : automaton.successors(row.record.report.planned_trim)) {
+    if (edge.to == next->record.report.planned_trim) return edge.maneuver;
+  }
+  return nullptr;
+}
+
+/// Compares what was driven with what was planned, tick by tick.
+class Tracking {
+ public:
+  explicit Tracking(const Subgraph& automaton) : automaton_(automaton.automaton()) {}
+
+  void look(const Pose& driven, const State& planned) {
+    errors_m_.push_back((driven.position_m() - planned.pose.position_m()).norm());
+    deviation_m_ =
+        std::max(deviation_m_.value_or(0.0),
+                 footprint_deviation_m(driven, planned, automaton_.vehicle, automaton_.identified));
+  }
+
+  void look(const Drive& drive, Nanoseconds begin, Nanoseconds end, const Pose& pose,
+            const Maneuver& maneuver) {
+    const auto is_before = [](const DrivenSample& sample, Nanoseconds t) { return sample.t < t; };
+    auto sample = std::lower_bound(drive.begin(), drive.end(), begin, is_before);
+    for (; sample != drive.end() && sample->t < end; ++sample) {
+      const double time_s = kSecondsPerNanosecond * static_cast<double>(sample->t - begin);
+      State planned = state_at(maneuver, time_s, automaton_.vehicle);
+      planned.pose = compose(pose, planned.pose);
+      look(sample->pose, planned);
+    }
+  }
+
+  void write(VehicleSummary& summary) const {
+    summary.tracking_error_m = statistics(errors_m_);
+    summary.deviation_max_m = deviation_m_;
+  }
+
+ private:
+  const UniversalAutomaton& automaton_;
+  std::vector<double> errors_m_;
+  std::optional<double> deviation_m_;
+};
+
+void add_tracking_at_steps(std::span<const StepRecord* const> rows, VehicleSummary& summary) {
   std::vector<double> errors_m;
   for (const StepRecord* row : rows) {
     if (row->driven) {
@@ -61,8 +110,28 @@ void add_tracking(std::span<const StepRecord* const> rows, VehicleSummary& summa
   summary.tracking_error_m = statistics(errors_m);
 }
 
+void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, Nanoseconds period,
+                  const Subgraph& automaton, VehicleSummary& summary) {
+  Tracking tracking(automaton);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Report& report = rows[i]->record.report;
+    const StepRecord* next = i + 1 < rows.size() ? rows[i + 1] : nullptr;
+    if (const Maneuver* maneuver = maneuver_during(*rows[i], next, automaton)) {
+      const Nanoseconds begin = report.step.value * period;
+      tracking.look(drive, begin, begin + period, report.planned_pose, *maneuver);
+    } else if (rows[i]->driven && automaton.is_on(report.planned_trim)) {
+      const Trim& trim = automaton.automaton().trims[report.planned_trim.index];
+      tracking.look(*rows[i]->driven, {.pose = report.planned_pose,
+                                       .speed_mps = trim.speed_mps,
+                                       .steering_rad = trim.steering_rad});
+    }
+  }
+  tracking.write(summary);
+}
+
 VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
-                                 std::span<const StepRecord> rows, double step_s) {
+                                 const RunDescription& description, const RunFacts& facts,
+                                 std::span<const StepRecord> rows, const Drives& drives) {
   std::vector<const StepRecord*> own;
   for (const StepRecord& row : rows) {
     if (row.record.report.vehicle == vehicle.id) {
@@ -73,9 +142,14 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   summary.id = vehicle.id;
   summary.name = vehicle.name;
   summary.steps = own.size();
-  add_route(vehicle, own, step_s, summary);
+  add_route(vehicle, own, description.step_s, summary);
   add_search(own, summary);
-  add_tracking(own, summary);
+  const auto drive = drives.find(vehicle.id.value);
+  if (description.automaton && drive != drives.end()) {
+    add_tracking(own, drive->second, facts.period, *description.automaton, summary);
+  } else {
+    add_tracking_at_steps(own, summary);
+  }
   return summary;
 }
 
@@ -99,7 +173,7 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   summary.description = description;
   summary.steps = rows.empty() ? 0 : rows.back().step + 1;
   for (const VehicleDescription& vehicle : description.vehicles) {
-    summary.vehicles.push_back(summarize_vehicle(vehicle, rows, description.step_s));
+    summary.vehicles.push_back(summarize_vehicle(vehicle, description, facts, rows, drives));
   }
   summary.generated_vertices_sum_max = largest_sum(rows);
   if (facts.first_step) {

@@ -16,7 +16,8 @@ struct VehicleSummary {
   std::size_t steps{};          ///< reported ones; fewer than asked for if the vehicle died
   std::optional<double> lap_s;  ///< planned positions along the route; closed routes only
   std::optional<Statistics> reference_error_m;  ///< planned positions to the route's centre line
-  std::optional<Statistics> tracking_error_m;   ///< driven to planned position of the same instant
+  std::optional<Statistics> tracking_error_m;   ///< driven to planned position, at every tick
+  std::optional<double> deviation_max_m;        ///< largest footprint_deviation_m, at every tick
   std::optional<Statistics> generated;          ///< vertices per step in which the vehicle planned
   std::optional<Statistics> expanded;
   std::optional<Statistics> planning_s;  ///< of those steps
@@ -47,7 +48,9 @@ struct RunSummary {
 
 /// Everything that a run's records say. A vehicle plans in steps with status planned or fallback;
 /// the other steps do not count for vertices and planning time. Driven footprints are looked at
-/// from t(k0) to the end of the last step.
+/// from t(k0) to the end of the last step. The plan in force during step k is the maneuver between
+/// the planned trims of the reports k and k+1, from the planned pose of report k on; if one of them
+/// is missing, only the pose at t(k) counts.
 /// @param rows  of step_records()
 [[nodiscard]] RunSummary summarize(const RunDescription& description, const RunFacts& facts,
                                    std::span<const StepRecord> rows, const Drives& drives);

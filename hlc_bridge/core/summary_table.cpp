@@ -78,7 +78,7 @@ std::string summary_table(const RunSummary& summary) {
       "or "
       "no closed route\n"
       "vertices         of the search tree, with its root and those never expanded\n"
-      "tracking error   driven to planned position at the same instant\n"
+      "tracking error   driven to planned position at the same instant, every 20 ms\n"
       "fallb.           steps in which the previous plan stayed in force\n"
       "late             steps in which a deadline was missed (real time)\n";
   return text;

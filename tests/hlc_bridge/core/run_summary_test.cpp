@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "hlc_bridge/core/summary_table.hpp"
+#include "tests/support/test_automaton.hpp"
 
 namespace hlc {
 namespace {
@@ -98,6 +99,37 @@ TEST_F(RunSummaryTest, ErrorsAndLapAreThoseOfTheMotion) {
   EXPECT_EQ(result.collisions, 0U);
   EXPECT_DOUBLE_EQ(result.realtime_factor, 26.4);
   EXPECT_EQ(result.trace_sha256.size(), 64U);
+}
+
+// One car drives straight on at 0.8 m/s and is 5 mm beside its plan at one tick between two steps.
+TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
+  reports_.clear();
+  drives_.clear();
+  description_.vehicles.pop_back();
+  description_.automaton = std::make_shared<const Subgraph>(test::make_test_subgraph());
+  const double yaw_rad = yaw_minus_heading_rad(0.0, description_.automaton->automaton().vehicle,
+                                               description_.automaton->automaton().identified);
+  for (std::uint64_t k = 5; k < 65; ++k) {
+    ReportRecord record;
+    record.report.vehicle = VehicleId{1};
+    record.report.step = StepIndex{k};
+    record.report.status = StepStatus::kPlanned;
+    record.report.planned_pose = {0.16 * static_cast<double>(k), 0.0, 0.0};
+    record.report.planned_trim = TrimId{6};
+    reports_.push_back(record);
+    for (std::uint64_t tick = 0; tick < 10; ++tick) {
+      DrivenSample sample;
+      sample.t = k * kPeriod + tick * kPeriod / 10;
+      sample.pose = {0.16 * (static_cast<double>(k) + 0.1 * static_cast<double>(tick)), 0.0,
+                     yaw_rad};
+      if (k == 20 && tick == 7) sample.pose.y_m = 0.005;
+      drives_[1].push_back(sample);
+    }
+  }
+  const VehicleSummary result = summary().vehicles.at(0);
+  EXPECT_NEAR(result.tracking_error_m->max, 0.005, 1e-9);
+  EXPECT_NEAR(result.tracking_error_m->mean, 0.005 / (59 * 10 + 1), 1e-9);
+  EXPECT_NEAR(result.deviation_max_m.value(), 0.005, 2e-4);
 }
 
 TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
