@@ -20,6 +20,14 @@ double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehic
          steady_slip_rad(curvature_per_m(steering_rad, vehicle), identified);
 }
 
+bool is_at_steering_limit(const Trim& trim, const VehicleParameters& vehicle,
+                          const IdentifiedVehicle& identified) {
+  constexpr double kUsable = 0.80;
+  const double steering = steady_steering(curvature_per_m(trim.steering_rad, vehicle), identified) -
+                          identified.steering_offset;
+  return std::abs(steering) > kUsable;
+}
+
 State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters& vehicle) {
   assert(!maneuver.inputs.empty() && maneuver.states.size() == maneuver.inputs.size() + 1);
   const double time = std::clamp(time_s, 0.0, maneuver.duration_s);

@@ -71,6 +71,12 @@ struct UniversalAutomaton {
 [[nodiscard]] double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
                                            const IdentifiedVehicle& identified);
 
+/// True if the identified vehicle has less than 20 % of its steering left on this trim's path, or
+/// cannot drive it at all: it can hardly correct an error there. Of the paper's trims those at 0.60
+/// and 0.48 rad; they take 0.9998 and 0.83 of the steering on the left, 1.09 and 0.90 on the right.
+[[nodiscard]] bool is_at_steering_limit(const Trim& trim, const VehicleParameters& vehicle,
+                                        const IdentifiedVehicle& identified);
+
 /// State of the motion at `time_s` in [0, duration], in the maneuver's frame: the model integrated
 /// from the last interval bound before (exact arc for a trim's own step).
 [[nodiscard]] State state_at(const Maneuver& maneuver, double time_s,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/automaton/deviation.hpp"
 #include "planner/coordination/priority.hpp"
 
 namespace hlc {
@@ -15,6 +16,11 @@ constexpr double kProjectionBack_m = 0.3;
 /// Boundary pieces this far beyond what the plan can reach are kept, so that no footprint looks
 /// past them.
 constexpr double kBoundaryReserve_m = 0.4;
+
+/// Share of the safety margin that is kept for the error of a prediction of one step.
+constexpr double kUnderWayShare = 0.2;
+/// Swept areas are rounded outwards on the way to the reachable area.
+constexpr double kReachRounding_m = 1e-5;
 
 double top_speed_mps(const Subgraph& subgraph) {
   double result = 0.0;
@@ -98,6 +104,7 @@ std::unique_ptr<Controller> Controller::clone() const {
   std::unique_ptr<Controller> result(
       new Controller(options_, subgraph_, path_, corridor_, reachable_));
   result->plan_ = plan_;
+  result->told_ = told_;
   result->path_s_m_ = path_s_m_;
   result->last_heard_ = last_heard_;
   result->last_not_standing_ = last_not_standing_;
@@ -113,9 +120,10 @@ const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
 
 void Controller::anchor(const MeasuredVehicle& measured, StepIndex step) {
   const UniversalAutomaton& automaton = subgraph_->automaton();
-  Pose pose = measured.pose;
-  pose.heading_rad -= yaw_minus_heading_rad(0.0, automaton.vehicle, automaton.identified);
-  plan_.emplace(step, pose, *standstill_);
+  plan_.emplace(step, pose_of_measured(measured.pose, 0.0, automaton.vehicle, automaton.identified),
+                *standstill_);
+  told_ = plan_->areas_from(step);
+  step_.seen = {.step = step, .time_s = 0.0, .pose = measured.pose};
 }
 
 Report Controller::stand_by(const Observation& observation) {
@@ -133,29 +141,87 @@ Report Controller::stand_by(const Observation& observation) {
   return report;
 }
 
-/// Compares the measured position with the plan at the time of the measurement.
+/// Compares the measured pose with the plan at the time of the measurement.
 void Controller::watch_deviation() {
   const MeasuredVehicle* own = measured(options_.vehicle);
   const StepIndex now = step_.observation.step;
-  const double step_s = subgraph_->automaton().step_s;
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const VehicleParameters& vehicle = automaton.vehicle;
+  const double step_s = automaton.step_s;
   if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
     step_.obstacle = FallbackReason::kDeviation;
     return;
   }
   const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
-  if (now.value < plan_->first().value + steps_back) return;
-  const State planned = plan_->state_at({now.value - steps_back},
-                                        static_cast<double>(steps_back) * step_s - own->age_s,
-                                        subgraph_->automaton().vehicle);
-  step_.report.deviation_m = (own->pose.position_m() - planned.pose.position_m()).norm();
-  if (step_.report.deviation_m <= options_.max_deviation_m) return;
+  step_.seen = {.step = now, .time_s = 0.0, .pose = own->pose};
+  if (now.value < plan_->first().value + steps_back) return;  // just anchored, where it was seen
+  step_.seen.step.value -= steps_back;
+  step_.seen.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
+  const State planned = plan_->state_at(step_.seen.step, step_.seen.time_s, vehicle);
+  step_.report.deviation_m =
+      footprint_deviation_m(own->pose, planned, vehicle, automaton.identified);
+  const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
+  const bool is_astray = step_.report.deviation_m > vehicle.safety_margin_m &&
+                         !is_inside_told(own->pose, step_.seen.step);
+  if (!is_astray && off_m <= options_.reanchor_share * vehicle.safety_margin_m) return;
   const bool stands = plan_->end().value + steps_back <= now.value &&
                       std::abs(own->speed_mps) <= missing_rules_.standing_speed_mps;
-  if (stands) {
+  if (is_astray && stands) {
     anchor(*own, now);
-  } else {
-    step_.obstacle = FallbackReason::kDeviation;
+    return;
   }
+  step_.moved = plan_->moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad,
+                                                            vehicle, automaton.identified));
+  if (!is_astray && !stays_inside_told(*step_.moved)) step_.moved.reset();
+  if (is_astray) {
+    step_.obstacle = FallbackReason::kDeviation;
+    step_.astray_m = footprint_area(vehicle.footprint, own->pose, vehicle.safety_margin_m);
+  }
+}
+
+/// True if the footprint lies in the area that the others know of that step.
+bool Controller::is_inside_told(const Pose& measured, StepIndex step, double reserve_m) const {
+  if (step < told_.first) return false;
+  const Footprint& footprint = subgraph_->automaton().vehicle.footprint;
+  const std::vector<Point> corners = footprint_area(footprint, measured, reserve_m).vertices_m;
+  return std::ranges::all_of(
+      corners, [&](const Point& corner) { return contains(told_.during(step), corner); });
+}
+
+/// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.
+bool Controller::stays_inside_told(const Plan& plan) const {
+  const StepIndex now = step_.observation.step;
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const double reserve_m = kUnderWayShare * automaton.vehicle.safety_margin_m;
+  const std::vector<PredictedInstant> drive =
+      predicted_drive(plan, step_.seen, {now.value + 1}, automaton);
+  return std::ranges::all_of(drive, [&](const PredictedInstant& instant) {
+    return instant.step != now || is_inside_told(instant.pose, now, reserve_m);
+  });
+}
+
+/// Areas of the plan in force from t(from) on. Of a vehicle outside them also where it is if it
+/// stays where it was measured, if it drives on beside its plan as it is, and what lies between all
+/// these.
+OccupiedAreas Controller::areas_to_tell(StepIndex from) const {
+  OccupiedAreas areas = plan_->areas_from(from);
+  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
+    areas.areas_m[i] = told_.during({from.value + i});
+  }
+  areas.final_area_m = told_.final_area_m;
+  if (step_.astray_m.empty()) return areas;
+  const OccupiedAreas beside = step_.moved->areas_from(from);
+  const auto join = [this](ConvexPolygon& area, const ConvexPolygon& other) {
+    std::vector<Point> points = area.vertices_m;
+    points.insert(points.end(), other.vertices_m.begin(), other.vertices_m.end());
+    points.insert(points.end(), step_.astray_m.vertices_m.begin(), step_.astray_m.vertices_m.end());
+    area = convex_hull(std::move(points));
+  };
+  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
+    join(areas.areas_m[i], beside.during({from.value + i}));
+  }
+  join(areas.final_area_m, beside.final_area_m);
+  return areas;
 }
 
 Traffic Controller::observe(const Observation& observation) {
@@ -172,15 +238,19 @@ Traffic Controller::observe(const Observation& observation) {
   Traffic& traffic = step_.traffic;
   traffic.vehicle = options_.vehicle;
   traffic.step = now;
-  traffic.next_pose = plan_->pose_at(next);
-  traffic.next_trim = plan_->trim_at(next);
-  traffic.running = plan_->areas_from(now);
+  const Plan& base = step_.moved ? *step_.moved : *plan_;
+  traffic.next_pose = base.pose_at(next);
+  traffic.next_trim = base.trim_at(next);
+  traffic.running = areas_to_tell(now);
   const ConvexPolygon reach =
       transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
                   traffic.next_pose);
   std::vector<Point> points = reach.vertices_m;
-  const ConvexPolygon& first_area = traffic.running.during(now);
-  points.insert(points.end(), first_area.vertices_m.begin(), first_area.vertices_m.end());
+  const auto join = [&points](const ConvexPolygon& area) {
+    points.insert(points.end(), area.vertices_m.begin(), area.vertices_m.end());
+  };
+  for (const ConvexPolygon& area : traffic.running.areas_m) join(area);
+  join(traffic.running.final_area_m);
   traffic.reachable_area_m = convex_hull(std::move(points));
   for (const VehicleId other : observation.active) {
     if (other == options_.vehicle) continue;
@@ -311,18 +381,62 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
     step_.report.expanded = result.expanded;
     if (result.status == SearchStatus::kOptimal) {
       step_.report.cost_m2 = result.cost;
-      step_.candidate = plan_->continued(next, result.maneuvers);
+      step_.candidate = (step_.moved ? *step_.moved : *plan_).continued(next, result.maneuvers);
+      step_.candidate_areas_m = areas_of_candidate();
+      if (!is_candidate_free()) {
+        step_.candidate.reset();
+        step_.obstacle = FallbackReason::kConflict;
+      }
     } else {
       step_.obstacle = result.status == SearchStatus::kBudget ? FallbackReason::kBudget
                                                               : FallbackReason::kInfeasible;
     }
   }
-  const Plan& told = step_.candidate ? *step_.candidate : *plan_;
   step_.prediction = {.vehicle = options_.vehicle,
                       .step = now,
                       .is_new = step_.candidate.has_value(),
-                      .areas = told.areas_from(next)};
+                      .areas = step_.candidate ? step_.candidate_areas_m : areas_to_tell(next)};
   return step_.prediction;
+}
+
+/// A plan that only uses trims with steering to spare is followed within the margin by a vehicle
+/// that is on it; for any other the drive is predicted.
+OccupiedAreas Controller::areas_of_candidate() const {
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const Plan& plan = *step_.candidate;
+  const StepIndex next{step_.observation.step.value + 1};
+  const double tolerated_m = options_.tolerated_drift_share * automaton.vehicle.safety_margin_m;
+  bool may_drift = step_.report.deviation_m > tolerated_m;
+  for (StepIndex step = step_.seen.step; step <= plan.end() && !may_drift; ++step.value) {
+    may_drift = is_at_steering_limit(automaton.trims[plan.trim_at(step).index], automaton.vehicle,
+                                     automaton.identified);
+  }
+  if (!may_drift) return plan.areas_from(next);
+  return areas_with_drift(plan, next, step_.seen, automaton, tolerated_m);
+}
+
+/// The search has kept the swept areas free, and they are within reach; those that hold a drift may
+/// be larger.
+bool Controller::is_candidate_free() const {
+  const std::uint64_t next = step_.observation.step.value + 1;
+  const auto is_in_reach = [this](const ConvexPolygon& area) {
+    return std::ranges::all_of(area.vertices_m, [this](const Point& vertex) {
+      return contains(step_.traffic.reachable_area_m, vertex, kReachRounding_m);
+    });
+  };
+  if (!std::ranges::all_of(step_.candidate_areas_m.areas_m, is_in_reach) ||
+      !is_in_reach(step_.candidate_areas_m.final_area_m)) {
+    return false;
+  }
+  for (std::size_t j = 0; j < step_.problem->obstacles_m.size(); ++j) {
+    const ConvexPolygon& area = step_.candidate_areas_m.during({next + j});
+    if (std::ranges::any_of(step_.problem->obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
+          return intersects(area, obstacle);
+        })) {
+      return false;
+    }
+  }
+  return true;
 }
 
 Outcome Controller::vote() const {
@@ -366,6 +480,12 @@ Report Controller::give_up(FallbackReason reason) { return finish(false, reason)
 Report Controller::finish(bool accepted, FallbackReason reason) {
   Report& report = step_.report;
   if (accepted) {
+    const StepIndex now = step_.observation.step;
+    OccupiedAreas told{.first = now, .areas_m = {told_.during(now)}, .final_area_m = {}};
+    told.areas_m.insert(told.areas_m.end(), step_.candidate_areas_m.areas_m.begin(),
+                        step_.candidate_areas_m.areas_m.end());
+    told.final_area_m = step_.candidate_areas_m.final_area_m;
+    told_ = std::move(told);
     plan_ = std::move(*step_.candidate);
     report.status = StepStatus::kPlanned;
   } else {

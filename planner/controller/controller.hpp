@@ -8,6 +8,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
+#include "planner/controller/drift.hpp"
 #include "planner/controller/report.hpp"
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/messages.hpp"
@@ -28,9 +29,12 @@ struct ControllerOptions {
   ReferenceRule reference_rule{ReferenceRule::kDefault};
   SettleRule settle_rule{SettleRule::kStrict};
   SearchOptions search;
-  /// Distance between the measured and the planned position beyond which the vehicle drives its
-  /// running plan to the end; once both stand, the plan is anchored anew at the measured pose.
-  double max_deviation_m{0.05};
+  /// Share of the safety margin by which the measured position may be off the plan before the next
+  /// plan starts from where the vehicle really is.
+  double reanchor_share{0.5};
+  /// Share of the safety margin up to which a predicted drift (drift.hpp) needs no larger areas;
+  /// what is left of the margin is for the error of the prediction.
+  double tolerated_drift_share{0.5};
 };
 
 /// What a state list tells a controller at step k.
@@ -55,6 +59,30 @@ struct Observation {
 /// The plan of step k is for what happens from t(k+1) on: the search starts where the plan in force
 /// will be then. If no new plan comes into force, the one in force stays: every plan ends in
 /// standstill.
+///
+/// **What the vehicle really drives.** The others rely on the areas that it tells (traffic,
+/// prediction); the settle rule makes the areas told free of each other pair by pair, so it is safe
+/// if the vehicle is inside its own at all times. With m the safety margin and "deviation" the
+/// footprint_deviation_m of the measured pose from the plan at the time of the measurement:
+///
+/// 1. A swept area holds a vehicle that deviates by m at most, in position and heading together
+///    (planner/automaton/deviation.hpp). Where it has steering to spare it does not deviate more:
+///    measured 7.7 mm at most, m = 10 mm.
+/// 2. The areas of a plan that may lead it farther (trims near the steering limit, or a vehicle
+///    that is off already) are those of its predicted drive to the end of the plan (drift.hpp). If
+///    they meet anything the plan is dropped. So the old plan also remains safe to its end, however
+///    many steps no new one comes into force.
+/// 3. A vehicle that is off by more than `reanchor_share` of m plans on from where it really is:
+///    the plan in force is moved rigidly onto the measured pose, and what is planned continues
+///    that. The step under way has been told already, so this is done only if the predicted drive
+///    stays inside what was told of it. The new plan is a plan like any other: told, checked,
+///    agreed.
+/// 4. A vehicle that deviates by more than m and is outside the area told of that time was
+///    disturbed: nobody knew. It plans nothing new and drives its plan to the end; from this step
+///    on its traffic tells, for each step, the hull of what it had told, of its plan from where it
+///    really is, and of where it was measured, so that nobody plans into it. Once it stands, its
+///    plan is anchored anew where it stands. What the others agreed before they heard of it cannot
+///    be taken back; all they do from then on keeps away.
 class Controller {
  public:
   /// @param path      what the vehicle shall follow
@@ -114,8 +142,13 @@ class Controller {
     std::optional<HorizonProblem> problem;
     std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
     std::optional<Plan> candidate;
+    OccupiedAreas candidate_areas_m;                 ///< from t(k+1) on
+    SeenAt seen;                                     ///< the own vehicle
     Prediction prediction;                           ///< own
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
+    /// The plan in force, moved to where the vehicle really is: what is planned anew continues it.
+    std::optional<Plan> moved;
+    ConvexPolygon astray_m;  ///< footprint, with margin, of a vehicle outside its plan's areas
   };
 
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
@@ -123,6 +156,12 @@ class Controller {
 
   void anchor(const MeasuredVehicle& measured, StepIndex step);
   void watch_deviation();
+  [[nodiscard]] bool is_inside_told(const Pose& measured, StepIndex step,
+                                    double reserve_m = 0.0) const;
+  [[nodiscard]] bool stays_inside_told(const Plan& plan) const;
+  [[nodiscard]] OccupiedAreas areas_to_tell(StepIndex from) const;
+  [[nodiscard]] OccupiedAreas areas_of_candidate() const;
+  [[nodiscard]] bool is_candidate_free() const;
   void note_who_stands();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
   [[nodiscard]] HorizonProblem pose_problem();
@@ -142,6 +181,7 @@ class Controller {
   MissingVehicleRules missing_rules_;
 
   std::optional<Plan> plan_;
+  OccupiedAreas told_;  ///< areas of the plan in force as the others know them, and a step before
   std::optional<double> path_s_m_;  ///< where the vehicle was on its path
   std::map<VehicleId, StepIndex> last_heard_;
   std::map<VehicleId, StepIndex> last_not_standing_;

@@ -42,7 +42,7 @@ struct Report {
   std::uint32_t level{};           ///< computation level, 0 plans first
   std::vector<VehicleId> coupled;  ///< vehicles coupled with this one
   std::vector<VehicleId> missing;  ///< vehicles that said nothing
-  double deviation_m{};            ///< measured from planned position, at the measured state's time
+  double deviation_m{};            ///< footprint_deviation_m, at the time of the measured state
 };
 
 }  // namespace hlc

@@ -8,6 +8,12 @@ namespace hlc {
 Plan::Plan(StepIndex first, const Pose& pose, const Maneuver& standstill)
     : first_(first), standstill_(&standstill), poses_{pose} {}
 
+Plan Plan::moved(const Pose& from, const Pose& to) const {
+  Plan result = *this;
+  for (Pose& pose : result.poses_) pose = compose(to, between(from, pose));
+  return result;
+}
+
 StepIndex Plan::end() const { return {first_.value + maneuvers_.size()}; }
 
 const Pose& Plan::pose_at(StepIndex step) const {

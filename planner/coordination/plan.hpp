@@ -23,6 +23,9 @@ class Plan {
   [[nodiscard]] Plan continued(StepIndex step,
                                const std::vector<const Maneuver*>& continuation) const;
 
+  /// The same maneuvers from elsewhere: the whole plan moved rigidly so that `from` comes to `to`.
+  [[nodiscard]] Plan moved(const Pose& from, const Pose& to) const;
+
   [[nodiscard]] StepIndex first() const { return first_; }
   /// First step index at whose time the plan stands for good.
   [[nodiscard]] StepIndex end() const;

@@ -24,8 +24,8 @@ namespace hlc {
 /// after it, old_i stays a solution of its own problem: without a fault, and within its budget, the
 /// search always finds a plan.
 ///
-/// All this is about plans. A vehicle that has left its plan by more than a controller puts up with
-/// stands elsewhere; its plan is then anchored anew where it stands, and the others learn of that
+/// All this is about the areas that vehicles tell. That each stays inside its own is the
+/// controller's part (planner/controller/controller.hpp); one that was pushed out of them tells so
 /// with its next traffic.
 ///
 /// `kAgreed` (the authors', profile `2022`): a new plan respects the new plans of predecessors and

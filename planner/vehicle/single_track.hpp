@@ -29,7 +29,9 @@ struct VehicleParameters {
   double wheelbase_m{0.150};        ///< L
   double rear_axle_to_cg_m{0.075};  ///< l_r
   Footprint footprint{0.220, 0.107};
-  double safety_margin_m{0.010};  ///< added to the footprint on every side, vehicle to vehicle
+  /// Added to the footprint on every side, vehicle to vehicle: the bound on how far a vehicle may
+  /// be off its plan (planner/automaton/deviation.hpp).
+  double safety_margin_m{0.010};
 };
 
 /// Bounds on inputs and states; |u_v|, |u_delta| and |delta| are symmetric, 0 <= v.

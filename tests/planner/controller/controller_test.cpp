@@ -261,12 +261,70 @@ class Deviation : public testing::Test {
   std::unique_ptr<Controller> one_{controller(1)};
 };
 
-TEST_F(Deviation, WithinTheBoundIsReportedOnly) {
+TEST_F(Deviation, OfLessThanHalfTheMarginIsReportedOnly) {
   MeasuredVehicle off = following(*one_, 106);
-  off.pose.y_m += 0.03;
+  off.pose.y_m += 0.004;
+  const double planned_y_m = one_->plan_in_force().pose_at({107}).y_m;
+  const Traffic traffic = one_->observe(at(106, {off}));
+  EXPECT_NEAR(traffic.next_pose.y_m, planned_y_m, 1e-12);
+  one_->couple({});
+  static_cast<void>(one_->plan({}));
+  const Report report = one_->settle({}, {});
+  EXPECT_EQ(report.status, StepStatus::kPlanned);
+  EXPECT_NEAR(report.deviation_m, 0.004, 1e-9);
+}
+
+TEST_F(Deviation, OfMoreThanHalfTheMarginLetsTheNextPlanStartWhereTheVehicleIs) {
+  MeasuredVehicle off = following(*one_, 106);
+  off.pose.y_m += 0.008;
   const Report report = step(*one_, at(106, {off}));
   EXPECT_EQ(report.status, StepStatus::kPlanned);
-  EXPECT_NEAR(report.deviation_m, 0.03, 1e-9);
+  EXPECT_NEAR(report.planned_pose.y_m, 0.0, 1e-9) << "what was told of the step under way stays";
+  EXPECT_NEAR(one_->plan_in_force().pose_at({107}).y_m, 0.008, 1e-9);
+  MeasuredVehicle then = following(*one_, 107);
+  EXPECT_NEAR(step(*one_, at(107, {then})).deviation_m, 0.0, 1e-9);
+}
+
+TEST_F(Deviation, OfTheHeadingCountsLikeThatOfThePosition) {
+  // 10 mm of margin at half the length, 110 mm, are 0.09 rad.
+  for (const double turn_rad : {-0.12, -0.08, 0.08, 0.12}) {
+    MeasuredVehicle off = following(*one_, 106);
+    off.pose.heading_rad += turn_rad;
+    const auto one = one_->clone();
+    const Report report = step(*one, at(106, {off}));
+    const bool is_far = std::abs(turn_rad) > 0.1;
+    EXPECT_EQ(report.reason, is_far ? FallbackReason::kDeviation : FallbackReason::kNone)
+        << turn_rad;
+    EXPECT_EQ(report.deviation_m > paper_automaton()->vehicle.safety_margin_m, is_far);
+  }
+}
+
+TEST_F(Deviation, BeyondTheBoundItsTrafficTellsWhereTheVehicleReallyCanBe) {
+  MeasuredVehicle off = following(*one_, 106);
+  off.pose.y_m += 0.1;
+  const OccupiedAreas planned = one_->plan_in_force().areas_from({106});
+  const Traffic traffic = one_->observe(at(106, {off}));
+  one_->couple({});
+  const Prediction prediction = one_->plan({});
+  const VehicleParameters& vehicle = paper_automaton()->vehicle;
+  const ConvexPolygon seen_area =
+      footprint_area(vehicle.footprint, off.pose, vehicle.safety_margin_m);
+  const auto holds = [](const ConvexPolygon& area, const ConvexPolygon& other) {
+    return std::ranges::all_of(
+        other.vertices_m, [&area](const Point& vertex) { return contains(area, vertex, 1e-9); });
+  };
+  ASSERT_GE(planned.areas_m.size(), 2U);
+  for (std::uint64_t k = 106; k < 120; ++k) {
+    ConvexPolygon beside = planned.during({k});
+    for (Point& vertex : beside.vertices_m) vertex.y() += 0.1;
+    for (const OccupiedAreas* told : {&traffic.running, &prediction.areas}) {
+      if (k < told->first.value) continue;
+      EXPECT_TRUE(holds(told->during({k}), planned.during({k}))) << k;
+      EXPECT_TRUE(holds(told->during({k}), beside)) << k;
+      EXPECT_TRUE(holds(told->during({k}), seen_area)) << k;
+      EXPECT_TRUE(holds(traffic.reachable_area_m, told->during({k}))) << k;
+    }
+  }
 }
 
 TEST_F(Deviation, BeyondTheBoundThePlanIsDrivenToItsEndAndAnchoredAnew) {

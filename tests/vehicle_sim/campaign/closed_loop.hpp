@@ -71,8 +71,10 @@ class TrimWalk {
   /// When the last trim is reached.
   [[nodiscard]] Nanoseconds end() const { return (kFirstStep + trims_.size() - 1) * kPeriod; }
 
- private:
+  /// Planned state, to the 10 ms before.
   [[nodiscard]] State state_at(Nanoseconds t) const;
+
+ private:
   [[nodiscard]] std::vector<TrajectoryPoint> points(std::uint64_t step) const;
 
   std::vector<std::size_t> trims_;

@@ -1,0 +1,51 @@
+#include "planner/automaton/deviation.hpp"
+
+#include <algorithm>
+
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc {
+namespace {
+
+double distance_to_segment_m(const Point& point, const Point& from, const Point& to) {
+  const Point way = to - from;
+  const double part = std::clamp((point - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  return (point - from - part * way).norm();
+}
+
+double distance_to_area_m(const Point& point, const ConvexPolygon& area) {
+  if (contains(area, point)) return 0.0;
+  const std::vector<Point>& vertices = area.vertices_m;
+  double result = (point - vertices.front()).norm();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    result = std::min(
+        result, distance_to_segment_m(point, vertices[i], vertices[(i + 1) % vertices.size()]));
+  }
+  return result;
+}
+
+}  // namespace
+
+double footprint_deviation_m(const Pose& measured, const State& planned,
+                             const VehicleParameters& vehicle,
+                             const IdentifiedVehicle& identified) {
+  Pose turned = planned.pose;
+  turned.heading_rad += yaw_minus_heading_rad(planned.steering_rad, vehicle, identified);
+  std::vector<Point> corners = footprint_area(vehicle.footprint, planned.pose).vertices_m;
+  const std::vector<Point> more = footprint_area(vehicle.footprint, turned).vertices_m;
+  corners.insert(corners.end(), more.begin(), more.end());
+  const ConvexPolygon hull = convex_hull(std::move(corners));
+  double result = 0.0;
+  for (const Point& corner : footprint_area(vehicle.footprint, measured).vertices_m) {
+    result = std::max(result, distance_to_area_m(corner, hull));
+  }
+  return result;
+}
+
+Pose pose_of_measured(const Pose& measured, double steering_rad, const VehicleParameters& vehicle,
+                      const IdentifiedVehicle& identified) {
+  return {measured.x_m, measured.y_m,
+          measured.heading_rad - yaw_minus_heading_rad(steering_rad, vehicle, identified)};
+}
+
+}  // namespace hlc

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "planner/automaton/automaton.hpp"
+
+namespace hlc {
+
+/// How far a measured vehicle is from where it is planned to be [m]: the largest distance of a
+/// point of its footprint from
+///
+///     H = hull of the footprint at the planned heading and at the yaw that belongs to it
+///
+/// (both at the planned position, without margin; yaw = heading + yaw_minus_heading_rad). The
+/// distance from a convex set is convex, so it is largest at a corner.
+///
+/// A swept area holds H moved outwards by the safety margin on all sides, at every time of the
+/// motion: the footprint grown by the margin, for both headings, holds all points within the margin
+/// of each, and the area is convex. So
+///
+///     deviation <= safety margin  =>  the vehicle is inside the swept area,
+///
+/// and the margin is the bound on the deviation, for position and heading together. A vehicle that
+/// is beside its planned position by d with the right yaw deviates by d at most. One that is at its
+/// planned position but turned by e deviates by about e times half its length: with a margin of m,
+/// |e| <= 2 m / length is what is left for the heading.
+///
+/// @param measured  heading_rad is the vehicle's yaw
+[[nodiscard]] double footprint_deviation_m(const Pose& measured, const State& planned,
+                                           const VehicleParameters& vehicle,
+                                           const IdentifiedVehicle& identified);
+
+/// The planner's pose of a vehicle that was measured at `measured` (yaw) while it steers as
+/// planned: same course, hence heading = yaw - yaw_minus_heading_rad. Exact for a vehicle in steady
+/// state; one whose steering has just changed turns to that yaw within some 0.1 s.
+[[nodiscard]] Pose pose_of_measured(const Pose& measured, double steering_rad,
+                                    const VehicleParameters& vehicle,
+                                    const IdentifiedVehicle& identified);
+
+}  // namespace hlc

@@ -1,0 +1,113 @@
+#include "planner/controller/drift.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/automaton/deviation.hpp"
+#include "planner/vehicle/identified_motion.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kCorrection_per_s = 5.0;
+constexpr double kStandingSpeed_mps = 1e-3;
+/// Steps after the end of a plan in which the vehicle comes to rest: its error along is gone to
+/// exp(-5).
+constexpr std::uint64_t kStepsToRest = 5;
+
+/// Time along a plan, in ticks of the identified model.
+struct Instant {
+  StepIndex step;
+  double time_s{};
+
+  [[nodiscard]] Instant next(double step_s) const {
+    const double t = time_s + kIdentifiedStep_s;
+    return t < step_s - 1e-9 ? Instant{step, t} : Instant{{step.value + 1}, t - step_s};
+  }
+};
+
+struct Driven {
+  Pose pose;
+  double steering{};
+};
+
+/// One tick of a vehicle at `at`, planned to go from `from` to `to` in it.
+Driven driven(const Driven& at, const Point& from, const Point& to,
+              const IdentifiedVehicle& identified) {
+  const Point chord = (to - from) / kIdentifiedStep_s;
+  const Point error = from - at.pose.position_m();
+  double speed_mps = chord.norm();
+  double steering = at.steering;
+  if (speed_mps > kStandingSpeed_mps) {
+    const Point along = chord / speed_mps;
+    const double across_m = along.x() * error.y() - along.y() * error.x();
+    const double course_rad =
+        std::atan2(chord.y(), chord.x()) + std::atan2(kCorrection_per_s * across_m, speed_mps);
+    const double slip_rad = wrap_angle(course_rad - at.pose.heading_rad);
+    steering = std::clamp(steering_for_slip(slip_rad, identified), -1.0, 1.0);
+    speed_mps += kCorrection_per_s * along.dot(error);
+  } else {
+    const double course_rad = at.pose.heading_rad + identified_slip_rad(steering, identified);
+    speed_mps = kCorrection_per_s * Point(std::cos(course_rad), std::sin(course_rad)).dot(error);
+  }
+  const VehicleMotion motion{
+      .pose = at.pose,
+      .speed_mps = std::max(0.0, speed_mps) / path_speed_ratio(steering, identified)};
+  return {stepped(motion, {.throttle = 0.0, .steering = steering}, identified).pose, steering};
+}
+
+}  // namespace
+
+std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& seen, StepIndex until,
+                                              const UniversalAutomaton& automaton) {
+  const VehicleParameters& vehicle = automaton.vehicle;
+  std::vector<PredictedInstant> drive;
+  Instant at{seen.step, seen.time_s};
+  Driven vehicle_at{.pose = seen.pose};
+  State planned = plan.state_at(at.step, at.time_s, vehicle);
+  drive.push_back({at.step, planned, vehicle_at.pose});
+  while (at.step < until) {
+    const Instant then = at.next(automaton.step_s);
+    const State planned_then = plan.state_at(then.step, then.time_s, vehicle);
+    vehicle_at = driven(vehicle_at, planned.pose.position_m(), planned_then.pose.position_m(),
+                        automaton.identified);
+    if (then.step != at.step) drive.push_back({at.step, planned_then, vehicle_at.pose});
+    drive.push_back({then.step, planned_then, vehicle_at.pose});
+    at = then;
+    planned = planned_then;
+  }
+  return drive;
+}
+
+OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& seen,
+                               const UniversalAutomaton& automaton, double tolerated_m) {
+  const VehicleParameters& vehicle = automaton.vehicle;
+  OccupiedAreas areas = plan.areas_from(from);
+  const std::vector<PredictedInstant> drive =
+      predicted_drive(plan, seen, {std::max(plan.end(), from).value + kStepsToRest}, automaton);
+  for (auto begin = drive.begin(); begin != drive.end();) {
+    const StepIndex step = begin->step;
+    const auto end = std::find_if(begin, drive.end(), [step](const PredictedInstant& instant) {
+      return instant.step != step;
+    });
+    const bool drifts = std::any_of(begin, end, [&](const PredictedInstant& instant) {
+      return footprint_deviation_m(instant.pose, instant.planned, vehicle, automaton.identified) >
+             tolerated_m;
+    });
+    if (step >= from && drifts) {
+      const std::size_t i = step.value - from.value;
+      ConvexPolygon& area = i < areas.areas_m.size() ? areas.areas_m[i] : areas.final_area_m;
+      std::vector<Point> points = area.vertices_m;
+      for (auto instant = begin; instant != end; ++instant) {
+        const ConvexPolygon footprint =
+            footprint_area(vehicle.footprint, instant->pose, vehicle.safety_margin_m);
+        points.insert(points.end(), footprint.vertices_m.begin(), footprint.vertices_m.end());
+      }
+      area = convex_hull(std::move(points));
+    }
+    begin = end;
+  }
+  return areas;
+}
+
+}  // namespace hlc

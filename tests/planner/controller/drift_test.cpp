@@ -1,0 +1,93 @@
+#include "planner/controller/drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/planner/automaton/paper_automaton.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kTolerated_m = 0.005;
+
+/// A plan from standstill at the origin at t(10) through trims by their numbers.
+Plan plan_through(const std::vector<std::size_t>& trims) {
+  const UniversalAutomaton& automaton = *paper_automaton();
+  std::vector<const Maneuver*> maneuvers;
+  for (std::size_t i = 1; i < trims.size(); ++i) {
+    maneuvers.push_back(automaton.find(pi(trims[i - 1]), pi(trims[i]), "J2"));
+  }
+  const Plan standing({10}, {}, *automaton.find(pi(1), pi(1), "J2"));
+  return standing.continued({10}, maneuvers);
+}
+
+SeenAt seen_standing() {
+  return {.step = {10},
+          .time_s = 0.0,
+          .pose = {0.0, 0.0,
+                   yaw_minus_heading_rad(0.0, paper_automaton()->vehicle,
+                                         paper_automaton()->identified)}};
+}
+
+OccupiedAreas told(const Plan& plan, const SeenAt& seen = seen_standing()) {
+  return areas_with_drift(plan, {10}, seen, *paper_automaton(), kTolerated_m);
+}
+
+bool are_equal(const OccupiedAreas& a, const OccupiedAreas& b) {
+  return a.first == b.first && a.areas_m == b.areas_m && a.final_area_m == b.final_area_m;
+}
+
+bool holds(const ConvexPolygon& area, const ConvexPolygon& other) {
+  return std::ranges::all_of(other.vertices_m,
+                             [&area](const Point& vertex) { return contains(area, vertex, 1e-9); });
+}
+
+TEST(Drift, APlanThatTheVehicleCanFollowKeepsItsAreasToTheBit) {
+  for (const auto& trims : {std::vector<std::size_t>{1, 7, 7, 8, 9, 10, 9, 8, 1},
+                            std::vector<std::size_t>{1, 7, 6, 5, 4, 3, 3, 4, 1}}) {
+    const Plan plan = plan_through(trims);
+    EXPECT_TRUE(are_equal(told(plan), plan.areas_from({10})));
+  }
+}
+
+TEST(Drift, AHeldTrimBeyondTheSteeringLimitWidensTheAreasFromThereOn) {
+  const Plan plan = plan_through({1, 4, 3, 2, 2, 2, 2, 2, 1});
+  const OccupiedAreas planned = plan.areas_from({10});
+  const OccupiedAreas areas = told(plan);
+  ASSERT_EQ(areas.areas_m.size(), planned.areas_m.size());
+  EXPECT_EQ(areas.areas_m.front(), planned.areas_m.front());
+  EXPECT_NE(areas.areas_m.back(), planned.areas_m.back());
+  EXPECT_NE(areas.final_area_m, planned.final_area_m);
+  for (std::uint64_t k = 10; k < 20; ++k) {
+    EXPECT_TRUE(holds(areas.during({k}), planned.during({k}))) << k;
+  }
+}
+
+TEST(Drift, WhereTheVehicleIsPredictedIsHeldWithItsMargin) {
+  const UniversalAutomaton& automaton = *paper_automaton();
+  const Plan plan = plan_through({1, 12, 12, 12, 12, 12, 12, 12, 1});
+  const OccupiedAreas areas = told(plan);
+  double largest_m = 0.0;
+  for (const PredictedInstant& instant : predicted_drive(plan, seen_standing(), {20}, automaton)) {
+    const double off_m = (instant.pose.position_m() - instant.planned.pose.position_m()).norm();
+    largest_m = std::max(largest_m, off_m);
+    const double margin_m = automaton.vehicle.safety_margin_m - kTolerated_m;
+    EXPECT_TRUE(holds(areas.during(instant.step),
+                      footprint_area(automaton.vehicle.footprint, instant.pose, margin_m)));
+  }
+  EXPECT_GT(largest_m, 0.020) << "a plan that is hard to follow";
+}
+
+TEST(Drift, AVehicleBesideItsPlanIsHeldUntilItIsBack) {
+  const Plan plan = plan_through({1, 7, 7, 7, 7, 7, 7, 7, 1});
+  SeenAt seen = seen_standing();
+  seen.pose.y_m += 0.020;
+  const OccupiedAreas planned = plan.areas_from({10});
+  const OccupiedAreas areas = told(plan, seen);
+  EXPECT_NE(areas.areas_m.front(), planned.areas_m.front());
+  EXPECT_EQ(areas.areas_m.back(), planned.areas_m.back());
+}
+
+}  // namespace
+}  // namespace hlc
