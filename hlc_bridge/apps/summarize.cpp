@@ -74,13 +74,14 @@ hlc::Drives read_drives(const std::filesystem::path& run, const hlc::RunFacts& f
   return drives;
 }
 
-/// False for a run that the planner's guarantees do not cover: a vehicle's footprint was farther
-/// from its plan than the safety margin (planner/automaton/deviation.hpp), or touched another one.
+/// False for a run that the planner's guarantees do not cover: a vehicle left the areas that it had
+/// told the others (it was farther from its plan than the safety margin, and not because of a drift
+/// that its controller knew of), or touched another one.
 bool is_well_driven(const hlc::RunSummary& summary) {
   const double bound_m = summary.description.automaton->automaton().vehicle.safety_margin_m;
   return summary.collisions == 0 &&
          std::ranges::all_of(summary.vehicles, [bound_m](const hlc::VehicleSummary& vehicle) {
-           return vehicle.deviation_max_m.value_or(0.0) <= bound_m;
+           return vehicle.astray_steps == 0 && vehicle.deviation_max_m.value_or(0.0) <= bound_m;
          });
 }
 

@@ -64,16 +64,17 @@ const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
   return nullptr;
 }
 
-/// Compares what was driven with what was planned, tick by tick.
+/// Compares what was driven with what was planned, tick by tick. A step that begins or ends near
+/// the steering limit may lead away from its plan; the deviation is foreseen from there until a
+/// step in which the vehicle kept to the margin.
 class Tracking {
  public:
   explicit Tracking(const Subgraph& automaton) : automaton_(automaton.automaton()) {}
 
   void look(const Pose& driven, const State& planned) {
     errors_m_.push_back((driven.position_m() - planned.pose.position_m()).norm());
-    deviation_m_ =
-        std::max(deviation_m_.value_or(0.0),
-                 footprint_deviation_m(driven, planned, automaton_.vehicle, automaton_.identified));
+    step_m_ = std::max(
+        step_m_, footprint_deviation_m(driven, planned, automaton_.vehicle, automaton_.identified));
   }
 
   void look(const Drive& drive, Nanoseconds begin, Nanoseconds end, const Pose& pose,
@@ -86,6 +87,7 @@ class Tracking {
       planned.pose = compose(pose, planned.pose);
       look(sample->pose, planned);
     }
+    end_step(is_at_limit(maneuver.from) || is_at_limit(maneuver.to));
   }
 
   void write(VehicleSummary& summary) const {
@@ -94,9 +96,22 @@ class Tracking {
   }
 
  private:
+  [[nodiscard]] bool is_at_limit(TrimId trim) const {
+    return is_at_steering_limit(automaton_.trims[trim.index], automaton_.vehicle,
+                                automaton_.identified);
+  }
+
+  void end_step(bool is_at_limit) {
+    is_foreseen_ = is_at_limit || (is_foreseen_ && step_m_ > automaton_.vehicle.safety_margin_m);
+    if (!is_foreseen_) deviation_m_ = std::max(deviation_m_.value_or(0.0), step_m_);
+    step_m_ = 0.0;
+  }
+
   const UniversalAutomaton& automaton_;
   std::vector<double> errors_m_;
   std::optional<double> deviation_m_;
+  double step_m_{};  ///< largest deviation in the step under way
+  bool is_foreseen_{};
 };
 
 void add_tracking_at_steps(std::span<const StepRecord* const> rows, VehicleSummary& summary) {
@@ -127,6 +142,12 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
     }
   }
   tracking.write(summary);
+  const double margin_m = automaton.automaton().vehicle.safety_margin_m;
+  summary.astray_steps =
+      static_cast<std::size_t>(std::ranges::count_if(rows, [margin_m](const StepRecord* row) {
+        return row->record.report.reason == FallbackReason::kDeviation &&
+               row->record.report.deviation_m > margin_m;
+      }));
 }
 
 VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,

@@ -17,8 +17,13 @@ struct VehicleSummary {
   std::optional<double> lap_s;  ///< planned positions along the route; closed routes only
   std::optional<Statistics> reference_error_m;  ///< planned positions to the route's centre line
   std::optional<Statistics> tracking_error_m;   ///< driven to planned position, at every tick
-  std::optional<double> deviation_max_m;        ///< largest footprint_deviation_m, at every tick
-  std::optional<Statistics> generated;          ///< vertices per step in which the vehicle planned
+  /// Largest footprint_deviation_m at any tick. Left out are steps near the steering limit, and
+  /// those after them until the vehicle is back: their areas hold the drift
+  /// (planner/controller/drift.hpp), and the controller reports a vehicle that is not in them.
+  std::optional<double> deviation_max_m;
+  std::size_t
+      astray_steps{};  ///< steps in which the controller found its vehicle outside its areas
+  std::optional<Statistics> generated;  ///< vertices per step in which the vehicle planned
   std::optional<Statistics> expanded;
   std::optional<Statistics> planning_s;  ///< of those steps
   std::size_t fallback_steps{};

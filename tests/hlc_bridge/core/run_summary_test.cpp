@@ -130,6 +130,12 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   EXPECT_NEAR(result.tracking_error_m->max, 0.005, 1e-9);
   EXPECT_NEAR(result.tracking_error_m->mean, 0.005 / (59 * 10 + 1), 1e-9);
   EXPECT_NEAR(result.deviation_max_m.value(), 0.005, 2e-4);
+  EXPECT_EQ(result.astray_steps, 0U);
+  reports_.at(30).report.status = StepStatus::kFallback;
+  reports_.at(30).report.reason = FallbackReason::kDeviation;
+  EXPECT_EQ(summary().vehicles.at(0).astray_steps, 0U) << "not seen, but not known to be off";
+  reports_.at(30).report.deviation_m = 0.011;
+  EXPECT_EQ(summary().vehicles.at(0).astray_steps, 1U);
 }
 
 TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
