@@ -363,6 +363,25 @@ HorizonProblem Controller::pose_problem() {
   return problem;
 }
 
+/// Solves the problem; what it finds is the candidate, unless its drift leads into something.
+void Controller::search_candidate(StepIndex next) {
+  const SearchResult result = planner_->plan(*step_.problem);
+  step_.report.generated += result.generated;
+  step_.report.expanded += result.expanded;
+  if (result.status != SearchStatus::kOptimal) {
+    step_.obstacle = result.status == SearchStatus::kBudget ? FallbackReason::kBudget
+                                                            : FallbackReason::kInfeasible;
+    return;
+  }
+  step_.report.cost_m2 = result.cost;
+  step_.candidate = (step_.moved ? *step_.moved : *plan_).continued(next, result.maneuvers);
+  step_.candidate_areas_m = areas_of_candidate();
+  if (!is_candidate_free()) {
+    step_.candidate.reset();
+    step_.obstacle = FallbackReason::kConflict;
+  }
+}
+
 Prediction Controller::plan(std::span<const Prediction> heard) {
   const StepIndex now = step_.observation.step;
   const StepIndex next{now.value + 1};
@@ -376,20 +395,11 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
   }
   if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
     step_.problem = pose_problem();
-    const SearchResult result = planner_->plan(*step_.problem);
-    step_.report.generated = result.generated;
-    step_.report.expanded = result.expanded;
-    if (result.status == SearchStatus::kOptimal) {
-      step_.report.cost_m2 = result.cost;
-      step_.candidate = (step_.moved ? *step_.moved : *plan_).continued(next, result.maneuvers);
-      step_.candidate_areas_m = areas_of_candidate();
-      if (!is_candidate_free()) {
-        step_.candidate.reset();
-        step_.obstacle = FallbackReason::kConflict;
-      }
-    } else {
-      step_.obstacle = result.status == SearchStatus::kBudget ? FallbackReason::kBudget
-                                                              : FallbackReason::kInfeasible;
+    search_candidate(next);
+    if (step_.obstacle == FallbackReason::kConflict) {  // only for its drift: try without any
+      step_.problem->avoids_steering_limit = true;
+      step_.obstacle = FallbackReason::kNone;
+      search_candidate(next);
     }
   }
   step_.prediction = {.vehicle = options_.vehicle,

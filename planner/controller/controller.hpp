@@ -70,8 +70,8 @@ struct Observation {
 ///    measured 7.7 mm at most, m = 10 mm.
 /// 2. The areas of a plan that may lead it farther (trims near the steering limit, or a vehicle
 ///    that is off already) are those of its predicted drive to the end of the plan (drift.hpp). If
-///    they meet anything the plan is dropped. So the old plan also remains safe to its end, however
-///    many steps no new one comes into force.
+///    they meet anything, a plan without those trims is searched instead. So the old plan also
+///    remains safe to its end, however many steps no new one comes into force.
 /// 3. A vehicle that is off by more than `reanchor_share` of m plans on from where it really is:
 ///    the plan in force is moved rigidly onto the measured pose, and what is planned continues
 ///    that. The step under way has been told already, so this is done only if the predicted drive
@@ -160,6 +160,7 @@ class Controller {
                                     double reserve_m = 0.0) const;
   [[nodiscard]] bool stays_inside_told(const Plan& plan) const;
   [[nodiscard]] OccupiedAreas areas_to_tell(StepIndex from) const;
+  void search_candidate(StepIndex next);
   [[nodiscard]] OccupiedAreas areas_of_candidate() const;
   [[nodiscard]] bool is_candidate_free() const;
   void note_who_stands();

@@ -38,10 +38,13 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
       options_(options),
       collision_(subgraph, reachable),
       steps_(subgraph.automaton().trims.size()) {
+  const UniversalAutomaton& automaton = subgraph.automaton();
   for (const TrimId trim : subgraph.spec().trims) {
     for (const Edge& edge : subgraph.successors(trim)) {
       steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
-                                    subgraph.distance_to_standstill(edge.to)});
+                                    subgraph.distance_to_standstill(edge.to),
+                                    is_at_steering_limit(automaton.trims[edge.to.index],
+                                                         automaton.vehicle, automaton.identified)});
     }
   }
 }
@@ -93,6 +96,7 @@ void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
 
   for (const Step& step : steps_[parent.trim.index]) {
     if (step.distance_to_standstill > steps_left) continue;
+    if (step.ends_at_limit && problem.avoids_steering_limit) continue;
     const Frame frame = compose(parent.frame, step.displacement);
     const double cost_to_come = parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm();
     const auto child = static_cast<VertexId>(vertices_.size());

@@ -20,9 +20,9 @@ namespace hlc {
 ///
 ///     distance_to_standstill(child's trim) <= n - (j + 1),
 ///
-/// so every vertex of depth n stands. The open list is ordered by f = g + h (cost-to-come +
-/// cost-to-go), then deeper first, then in the order of generation; hence two searches of one
-/// problem agree in everything.
+/// (and is not near the steering limit, if the problem avoids that), so every vertex of depth n
+/// stands. The open list is ordered by f = g + h (cost-to-come + cost-to-go), then deeper first,
+/// then in the order of generation; hence two searches of one problem agree in everything.
 ///
 /// Collision checks are lazy: the edge into a vertex is checked when the vertex is taken from the
 /// open list, and the vertex is dropped if the edge is not free. The root has no such edge and is
@@ -53,6 +53,7 @@ class BestFirstSearch final : public SearchEngine {
     Frame displacement;
     TrimId to;
     std::size_t distance_to_standstill;
+    bool ends_at_limit;
   };
 
   struct Vertex {

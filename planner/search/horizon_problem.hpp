@@ -24,6 +24,9 @@ struct HorizonProblem {
   /// Areas that are occupied during step j (index j - 1), any number per step; empty: none at all.
   std::vector<std::vector<ConvexPolygon>> obstacles_m;
   std::vector<Segment> boundary_m;  ///< of the drivable area, the same for all steps
+  /// No step may end in a trim near the steering limit (is_at_steering_limit), where a vehicle may
+  /// drift from its plan.
+  bool avoids_steering_limit{false};
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
 };

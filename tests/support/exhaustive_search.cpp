@@ -23,7 +23,7 @@ class Enumeration {
       return;
     }
     for (const Edge& edge : subgraph_.successors(trim)) {
-      if (!is_free(*edge.maneuver, pose, done + 1, problem_)) {
+      if (!is_allowed(edge) || !is_free(*edge.maneuver, pose, done + 1, problem_)) {
         continue;
       }
       const Pose next = compose(pose, edge.maneuver->displacement);
@@ -32,6 +32,13 @@ class Enumeration {
       try_all(next, edge.to, cost + step_cost);
       path_.pop_back();
     }
+  }
+
+  [[nodiscard]] bool is_allowed(const Edge& edge) const {
+    const UniversalAutomaton& automaton = subgraph_.automaton();
+    return !problem_.avoids_steering_limit ||
+           !is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
+                                 automaton.identified);
   }
 
   void finish(TrimId trim, double cost) {
