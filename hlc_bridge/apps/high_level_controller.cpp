@@ -32,7 +32,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->expected(1)
       ->check(CLI::Range(1, 30));
   hlc::declare_scenario_flags(app, flags.scenario);
-  app.add_option("--node_id", flags.node_id, "default: high_level_controller_<id>");
+  app.add_option("--node_id", flags.node_id,
+                 "name in the log; default: high_level_controller_<id>");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,

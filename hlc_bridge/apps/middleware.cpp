@@ -23,7 +23,8 @@ struct Flags {
 
 void declare(CLI::App& app, Flags& flags) {
   flags.network.declare(app);
-  app.add_option("--node_id", flags.node_id, "default: middleware_<id>");
+  app.add_option("--node_id", flags.node_id,
+                 "name in the log and of the timer in logical time; default: middleware_<id>");
   app.add_option("--vehicle_ids", flags.vehicle_ids, "the controller's vehicle (one id)")
       ->delimiter(',')
       ->required()

@@ -4,7 +4,8 @@
 
 #include "hlc_bridge/core/messages.hpp"
 
-/// Node ids of a run's processes. A process's participants and its ready status carry this name.
+/// Names of a run's processes, by vehicle and whatever their --node_id: all their participants bear
+/// them, and so does the ready status of vehicles.
 namespace hlc {
 
 inline constexpr const char* kLabControlName = "lab_control";

@@ -25,9 +25,9 @@ constexpr std::chrono::milliseconds kCopyPause{50};
 /// Logical time starts the experiment no earlier: vehicles are trusted after 1 s.
 constexpr Nanoseconds kEarliestStart = kNanosecondsPerSecond;
 
-ParticipantOptions on_domain(const HlcProcessOptions& options, std::optional<int> domain,
-                             DomainRole role) {
-  return {.name = options.node_id,
+ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
+                             std::optional<int> domain, DomainRole role) {
+  return {.name = controller_name(vehicle.value),
           .domain_id = domain.value(),
           .role = role,
           .transport = options.transport,
@@ -52,13 +52,16 @@ Nanoseconds share_of_period(const VehicleStateList& list, double share) {
 HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller)
     : options_(std::move(options)),
       controller_(std::move(controller)),
+      vehicle_(controller_->options().vehicle),
+      middleware_(middleware_name(vehicle_.value)),
       started_at_(Clock::now()),
-      lab_(on_domain(options_, options_.domains.lab, DomainRole::kLab),
+      lab_(on_domain(options_, vehicle_, options_.domains.lab, DomainRole::kLab),
            [this] { signal_.notify(); }),
-      local_(on_domain(options_, options_.domains.local, DomainRole::kLocal),
+      local_(on_domain(options_, vehicle_, options_.domains.local, DomainRole::kLocal),
              [this] { signal_.notify(); }),
-      controllers_(on_domain(options_, options_.domains.controller, DomainRole::kController),
-                   [this] { signal_.notify(); }),
+      controllers_(
+          on_domain(options_, vehicle_, options_.domains.controller, DomainRole::kController),
+          [this] { signal_.notify(); }),
       command_writer_(local_, topics::command(), [this] { signal_.notify(); }),
       ready_writer_(local_, topics::ready_status()),
       traffic_writer_(controllers_, topics::traffic(), [this] { signal_.notify(); }),
@@ -117,28 +120,37 @@ void HlcProcess::stop() {
 
 std::vector<VehicleId> HlcProcess::others(const Observation& observation) const {
   std::vector<VehicleId> result = observation.active;
-  std::erase(result, controller_->options().vehicle);
+  std::erase(result, vehicle_);
   return result;
 }
 
 std::set<std::string> HlcProcess::peer_names() const {
   std::set<std::string> names;
   for (const VehicleId vehicle : active_) {
-    if (vehicle != controller_->options().vehicle) names.insert(controller_name(vehicle.value));
+    if (vehicle != vehicle_) names.insert(controller_name(vehicle.value));
   }
   return names;
 }
 
 /// Nothing that this process says may be lost: every writer has its readers matched.
-bool HlcProcess::has_everybody() {
-  if (is_ready_ || active_.empty()) return is_ready_;
+bool HlcProcess::has_everybody() const {
+  if (active_.empty()) return false;
   const std::set<std::string> peers = peer_names();
   const auto reaches = [&peers](const auto& writer) {
     return std::ranges::includes(writer.matched_names(), peers);
   };
-  is_ready_ = command_writer_.matched() > 0 && reaches(traffic_writer_) &&
-              reaches(prediction_writer_) && reaches(outcome_writer_);
-  return is_ready_;
+  return command_writer_.matched() > 0 && reaches(traffic_writer_) && reaches(prediction_writer_) &&
+         reaches(outcome_writer_);
+}
+
+void HlcProcess::note_who_is_there() {
+  had_middleware_ = had_middleware_ || command_writer_.matched() > 0;
+  is_ready_ = is_ready_ || has_everybody();
+}
+
+/// Others on the local domain may come and go: in the lab it holds all controllers of a computer.
+bool HlcProcess::has_lost_middleware() const {
+  return local_.is_lost(middleware_) || (had_middleware_ && command_writer_.matched() == 0);
 }
 
 std::string HlcProcess::who_is_missing() const {
@@ -155,14 +167,16 @@ std::string HlcProcess::who_is_missing() const {
 /// In logical time the first list is answered only when everybody is there, since nobody waits for
 /// messages that were sent before.
 bool HlcProcess::wait_for_everybody() {
-  return signal_.wait_until(started_at_ + options_.startup_timeout,
-                            [this] { return stop_ || has_everybody(); });
+  const auto is_settled = [this] { return stop_ || is_ready_ || has_everybody(); };
+  const bool settled = signal_.wait_until(started_at_ + options_.startup_timeout, is_settled);
+  note_who_is_there();
+  return settled;
 }
 
 void HlcProcess::send_ready_now_and_then() {
   const bool triggered = signal_.locked([this] { return start_.has_value(); });
   if (!is_ready_ || triggered || Clock::now() < next_ready_at_) return;
-  ready_writer_.write({.source_id = controller_ready_id(controller_->options().vehicle.value)});
+  ready_writer_.write({.source_id = controller_ready_id(vehicle_.value)});
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
@@ -185,14 +199,14 @@ HlcProcess::Event HlcProcess::wait_for_event() {
   while (true) {
     send_copy_when_due();
     watch_lab_control();
-    static_cast<void>(has_everybody());
+    note_who_is_there();
     send_ready_now_and_then();
     Clock::time_point wake = Clock::now() + kReadyRepeat;
     if (copy_due_) wake = std::min(wake, copy_due_->first);
     const bool happened = signal_.wait_until(
-        wake, [this] { return stop_ || !lists_.empty() || !local_.lost().empty(); });
+        wake, [this] { return stop_ || !lists_.empty() || has_lost_middleware(); });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
-    if (!local_.lost().empty()) return Event::kMiddlewareLost;
+    if (has_lost_middleware()) return Event::kMiddlewareLost;
     if (lab_control_lost_at_ &&
         Clock::now() > *lab_control_lost_at_ + std::chrono::nanoseconds(kControllerStays)) {
       return Event::kLabControlLost;
@@ -209,7 +223,7 @@ int HlcProcess::run() {
         return kExitGood;
       case Event::kMiddlewareLost:
         spdlog::error("{}: {} is gone; nothing reaches the vehicle any more", options_.node_id,
-                      joined(local_.lost()));
+                      middleware_);
         return is_ready_ ? kExitDied : kExitMissing;
       case Event::kLabControlLost:
         return kExitDied;
@@ -341,9 +355,8 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
 void HlcProcess::send_command(const VehicleStateList& list, StepIndex step) {
   if (copy_due_) command_writer_.write(copy_due_->second);
   const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
-  const TrajectoryCommand command =
-      command_of(controller_->options().vehicle, plan, step, list.t_now, period_of(list),
-                 controller_->subgraph().automaton().vehicle);
+  const TrajectoryCommand command = command_of(vehicle_, plan, step, list.t_now, period_of(list),
+                                               controller_->subgraph().automaton().vehicle);
   command_writer_.write(command);
   copy_due_.reset();
   if (command.points.empty()) return;

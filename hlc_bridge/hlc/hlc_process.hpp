@@ -30,7 +30,9 @@ struct StepDeadlines {
 };
 
 struct HlcProcessOptions {
-  std::string node_id;  ///< high_level_controller_<id>
+  /// For the log. On the domains the process always bears its vehicle's name (core/node_names),
+  /// which the others look for: the lab gives all controllers one node id.
+  std::string node_id;
   Transport transport{Transport::kLab};
   Domains domains;
   std::optional<DiscoveryServer> discovery_server;
@@ -66,7 +68,9 @@ class HlcProcess {
   void check_plan_fits_commands() const;
   void send_ready_now_and_then();
   void send_copy_when_due();
-  [[nodiscard]] bool has_everybody();
+  [[nodiscard]] bool has_everybody() const;
+  [[nodiscard]] bool has_lost_middleware() const;
+  void note_who_is_there();
   [[nodiscard]] std::string who_is_missing() const;
   [[nodiscard]] std::set<std::string> peer_names() const;
   [[nodiscard]] bool wait_for_everybody();
@@ -84,6 +88,8 @@ class HlcProcess {
 
   HlcProcessOptions options_;
   std::unique_ptr<Controller> controller_;
+  VehicleId vehicle_;
+  std::string middleware_;  ///< its name, if it is one of ours
   std::chrono::steady_clock::time_point started_at_;
 
   Signal signal_;
@@ -109,6 +115,7 @@ class HlcProcess {
 
   std::vector<VehicleId> active_;
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
+  bool had_middleware_{};
   bool is_ready_{};
   bool has_bad_period_{};
   bool is_started_{};

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kLeaveTime{500};
 
 ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
   const bool lab = role == DomainRole::kLab;
-  return {.name = options.node_id,
+  return {.name = middleware_name(options.vehicle_id),
           .domain_id = lab ? options.lab_domain : options.local_domain,
           .role = role,
           .transport = options.transport,

@@ -25,7 +25,9 @@
 namespace hlc {
 
 struct MiddlewareOptions {
-  std::string node_id;  ///< middleware_<id>
+  /// For the log, and in logical time the source_id of the timer's ready status (wire contract,
+  /// 5.3). On the domains the process always bears its vehicle's name (core/node_names).
+  std::string node_id;
   std::uint8_t vehicle_id{};
   Transport transport{Transport::kLab};
   int lab_domain{};

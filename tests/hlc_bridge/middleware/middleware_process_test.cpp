@@ -113,7 +113,7 @@ class MiddlewareTest : public testing::Test {
  protected:
   void start(bool logical_time) {
     MiddlewareOptions options;
-    options.node_id = middleware_name(1);
+    options.node_id = node_id_;
     options.vehicle_id = 1;
     options.transport = Transport::kLoopback;
     options.lab_domain = domains_.first();
@@ -176,6 +176,7 @@ class MiddlewareTest : public testing::Test {
 
   DomainReservation domains_{2};
   std::chrono::seconds startup_timeout_{60};
+  std::string node_id_{middleware_name(1)};
   FakeLab lab_{domains_.first()};
   std::unique_ptr<FakeController> controller_ =
       std::make_unique<FakeController>(domains_.first() + 1);
@@ -283,6 +284,15 @@ TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
   start(true);
   lab_.tell_parameters(200, {1, 2});
   EXPECT_EQ(exit_code(), kExitMissing);
+}
+
+TEST_F(MiddlewareTest, BearsItsVehiclesNameWhateverItsNodeId) {
+  node_id_ = "middleware";
+  const Participant lab{on_loopback("observer", domains_.first(), DomainRole::kLab)};
+  const Participant local{on_loopback("observer", domains_.first() + 1, DomainRole::kLocal)};
+  start(false);
+  EXPECT_TRUE(lab.wait_for({middleware_name(1)}, soon()));
+  EXPECT_TRUE(local.wait_for({middleware_name(1)}, soon()));
 }
 
 TEST_F(MiddlewareTest, RefusesParametersWithoutItsVehicle) {
