@@ -51,8 +51,10 @@ void LabRun::report(const ReportRecord& record) {
   const std::uint64_t step = record.report.step.value;
   std::uint64_t& last_step = last_reports_.try_emplace(id, step).first->second;
   last_step = std::max(last_step, step);
+  just_heard_.insert(id);
   note_progress();
   if (record.report.status != StepStatus::kStandby) {
+    driving_.insert(id);
     result_.first_step = std::min(result_.first_step.value_or(step), step);
   }
 }
@@ -60,6 +62,11 @@ void LabRun::report(const ReportRecord& record) {
 std::optional<std::uint64_t> LabRun::last_report(std::uint8_t vehicle_id) const {
   const auto found = last_reports_.find(vehicle_id);
   return found == last_reports_.end() ? std::nullopt : std::optional{found->second};
+}
+
+Nanoseconds LabRun::last_heard(std::uint8_t vehicle_id) const {
+  const auto found = last_heard_.find(vehicle_id);
+  return found == last_heard_.end() ? 0 : found->second;
 }
 
 void LabRun::interrupt() {
@@ -78,6 +85,9 @@ LabRunActions LabRun::advance(Nanoseconds now) {
     return actions;
   }
   now_ = now;
+  for (const std::uint8_t id : std::exchange(just_heard_, {})) {
+    last_heard_[id] = now;
+  }
   if (!started_ || progress_) {
     last_progress_ = now;
     progress_ = false;
@@ -112,7 +122,7 @@ void LabRun::gather(LabRunActions& actions) {
     }
   }
   const bool too_late = now_ - gathering_since_ >= settings_.startup_timeout;
-  if (!end_asked_ && reaches_all_timers() && not_ready().empty()) {
+  if (!end_asked_ && unreached_timers().empty() && not_ready().empty()) {
     phase_ = Phase::kRunning;
     began_ = now_;
     began_clock_ = clock();
@@ -125,8 +135,16 @@ void LabRun::gather(LabRunActions& actions) {
   }
 }
 
-bool LabRun::reaches_all_timers() const {
-  return trigger_readers_ >= 2 * settings_.vehicle_ids.size();
+std::vector<std::string> LabRun::unreached_timers() const {
+  std::vector<std::string> names;
+  for (const std::uint8_t id : settings_.vehicle_ids) {
+    for (const std::string& name : {vehicle_name(id), middleware_name(id)}) {
+      if (trigger_readers_.count(name) == 0) {
+        names.push_back(name);
+      }
+    }
+  }
+  return names;
 }
 
 void LabRun::notice_deaths(LabRunActions& actions) {
@@ -134,6 +152,9 @@ void LabRun::notice_deaths(LabRunActions& actions) {
     if (lost_.count(process) != 0) {
       bury(process, "its participant has left or fallen silent", actions);
     }
+  }
+  for (const Death& death : overdue()) {
+    bury(death.process, death.sign, actions);
   }
   const std::vector<std::string> debtors = owing();
   if (!debtors.empty() && now_ - last_progress_ >= kAnswerTimeout) {
@@ -144,7 +165,7 @@ void LabRun::notice_deaths(LabRunActions& actions) {
   }
 }
 
-void LabRun::bury(const std::string& process, const char* sign, LabRunActions& actions) {
+void LabRun::bury(const std::string& process, const std::string& sign, LabRunActions& actions) {
   if (!dropped_.insert(process).second) {
     return;
   }
@@ -231,6 +252,7 @@ Nanoseconds LabRun::wake_up() const {
   if (!owing().empty()) {
     time = std::min(time, last_progress_ + kAnswerTimeout);
   }
+  time = std::min(time, next_overdue());
   if (phase_ == Phase::kBraking && result_.exit_code == kExitInterrupted) {
     time = std::min(time, braking_since_wall_ + kInterruptTime);
   }
@@ -265,8 +287,9 @@ std::string LabRun::waiting_for() const {
       waiting.push_back(what);
     }
   }
-  if (absent.empty() && waiting.empty() && !reaches_all_timers()) {
-    waiting.push_back("triggers, which reach only " + std::to_string(trigger_readers_) + " timers");
+  const std::vector<std::string> unreached = unreached_timers();
+  if (absent.empty() && waiting.empty() && !unreached.empty()) {
+    waiting.push_back("triggers, which do not yet reach " + join(unreached));
   }
   std::string line;
   if (!absent.empty()) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hlc_bridge/core/death.hpp"
@@ -74,9 +75,9 @@ class LabRun {
 
   /// Who is there, and who was there and is not any more; a name in both is lost.
   void presence(const std::set<std::string>& alive, const std::set<std::string>& lost);
-  /// How many readers the lab control's triggers reach: before the run begins, those of all timers,
-  /// one of every vehicle and one of every middleware, so that the first trigger is not lost.
-  void trigger_readers(std::size_t matched) { trigger_readers_ = matched; }
+  /// Whom the lab control's triggers reach: before the run begins all timers, every vehicle and
+  /// every middleware, so that the first trigger is not lost.
+  void trigger_readers(std::set<std::string> names) { trigger_readers_ = std::move(names); }
   virtual void ready(const ReadyStatus& status) = 0;
   virtual void state(const VehicleState& /*state*/) {}
   void report(const ReportRecord& record);
@@ -112,7 +113,12 @@ class LabRun {
   /// Time of the run up to which everything is done; kNever if nobody is left for whom time could
   /// go on.
   [[nodiscard]] virtual Nanoseconds clock() const = 0;
-  /// Processes that owe an answer now.
+  /// Who is dead though its participant lives, with the sign; and when such a death is due next if
+  /// nothing arrives (wall time).
+  [[nodiscard]] virtual std::vector<Death> overdue() const { return {}; }
+  [[nodiscard]] virtual Nanoseconds next_overdue() const { return kNever; }
+  /// Processes that owe an answer now. All of them are dead when nobody has answered for
+  /// kAnswerTimeout.
   [[nodiscard]] virtual std::vector<std::string> owing() const { return {}; }
   /// The process is gone. Before the beginning it may come back and starts anew then.
   virtual void drop(const std::string& /*process*/) {}
@@ -125,12 +131,18 @@ class LabRun {
   [[nodiscard]] Nanoseconds now() const { return now_; }
   /// Step up to which the controller has reported; nothing before its first report.
   [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
+  /// Wall time (of advance) at which the controller's last report was there; 0 before the first.
+  [[nodiscard]] Nanoseconds last_heard(std::uint8_t vehicle_id) const;
+  [[nodiscard]] bool has_left_standby(std::uint8_t vehicle_id) const {
+    return driving_.count(vehicle_id) != 0;
+  }
+  [[nodiscard]] std::optional<std::uint64_t> first_step() const { return result_.first_step; }
 
  private:
   void gather(LabRunActions& actions);
-  [[nodiscard]] bool reaches_all_timers() const;
+  [[nodiscard]] std::vector<std::string> unreached_timers() const;
   void notice_deaths(LabRunActions& actions);
-  void bury(const std::string& process, const char* sign, LabRunActions& actions);
+  void bury(const std::string& process, const std::string& sign, LabRunActions& actions);
   void record_death(const Death& death);
   void leave_running_phases(LabRunActions& actions);
   void stop(LabRunActions& actions);
@@ -147,7 +159,10 @@ class LabRun {
   std::set<std::string> lost_;
   std::set<std::string> dropped_;
   std::map<std::uint8_t, std::uint64_t> last_reports_;  ///< step, by vehicle
-  std::size_t trigger_readers_{};
+  std::map<std::uint8_t, Nanoseconds> last_heard_;      ///< wall, by vehicle
+  std::set<std::uint8_t> just_heard_;                   ///< reported since the last advance
+  std::set<std::uint8_t> driving_;                      ///< vehicles that have left standby
+  std::set<std::string> trigger_readers_;
   bool end_asked_{};  ///< interrupted, or a controller asked for the stop
   bool progress_{};
   bool started_{};

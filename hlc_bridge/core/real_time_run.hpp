@@ -1,19 +1,27 @@
 #pragma once
 
 #include "hlc_bridge/core/lab_run.hpp"
+#include "hlc_bridge/core/settled_states.hpp"
 
 namespace hlc {
 
 /// A run in real time: the lab control starts and stops it, time passes by itself (wire
 /// contract, 5.2).
 ///
-/// It begins when every middleware has told that its controller is ready, every vehicle has sent a
-/// state, and the triggers reach every timer; step 0 is the first list at or after the start
-/// trigger's time, one second later. `now` of advance() is the time since the epoch.
+/// It begins when every middleware has told that its controller is ready, every vehicle's
+/// states have settled, and the triggers reach every timer; step 0 is the first list at or after
+/// the start trigger's time, one second later. `now` of advance() is the time since the epoch.
+///
+/// From the start trigger's time on, every living controller owes a report at least every
+/// kReportTimeout, since it reports every list; and when one has left standby, so must the others
+/// within that time. Who does not is dead, even if its participant still announces itself.
 class RealTimeRun : public LabRun {
  public:
   /// From the trigger to the start.
   static constexpr Nanoseconds kStartDelay = 1 * kNanosecondsPerSecond;
+
+  /// As long as the lease, after which a process without signs of life is lost.
+  static constexpr Nanoseconds kReportTimeout = 2 * kNanosecondsPerSecond;
 
   explicit RealTimeRun(LabRunSettings settings) : LabRun{std::move(settings)} {}
 
@@ -25,11 +33,20 @@ class RealTimeRun : public LabRun {
   void go_on(LabRunActions& actions) override;
   [[nodiscard]] Nanoseconds clock() const override { return now(); }
   void drop(const std::string& process) override;
+  [[nodiscard]] std::vector<Death> overdue() const override;
+  [[nodiscard]] Nanoseconds next_overdue() const override;
   [[nodiscard]] Nanoseconds wall_time_of(Nanoseconds t) const override { return t; }
 
  private:
-  std::set<std::string> ready_;  ///< node names of middlewares and vehicles
-  bool triggered_{};
+  /// When the living controller of the vehicle is dead unless it speaks (`report_due`), and unless
+  /// it drives (`drive_due`); kNever if that is not to be expected.
+  [[nodiscard]] Nanoseconds report_due(std::uint8_t vehicle_id) const;
+  [[nodiscard]] Nanoseconds drive_due(std::uint8_t vehicle_id) const;
+
+  std::set<std::string> ready_;                    ///< node names of middlewares
+  std::map<std::uint8_t, SettledStates> settled_;  ///< by vehicle
+  std::set<std::uint8_t> silenced_;                ///< their controllers are gone, or get no lists
+  std::optional<Nanoseconds> start_;               ///< next_start of the trigger
 };
 
 }  // namespace hlc

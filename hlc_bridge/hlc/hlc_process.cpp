@@ -22,8 +22,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kCopyPause{50};
-/// Logical time starts the experiment no earlier: vehicles are trusted after 1 s.
-constexpr Nanoseconds kEarliestStart = kNanosecondsPerSecond;
 
 ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
                              std::optional<int> domain, DomainRole role) {
@@ -246,9 +244,22 @@ int HlcProcess::run() {
   }
 }
 
+void HlcProcess::watch_vehicles(const VehicleStateList& list) {
+  for (const VehicleState& state : list.states) {
+    if (is_usable(state, list.t_now)) settled_[{state.vehicle_id}].add(state);
+  }
+}
+
+/// Real time: the lab control's trigger says so, logical time: the states do.
 bool HlcProcess::starts_with(const VehicleStateList& list, const Observation& observation) {
   if (!controller_->has_plan() || !is_ready_) return false;
-  if (options_.logical_time) return list.t_now >= kEarliestStart && is_complete(observation);
+  if (options_.logical_time) {
+    return is_complete(observation) &&
+           std::ranges::all_of(observation.active, [this](VehicleId id) {
+             const auto found = settled_.find(id);
+             return found != settled_.end() && found->second.have_settled();
+           });
+  }
   const std::optional<Nanoseconds> start = signal_.locked([this] { return start_; });
   return start && list.t_now >= *start;
 }
@@ -266,6 +277,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
   active_ = observation.active;
   if (options_.logical_time && !wait_for_everybody()) return;
 
+  if (!is_started_) watch_vehicles(list);
   signal_.locked([&] {
     traffic_inbox_.begin(observation.step);
     prediction_inbox_.begin(observation.step);

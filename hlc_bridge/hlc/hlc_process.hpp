@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/core/settled_states.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
@@ -76,6 +78,7 @@ class HlcProcess {
   [[nodiscard]] bool wait_for_everybody();
 
   void answer(const VehicleStateList& list);
+  void watch_vehicles(const VehicleStateList& list);
   [[nodiscard]] bool starts_with(const VehicleStateList& list, const Observation& observation);
   [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
   /// Waits until all of `from` are in the mailbox, or need not be waited for any more.
@@ -114,6 +117,7 @@ class HlcProcess {
   Writer<ReportRecord> report_writer_;
 
   std::vector<VehicleId> active_;
+  std::map<VehicleId, SettledStates> settled_;  ///< until the start
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
   bool had_middleware_{};
   bool is_ready_{};

@@ -1,8 +1,8 @@
 #include "hlc_bridge/hlc/observation.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "hlc_bridge/core/settled_states.hpp"
 #include "planner/coordination/missing.hpp"
 
 namespace hlc {
@@ -10,11 +10,6 @@ namespace {
 
 constexpr auto kMaxStateAge = static_cast<Nanoseconds>(1e9 * kMaxStateAge_s);
 constexpr std::int32_t kMaxVehicleId = 255;
-
-bool is_finite(const VehicleState& state) {
-  return std::isfinite(state.pose.x_m) && std::isfinite(state.pose.y_m) &&
-         std::isfinite(state.pose.heading_rad) && std::isfinite(state.speed_mps);
-}
 
 }  // namespace
 

@@ -189,7 +189,7 @@ void LabControlProcess::look_who_is_there() {
   std::set<std::string> lost = lab_.lost();
   lost.merge(controllers_.lost());
   run_->presence(alive, lost);
-  run_->trigger_readers(trigger_writer_.matched());
+  run_->trigger_readers(trigger_writer_.matched_names());
 }
 
 void LabControlProcess::perform(const LabRunActions& actions) {

@@ -116,7 +116,7 @@ TEST(LogicalRun, InterruptionStopsAtOnceAndLetsTheVehiclesBrake) {
 
 TEST(LogicalRun, InterruptedRunEndsInTimeEvenIfNobodyAnswers) {
   LogicalRun run{settings({1}, 20)};
-  run.trigger_readers(2);
+  run.trigger_readers(timers_of({1}));
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(100).triggers, ElementsAre(0));
@@ -129,7 +129,7 @@ TEST(LogicalRun, InterruptedRunEndsInTimeEvenIfNobodyAnswers) {
 
 TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
   LogicalRun run{settings({1, 2}, 20)};
-  run.trigger_readers(4);
+  run.trigger_readers(timers_of({1, 2}));
   run.presence({vehicle_name(1), middleware_name(1), controller_name(1), vehicle_name(2),
                 middleware_name(2)},
                {});
@@ -149,7 +149,7 @@ TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
 
 TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {
   LogicalRun run{settings({1}, 20)};
-  run.trigger_readers(2);
+  run.trigger_readers(timers_of({1}));
   run.ready({vehicle_name(1), 0});
   run.presence({}, {vehicle_name(1)});
   EXPECT_THAT(run.advance(1).triggers, IsEmpty());
@@ -163,18 +163,18 @@ TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {
 TEST(LogicalRun, FirstTriggerWaitsUntilItReachesEveryTimer) {
   LogicalRun run{settings({1}, 20)};
   run.presence({vehicle_name(1), middleware_name(1), controller_name(1)}, {});
-  run.trigger_readers(1);
+  run.trigger_readers({vehicle_name(1), "recorder"});
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
-  EXPECT_THAT(run.advance(1).triggers, IsEmpty());
-  EXPECT_THAT(run.waiting_for(), HasSubstr("reach only 1 timers"));
-  run.trigger_readers(2);
+  EXPECT_THAT(run.advance(1).triggers, IsEmpty()) << "two readers, but not the two timers'";
+  EXPECT_THAT(run.waiting_for(), HasSubstr("triggers, which do not yet reach middleware_1"));
+  run.trigger_readers(timers_of({1}));
   EXPECT_THAT(run.advance(2).triggers, ElementsAre(0));
 }
 
 TEST(LogicalRun, ControllerWithoutMiddlewareOwesNoReports) {
   LogicalRun run{settings({1}, 20)};
-  run.trigger_readers(2);
+  run.trigger_readers(timers_of({1}));
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
@@ -186,7 +186,7 @@ TEST(LogicalRun, ControllerWithoutMiddlewareOwesNoReports) {
 
 TEST(LogicalRun, LostTriggerIsSentAgain) {
   LogicalRun run{settings({1}, 20)};
-  run.trigger_readers(2);
+  run.trigger_readers(timers_of({1}));
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
@@ -200,7 +200,7 @@ TEST(LogicalRun, LostTriggerIsSentAgain) {
 TEST(LogicalRun, NothingIsReleasedBeforeAllAnswersOwedHaveCome) {
   LogicalRun run{settings({1, 2}, 20)};
   EXPECT_EQ(run.answers_owed(), 0U) << "before the beginning anything may count";
-  run.trigger_readers(4);
+  run.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : std::vector<std::uint8_t>{1, 2}) {
     run.ready({vehicle_name(id), 0});
     run.ready({middleware_name(id), kListOffset});
@@ -217,7 +217,7 @@ TEST(LogicalRun, NothingIsReleasedBeforeAllAnswersOwedHaveCome) {
 
 TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
   LogicalRun run{settings({1, 2}, 20)};
-  run.trigger_readers(4);
+  run.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : std::vector<std::uint8_t>{1, 2}) {
     run.ready({vehicle_name(id), 0});
     run.ready({middleware_name(id), kListOffset});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/core/node_names.hpp"
+#include "tests/hlc_bridge/core/simulated_lab.hpp"
 
 namespace hlc {
 namespace {
@@ -21,10 +22,13 @@ LabRunSettings settings() { return {.vehicle_ids = {1, 2}, .period = kPeriod, .s
 const std::set<std::string> kAll{vehicle_name(1),    vehicle_name(2),    middleware_name(1),
                                  middleware_name(2), controller_name(1), controller_name(2)};
 
-VehicleState state(std::uint8_t id) {
-  VehicleState state;
-  state.vehicle_id = id;
-  return state;
+/// A second of standing states, as a vehicle sends them before the start.
+std::vector<VehicleState> second_of_states(std::uint8_t id) {
+  std::vector<VehicleState> states;
+  for (Nanoseconds t = kStart - kSecond; t <= kStart; t += kVehiclePeriod) {
+    states.push_back({.vehicle_id = id, .create_stamp = t});
+  }
+  return states;
 }
 
 ReportRecord report(std::uint8_t id, std::uint64_t step, StepStatus status) {
@@ -39,12 +43,22 @@ class RealTimeRunTest : public testing::Test {
  protected:
   void make_ready() {
     run_.presence(kAll, {});
-    run_.trigger_readers(4);
+    run_.trigger_readers(timers_of({1, 2}));
     for (const std::uint8_t id : settings().vehicle_ids) {
-      run_.state(state(id));
+      let_settle(id);
       run_.ready({middleware_ready_id(id), 0});
     }
   }
+  void let_settle(std::uint8_t id) {
+    for (const VehicleState& state : second_of_states(id)) run_.state(state);
+  }
+  /// Every controller reports the step of `now`; then the run is advanced.
+  LabRunActions advance_with_reports(Nanoseconds now, StepStatus first, StepStatus second) {
+    run_.report(report(1, step_at(now, kPeriod), first));
+    run_.report(report(2, step_at(now, kPeriod), second));
+    return run_.advance(now);
+  }
+
   RealTimeRun run_{settings()};
 };
 
@@ -57,22 +71,37 @@ TEST_F(RealTimeRunTest, TriggersOneSecondAheadWhenEverybodyIsReady) {
 }
 
 TEST_F(RealTimeRunTest, WaitsForEachSingleOne) {
-  run_.trigger_readers(4);
-  run_.state(state(1));
+  run_.trigger_readers(timers_of({1, 2}));
+  let_settle(1);
   run_.ready({middleware_ready_id(1), 0});
-  run_.state(state(2));
+  let_settle(2);
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
   run_.ready({middleware_ready_id(2), 0});
-  run_.trigger_readers(3);
+  std::set<std::string> readers = timers_of({1});
+  readers.insert({vehicle_name(2), "recorder"});
+  run_.trigger_readers(readers);
   EXPECT_THAT(run_.advance(kStart + 1).triggers, IsEmpty());
-  run_.trigger_readers(4);
+  run_.trigger_readers(timers_of({1, 2}));
   EXPECT_THAT(run_.advance(kStart + 2).triggers, ElementsAre(kStart + 2 + kSecond));
 }
 
+TEST_F(RealTimeRunTest, AVehicleIsReadyWhenItsStatesHaveSettled) {
+  run_.presence(kAll, {});
+  run_.trigger_readers(timers_of({1, 2}));
+  run_.ready({middleware_ready_id(1), 0});
+  run_.ready({middleware_ready_id(2), 0});
+  let_settle(1);
+  std::vector<VehicleState> states = second_of_states(2);
+  states[25].pose.x_m = 1.0;  // it finds itself
+  for (const VehicleState& state : states) run_.state(state);
+  EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
+  EXPECT_EQ(run_.waiting_for(), "not ready: vehicle_raspberry_2");
+}
+
 TEST_F(RealTimeRunTest, TimerNamesAreNoSignOfReadinessInRealTime) {
-  run_.trigger_readers(4);
+  run_.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : settings().vehicle_ids) {
-    run_.state(state(id));
+    let_settle(id);
     run_.ready({middleware_name(id), 0});
   }
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
@@ -82,9 +111,10 @@ TEST_F(RealTimeRunTest, StopsOnePeriodAfterTheLastStepAndFinishesAfterBraking) {
   make_ready();
   (void)run_.advance(kStart);
   const std::uint64_t k0 = step_at(kStart + kSecond, kPeriod);
-  run_.report(report(1, k0 - 1, StepStatus::kStandby));
-  run_.report(report(1, k0, StepStatus::kPlanned));
-  (void)run_.advance(kStart + kSecond);
+  (void)advance_with_reports(kStart + kSecond - 1, StepStatus::kStandby, StepStatus::kStandby);
+  for (std::uint64_t step = k0; step < k0 + 11; ++step) {
+    (void)advance_with_reports(step * kPeriod, StepStatus::kPlanned, StepStatus::kFallback);
+  }
   const Nanoseconds end = (k0 + 11) * kPeriod;
   EXPECT_EQ(run_.wake_up(), end);
   EXPECT_THAT(run_.advance(end - 1).triggers, IsEmpty());
@@ -108,6 +138,10 @@ TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   EXPECT_EQ(actions.deaths.front().process, middleware_name(2));
   EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
   EXPECT_THAT(actions.triggers, IsEmpty());
+  for (Nanoseconds t = kStart + 2 * kSecond; t < kStart + 5 * kSecond; t += kPeriod) {
+    run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
+    EXPECT_THAT(run_.advance(t).deaths, IsEmpty());
+  }
   EXPECT_EQ(run_.wake_up(), kStart + 5 * kSecond);
   EXPECT_THAT(run_.advance(kStart + 5 * kSecond).triggers, ElementsAre(kStopSymbol));
   // Everybody leaves as told: no further death.
@@ -123,7 +157,7 @@ TEST_F(RealTimeRunTest, NamesWhoIsMissing) {
   run_.presence({vehicle_name(1), vehicle_name(2), middleware_name(1), controller_name(1),
                  controller_name(2)},
                 {});
-  run_.state(state(1));
+  let_settle(1);
   run_.ready({middleware_ready_id(1), 0});
   (void)run_.advance(kStart);
   EXPECT_THAT(run_.advance(kStart + 20 * kSecond).triggers, ElementsAre(kStopSymbol));
@@ -136,17 +170,61 @@ TEST_F(RealTimeRunTest, NamesWhoIsMissing) {
 TEST_F(RealTimeRunTest, EndsIfNobodyStarts) {
   make_ready();
   (void)run_.advance(kStart);
+  for (Nanoseconds t = kStart; t < kStart + kStandbyTimeout; t += kPeriod) {
+    const LabRunActions actions =
+        advance_with_reports(t, StepStatus::kStandby, StepStatus::kStandby);
+    EXPECT_THAT(actions.deaths, IsEmpty());
+  }
   EXPECT_EQ(run_.wake_up(), kStart + kStandbyTimeout);
   EXPECT_THAT(run_.advance(kStart + kStandbyTimeout).triggers, ElementsAre(kStopSymbol));
   EXPECT_EQ(run_.result().exit_code, kExitMissing);
-  EXPECT_THAT(run_.result().reason, HasSubstr("high_level_controller_1 (silent)"));
+  EXPECT_THAT(run_.result().reason, HasSubstr("high_level_controller_1"));
 }
 
-TEST_F(RealTimeRunTest, SilenceIsNoDeath) {
+TEST_F(RealTimeRunTest, AControllerThatHangsIsNamedThoughItsParticipantLives) {
   make_ready();
   (void)run_.advance(kStart);
-  run_.report(report(1, step_at(kStart + kSecond, kPeriod), StepStatus::kPlanned));
-  EXPECT_THAT(run_.advance(kStart + 13 * kSecond).deaths, IsEmpty());
+  Nanoseconds t = kStart + kSecond;
+  (void)advance_with_reports(t, StepStatus::kPlanned, StepStatus::kPlanned);
+  const Nanoseconds due = t + RealTimeRun::kReportTimeout;
+  for (t += kPeriod; t < due; t += kPeriod) {  // only controller 1 goes on
+    run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
+    EXPECT_THAT(run_.advance(t).deaths, IsEmpty());
+  }
+  EXPECT_EQ(run_.wake_up(), due);
+  const LabRunActions actions = run_.advance(due);
+  ASSERT_EQ(actions.deaths.size(), 1U);
+  EXPECT_EQ(actions.deaths.front().process, controller_name(2));
+  EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
+  EXPECT_EQ(run_.result().exit_code, kExitDied);
+}
+
+TEST_F(RealTimeRunTest, AControllerThatNeverReportsIsNamed) {
+  make_ready();
+  (void)run_.advance(kStart);
+  const Nanoseconds due = kStart + kSecond + RealTimeRun::kReportTimeout;
+  run_.report(report(1, step_at(due - 1, kPeriod), StepStatus::kPlanned));
+  EXPECT_THAT(run_.advance(due - 1).deaths, IsEmpty());
+  const LabRunActions actions = run_.advance(due);
+  ASSERT_EQ(actions.deaths.size(), 1U);
+  EXPECT_EQ(actions.deaths.front().process, controller_name(2));
+}
+
+TEST_F(RealTimeRunTest, AControllerThatStaysOnStandbyWhileOthersDriveIsNamed) {
+  make_ready();
+  (void)run_.advance(kStart);
+  const Nanoseconds begin = kStart + kSecond;
+  const Nanoseconds due = begin + RealTimeRun::kReportTimeout;
+  for (Nanoseconds t = begin; t < due; t += kPeriod) {
+    const LabRunActions actions =
+        advance_with_reports(t, StepStatus::kPlanned, StepStatus::kStandby);
+    EXPECT_THAT(actions.deaths, IsEmpty());
+  }
+  const LabRunActions actions =
+      advance_with_reports(due, StepStatus::kPlanned, StepStatus::kStandby);
+  ASSERT_EQ(actions.deaths.size(), 1U);
+  EXPECT_EQ(actions.deaths.front().process, controller_name(2));
+  EXPECT_EQ(run_.result().exit_code, kExitDied);
 }
 
 }  // namespace

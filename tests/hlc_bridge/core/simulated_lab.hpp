@@ -15,6 +15,15 @@
 
 namespace hlc {
 
+/// Names of all timers of a run.
+inline std::set<std::string> timers_of(const std::vector<std::uint8_t>& vehicle_ids) {
+  std::set<std::string> names;
+  for (const std::uint8_t id : vehicle_ids) {
+    names.insert({vehicle_name(id), middleware_name(id)});
+  }
+  return names;
+}
+
 /// The processes of a run in logical time as far as the lab control sees them, run in random order:
 /// at any moment one of the processes that can do something does it. One of them may die at a
 /// chosen time.
@@ -54,7 +63,7 @@ class SimulatedLab {
   bool run() {
     for (std::size_t i = 0; i < 1'000'000; ++i) {
       run_.presence(alive_, lost_);
-      run_.trigger_readers(2 * settings_.vehicle_ids.size());
+      run_.trigger_readers(timers_of(settings_.vehicle_ids));
       perform(run_.advance(wall_));
       if (run_.finished()) {
         return true;

@@ -139,7 +139,7 @@ class FakeVehicle {
   Writer<ReadyStatus> middleware_ready_;
   std::unique_ptr<Writer<ReportRecord>> reports_;
   Reader<SystemTrigger> triggers_;
-  Mailbox<SystemTrigger> middleware_triggers_;  // the lab control counts its readers
+  Mailbox<SystemTrigger> middleware_triggers_;  // the lab control waits for its match
   std::thread thread_;
 };
 
@@ -300,7 +300,11 @@ TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgai
   options_.out.clear();
   LabControlProcess process{options_};
   std::future<int> code = std::async(std::launch::async, [&] { return process.run(); });
-  const VehicleState state{.vehicle_id = 7};
+  // Ten states make a vehicle ready.
+  Nanoseconds create = 0;
+  const auto next_state = [&create] {
+    return VehicleState{.vehicle_id = 7, .create_stamp = create += kNanosecondsPerSecond / 10};
+  };
   {
     FakeRealVehicle first{domain_.first()};
     // The lab control has read a state when it has answered a question that was asked after it.
@@ -310,7 +314,7 @@ TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgai
     ASSERT_TRUE(first.states.wait_for_matched(1, soon()));
     ASSERT_TRUE(repeat_until([&] { return !answers.wait_for(0).empty(); },
                              [&] {
-                               first.states.write(state);
+                               first.states.write(next_state());
                                requests.write({"middleware_period_ms"});
                              }));
   }
@@ -321,7 +325,7 @@ TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgai
   ASSERT_TRUE(repeat_until([&] { return !second.triggers.wait_for(0).empty(); },
                            [&] {
                              ready.write({middleware_ready_id(7), 0});
-                             second.states.write(state);
+                             second.states.write(next_state());
                            }))
       << "the run does not begin";
   EXPECT_LT(second.triggers.wait_for(0).front().next_start, kStopSymbol);
