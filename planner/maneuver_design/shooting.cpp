@@ -31,10 +31,10 @@ Step stepped(const StateVector& x, const Input& u, double h, const VehicleParame
 }
 
 /// One step backwards. In: lambda = dJ/d(end of the step). Out: lambda = dJ/d(start of the step),
-/// and the step's share of dJ/du is returned.
+/// and the step's share of dJ/du is returned; its share of dJ/dh is added to `dh`.
 Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
                              const RunningCost& cost, const VehicleParameters& vehicle,
-                             StateVector& lambda) {
+                             StateVector& lambda, double& dh) {
   const InputJacobian B = input_jacobian();
   const StateVector end = lambda;
   Eigen::Vector2d du = Eigen::Vector2d::Zero();
@@ -45,7 +45,9 @@ Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
                            kWeights[i] * h * l.state;  // dJ/d(stages[i])
     du += B.transpose() * dk + kWeights[i] * h * l.input;
     lambda += dx;
+    dh += kWeights[i] * (end.dot(derivative(stages[i], u, vehicle)) + cost.value(stages[i], u));
     if (i > 0) {
+      dh += kLead[i] * dx.dot(derivative(stages[i - 1], u, vehicle));
       dk = kWeights[i - 1] * h * end + kLead[i] * h * dx;
     }
   }
@@ -76,9 +78,11 @@ Shot shoot(const State& start, const std::vector<Input>& inputs, double duration
   if (with_gradient == WithGradient::kYes) {
     shot.gradient.resize(inputs.size());
     StateVector lambda = StateVector::Zero();
+    double dh = 0.0;
     for (std::size_t i = inputs.size(); i-- > 0;) {
-      shot.gradient[i] = stepped_back(stages[i], inputs[i], h, cost, vehicle, lambda);
+      shot.gradient[i] = stepped_back(stages[i], inputs[i], h, cost, vehicle, lambda, dh);
     }
+    shot.duration_gradient = dh / static_cast<double>(inputs.size());
   }
   return shot;
 }

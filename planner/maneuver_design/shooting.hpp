@@ -13,6 +13,7 @@ struct Shot {
   double cost{};              ///< J
   /// dJ/du of each interval, u = (u_v, u_delta); empty if not asked for.
   std::vector<Eigen::Vector2d> gradient;
+  double duration_gradient{};  ///< dJ/dT with the inputs kept; 0 if not asked for
 };
 
 enum class WithGradient { kNo, kYes };

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
+#include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/effort.hpp"
 
@@ -78,6 +80,29 @@ TEST(Shooting, GradientIsTheDerivativeOfTheCost) {
         EXPECT_NEAR(shot.gradient[k].x(), by_acceleration, 1e-6 * scale);
         EXPECT_NEAR(shot.gradient[k].y(), by_rate, 1e-6 * scale);
       }
+    }
+  }
+}
+
+TEST(Shooting, DurationGradientIsTheDerivativeOfTheCostByTheDuration) {
+  constexpr unsigned kSeed = 63;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937 random(kSeed);
+  const VehicleParameters vehicle;
+  constexpr double kStep = 1e-5;
+  for (const std::string& name : criterion_names()) {
+    SCOPED_TRACE(name);
+    const auto cost = make_criterion(name, vehicle);
+    for (int run = 0; run < 10; ++run) {
+      const State start{{}, 2.0, 0.1};
+      const std::vector<Input> inputs = random_inputs(random, 20);
+      const auto cost_of = [&](double duration_s) {
+        return shoot(start, inputs, duration_s, *cost, vehicle, WithGradient::kNo).cost;
+      };
+      const double exact =
+          shoot(start, inputs, 0.2, *cost, vehicle, WithGradient::kYes).duration_gradient;
+      EXPECT_NEAR(exact, (cost_of(0.2 + kStep) - cost_of(0.2 - kStep)) / (2.0 * kStep),
+                  1e-6 * std::abs(exact));
     }
   }
 }

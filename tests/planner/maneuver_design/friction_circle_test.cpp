@@ -1,0 +1,45 @@
+#include "planner/maneuver_design/friction_circle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/planner/maneuver_design/gradient_check.hpp"
+
+namespace hlc {
+namespace {
+
+/// g in the place of a cost, to check its gradient.
+class AsCost final : public RunningCost {
+ public:
+  explicit AsCost(const PathConstraint& constraint) : constraint_(constraint) {}
+  [[nodiscard]] double value(const StateVector& x, const Input& u) const override {
+    return constraint_.value(x, u);
+  }
+  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override {
+    return constraint_.gradient(x, u);
+  }
+
+ private:
+  const PathConstraint& constraint_;
+};
+
+TEST(FrictionCircle, IsZeroWhereTheAccelerationIsJustAllowed) {
+  const VehicleParameters vehicle;
+  const FrictionCircle circle(5.0, vehicle);
+  const StateVector straight = to_vector({{}, 2.0, 0.0});
+  EXPECT_EQ(circle.value(straight, {5.0, 3.0}), 0.0);
+  EXPECT_EQ(circle.value(straight, {-5.0, 0.0}), 0.0);
+  EXPECT_EQ(circle.value(straight, {0.0, 6.0}), -1.0);
+  // A trim with 3 m/s^2 across leaves 4 lengthwise.
+  const double speed = std::sqrt(3.0 / curvature_per_m(0.4, vehicle));
+  EXPECT_NEAR(circle.value(to_vector({{}, speed, 0.4}), {4.0, 0.0}), 0.0, 1e-13);
+}
+
+TEST(FrictionCircle, HasAnExactGradient) {
+  expect_exact_gradient(AsCost(FrictionCircle(10.0, VehicleParameters{})), 109);
+}
+
+}  // namespace
+}  // namespace hlc
