@@ -63,6 +63,25 @@ TEST(OptimalControl, EqualsAnInteriorPointSolutionOfMultipleShootingWithTheSameI
   }
 }
 
+TEST(OptimalControl, ReachesTheEndPointsOfThePapersParetoFront) {
+  // The paper's Fig. 1, with wider limits and L = 0.2 m. Along the flat optimum of J1 its J2
+  // repeats less well than J1 does.
+  ManeuverProblem problem = problem_between({0.0, 0.0}, {2.3, 0.62});
+  problem.vehicle.wheelbase_m = 0.2;
+  problem.vehicle.rear_axle_to_cg_m = 0.1;
+  problem.limits.acceleration_mps2 = 20.0;
+  problem.limits.steering_rate_radps = 12.0;
+  problem.intervals = 50;
+  const ManeuverSolution soft = solved(problem, "J2");
+  ASSERT_EQ(soft.status, ManeuverStatus::kOptimal) << soft.reason;
+  EXPECT_NEAR(soft.criteria[0].value, -2.059e-3, 1e-3 * 2.059e-3);
+  EXPECT_NEAR(soft.criteria[1].value, 28.37, 1e-3 * 28.37);
+  const ManeuverSolution far = solved(problem, "J1");
+  ASSERT_EQ(far.status, ManeuverStatus::kOptimal) << far.reason;
+  EXPECT_NEAR(far.criteria[0].value, -6.012e-3, 1e-3 * 6.012e-3);
+  EXPECT_NEAR(far.criteria[1].value, 90.81, 1e-3 * 90.81);
+}
+
 TEST(OptimalControl, FirstOrderConditionsHoldForAllEdgesOfThePapersCriteria) {
   for (const std::string criterion : {"J1", "J2", "J3"}) {
     for (const Maneuver& maneuver : paper_automaton()->maneuvers) {
