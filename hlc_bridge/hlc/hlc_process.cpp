@@ -272,7 +272,8 @@ void HlcProcess::answer(const VehicleStateList& list) {
     has_bad_period_ = true;
     return;
   }
-  const Observation observation = observation_of(list);
+  Observation observation = observation_of(list);
+  observation.present = present(observation.active);
   if (last_step_ && observation.step <= *last_step_) return;  // heard twice
   active_ = observation.active;
   if (options_.logical_time && !wait_for_everybody()) return;
@@ -295,6 +296,15 @@ void HlcProcess::answer(const VehicleStateList& list) {
   }
   last_step_ = observation.step;
   report_writer_.write(record);
+}
+
+/// The controllers' network alone may have failed: who is on the lab's still commands its vehicle.
+std::vector<VehicleId> HlcProcess::present(std::vector<VehicleId> vehicles) const {
+  std::erase_if(vehicles, [this](VehicleId vehicle) {
+    const std::string name = controller_name(vehicle.value);
+    return !lab_.is_alive(name) && !controllers_.is_alive(name);
+  });
+  return vehicles;
 }
 
 bool HlcProcess::is_awaited(VehicleId vehicle) const {

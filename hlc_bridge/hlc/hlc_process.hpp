@@ -85,6 +85,7 @@ class HlcProcess {
   template <class Message>
   void wait_for(const StepMailbox<Message>& mailbox, const std::vector<VehicleId>& from,
                 const VehicleStateList& list, double deadline_share);
+  [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
   void send_command(const VehicleStateList& list, StepIndex step);
   [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;

@@ -105,8 +105,10 @@ std::unique_ptr<Controller> Controller::clone() const {
       new Controller(options_, subgraph_, path_, corridor_, reachable_));
   result->plan_ = plan_;
   result->told_ = told_;
+  result->last_seen_ = last_seen_;
   result->path_s_m_ = path_s_m_;
   result->last_heard_ = last_heard_;
+  result->last_sign_of_life_ = last_sign_of_life_;
   result->last_not_standing_ = last_not_standing_;
   result->drives_out_ = drives_out_;
   return result;
@@ -150,8 +152,13 @@ void Controller::watch_deviation() {
   const double step_s = automaton.step_s;
   if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
     step_.obstacle = FallbackReason::kDeviation;
+    if (last_seen_) {
+      step_.moved = *plan_;
+      step_.astray_m = footprint_area(vehicle.footprint, *last_seen_, vehicle.safety_margin_m);
+    }
     return;
   }
+  last_seen_ = own->pose;
   const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
   step_.seen = {.step = now, .time_s = 0.0, .pose = own->pose};
   if (now.value < plan_->first().value + steps_back) return;  // just anchored, where it was seen
@@ -202,7 +209,7 @@ bool Controller::stays_inside_told(const Plan& plan) const {
 
 /// Areas of the plan in force from t(from) on. Of a vehicle outside them also where it is if it
 /// stays where it was measured, if it drives on beside its plan as it is, and what lies between all
-/// these.
+/// these. So too of a vehicle that is not seen any more: it may have stopped on the way.
 OccupiedAreas Controller::areas_to_tell(StepIndex from) const {
   OccupiedAreas areas = plan_->areas_from(from);
   for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
@@ -274,6 +281,7 @@ void Controller::couple(std::span<const Traffic> heard) {
     last_heard_[other] = now;
     traffic.push_back(*message);
   }
+  note_who_lives();
   note_who_stands();
   const CouplingGraph graph(std::move(traffic));
   step_.coupled = graph.neighbours(options_.vehicle);
@@ -287,6 +295,16 @@ void Controller::couple(std::span<const Traffic> heard) {
         step_.obstacle == FallbackReason::kNone) {
       step_.obstacle = FallbackReason::kMissing;
     }
+  }
+}
+
+/// Of every other vehicle the last step in which its controller may have agreed to something.
+void Controller::note_who_lives() {
+  const StepIndex now = step_.observation.step;
+  for (const VehicleId other : step_.observation.active) {
+    const bool lives = step_.heard.contains(other) || holds(step_.observation.present, other);
+    const auto [last, is_first] = last_sign_of_life_.try_emplace(other, now);
+    if (lives && !is_first) last->second = now;
   }
 }
 
@@ -327,7 +345,7 @@ void Controller::add_missing_obstacles(HorizonProblem& problem) const {
   for (const VehicleId other : step_.report.missing) {
     const MeasuredVehicle& state = *measured(other);
     const bool stands = stands_for_good({.now = step_.observation.step,
-                                         .last_heard = last_heard_.at(other),
+                                         .last_sign_of_life = last_sign_of_life_.at(other),
                                          .last_not_standing = last_not_standing_.at(other)},
                                         options_.horizon_steps);
     for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {

@@ -42,6 +42,8 @@ struct Observation {
   StepIndex step;                       ///< k
   std::vector<VehicleId> active;        ///< vehicles that take part, this one included
   std::vector<MeasuredVehicle> states;  ///< of the vehicles that have a usable one
+  /// Vehicles whose controller's process is still there, heard or not (see missing.hpp).
+  std::vector<VehicleId> present;
 };
 
 /// The high-level controller of one vehicle, as a pure state machine: no clock, no thread, no
@@ -77,12 +79,12 @@ struct Observation {
 ///    that. The step under way has been told already, so this is done only if the predicted drive
 ///    stays inside what was told of it. The new plan is a plan like any other: told, checked,
 ///    agreed.
-/// 4. A vehicle that deviates by more than m and is outside the area told of that time was
-///    disturbed: nobody knew. It plans nothing new and drives its plan to the end; from this step
-///    on its traffic tells, for each step, the hull of what it had told, of its plan from where it
-///    really is, and of where it was measured, so that nobody plans into it. Once it stands, its
-///    plan is anchored anew where it stands. What the others agreed before they heard of it cannot
-///    be taken back; all they do from then on keeps away.
+/// 4. A vehicle that deviates by more than m and is outside the area told of that time, or that is
+///    not seen any more, was disturbed: nobody knew. It plans nothing new and drives its plan to
+///    the end; from this step on its traffic tells, for each step, the hull of what it had told, of
+///    its plan from where it really is, and of where it was measured, so that nobody plans into it.
+///    Once it stands, its plan is anchored anew where it stands. What the others agreed before they
+///    heard of it cannot be taken back; all they do from then on keeps away.
 class Controller {
  public:
   /// @param path      what the vehicle shall follow
@@ -163,6 +165,7 @@ class Controller {
   void search_candidate(StepIndex next);
   [[nodiscard]] OccupiedAreas areas_of_candidate() const;
   [[nodiscard]] bool is_candidate_free() const;
+  void note_who_lives();
   void note_who_stands();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
   [[nodiscard]] HorizonProblem pose_problem();
@@ -182,9 +185,12 @@ class Controller {
   MissingVehicleRules missing_rules_;
 
   std::optional<Plan> plan_;
+  std::optional<Pose> last_seen_;  ///< measured pose of the vehicle itself; heading_rad is its yaw
   OccupiedAreas told_;  ///< areas of the plan in force as the others know them, and a step before
   std::optional<double> path_s_m_;  ///< where the vehicle was on its path
   std::map<VehicleId, StepIndex> last_heard_;
+  std::map<VehicleId, StepIndex>
+      last_sign_of_life_;  ///< last step in which it was heard or present
   std::map<VehicleId, StepIndex> last_not_standing_;
   bool drives_out_{false};
   Step step_;

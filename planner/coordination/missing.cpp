@@ -26,7 +26,7 @@ bool is_seen_standing(const MeasuredVehicle& measured, const MissingVehicleRules
 
 bool stands_for_good(const Silence& silence, std::size_t horizon_steps) {
   const std::uint64_t longest = kSilentSteps + horizon_steps + 1;
-  return silence.now.value > silence.last_heard.value + longest &&
+  return silence.now.value > silence.last_sign_of_life.value + longest &&
          silence.now.value > silence.last_not_standing.value + longest;
 }
 

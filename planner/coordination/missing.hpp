@@ -31,7 +31,8 @@ struct MissingVehicleRules {
 [[nodiscard]] ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                                            const MissingVehicleRules& rules);
 
-/// A vehicle that was not heard for this many steps in a row is listed in Traffic::silent.
+/// A vehicle that was not heard for this many steps in a row is listed in Traffic::silent. Who
+/// hears that of itself from a vehicle that it is coupled with agrees to nothing new.
 inline constexpr std::uint64_t kSilentSteps = 3;
 
 /// A fresh state shows the vehicle standing.
@@ -41,19 +42,21 @@ inline constexpr std::uint64_t kSilentSteps = 3;
 /// What is remembered of a vehicle that says nothing.
 struct Silence {
   StepIndex now;
-  StepIndex last_heard;         ///< last step in which it spoke
+  StepIndex last_sign_of_life;  ///< last step in which it spoke or its process was there
   StepIndex last_not_standing;  ///< last step in which the state list did not show it standing
 };
 
-/// Whether a silent vehicle is a standing obstacle and no longer missing: every plan that it can
-/// have agreed to before it was heard last has run out, and so has every plan that it was driving
-/// when it was last seen moving: it stood in every list of the last horizon_steps + 1 +
+/// Whether a silent vehicle is a standing obstacle and no longer missing: its controller has gone,
+/// every plan that it can have agreed to before has run out, and so has every plan that it was
+/// driving when it was last seen moving: it stood in every list of the last horizon_steps + 1 +
 /// kSilentSteps steps.
 ///
-/// Messages may be lost in one direction only, so it may hear us and go on planning. From step
-/// last_heard + kSilentSteps on our traffic lists it as silent, and who hears that of a vehicle
-/// that it is coupled with (or hears nothing of it) agrees to nothing new. What it agreed to while
-/// it was not coupled with us it has begun to drive, or it stands since longer than any plan lasts.
+/// Silence alone does not suffice. A controller that is not heard may live, agree to something with
+/// others, and begin to drive at any time; and of two that do not hear each other each would take
+/// the other for an obstacle, and both would drive off at once. So a vehicle whose process is still
+/// there is missing for as long as it says nothing, and the others keep out of its way.
+/// Assumption: who neither is heard on the controllers' network nor shows any sign of life on the
+/// lab's for this long cannot command its vehicle either, since commands take the lab's network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 
 /// The footprint of a standing vehicle with its margin.

@@ -66,6 +66,7 @@ std::vector<Report> Rollout::step() {
   Observation observation{.step = next_step_, .states = measure(next_step_)};
   for (const auto& controller : controllers_) observation.active.push_back(id(controller));
   std::ranges::sort(observation.active);
+  observation.present = observation.active;
 
   const auto heard = [this](MessageKind kind, const auto& messages, VehicleId receiver) {
     auto result = messages;

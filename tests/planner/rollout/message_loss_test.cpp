@@ -103,6 +103,23 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
   }
 }
 
+// Both live, see each other standing and hear nothing: nobody may take the other for an obstacle
+// that stands for good, or both drive off at once.
+TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> distance(0.6, 1.4);
+    const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
+    Rollout rollout = three_cars_that_meet(SettleRule::kStrict, distances);
+    rollout.lose([](const Delivery&) { return true; });
+    for (int i = 0; i < 40; ++i) {
+      static_cast<void>(rollout.step());
+      ASSERT_TRUE(plans_in_force_are_free(rollout)) << "step " << i;
+    }
+  }
+}
+
 // One vehicle hears everything and is heard by nobody: the others may take it for a standing
 // obstacle only when it has agreed to nothing new for long enough.
 TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
