@@ -59,7 +59,7 @@ Follower::Output Follower::decided(Nanoseconds t_now, const VehicleMotion& estim
       std::max(t_now + kInputDelayTicks * kVehiclePeriod, command->points.front().t);
   Reference reference;
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    const std::optional<TrajectorySample> wanted =
+    const std::optional<ReferenceSample> wanted =
         sample(command->points, t_start + i * kVehiclePeriod);
     if (!wanted) {
       return {.input = stop, .status = FollowerStatus::kNotFollowable};

@@ -15,7 +15,7 @@ bool is_finite(const TrajectoryPoint& point) {
          std::isfinite(point.vy_mps);
 }
 
-bool is_drivable(const TrajectorySample& look) {
+bool is_drivable(const ReferenceSample& look) {
   // Written so that a value that is not a number is refused.
   if (!(std::abs(look.acceleration_mps2.x()) <= kMaxAcceleration_mps2 &&
         std::abs(look.acceleration_mps2.y()) <= kMaxAcceleration_mps2)) {
@@ -27,7 +27,7 @@ bool is_drivable(const TrajectorySample& look) {
 
 }  // namespace
 
-double TrajectorySample::curvature_per_m() const {
+double ReferenceSample::curvature_per_m() const {
   const double speed_mps = velocity_mps.norm();
   if (speed_mps == 0.0) {
     return 0.0;
@@ -45,7 +45,7 @@ bool is_well_formed(std::span<const TrajectoryPoint> points) {
          std::ranges::adjacent_find(points, is_not_later) == points.end();
 }
 
-std::optional<TrajectorySample> sample(std::span<const TrajectoryPoint> points, Nanoseconds t) {
+std::optional<ReferenceSample> sample(std::span<const TrajectoryPoint> points, Nanoseconds t) {
   if (points.size() < 2 || t < points.front().t || t > points.back().t) {
     return std::nullopt;
   }
@@ -61,7 +61,7 @@ std::optional<TrajectorySample> sample(std::span<const TrajectoryPoint> points, 
   const Point m0 = T * Point(a.vx_mps, a.vy_mps);
   const Point m1 = T * Point(b.vx_mps, b.vy_mps);
 
-  TrajectorySample result;
+  ReferenceSample result;
   result.position_m = ((2.0 * u - 3.0) * u * u + 1.0) * p0 + ((u - 2.0) * u + 1.0) * u * m0 +
                       (3.0 - 2.0 * u) * u * u * p1 + (u - 1.0) * u * u * m1;
   result.velocity_mps = (6.0 * (u - 1.0) * u * p0 + ((3.0 * u - 4.0) * u + 1.0) * m0 +
@@ -79,7 +79,7 @@ bool is_followable(std::span<const TrajectoryPoint> points, Nanoseconds t_now) {
     return false;
   }
   for (Nanoseconds look = kFirstLook; look <= kLastLook; look += kLookInterval) {
-    const std::optional<TrajectorySample> seen = sample(points, t_now + look);
+    const std::optional<ReferenceSample> seen = sample(points, t_now + look);
     if (!seen || !is_drivable(*seen)) {
       return false;
     }

@@ -9,7 +9,7 @@
 namespace hlc {
 
 /// One instant of a trajectory, in the map's frame.
-struct TrajectorySample {
+struct ReferenceSample {
   Point position_m;
   Point velocity_mps;
   Point acceleration_mps2;
@@ -30,8 +30,8 @@ struct TrajectorySample {
 ///
 /// @return nothing outside [first, last]: there is no extrapolation
 /// @pre `is_well_formed(points)`
-[[nodiscard]] std::optional<TrajectorySample> sample(std::span<const TrajectoryPoint> points,
-                                                     Nanoseconds t);
+[[nodiscard]] std::optional<ReferenceSample> sample(std::span<const TrajectoryPoint> points,
+                                                    Nanoseconds t);
 
 /// The lab's lead rule: the first and the last time at which its controller looks at the reference.
 inline constexpr Nanoseconds kFirstLook = 110'000'000;

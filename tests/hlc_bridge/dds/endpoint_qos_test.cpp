@@ -88,6 +88,10 @@ TEST(TopicQos, OwnTopicsAreReliableOnBothTransportsWithAHistoryPerVehicle) {
       EXPECT_FALSE(writer.data_sharing);
     }
   }
+  for (const TopicId id : {TopicId::kTraffic, TopicId::kPrediction, TopicId::kOutcome}) {
+    const auto qos = topic_qos(id, DomainRole::kController, Transport::kLab).writer;
+    EXPECT_LE(qos.heartbeat_period, std::chrono::milliseconds{10}) << "a step waits 40 ms at most";
+  }
   const auto report = topic_qos(TopicId::kReport, DomainRole::kController, Transport::kLab);
   EXPECT_EQ(report.writer.history_depth, 10'000);
   EXPECT_EQ(report.reader.durability, Durability::kTransientLocal);
