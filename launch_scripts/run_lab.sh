@@ -162,17 +162,18 @@ any_runs() {
 wait_until() { # $SECONDS, for the children to end
   while any_runs "${children[@]}" && ((SECONDS < $1)); do sleep 0.05; done
 }
-# shellcheck disable=SC2317 # called by the trap
-interrupted() {
-  trap '' INT TERM
-  ((${#children[@]} == 0)) || kill -TERM "${children[@]}" 2>/dev/null
+# shellcheck disable=SC2317 # called by the traps
+end_children() {
+  trap '' INT TERM HUP
+  ((${#children[@]} > 0)) && any_runs "${children[@]}" || return 0
+  kill -TERM "${children[@]}" 2>/dev/null
   wait_until $((SECONDS + 8)) # vehicle.sh ends whoever of its processes does not follow
   [[ -z $lab_control ]] || kill -KILL "$lab_control" 2>/dev/null
   local pid
   for pid in "${children[@]}"; do wait "$pid" 2>/dev/null; done
-  exit 130
 }
-trap interrupted INT TERM
+trap 'end_children; exit 130' INT TERM HUP
+trap end_children EXIT # also when this script fails
 
 flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
 for id in "${ids[@]}"; do
@@ -198,20 +199,21 @@ if ! any_runs "${vehicles[@]}" && any_runs "$lab_control"; then
 fi
 wait "$lab_control"
 code=$?
-if ((code > 130)); then
-  echo "lab_control died (signal $((code - 128)))" >&2
-  code=4
-fi
+((code == 0)) || echo "$code lab_control" >>"$out/logs/failures"
+((code <= 130)) || echo "lab_control died (signal $((code - 128)))" >&2
 
 # The others end by themselves once lab control has said stop; whoever does not, is ended.
-((code == 0 || code == 4)) || kill -TERM "${children[@]}" 2>/dev/null
+((code == 0 || code == 4 || code > 130)) || kill -TERM "${children[@]}" 2>/dev/null
 wait_until $((SECONDS + 12))
 kill -TERM "${children[@]}" 2>/dev/null # vehicle.sh ends whoever does not follow
 for pid in "${children[@]}"; do
   wait "$pid"
   child=$?
-  [[ $pid == "$lab_control" ]] || ((code != 0 || child == 0)) || code=$child
+  ((code != 0 || child == 0)) || code=$child
 done
+# The first that failed says why: the others may only have missed it.
+[[ ! -s $out/logs/failures ]] || read -r code _ <"$out/logs/failures"
+((code <= 130)) || code=4 # killed or crashed
 ((code == 0)) || cat "$out/logs/vehicles.log" >&2
 
 if [[ -s $out/reports.csv ]]; then

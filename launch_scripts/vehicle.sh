@@ -88,7 +88,7 @@ declare -A names=() # of those that have not ended, by pid
 is_ending=false
 # shellcheck disable=SC2317 # called by the trap
 end_all() {
-  trap : INT TERM # not '', which children would inherit
+  trap : INT TERM HUP # not '', which children would inherit
   is_ending=true
   ((${#names[@]} > 0)) || return
   kill -TERM "${!names[@]}" 2>/dev/null
@@ -96,7 +96,7 @@ end_all() {
   while kill -0 "${!names[@]}" 2>/dev/null && ((SECONDS < deadline)); do sleep 0.05; done
   kill -KILL "${!names[@]}" 2>/dev/null # whoever does not end, because it hangs or is stopped
 }
-trap end_all INT TERM
+trap end_all INT TERM HUP EXIT
 
 start() { # name, program and flags
   local name=$1
@@ -122,6 +122,8 @@ while true; do
     if ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code
+      # For run_lab.sh, which cannot see the order among processes of several vehicles.
+      echo "$code ${names[$pid]}" >>"$out/logs/failures"
     fi
     unset "names[$pid]"
   done

@@ -150,6 +150,17 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
       }));
 }
 
+/// Steps of the run for which the vehicle has no row: in real time its controller answers only the
+/// newest list, and reports what it has answered. A run that ended early had the steps that anybody
+/// reported.
+std::size_t unreported_steps(std::span<const StepRecord* const> own, const RunFacts& facts,
+                             std::span<const StepRecord> rows) {
+  const std::uint64_t reported = rows.empty() ? 0 : rows.back().step + 1;
+  const std::uint64_t steps = facts.exit_code == 0 ? facts.steps : std::min(facts.steps, reported);
+  const auto there = std::ranges::count_if(own, [&](const auto* row) { return row->step < steps; });
+  return steps - std::min<std::size_t>(steps, static_cast<std::size_t>(there));
+}
+
 VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
                                  const RunDescription& description, const RunFacts& facts,
                                  std::span<const StepRecord> rows, const Drives& drives) {
@@ -165,6 +176,9 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   summary.steps = own.size();
   add_route(vehicle, own, description.step_s, summary);
   add_search(own, summary);
+  if (!facts.simulated_time) {
+    summary.deadline_misses += unreported_steps(own, facts, rows);
+  }
   const auto drive = drives.find(vehicle.id.value);
   if (description.automaton && drive != drives.end()) {
     add_tracking(own, drive->second, facts.period, *description.automaton, summary);

@@ -27,7 +27,7 @@ struct VehicleSummary {
   std::optional<Statistics> expanded;
   std::optional<Statistics> planning_s;  ///< of those steps
   std::size_t fallback_steps{};
-  std::size_t deadline_misses{};
+  std::size_t deadline_misses{};  ///< late, or (real time) without a report: list not answered
 };
 
 struct Host {

@@ -39,12 +39,6 @@ std::string joined(const std::set<std::string>& names) {
   return text;
 }
 
-Nanoseconds share_of_period(const VehicleStateList& list, double share) {
-  const Nanoseconds period = period_of(list);
-  return step_of(list).value * period +
-         static_cast<Nanoseconds>(share * static_cast<double>(period));
-}
-
 }  // namespace
 
 HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller)
@@ -233,7 +227,8 @@ int HlcProcess::run() {
         break;
     }
     const VehicleStateList list = signal_.locked([this] {
-      // In real time only the newest list is worth an answer.
+      // In real time only the newest list is worth an answer. The others' steps stay without a
+      // report, and the summary counts each as a deadline missed.
       if (!options_.logical_time) lists_.erase(lists_.begin(), lists_.end() - 1);
       VehicleStateList next = std::move(lists_.front());
       lists_.pop_front();
@@ -286,10 +281,8 @@ void HlcProcess::answer(const VehicleStateList& list) {
   });
   ReportRecord record;
   if (is_started_ || starts_with(list, observation)) {
-    const bool has_skipped = is_started_ && observation.step.value > last_step_->value + 1;
     is_started_ = true;
     record = run_step(list, observation);
-    record.deadline_missed |= has_skipped;
   } else {
     record.report = controller_->stand_by(observation);
     send_command(list, observation.step);
@@ -321,7 +314,7 @@ void HlcProcess::wait_for(const StepMailbox<Message>& mailbox, const std::vector
   };
   if (!options_.logical_time) {
     static_cast<void>(
-        signal_.wait_until(real_time_point(share_of_period(list, deadline_share)), all_in));
+        signal_.wait_until(real_time_point(deadline_in_step(list, deadline_share)), all_in));
     return;
   }
   if (signal_.wait_until(Clock::now() + kSilence, all_in)) return;
@@ -361,7 +354,7 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
   const auto [predictions, outcomes] = signal_.locked([this] {
     return std::pair{prediction_inbox_.all(), outcome_inbox_.all()};
   });
-  const Nanoseconds deadline = share_of_period(list, options_.deadlines.command);
+  const Nanoseconds deadline = deadline_in_step(list, options_.deadlines.command);
   const Nanoseconds now = options_.logical_time ? list.t_now : real_time_now();
   if (now > deadline) {
     record.deadline_missed = true;

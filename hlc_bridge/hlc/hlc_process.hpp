@@ -22,7 +22,8 @@
 
 namespace hlc {
 
-/// When the waits of a step end in real time, as shares of the period after t(k). In logical time
+/// When the waits of a step end in real time, as shares of the time from the list to the step's end
+/// (deadline_in_step). In logical time
 /// a wait ends when everybody alive has answered.
 struct StepDeadlines {
   double traffic{0.20};

@@ -15,6 +15,11 @@ constexpr std::int32_t kMaxVehicleId = 255;
 
 StepIndex step_of(const VehicleStateList& list) { return {step_at(list.t_now, period_of(list))}; }
 
+Nanoseconds deadline_in_step(const VehicleStateList& list, double share) {
+  const Nanoseconds end = (step_of(list).value + 1) * period_of(list);
+  return list.t_now + static_cast<Nanoseconds>(share * static_cast<double>(end - list.t_now));
+}
+
 bool is_usable(const VehicleState& state, Nanoseconds t_now) {
   return state.vehicle_id != 0 && is_finite(state) && state.valid_after_stamp <= t_now &&
          state.create_stamp <= t_now && t_now - state.create_stamp <= kMaxStateAge;

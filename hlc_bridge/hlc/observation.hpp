@@ -12,6 +12,11 @@ namespace hlc {
 /// Number of the control step that a list belongs to: k = t_now / period. @pre list.period_ms > 0
 [[nodiscard]] StepIndex step_of(const VehicleStateList& list);
 
+/// The instant at which `share` of the time from the list's t_now to the end of its step has
+/// passed: lists may come late in the period (middleware's --offset_nanoseconds). @pre
+/// list.period_ms > 0
+[[nodiscard]] Nanoseconds deadline_in_step(const VehicleStateList& list, double share);
+
 /// A state that may be used at t_now: of a vehicle (placeholders have id 0), finite, already valid,
 /// and not older than kMaxStateAge_s.
 [[nodiscard]] bool is_usable(const VehicleState& state, Nanoseconds t_now);

@@ -109,12 +109,17 @@ int MiddlewareProcess::keep_period() {
     tick(*t_now);
     if (!options_.logical_time) watch_lab_control(*t_now);
   }
-  signal_.locked([this] { timer_in_use_ = logical_timer_ = nullptr; });
+  const bool has_given_up = signal_.locked([this] {
+    const LogicalTimer* logical = logical_timer_;
+    timer_in_use_ = logical_timer_ = nullptr;
+    return logical != nullptr && logical->has_given_up();
+  });
   if (missed_answers_ > 0) {
     spdlog::warn("{}: {} lists without an answer in time", options_.node_id, missed_answers_);
   }
-  if (lab_control_lost_) {
-    spdlog::error("{}: {} is gone", options_.node_id, kLabControlName);
+  if (lab_control_lost_ || has_given_up) {
+    spdlog::error("{}: {} {}", options_.node_id, kLabControlName,
+                  has_given_up ? "hangs: no trigger comes any more" : "is gone");
     return kExitDied;
   }
   return kExitGood;
@@ -228,9 +233,10 @@ std::string MiddlewareProcess::who_is_missing() const {
 void MiddlewareProcess::make_timer() {
   LogicalTimer* logical = nullptr;
   if (options_.logical_time) {
-    auto timer =
-        std::make_unique<LogicalTimer>(parameters_.period(), options_.offset,
-                                       [this](Nanoseconds next_tick) { send_ready(next_tick); });
+    auto timer = std::make_unique<LogicalTimer>(
+        parameters_.period(), options_.offset,
+        [this](Nanoseconds next_tick) { send_ready(next_tick); }, std::chrono::seconds{1},
+        LogicalTimer::patience_for(options_.startup_timeout));
     logical = timer.get();
     timer_ = std::move(timer);
   } else {

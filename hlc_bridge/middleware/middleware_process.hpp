@@ -63,7 +63,7 @@ class MiddlewareProcess {
 
   /// Until the stop symbol has come, or `stop` is called. The exit code: 0 good, 2 if the lab
   /// control's parameters do not fit, 3 if somebody needed did not appear, 4 if the lab control is
-  /// lost.
+  /// lost, or (logical time) sends no trigger any more.
   [[nodiscard]] int run();
 
   /// Ends `run` soon. From any thread.

@@ -8,8 +8,12 @@ namespace hlc {
 
 LogicalTimer::LogicalTimer(Nanoseconds period, Nanoseconds offset,
                            std::function<void(Nanoseconds)> send_ready,
-                           std::chrono::milliseconds repeat)
-    : period_{period}, wanted_{offset}, send_ready_{std::move(send_ready)}, repeat_{repeat} {
+                           std::chrono::milliseconds repeat, std::chrono::milliseconds patience)
+    : period_{period},
+      wanted_{offset},
+      send_ready_{std::move(send_ready)},
+      repeat_{repeat},
+      patience_{patience} {
   if (offset >= period) {
     throw std::invalid_argument("timer: offset " + std::to_string(offset) +
                                 " ns must be less than the period " + std::to_string(period) +
@@ -25,6 +29,9 @@ std::optional<Nanoseconds> LogicalTimer::wait_next() {
     send_ready_(wanted);
     lock.lock();
     changed_.wait_for(lock, repeat_, [&] { return released_ || stopped_; });
+    if (!released_ && !stopped_ && std::chrono::steady_clock::now() - last_trigger_ >= patience_) {
+      has_given_up_ = stopped_ = true;
+    }
   }
   if (stopped_) {
     return std::nullopt;
@@ -42,6 +49,11 @@ void LogicalTimer::stop() {
   changed_.notify_all();
 }
 
+bool LogicalTimer::has_given_up() const {
+  const std::lock_guard lock{mutex_};
+  return has_given_up_;
+}
+
 void LogicalTimer::on_trigger(Nanoseconds next_start) {
   if (next_start == kStopSymbol) {
     stop();
@@ -49,6 +61,7 @@ void LogicalTimer::on_trigger(Nanoseconds next_start) {
   }
   {
     const std::lock_guard lock{mutex_};
+    last_trigger_ = std::chrono::steady_clock::now();
     if (next_start != wanted_) {
       return;  // meant for other timers; nobody is woken, for that costs time in every tick
     }

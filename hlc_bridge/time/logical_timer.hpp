@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -15,13 +16,26 @@ namespace hlc {
 /// on the triggers.
 ///
 /// Calling wait_next says that everything which the previous tick had to do is done.
+///
+/// A lab control can hang while its participant still announces itself. Then no trigger comes any
+/// more, not even for other timers, and after `patience` of wall time the timer ends by itself. In
+/// a run that goes on, the longest time without a trigger is that in which the lab control finds
+/// out that somebody is dead: kMessageTimeout + 2 s = 12 s.
 class LogicalTimer : public Timer {
  public:
+  static constexpr std::chrono::seconds kPatience{60};
+
+  /// What a process's timer takes: the first trigger may come as late as the last process appears.
+  [[nodiscard]] static std::chrono::seconds patience_for(std::chrono::seconds startup_timeout) {
+    return std::max(kPatience, startup_timeout + kPatience / 2);
+  }
+
   /// `send_ready(t)` writes ReadyStatus{node id, t}; it is called from wait_next with no lock held,
   /// at once and then again every `repeat` of wall time until the trigger comes, since a ready
   /// status can be lost. Throws std::invalid_argument unless 0 <= offset < period.
   LogicalTimer(Nanoseconds period, Nanoseconds offset, std::function<void(Nanoseconds)> send_ready,
-               std::chrono::milliseconds repeat = std::chrono::seconds{1});
+               std::chrono::milliseconds repeat = std::chrono::seconds{1},
+               std::chrono::milliseconds patience = kPatience);
 
   [[nodiscard]] std::optional<Nanoseconds> wait_next() override;
   void stop() override;
@@ -31,15 +45,21 @@ class LogicalTimer : public Timer {
   /// ticking after the stop (a vehicle that brakes) does not pass it on.
   void on_trigger(Nanoseconds next_start);
 
+  /// True if the timer has ended because no trigger came for too long.
+  [[nodiscard]] bool has_given_up() const;
+
  private:
   Nanoseconds period_;
   Nanoseconds wanted_;
   std::function<void(Nanoseconds)> send_ready_;
   std::chrono::milliseconds repeat_;
-  std::mutex mutex_;
+  std::chrono::milliseconds patience_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool released_{};  ///< the trigger for wanted_ has come
   bool stopped_{};
+  bool has_given_up_{};
+  std::chrono::steady_clock::time_point last_trigger_{std::chrono::steady_clock::now()};
 };
 
 }  // namespace hlc

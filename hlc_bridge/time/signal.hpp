@@ -25,6 +25,10 @@ namespace hlc {
 /// Rules: nothing blocks while the lock is held - no write to a topic, no creation or destruction
 /// of an endpoint or participant. Asking what Participant, Writer and Reader know (alive, matched
 /// ...) is allowed.
+///
+/// Conditions are evaluated under the lock, and also on the threads that post, while their own
+/// thread waits. So they are pure (they read, and change nothing), read only what the lock guards,
+/// what the waiting thread alone writes, or what guards itself, and do not throw.
 class Signal {
  public:
   /// Runs `change` under the lock, then wakes the waiting threads if one of their conditions holds.
@@ -62,10 +66,8 @@ class Signal {
   [[nodiscard]] bool wait_until(const TimePoint& deadline, Condition&& condition) const {
     const std::function<bool()> holds{std::ref(condition)};
     std::unique_lock lock{mutex_};
-    waiting_.push_back(&holds);
-    const bool there = changed_.wait_until(lock, deadline, holds);
-    std::erase(waiting_, &holds);
-    return there;
+    const Entry entry{waiting_, &holds};  // goes before the lock does
+    return changed_.wait_until(lock, deadline, holds);
   }
 
   /// Calls `act` (with no lock held) at once and then every `interval` until `condition` holds, at
@@ -84,9 +86,27 @@ class Signal {
   }
 
  private:
+  using Conditions = std::vector<const std::function<bool()>*>;
+
+  /// A condition among those that are looked at, for as long as it lives. Under the lock.
+  class Entry {
+   public:
+    Entry(Conditions& conditions, const std::function<bool()>* condition)
+        : conditions_{conditions}, condition_{condition} {
+      conditions_.push_back(condition_);
+    }
+    ~Entry() { std::erase(conditions_, condition_); }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+
+   private:
+    Conditions& conditions_;
+    const std::function<bool()>* condition_;
+  };
+
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  mutable std::vector<const std::function<bool()>*> waiting_;  ///< conditions of waiting threads
+  mutable Conditions waiting_;  ///< of waiting threads
 };
 
 }  // namespace hlc

@@ -147,7 +147,7 @@ TEST_F(Scripts, ALabControlThatHangsIsEnded) {
 }
 
 TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const std::filesystem::path out = folder_ / ("run" + std::to_string(signal));
     ChildProcess run = run_lab({"--steps", "5000", "--out", out.string()});
     ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 4000; }))
@@ -157,6 +157,21 @@ TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
     EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
         << "somebody of the run is still there";
   }
+}
+
+TEST_F(Scripts, TheExitCodeIsThatOfTheFirstWhoFails) {
+  const std::filesystem::path bin = folder_ / "bin";
+  std::filesystem::create_directories(bin);
+  for (const char* program :
+       {"lab_control", "vehicle_sim", "high_level_controller", "show_scenario", "summarize"}) {
+    std::filesystem::create_symlink(kBin + "/" + program, bin / program);
+  }
+  std::ofstream(bin / "middleware") << "#!/bin/sh\nexit 7\n";
+  std::filesystem::permissions(bin / "middleware", std::filesystem::perms::owner_all);
+  ChildProcess run({kScripts + "run_lab.sh", "--bin", bin.string(), "--startup_timeout_s", "3",
+                    "--out", (folder_ / "run").string()},
+                   folder_ / "output");
+  EXPECT_EQ(run.wait_for(60s), 7) << "lab control's 3 came later\n" << output();
 }
 
 struct BadInput {

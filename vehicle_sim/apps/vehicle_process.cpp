@@ -89,7 +89,8 @@ std::unique_ptr<Timer> VehicleProcess::make_timer() {
     return std::make_unique<RealTimer>(kVehiclePeriod, 0);
   }
   auto timer = std::make_unique<LogicalTimer>(
-      kVehiclePeriod, 0, [this](Nanoseconds next_tick) { send_ready(next_tick); });
+      kVehiclePeriod, 0, [this](Nanoseconds next_tick) { send_ready(next_tick); },
+      std::chrono::seconds{1}, LogicalTimer::patience_for(options_.startup_timeout));
   logical_timer_ = timer.get();
   return timer;
 }
@@ -113,6 +114,10 @@ int VehicleProcess::run() {
   while (t_now && tick(*t_now)) {
     if (!options_.logical_time) watch_lab_control(*t_now);
     t_now = timer_->wait_next();
+  }
+  if (logical_timer_ != nullptr && logical_timer_->has_given_up()) {
+    spdlog::error("{}: {} hangs: no trigger comes any more", name_, kLabControlName);
+    return kExitDied;
   }
   if (lab_control_lost_ && !is_stopping_ && !is_ending_now()) {
     spdlog::error("{}: {} is gone", name_, kLabControlName);

@@ -154,6 +154,18 @@ TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
   EXPECT_EQ(result.vehicles[0].deadline_misses, 1U);
 }
 
+TEST_F(RunSummaryTest, EveryStepThatAControllerSkippedIsADeadlineMissed) {
+  // Of vehicle 2: three steps on the way, and the last two of the 60 (k0 = 5).
+  std::erase_if(reports_, [](const ReportRecord& row) {
+    const std::uint64_t k = row.report.step.value;
+    return row.report.vehicle == VehicleId{2} && ((k >= 20 && k < 23) || k >= 63);
+  });
+  EXPECT_EQ(summary().vehicles[0].deadline_misses, 0U);
+  EXPECT_EQ(summary().vehicles[1].deadline_misses, 5U);
+  facts_.simulated_time = true;  // there every list is answered, or its controller is dead
+  EXPECT_EQ(summary().vehicles[1].deadline_misses, 0U);
+}
+
 TEST_F(RunSummaryTest, StepsWithoutPlanningDoNotCountForPlanning) {
   for (std::uint64_t step = 30; step < 60; ++step) {
     report(1, step).report.status = StepStatus::kDriveOut;

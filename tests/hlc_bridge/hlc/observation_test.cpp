@@ -32,6 +32,13 @@ TEST(Observation, StepsAreNumberedByTimeNotByReceipt) {
   EXPECT_EQ(step_of(list_at(1'199 * kMillisecond, {})), StepIndex{5});
 }
 
+TEST(Observation, DeadlinesLieBetweenTheListAndTheEndOfItsStep) {
+  EXPECT_EQ(deadline_in_step(list_at(1'000 * kMillisecond, {}), 0.2), 1'040 * kMillisecond);
+  // A list late in its period leaves less time, but some.
+  EXPECT_EQ(deadline_in_step(list_at(1'150 * kMillisecond, {}), 0.2), 1'160 * kMillisecond);
+  EXPECT_EQ(deadline_in_step(list_at(1'150 * kMillisecond, {}), 0.9), 1'195 * kMillisecond);
+}
+
 TEST(Observation, APlaceholderIsNotAVehicleAtTheOrigin) {
   const Observation observation = observation_of(list_at(1'000 * kMillisecond + 1, {state(0, 0)}));
   EXPECT_TRUE(observation.states.empty());

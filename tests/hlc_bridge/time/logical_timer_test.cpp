@@ -102,6 +102,28 @@ TEST(LogicalTimer, StopWakesTheWaitingThread) {
   stopper.join();
 }
 
+TEST(LogicalTimer, GivesUpWhenNoTriggerComes) {
+  int asked = 0;
+  LogicalTimer* self = nullptr;
+  LogicalTimer timer{kPeriod, 0,
+                     [&](Nanoseconds) {
+                       if (++asked == 1000) self->stop();  // only a timer that waits for ever
+                     },
+                     1ms, 10ms};
+  self = &timer;
+  EXPECT_FALSE(timer.wait_next().has_value());
+  EXPECT_TRUE(timer.has_given_up());
+  timer.on_trigger(0);
+  EXPECT_FALSE(timer.wait_next().has_value());
+}
+
+TEST(LogicalTimer, ATimerThatIsStoppedHasNotGivenUp) {
+  LogicalTimer timer{kPeriod, 0, [](Nanoseconds) {}};
+  timer.stop();
+  EXPECT_FALSE(timer.wait_next().has_value());
+  EXPECT_FALSE(timer.has_given_up());
+}
+
 TEST(LogicalTimer, TwoTimersAndAMasterKeepOneOrder) {
   // The smallest wanted time is released until both want a later one: what lab control does.
   std::mutex mutex;

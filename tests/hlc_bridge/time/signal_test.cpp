@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -83,6 +84,19 @@ TEST(Signal, EveryWaitingThreadIsWokenByWhatItWaitsFor) {
     thread.join();
   }
   EXPECT_EQ(there, 3);
+}
+
+TEST(Signal, AConditionThatThrowsIsForgotten) {
+  Signal signal;
+  int looked = 0;
+  const auto throwing = [&]() -> bool {
+    ++looked;
+    throw std::runtime_error("broken");
+  };
+  const auto later = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+  EXPECT_THROW(static_cast<void>(signal.wait_until(later, throwing)), std::runtime_error);
+  signal.notify();
+  EXPECT_EQ(looked, 1);
 }
 
 TEST(Signal, LockedHandsOutWhatItHolds) {
