@@ -74,7 +74,8 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab(
       {"--steps", "10", "--noise_seed", "010", "--gains_scale", "0.9", "--out", out.string()});
-  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  ASSERT_EQ(run.wait_for(120s), 5) << "gains a tenth too small lead out of the margin\n"
+                                   << output();
   const std::string flags = read_text(out / "configuration" / "flags.yaml");
   for (const char* line : {"profile: 'default'", "subgraph: null", "steps: 10", "noise_seed: 10",
                            "gains_scale: 0.9", "simulated_time: true"}) {
