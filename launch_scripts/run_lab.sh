@@ -88,7 +88,7 @@ steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 
 # A block of DDS domains that no other run on this machine uses: the lab's and one per vehicle, 50 higher
-# the controllers'. The locks are held by this shell and its children.
+# the controllers'. The locks are held by this shell and its children; vehicle.sh by hand shares them.
 largest_id=${ids[-1]}
 block_is_free() { # first domain
   local domain file fd fds=()
@@ -181,7 +181,7 @@ for id in "${ids[@]}"; do
     --pose "$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")")
   [[ -z $noise_seed ]] || vehicle+=(--noise_seed $((noise_seed + id)))
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
-  "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
+  HLC_DOMAINS_ARE_RESERVED=1 "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done
 vehicles=("${children[@]}")

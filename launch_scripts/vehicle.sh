@@ -15,8 +15,8 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --cars N                number of cars (scenarios on a circle)
   --simulated_time BOOL   true: logical time (default), false: real time
   --transport NAME        loopback (default) or lab
-  --dds_domain N          lab domain (default 1). Nothing is locked: unlike run_lab.sh, several vehicles share it.
-                          To stay apart from other runs on this machine is up to who chooses it
+  --dds_domain N          lab domain (default 1). Several vehicles share it; with the transport loopback it must
+                          not be one that a run of run_lab.sh or a test uses at the moment
   --middleware_domain N   local domain of this vehicle (default: lab domain + id)
   --controller_domain N   domain of the controllers (default: lab domain + 50)
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
@@ -63,6 +63,19 @@ done
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + id))
+
+# run_lab.sh has reserved its domains for itself, and says so. By hand a domain is shared with other vehicles.
+share_domain() { # flag, domain
+  local file=/tmp/hlc_dds_domain_$(($2)).lock fd
+  [[ -e $file ]] || { (umask 000 && : >>"$file"); } 2>/dev/null
+  if ! { exec {fd}<"$file"; } 2>/dev/null || ! flock --shared --nonblock "$fd"; then
+    fail "$1 = $2: a run on this machine uses it"
+  fi
+}
+if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} ]]; then
+  share_domain --dds_domain "$((10#$dds_domain))"
+  share_domain --middleware_domain "$((10#$middleware_domain))"
+fi
 [[ -n $out ]] || out=$root/runs/vehicle_$id
 mkdir -p "$out/logs" || exit 2
 

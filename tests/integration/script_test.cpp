@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/domain_reservation.hpp"
 
 namespace hlc::test {
 namespace {
@@ -85,6 +86,16 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const auto summary = nlohmann::json::parse(read_text(out / "summary.json"), nullptr, false);
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["seed"], 10);
+}
+
+TEST_F(Scripts, AVehicleByHandJoinsNoRunThatHasReservedTheDomain) {
+  const DomainReservation domains{2};
+  const std::string domain = std::to_string(domains.first());
+  ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario",
+                        "paper_red_alone", "--dds_domain", domain, "--out", folder_.string()},
+                       folder_ / "output");
+  EXPECT_EQ(vehicle.wait_for(60s), 2) << output();
+  EXPECT_NE(output().find("--dds_domain = " + domain), std::string::npos) << output();
 }
 
 struct Hung {
