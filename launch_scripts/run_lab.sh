@@ -61,6 +61,12 @@ done
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
 for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
+in_range() { # flag, value, from, to
+  [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, allowed $3 ... $4"
+}
+in_range steps "$steps" 1 10000
+in_range startup_timeout_s "$startup_timeout_s" 1 3000
+in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
 case "$preset" in
@@ -129,10 +135,10 @@ if [[ -z $out ]]; then
 elif [[ -e $out && -n $(ls -A "$out" 2>/dev/null) ]]; then
   fail "--out = $out is not empty, allowed a new or an empty folder"
 else
-  mkdir -p "$out" || exit 2
+  mkdir -p "$out" 2>/dev/null || fail "--out = $out: the folder cannot be made, allowed a new or an empty folder"
 fi
 out=$(cd "$out" && pwd)
-mkdir -p "$out/logs" "$out/configuration" || exit 2
+mkdir -p "$out/logs" "$out/configuration" 2>/dev/null || fail "--out = $out: nothing can be written there"
 
 # What this run is driven with, beside the files that summarize puts there.
 quoted() { if [[ -n $1 ]]; then printf "'%s'" "${1//\'/\'\'}"; else echo null; fi; } # for YAML

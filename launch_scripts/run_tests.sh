@@ -33,7 +33,7 @@ while (($#)); do
   shift
 done
 
-cd "$root"
+cd "$root" || exit 1
 if $long; then export HLC_TEST_LONG=1; fi # tests/support/num_seeds.hpp
 
 # run PRESET CTEST_FLAG...

@@ -77,7 +77,8 @@ if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} ]]; then
   share_domain --middleware_domain "$((10#$middleware_domain))"
 fi
 [[ -n $out ]] || out=$root/runs/vehicle_$id
-mkdir -p "$out/logs" || exit 2
+mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
+[[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
@@ -139,6 +140,7 @@ while true; do
       echo "$code ${names[$pid]}" >>"$out/logs/failures"
     fi
     unset "names[$pid]"
+    ((code != 2)) || end_all # refused its input: the others would wait for it
   done
   ((${#names[@]} > 0)) || break
   # Only to sleep until somebody ends: whom a signal killed while another command ran, it does not report.
