@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hlc_bridge/core/command.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
-#include "hlc_bridge/hlc/command.hpp"
 #include "hlc_bridge/hlc/observation.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 

@@ -4,35 +4,16 @@
 #include <cmath>
 #include <deque>
 
+#include "hlc_bridge/core/command.hpp"
 #include "planner/automaton/deviation.hpp"
-#include "planner/controller/trajectory.hpp"
 
 namespace hlc::controlled_loop {
 namespace {
 
-constexpr Nanoseconds kMillisecond = 1'000'000;
-constexpr Nanoseconds kPeriod = 200 * kMillisecond;
+constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr std::uint64_t kTicksPerStep = kPeriod / kVehiclePeriod;
 constexpr std::uint64_t kFirstStep = 5;
 constexpr std::size_t kStateDelayTicks = 3;  ///< a state becomes valid 60 ms after its tick
-
-TrajectoryCommand command_of(const Plan& plan, std::uint64_t step,
-                             const VehicleParameters& vehicle) {
-  TrajectoryCommand command{.vehicle_id = 1,
-                            .create_stamp = step * kPeriod + 1,
-                            .valid_after_stamp = step * kPeriod + 1,
-                            .points = {}};
-  for (const hlc::TrajectorySample& sample :
-       sample_trajectory(plan, {step}, 0.05, 2.25, 0.2, vehicle)) {
-    const auto t = static_cast<std::int64_t>(step * kPeriod) + std::llround(1e9 * sample.time_s);
-    command.points.push_back({.t = static_cast<Nanoseconds>(t),
-                              .x_m = sample.position_m.x(),
-                              .y_m = sample.position_m.y(),
-                              .vx_mps = sample.velocity_mps.x(),
-                              .vy_mps = sample.velocity_mps.y()});
-  }
-  return command;
-}
 
 /// How far the farthest of the points is outside the area, measured across its edges.
 double outside_m(const ConvexPolygon& area, const std::vector<Point>& points) {
@@ -109,15 +90,15 @@ Stray drive(Controller& controller, const Pose& start, std::size_t steps,
           }
         }
       }
-      answer = command_of(controller.plan_in_force(), step, automaton.vehicle);
+      answer = command_of(id, &controller.plan_in_force(), {step}, step * kPeriod + 1, kPeriod,
+                          automaton.vehicle);
     }
     for (std::uint64_t i = 0; i < kTicksPerStep; ++i) {
       const Nanoseconds t = step * kPeriod + i * kVehiclePeriod;
       const SimulatedVehicle::Tick tick = vehicle.tick(t);
       if (i == 0 && answer) {
         vehicle.receive(*answer);
-        answer->valid_after_stamp += 800 * kMillisecond;
-        vehicle.receive(*answer);
+        vehicle.receive(copy_for_later(*answer));
       }
       states.push_back(tick.state);
       if (states.size() > kStateDelayTicks) states.pop_front();

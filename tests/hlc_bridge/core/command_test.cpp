@@ -1,4 +1,4 @@
-#include "hlc_bridge/hlc/command.hpp"
+#include "hlc_bridge/core/command.hpp"
 
 #include <gtest/gtest.h>
 
