@@ -159,6 +159,9 @@ startup_timeout_s: $startup_timeout_s
 programs: $(quoted "$(realpath "$bin")")
 TEXT
 
+# Runs a command that is told to end when this script is gone, even by SIGKILL.
+with_me() { exec setpriv --pdeathsig TERM -- "$@"; }
+
 children=() lab_control=""
 any_runs() {
   local pid
@@ -178,7 +181,17 @@ end_children() {
   local pid
   for pid in "${children[@]}"; do wait "$pid" 2>/dev/null; done
 }
-trap 'end_children; exit 130' INT TERM HUP
+# The table of the steps that were recorded.
+summarize() {
+  "$bin/summarize" --run "$out" "${choices[@]}" ${noise_seed:+--noise_seed "$noise_seed"}
+}
+# shellcheck disable=SC2317 # called by the trap
+end_early() {
+  end_children
+  [[ ! -s $out/reports.csv ]] || summarize
+  exit 130
+}
+trap end_early INT TERM HUP
 trap end_children EXIT # also when this script fails
 
 flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
@@ -187,11 +200,11 @@ for id in "${ids[@]}"; do
     --pose "$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")")
   [[ -z $noise_seed ]] || vehicle+=(--noise_seed $((noise_seed + id)))
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
-  HLC_DOMAINS_ARE_RESERVED=1 "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
+  HLC_DOMAINS_ARE_RESERVED=1 with_me "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done
 vehicles=("${children[@]}")
-"$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
+with_me "$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
   --startup_timeout_s "$startup_timeout_s" </dev/null &
 children+=($!)
 lab_control=$!
@@ -223,7 +236,7 @@ done
 ((code == 0)) || cat "$out/logs/vehicles.log" >&2
 
 if [[ -s $out/reports.csv ]]; then
-  "$bin/summarize" --run "$out" "${choices[@]}" ${noise_seed:+--noise_seed "$noise_seed"}
+  summarize
   summarized=$?
   ((code != 0)) || code=$summarized
 fi

@@ -115,7 +115,8 @@ trap end_all INT TERM HUP EXIT
 start() { # name, program and flags
   local name=$1
   shift
-  "$@" >"$out/logs/$name.log" 2>&1 </dev/null &
+  # Told to end when this script is gone, even by SIGKILL.
+  setpriv --pdeathsig TERM -- "$@" >"$out/logs/$name.log" 2>&1 </dev/null &
   names[$!]=$name
 }
 start "vehicle_$id" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"

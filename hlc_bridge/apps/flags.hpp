@@ -7,10 +7,13 @@
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/dds/transport.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/coordination/messages.hpp"
 
 /// Flags that the processes of a run have in common, as in the lab: `--name=value` and `--name
 /// value`.
 namespace hlc {
+
+[[nodiscard]] inline CLI::Range vehicle_id_range() { return {1, static_cast<int>(kMaxVehicleId)}; }
 
 struct NetworkFlags {
   bool simulated_time{false};

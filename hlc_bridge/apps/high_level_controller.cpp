@@ -30,7 +30,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',')
       ->required()
       ->expected(1)
-      ->check(CLI::Range(1, 30));
+      ->check(hlc::vehicle_id_range());
   hlc::declare_scenario_flags(app, flags.scenario);
   app.add_option("--node_id", flags.node_id,
                  "name in the log; default: high_level_controller_<id>");

@@ -32,7 +32,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_ids", flags.vehicle_ids, "all vehicles of the run: 1,2,3")
       ->delimiter(',')
       ->required()
-      ->check(CLI::Range(1, 30));
+      ->check(hlc::vehicle_id_range());
   app.add_option("--steps", flags.steps, "control steps of the run")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));

@@ -29,7 +29,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',')
       ->required()
       ->expected(1)
-      ->check(CLI::Range(1, 30));
+      ->check(hlc::vehicle_id_range());
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--offset_nanoseconds", flags.offset_nanoseconds,

@@ -8,8 +8,6 @@
 namespace hlc {
 namespace {
 
-constexpr std::uint8_t kMaxVehicleId = 30;  // of the lab
-
 bool is_valid(VehicleId vehicle) { return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId; }
 
 PoseMessage pose_to_wire(const Pose& pose) {

@@ -9,7 +9,7 @@ namespace hlc {
 namespace {
 
 constexpr auto kMaxStateAge = static_cast<Nanoseconds>(1e9 * kMaxStateAge_s);
-constexpr std::int32_t kMaxVehicleId = 255;
+constexpr std::int32_t kMaxWireId = 255;  // more than the lab has: whoever is active counts
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Observation observation_of(const VehicleStateList& list) {
   Observation observation{.step = step_of(list)};
   const Nanoseconds step_start = observation.step.value * period_of(list);
   for (const std::int32_t id : list.active_vehicle_ids) {
-    if (id > 0 && id <= kMaxVehicleId) {
+    if (id > 0 && id <= kMaxWireId) {
       observation.active.push_back({static_cast<std::uint8_t>(id)});
     }
   }

@@ -47,7 +47,8 @@ RunFacts read_facts(const std::filesystem::path& file) {
     }
     return facts;
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
+    throw std::runtime_error(file.string() + ": broken, allowed what lab_control wrote (" +
+                             error.what() + ")");
   }
 }
 

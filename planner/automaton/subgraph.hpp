@@ -47,6 +47,10 @@ class Subgraph {
   Subgraph(std::shared_ptr<const UniversalAutomaton> automaton, SubgraphSpec spec);
 
   [[nodiscard]] const UniversalAutomaton& automaton() const { return *automaton_; }
+  /// The same, to be kept.
+  [[nodiscard]] const std::shared_ptr<const UniversalAutomaton>& shared_automaton() const {
+    return automaton_;
+  }
   [[nodiscard]] const SubgraphSpec& spec() const { return spec_; }
   [[nodiscard]] bool is_on(TrimId trim) const;
   /// Edges out of `trim`, sorted by target.

@@ -159,7 +159,8 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path, i
 YamlNode YamlNode::read_file(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::stringstream text;
-  if (!file || !(text << file.rdbuf())) {
+  text << file.rdbuf();
+  if (!file || std::filesystem::is_directory(path)) {
     throw std::invalid_argument(path.string() + ": cannot be read, allowed a YAML file");
   }
   return parse(text.str(), path.string());

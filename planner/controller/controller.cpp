@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/automaton/deviation.hpp"
 #include "planner/coordination/priority.hpp"
 
 namespace hlc {
@@ -17,8 +16,6 @@ constexpr double kProjectionBack_m = 0.3;
 /// past them.
 constexpr double kBoundaryReserve_m = 0.4;
 
-/// Share of the safety margin that is kept for the error of a prediction of one step.
-constexpr double kUnderWayShare = 0.2;
 /// Swept areas are rounded outwards on the way to the reachable area.
 constexpr double kReachRounding_m = 1e-5;
 
@@ -103,9 +100,7 @@ Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph
 std::unique_ptr<Controller> Controller::clone() const {
   std::unique_ptr<Controller> result(
       new Controller(options_, subgraph_, path_, corridor_, reachable_));
-  result->plan_ = plan_;
-  result->told_ = told_;
-  result->last_seen_ = last_seen_;
+  result->in_force_ = in_force_;
   result->path_s_m_ = path_s_m_;
   result->last_heard_ = last_heard_;
   result->last_sign_of_life_ = last_sign_of_life_;
@@ -120,145 +115,47 @@ const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
   return found == states.end() ? nullptr : &*found;
 }
 
-void Controller::anchor(const MeasuredVehicle& measured, StepIndex step) {
-  const UniversalAutomaton& automaton = subgraph_->automaton();
-  plan_.emplace(step, pose_of_measured(measured.pose, 0.0, automaton.vehicle, automaton.identified),
-                *standstill_);
-  told_ = plan_->areas_from(step);
-  step_.seen = {.step = step, .time_s = 0.0, .pose = measured.pose};
-}
-
 Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;
   if (const MeasuredVehicle* own = measured(options_.vehicle)) {
-    anchor(*own, observation.step);
+    in_force_.emplace(subgraph_->shared_automaton(), *standstill_, options_.deviation, own->pose,
+                      observation.step);
     path_s_m_.reset();
   }
   Report report{.vehicle = options_.vehicle, .step = observation.step};
-  if (plan_) {
-    report.planned_pose = plan_->pose_at(observation.step);
-    report.planned_trim = plan_->trim_at(observation.step);
+  if (in_force_) {
+    report.planned_pose = plan_in_force().pose_at(observation.step);
+    report.planned_trim = plan_in_force().trim_at(observation.step);
   }
   return report;
 }
 
-/// Compares the measured pose with the plan at the time of the measurement.
-void Controller::watch_deviation() {
-  const MeasuredVehicle* own = measured(options_.vehicle);
-  const StepIndex now = step_.observation.step;
-  const UniversalAutomaton& automaton = subgraph_->automaton();
-  const VehicleParameters& vehicle = automaton.vehicle;
-  const double step_s = automaton.step_s;
-  if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
-    step_.obstacle = FallbackReason::kDeviation;
-    if (last_seen_) {
-      step_.moved = *plan_;
-      step_.astray_m = footprint_area(vehicle.footprint, *last_seen_, vehicle.safety_margin_m);
-    }
-    return;
-  }
-  last_seen_ = own->pose;
-  const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
-  step_.seen = {.step = now, .time_s = 0.0, .pose = own->pose};
-  if (now.value < plan_->first().value + steps_back) return;  // just anchored, where it was seen
-  step_.seen.step.value -= steps_back;
-  step_.seen.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
-  const State planned = plan_->state_at(step_.seen.step, step_.seen.time_s, vehicle);
-  step_.report.deviation_m =
-      footprint_deviation_m(own->pose, planned, vehicle, automaton.identified);
-  const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
-  const bool is_astray = step_.report.deviation_m > vehicle.safety_margin_m &&
-                         !is_inside_told(own->pose, step_.seen.step);
-  if (!is_astray && off_m <= options_.reanchor_share * vehicle.safety_margin_m) return;
-  const bool stands = plan_->end().value + steps_back <= now.value &&
-                      std::abs(own->speed_mps) <= missing_rules_.standing_speed_mps;
-  if (is_astray && stands) {
-    anchor(*own, now);
-    return;
-  }
-  step_.moved = plan_->moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad,
-                                                            vehicle, automaton.identified));
-  if (!is_astray && !stays_inside_told(*step_.moved)) step_.moved.reset();
-  if (is_astray) {
-    step_.obstacle = FallbackReason::kDeviation;
-    step_.astray_m = footprint_area(vehicle.footprint, own->pose, vehicle.safety_margin_m);
-  }
-}
-
-/// True if the footprint lies in the area that the others know of that step.
-bool Controller::is_inside_told(const Pose& measured, StepIndex step, double reserve_m) const {
-  if (step < told_.first) return false;
-  const Footprint& footprint = subgraph_->automaton().vehicle.footprint;
-  const std::vector<Point> corners = footprint_area(footprint, measured, reserve_m).vertices_m;
-  return std::ranges::all_of(
-      corners, [&](const Point& corner) { return contains(told_.during(step), corner); });
-}
-
-/// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.
-bool Controller::stays_inside_told(const Plan& plan) const {
-  const StepIndex now = step_.observation.step;
-  const UniversalAutomaton& automaton = subgraph_->automaton();
-  const double reserve_m = kUnderWayShare * automaton.vehicle.safety_margin_m;
-  const std::vector<PredictedInstant> drive =
-      predicted_drive(plan, step_.seen, {now.value + 1}, automaton);
-  return std::ranges::all_of(drive, [&](const PredictedInstant& instant) {
-    return instant.step != now || is_inside_told(instant.pose, now, reserve_m);
-  });
-}
-
-/// Areas of the plan in force from t(from) on. Of a vehicle outside them also where it is if it
-/// stays where it was measured, if it drives on beside its plan as it is, and what lies between all
-/// these. So too of a vehicle that is not seen any more: it may have stopped on the way.
-OccupiedAreas Controller::areas_to_tell(StepIndex from) const {
-  OccupiedAreas areas = plan_->areas_from(from);
-  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
-    areas.areas_m[i] = told_.during({from.value + i});
-  }
-  areas.final_area_m = told_.final_area_m;
-  if (step_.astray_m.empty()) return areas;
-  const OccupiedAreas beside = step_.moved->areas_from(from);
-  const auto join = [this](ConvexPolygon& area, const ConvexPolygon& other) {
-    std::vector<Point> points = area.vertices_m;
-    points.insert(points.end(), other.vertices_m.begin(), other.vertices_m.end());
-    points.insert(points.end(), step_.astray_m.vertices_m.begin(), step_.astray_m.vertices_m.end());
-    area = convex_hull(std::move(points));
-  };
-  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
-    join(areas.areas_m[i], beside.during({from.value + i}));
-  }
-  join(areas.final_area_m, beside.final_area_m);
-  return areas;
-}
-
 Traffic Controller::observe(const Observation& observation) {
-  assert(plan_.has_value());
+  assert(has_plan());
   const StepIndex now = observation.step;
   step_ = Step{};
   step_.observation = observation;
   step_.report = {.vehicle = options_.vehicle, .step = now};
-  watch_deviation();
-  step_.report.planned_pose = plan_->pose_at(now);
-  step_.report.planned_trim = plan_->trim_at(now);
+  const PlanWatch watched = in_force_->watch(measured(options_.vehicle), now);
+  step_.report.deviation_m = watched.deviation_m;
+  if (watched.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
+  step_.report.planned_pose = plan_in_force().pose_at(now);
+  step_.report.planned_trim = plan_in_force().trim_at(now);
 
   const StepIndex next{now.value + 1};
   Traffic& traffic = step_.traffic;
   traffic.vehicle = options_.vehicle;
   traffic.step = now;
-  const Plan& base = step_.moved ? *step_.moved : *plan_;
-  traffic.next_pose = base.pose_at(next);
-  traffic.next_trim = base.trim_at(next);
-  traffic.running = areas_to_tell(now);
-  const ConvexPolygon reach =
+  traffic.next_pose = in_force_->base().pose_at(next);
+  traffic.next_trim = in_force_->base().trim_at(next);
+  traffic.running = in_force_->areas_to_tell(now);
+  std::vector<ConvexPolygon> reach{
       transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
-                  traffic.next_pose);
-  std::vector<Point> points = reach.vertices_m;
-  const auto join = [&points](const ConvexPolygon& area) {
-    points.insert(points.end(), area.vertices_m.begin(), area.vertices_m.end());
-  };
-  for (const ConvexPolygon& area : traffic.running.areas_m) join(area);
-  join(traffic.running.final_area_m);
-  traffic.reachable_area_m = convex_hull(std::move(points));
+                  traffic.next_pose)};
+  reach.insert(reach.end(), traffic.running.areas_m.begin(), traffic.running.areas_m.end());
+  reach.push_back(traffic.running.final_area_m);
+  traffic.reachable_area_m = convex_hull(reach);
   for (const VehicleId other : observation.active) {
     if (other == options_.vehicle) continue;
     const auto heard = last_heard_.try_emplace(other, now).first->second;
@@ -392,8 +289,8 @@ void Controller::search_candidate(StepIndex next) {
     return;
   }
   step_.report.cost_m2 = result.cost;
-  step_.candidate = (step_.moved ? *step_.moved : *plan_).continued(next, result.maneuvers);
-  step_.candidate_areas_m = areas_of_candidate();
+  step_.candidate = in_force_->base().continued(next, result.maneuvers);
+  step_.candidate_areas_m = in_force_->areas_of(*step_.candidate, next);
   if (!is_candidate_free()) {
     step_.candidate.reset();
     step_.obstacle = FallbackReason::kConflict;
@@ -420,27 +317,12 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
       search_candidate(next);
     }
   }
-  step_.prediction = {.vehicle = options_.vehicle,
-                      .step = now,
-                      .is_new = step_.candidate.has_value(),
-                      .areas = step_.candidate ? step_.candidate_areas_m : areas_to_tell(next)};
+  step_.prediction = {
+      .vehicle = options_.vehicle,
+      .step = now,
+      .is_new = step_.candidate.has_value(),
+      .areas = step_.candidate ? step_.candidate_areas_m : in_force_->areas_to_tell(next)};
   return step_.prediction;
-}
-
-/// A plan that only uses trims with steering to spare is followed within the margin by a vehicle
-/// that is on it; for any other the drive is predicted.
-OccupiedAreas Controller::areas_of_candidate() const {
-  const UniversalAutomaton& automaton = subgraph_->automaton();
-  const Plan& plan = *step_.candidate;
-  const StepIndex next{step_.observation.step.value + 1};
-  const double tolerated_m = options_.tolerated_drift_share * automaton.vehicle.safety_margin_m;
-  bool may_drift = step_.report.deviation_m > tolerated_m;
-  for (StepIndex step = step_.seen.step; step <= plan.end() && !may_drift; ++step.value) {
-    may_drift = is_at_steering_limit(automaton.trims[plan.trim_at(step).index], automaton.vehicle,
-                                     automaton.identified);
-  }
-  if (!may_drift) return plan.areas_from(next);
-  return areas_with_drift(plan, next, step_.seen, automaton, tolerated_m);
 }
 
 /// The search has kept the swept areas free, and they are within reach; those that hold a drift may
@@ -508,13 +390,8 @@ Report Controller::give_up(FallbackReason reason) { return finish(false, reason)
 Report Controller::finish(bool accepted, FallbackReason reason) {
   Report& report = step_.report;
   if (accepted) {
-    const StepIndex now = step_.observation.step;
-    OccupiedAreas told{.first = now, .areas_m = {told_.during(now)}, .final_area_m = {}};
-    told.areas_m.insert(told.areas_m.end(), step_.candidate_areas_m.areas_m.begin(),
-                        step_.candidate_areas_m.areas_m.end());
-    told.final_area_m = step_.candidate_areas_m.final_area_m;
-    told_ = std::move(told);
-    plan_ = std::move(*step_.candidate);
+    in_force_->replace(std::move(*step_.candidate), step_.candidate_areas_m,
+                       step_.observation.step);
     report.status = StepStatus::kPlanned;
   } else {
     report.status = drives_out_ ? StepStatus::kDriveOut : StepStatus::kFallback;

@@ -8,7 +8,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
-#include "planner/controller/drift.hpp"
+#include "planner/controller/plan_in_force.hpp"
 #include "planner/controller/report.hpp"
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/messages.hpp"
@@ -29,12 +29,7 @@ struct ControllerOptions {
   ReferenceRule reference_rule{ReferenceRule::kDefault};
   SettleRule settle_rule{SettleRule::kStrict};
   SearchOptions search;
-  /// Share of the safety margin by which the measured position may be off the plan before the next
-  /// plan starts from where the vehicle really is.
-  double reanchor_share{0.5};
-  /// Share of the safety margin up to which a predicted drift (drift.hpp) needs no larger areas;
-  /// what is left of the margin is for the error of the prediction.
-  double tolerated_drift_share{0.5};
+  DeviationRules deviation;
 };
 
 /// What a state list tells a controller at step k.
@@ -62,29 +57,6 @@ struct Observation {
 /// will be then. If no new plan comes into force, the one in force stays: every plan ends in
 /// standstill.
 ///
-/// **What the vehicle really drives.** The others rely on the areas that it tells (traffic,
-/// prediction); the settle rule makes the areas told free of each other pair by pair, so it is safe
-/// if the vehicle is inside its own at all times. With m the safety margin and "deviation" the
-/// footprint_deviation_m of the measured pose from the plan at the time of the measurement:
-///
-/// 1. A swept area holds a vehicle that deviates by m at most, in position and heading together
-///    (planner/automaton/deviation.hpp). Where it has steering to spare it does not deviate more:
-///    measured 7.7 mm at most, m = 10 mm.
-/// 2. The areas of a plan that may lead it farther (trims near the steering limit, or a vehicle
-///    that is off already) are those of its predicted drive to the end of the plan (drift.hpp). If
-///    they meet anything, a plan without those trims is searched instead. So the old plan also
-///    remains safe to its end, however many steps no new one comes into force.
-/// 3. A vehicle that is off by more than `reanchor_share` of m plans on from where it really is:
-///    the plan in force is moved rigidly onto the measured pose, and what is planned continues
-///    that. The step under way has been told already, so this is done only if the predicted drive
-///    stays inside what was told of it. The new plan is a plan like any other: told, checked,
-///    agreed.
-/// 4. A vehicle that deviates by more than m and is outside the area told of that time, or that is
-///    not seen any more, was disturbed: nobody knew. It plans nothing new and drives its plan to
-///    the end; from this step on its traffic tells, for each step, the hull of what it had told, of
-///    its plan from where it really is, and of where it was measured, so that nobody plans into it.
-///    Once it stands, its plan is anchored anew where it stands. What the others agreed before they
-///    heard of it cannot be taken back; all they do from then on keeps away.
 class Controller {
  public:
   /// @param path      what the vehicle shall follow
@@ -128,8 +100,8 @@ class Controller {
   /// The problem that `plan` gave to the search, if it came to that.
   [[nodiscard]] const std::optional<HorizonProblem>& problem() const { return step_.problem; }
 
-  [[nodiscard]] bool has_plan() const { return plan_.has_value(); }
-  [[nodiscard]] const Plan& plan_in_force() const { return *plan_; }
+  [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
+  [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
 
  private:
   /// All that one step gathers; reset by `observe`.
@@ -145,25 +117,14 @@ class Controller {
     std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
     std::optional<Plan> candidate;
     OccupiedAreas candidate_areas_m;                 ///< from t(k+1) on
-    SeenAt seen;                                     ///< the own vehicle
     Prediction prediction;                           ///< own
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
-    /// The plan in force, moved to where the vehicle really is: what is planned anew continues it.
-    std::optional<Plan> moved;
-    ConvexPolygon astray_m;  ///< footprint, with margin, of a vehicle outside its plan's areas
   };
 
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              ReferencePath path, Corridor corridor, std::shared_ptr<const ReachableSets> reachable);
 
-  void anchor(const MeasuredVehicle& measured, StepIndex step);
-  void watch_deviation();
-  [[nodiscard]] bool is_inside_told(const Pose& measured, StepIndex step,
-                                    double reserve_m = 0.0) const;
-  [[nodiscard]] bool stays_inside_told(const Plan& plan) const;
-  [[nodiscard]] OccupiedAreas areas_to_tell(StepIndex from) const;
   void search_candidate(StepIndex next);
-  [[nodiscard]] OccupiedAreas areas_of_candidate() const;
   [[nodiscard]] bool is_candidate_free() const;
   void note_who_lives();
   void note_who_stands();
@@ -184,9 +145,7 @@ class Controller {
   const Maneuver* standstill_;
   MissingVehicleRules missing_rules_;
 
-  std::optional<Plan> plan_;
-  std::optional<Pose> last_seen_;  ///< measured pose of the vehicle itself; heading_rad is its yaw
-  OccupiedAreas told_;  ///< areas of the plan in force as the others know them, and a step before
+  std::optional<PlanInForce> in_force_;
   std::optional<double> path_s_m_;  ///< where the vehicle was on its path
   std::map<VehicleId, StepIndex> last_heard_;
   std::map<VehicleId, StepIndex>

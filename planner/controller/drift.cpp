@@ -97,13 +97,12 @@ OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& s
     if (step >= from && drifts) {
       const std::size_t i = step.value - from.value;
       ConvexPolygon& area = i < areas.areas_m.size() ? areas.areas_m[i] : areas.final_area_m;
-      std::vector<Point> points = area.vertices_m;
+      std::vector<ConvexPolygon> covered{area};
       for (auto instant = begin; instant != end; ++instant) {
-        const ConvexPolygon footprint =
-            footprint_area(vehicle.footprint, instant->pose, vehicle.safety_margin_m);
-        points.insert(points.end(), footprint.vertices_m.begin(), footprint.vertices_m.end());
+        covered.push_back(
+            footprint_area(vehicle.footprint, instant->pose, vehicle.safety_margin_m));
       }
-      area = convex_hull(std::move(points));
+      area = convex_hull(covered);
     }
     begin = end;
   }

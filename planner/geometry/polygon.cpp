@@ -162,6 +162,14 @@ ConvexPolygon convex_hull(std::vector<Point> points_m) {
   return hull;
 }
 
+ConvexPolygon convex_hull(std::span<const ConvexPolygon> areas) {
+  std::vector<Point> points;
+  for (const ConvexPolygon& area : areas) {
+    points.insert(points.end(), area.vertices_m.begin(), area.vertices_m.end());
+  }
+  return convex_hull(std::move(points));
+}
+
 ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame) {
   const double c = std::cos(frame.heading_rad);
   const double s = std::sin(frame.heading_rad);

@@ -45,6 +45,9 @@ inline constexpr double kRoundingAllowance_m = 1e-12;
 /// lie on one line.
 [[nodiscard]] ConvexPolygon convex_hull(std::vector<Point> points_m);
 
+/// The smallest convex polygon that holds all `areas`.
+[[nodiscard]] ConvexPolygon convex_hull(std::span<const ConvexPolygon> areas);
+
 /// Vertices of the same hull, counter-clockwise, also where it has no area: both ends of a line, a
 /// single point, nothing.
 [[nodiscard]] std::vector<Point> hull_vertices(std::vector<Point> points_m);

@@ -16,7 +16,6 @@
 namespace hlc {
 namespace {
 
-constexpr std::size_t kMaxVehicleId = 30;
 constexpr std::size_t kMaxCars = 20;
 
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
@@ -24,8 +23,7 @@ std::filesystem::path beside(const std::filesystem::path& file, const std::strin
 }
 
 VehicleId vehicle_id(const YamlNode& node) {
-  return {static_cast<std::uint8_t>(
-      node.required<std::size_t>("id", between(1.0, static_cast<double>(kMaxVehicleId))))};
+  return {static_cast<std::uint8_t>(node.required<std::size_t>("id", between(1.0, kMaxVehicleId)))};
 }
 
 /// Routes by name, for the map that is driven on.
@@ -41,13 +39,15 @@ std::map<std::string, Route> read_routes(const YamlNode& scenario, const Lanelet
     std::vector<LaneletId> lanelets;
     for (const YamlNode& lanelet : by_map.list(map.benchmark_id)) {
       lanelets.push_back(lanelet.as<int>(at_least(1.0)));
+      if (!map.lanelets.contains(lanelets.back())) {
+        lanelet.fail("a lanelet of the map " + map.benchmark_id);
+      }
     }
     node.check_no_unknown_keys();
     try {
       routes.emplace(name, build_route(map, lanelets, closed));
     } catch (const std::runtime_error& error) {
-      node.fail("lanelets." + map.benchmark_id,
-                std::string("a route that can be driven: ") + error.what());
+      by_map.fail(map.benchmark_id, std::string("a route that can be driven: ") + error.what());
     }
   }
   return routes;
@@ -118,15 +118,18 @@ void check_vehicles(const YamlNode& node, const Scenario& scenario) {
     return footprint_area(parameters.footprint, vehicle.start, parameters.safety_margin_m);
   };
   if (scenario.vehicles.empty()) node.fail("vehicles", "at least one");
+  const std::vector<YamlNode> entries = node.optional_list("vehicles");  // none on a circle
   for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const ScenarioVehicle& a = scenario.vehicles[j];
       const ScenarioVehicle& b = scenario.vehicles[i];
-      if (a.id == b.id) node.fail("vehicles", "every id once");
+      if (a.id == b.id) entries[i].fail("id", "every id once");
       if (intersects(area(a), area(b))) {
-        node.fail(node.has("circle") ? "circle" : "vehicles",
-                  "start poses whose footprints with margin do not overlap: those of vehicles " +
-                      std::to_string(a.id.value) + " and " + std::to_string(b.id.value) + " do");
+        const std::string allowed =
+            "start poses whose footprints with margin do not overlap: those of vehicles " +
+            std::to_string(a.id.value) + " and " + std::to_string(b.id.value) + " do";
+        if (entries.empty()) node.fail("circle", allowed);
+        entries[i].fail("start_m", allowed);
       }
     }
   }

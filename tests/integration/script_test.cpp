@@ -168,7 +168,19 @@ TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
     EXPECT_EQ(run.wait_for(30s), 130) << output();
     EXPECT_TRUE(eventually(10s, [&] { return ::kill(-run.pid(), 0) != 0; }))
         << "somebody of the run is still there";
+    EXPECT_TRUE(std::filesystem::exists(out / "summary.json")) << "no table of what was driven";
   }
+}
+
+TEST_F(Scripts, AKilledRunLeavesNobodyBehind) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab({"--steps", "5000", "--out", out.string()});
+  ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 4000; }))
+      << output();
+  run.send(SIGKILL);
+  EXPECT_EQ(run.wait_for(30s), 128 + SIGKILL) << output();
+  EXPECT_TRUE(eventually(20s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+      << "somebody of the run is still there";
 }
 
 TEST_F(Scripts, TheExitCodeIsThatOfTheFirstWhoFails) {

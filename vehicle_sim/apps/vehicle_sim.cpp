@@ -29,7 +29,7 @@ struct Flags {
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_id", flags.vehicle_id, "1 ... 30")
       ->required()
-      ->check(CLI::Range(1, 30));
+      ->check(hlc::vehicle_id_range());
   flags.network.declare(app);
   app.add_option("--pose", flags.pose, "x,y,yaw at the start [m, m, rad]; needed for ids above 23")
       ->delimiter(',')
@@ -42,7 +42,10 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--record", flags.record, "CSV file for what is truly driven, one row per tick");
   app.add_flag("--keep_running", flags.keep_running,
                "listen again after a stop, as the lab's vehicle does");
-  app.footer("Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died.");
+  app.footer(
+      "In real time the car waits for commands for as long as it takes, as the lab's does "
+      "(--startup_timeout_s counts in logical time).\n"
+      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died.");
 }
 
 hlc::VehicleProcessOptions process_options(const Flags& flags) {

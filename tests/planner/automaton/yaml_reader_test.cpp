@@ -119,6 +119,10 @@ TEST(YamlNode, RefusesWhatIsNotAReadableMap) {
             "f.yaml:1: (a list), allowed a map (key: value)");
   EXPECT_EQ(message([] { (void)YamlNode::read_file("no/such/file.yaml"); }),
             "no/such/file.yaml: cannot be read, allowed a YAML file");
+  EXPECT_EQ(message([] { (void)YamlNode::read_file("/"); }),
+            "/: cannot be read, allowed a YAML file");
+  EXPECT_EQ(message([] { (void)YamlNode::read_file("/dev/null"); }),
+            "/dev/null:1: (nothing), allowed a map (key: value)");
 }
 
 }  // namespace

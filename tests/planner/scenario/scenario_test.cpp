@@ -48,12 +48,14 @@ TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
   EXPECT_THAT(error_of("steps: 150", "steps: many"), AllOf(HasSubstr("steps"), HasSubstr("many")));
 }
 
-TEST_F(ScenarioErrors, AnUnknownLaneletIsNamed) {
-  EXPECT_THAT(error_of("[1, 2, 3, 4, 5,", "[1, 2, 3, 4, 999,"), HasSubstr("999"));
+TEST_F(ScenarioErrors, AnUnknownLaneletIsNamedWithItsPlace) {
+  EXPECT_THAT(error_of("[1, 2, 3, 4, 5,", "[1, 2, 3, 4, 999,"),
+              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1[5] = 999, allowed"));
 }
 
 TEST_F(ScenarioErrors, ARouteThatDoesNotCloseIsNamed) {
-  EXPECT_THAT(error_of("7, 8, 9, 10]", "7, 8, 9]"), AllOf(HasSubstr("lanelets"), HasSubstr("9")));
+  EXPECT_THAT(error_of("7, 8, 9, 10]", "7, 8, 9]"),
+              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1 = (a list), allowed"));
 }
 
 TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
@@ -63,7 +65,8 @@ TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
 
 TEST_F(ScenarioErrors, StartPosesThatOverlapAreNamed) {
   EXPECT_THAT(error_of("name: blue, route: blue", "name: blue, route: red"),
-              AllOf(HasSubstr("1"), HasSubstr("2"), HasSubstr("overlap")));
+              AllOf(HasSubstr(".yaml:13: vehicles[2].start_m = 0.0, allowed"),
+                    HasSubstr("those of vehicles 1 and 2 do")));
 }
 
 TEST_F(ScenarioErrors, AnIdAboveThirtyIsRefused) {
@@ -71,7 +74,8 @@ TEST_F(ScenarioErrors, AnIdAboveThirtyIsRefused) {
 }
 
 TEST_F(ScenarioErrors, AnIdThatIsTakenTwiceIsRefused) {
-  EXPECT_THAT(error_of("id: 2", "id: 1"), HasSubstr("once"));
+  EXPECT_THAT(error_of("id: 2", "id: 1"),
+              HasSubstr(".yaml:13: vehicles[2].id = 1, allowed every id once"));
 }
 
 TEST_F(ScenarioErrors, AMissingMapIsNamed) {

@@ -1,0 +1,131 @@
+#include "planner/controller/plan_in_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/automaton/deviation.hpp"
+
+namespace hlc {
+namespace {
+
+/// Share of the safety margin that is kept for the error of a prediction of one step.
+constexpr double kUnderWayShare = 0.2;
+
+}  // namespace
+
+PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
+                         const Maneuver& standstill, DeviationRules rules, const Pose& measured,
+                         StepIndex step)
+    : automaton_(std::move(automaton)),
+      standstill_(&standstill),
+      rules_(rules),
+      plan_(step, pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
+            standstill),
+      told_(plan_.areas_from(step)),
+      last_seen_(measured),
+      seen_{.step = step, .time_s = 0.0, .pose = measured} {}
+
+PlanWatch PlanInForce::watch(const MeasuredVehicle* own, StepIndex now) {
+  const VehicleParameters& vehicle = automaton_->vehicle;
+  const double step_s = automaton_->step_s;
+  moved_.reset();
+  astray_m_ = {};
+  deviation_m_ = 0.0;
+  if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
+    moved_ = plan_;
+    astray_m_ = footprint_area(vehicle.footprint, last_seen_, vehicle.safety_margin_m);
+    return {.deviation_m = 0.0, .is_disturbed = true};
+  }
+  last_seen_ = own->pose;
+  const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
+  seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};
+  if (now.value < plan_.first().value + steps_back) return {};  // just anchored, where it was seen
+  seen_.step.value -= steps_back;
+  seen_.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
+  const State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
+  deviation_m_ = footprint_deviation_m(own->pose, planned, vehicle, automaton_->identified);
+  const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
+  const bool is_astray =
+      deviation_m_ > vehicle.safety_margin_m && !is_inside_told(own->pose, seen_.step);
+  const PlanWatch result{.deviation_m = deviation_m_, .is_disturbed = is_astray};
+  if (!is_astray && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
+  const bool stands = plan_.end().value + steps_back <= now.value &&
+                      std::abs(own->speed_mps) <= MissingVehicleRules{}.standing_speed_mps;
+  if (is_astray && stands) {
+    *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
+    deviation_m_ = result.deviation_m;
+    return {.deviation_m = deviation_m_, .is_disturbed = false};
+  }
+  moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
+                                                      automaton_->identified));
+  if (!is_astray && !stays_inside_told(*moved_, now)) moved_.reset();
+  if (is_astray) {
+    astray_m_ = footprint_area(vehicle.footprint, own->pose, vehicle.safety_margin_m);
+  }
+  return result;
+}
+
+/// True if the footprint lies in the area that the others know of that step.
+bool PlanInForce::is_inside_told(const Pose& measured, StepIndex step, double reserve_m) const {
+  if (step < told_.first) return false;
+  const Footprint& footprint = automaton_->vehicle.footprint;
+  const std::vector<Point> corners = footprint_area(footprint, measured, reserve_m).vertices_m;
+  return std::ranges::all_of(
+      corners, [&](const Point& corner) { return contains(told_.during(step), corner); });
+}
+
+/// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.
+bool PlanInForce::stays_inside_told(const Plan& plan, StepIndex now) const {
+  const double reserve_m = kUnderWayShare * automaton_->vehicle.safety_margin_m;
+  const std::vector<PredictedInstant> drive =
+      predicted_drive(plan, seen_, {now.value + 1}, *automaton_);
+  return std::ranges::all_of(drive, [&](const PredictedInstant& instant) {
+    return instant.step != now || is_inside_told(instant.pose, now, reserve_m);
+  });
+}
+
+/// Of a vehicle outside its areas also where it is if it stays where it was measured, if it drives
+/// on beside its plan as it is, and what lies between all these. So too of a vehicle that is not
+/// seen any more: it may have stopped on the way.
+OccupiedAreas PlanInForce::areas_to_tell(StepIndex from) const {
+  OccupiedAreas areas = plan_.areas_from(from);
+  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
+    areas.areas_m[i] = told_.during({from.value + i});
+  }
+  areas.final_area_m = told_.final_area_m;
+  if (astray_m_.empty()) return areas;
+  const OccupiedAreas beside = moved_->areas_from(from);
+  const auto join = [this](ConvexPolygon& area, const ConvexPolygon& other) {
+    area = convex_hull(std::vector{area, other, astray_m_});
+  };
+  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
+    join(areas.areas_m[i], beside.during({from.value + i}));
+  }
+  join(areas.final_area_m, beside.final_area_m);
+  return areas;
+}
+
+/// A plan that only uses trims with steering to spare is followed within the margin by a vehicle
+/// that is on it; for any other the drive is predicted.
+OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const {
+  const VehicleParameters& vehicle = automaton_->vehicle;
+  const double tolerated_m = rules_.tolerated_drift_share * vehicle.safety_margin_m;
+  bool may_drift = deviation_m_ > tolerated_m;
+  for (StepIndex step = seen_.step; step <= candidate.end() && !may_drift; ++step.value) {
+    may_drift = is_at_steering_limit(automaton_->trims[candidate.trim_at(step).index], vehicle,
+                                     automaton_->identified);
+  }
+  if (!may_drift) return candidate.areas_from(next);
+  return areas_with_drift(candidate, next, seen_, *automaton_, tolerated_m);
+}
+
+void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
+  OccupiedAreas told{.first = now, .areas_m = {told_.during(now)}, .final_area_m = {}};
+  told.areas_m.insert(told.areas_m.end(), areas.areas_m.begin(), areas.areas_m.end());
+  told.final_area_m = areas.final_area_m;
+  told_ = std::move(told);
+  plan_ = std::move(candidate);
+}
+
+}  // namespace hlc
