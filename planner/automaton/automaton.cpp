@@ -14,6 +14,12 @@ const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::stri
   return found == maneuvers.end() ? nullptr : &*found;
 }
 
+double top_speed_mps(const Maneuver& maneuver) {
+  double largest_mps = 0.0;
+  for (const State& state : maneuver.states) largest_mps = std::max(largest_mps, state.speed_mps);
+  return largest_mps;
+}
+
 double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
                              const IdentifiedVehicle& identified) {
   return slip_angle_rad(steering_rad, vehicle) -

@@ -30,6 +30,13 @@ struct Trim {
 /// Label of every trim's own step.
 inline const std::string kOwnStepLabel = "trim";
 
+/// Value of one criterion, over a motion or, as a unit cost, per second.
+struct CriterionValue {
+  std::string name;  ///< see planner/maneuver_design/criteria.hpp
+  double value{};
+  friend bool operator==(const CriterionValue&, const CriterionValue&) = default;
+};
+
 /// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step,
 /// the trim driven for one step, for every label).
 ///
@@ -37,7 +44,7 @@ inline const std::string kOwnStepLabel = "trim";
 struct Maneuver {
   TrimId from;
   TrimId to;
-  std::string label;  ///< the criterion it is optimal for ("J2"); "trim" for a trim's own step
+  std::string label;  ///< what it is optimal for ("J2"); "trim" for a trim's own step
   double duration_s{};
   std::vector<Input> inputs;  ///< N intervals of equal length of constant input
   std::vector<State> states;  ///< N + 1 states at the interval bounds, the first at the origin
@@ -49,6 +56,9 @@ struct Maneuver {
   /// Convex area that contains the footprint itself (planned heading, no margin) at every time: for
   /// the test against lane bounds.
   ConvexPolygon lane_area_m;
+  /// Of all criteria, whatever the label. For a trim's own step in J1, which depends on the
+  /// position: the integral from the step's own start.
+  std::vector<CriterionValue> criteria;
 };
 
 /// All trims and maneuvers of a vehicle, for one step length. Immutable once built.
@@ -58,12 +68,19 @@ struct UniversalAutomaton {
   IdentifiedVehicle identified;
   double step_s{0.2};
   std::vector<Trim> trims;
+  /// Unit costs l(x, 0) of each trim [per second], of the criteria that have one: those that do not
+  /// depend on the pose, hence not J1. One entry per trim, or none at all.
+  std::vector<std::vector<CriterionValue>> unit_costs;
   std::vector<Maneuver> maneuvers;
 
   /// nullptr if the automaton does not hold that edge. A trim's own step is found under every
   /// label.
   [[nodiscard]] const Maneuver* find(TrimId from, TrimId to, const std::string& label) const;
 };
+
+/// Largest speed along the motion, at its ends and between them: a maneuver may outrun both its
+/// trims. Exact, because the speed is linear between two states.
+[[nodiscard]] double top_speed_mps(const Maneuver& maneuver);
 
 /// Angle from a planned heading to the yaw at which the identified vehicle drives the same path:
 /// course = heading + beta(delta) = yaw + slip(curvature(delta)), so yaw - heading = beta(delta) -

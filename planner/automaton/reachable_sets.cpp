@@ -75,7 +75,7 @@ ConvexPolygon containing(std::vector<Point> points_m, std::size_t steps) {
 
 ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
     : max_steps_(max_steps), num_trims_(subgraph.automaton().trims.size()) {
-  for (const TrimId trim : subgraph.spec().trims) {
+  for (const TrimId trim : subgraph.starts()) {
     max_steps_left_ = std::max(max_steps_left_, subgraph.distance_to_standstill(trim));
   }
   const std::size_t rows = (max_steps_ + 1) * (max_steps_left_ + 1);
@@ -90,7 +90,7 @@ void ReachableSets::compute_distances(const Subgraph& subgraph, std::size_t step
   SetPerTrim sets_m(num_trims_);
   for (std::size_t steps = 0; steps <= max_steps_; ++steps) {
     SetPerTrim next_m(num_trims_);
-    for (const TrimId trim : subgraph.spec().trims) {
+    for (const TrimId trim : subgraph.starts()) {
       if (steps > 0) {
         next_m[trim.index] = hull_over_successors(subgraph, trim, sets_m);
       } else if (subgraph.distance_to_standstill(trim) <= steps_left) {
@@ -110,7 +110,7 @@ void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
   SetPerTrim until_m(num_trims_);
   for (std::size_t step = 0; step <= max_steps_; ++step) {
     SetPerTrim next_m(num_trims_);
-    for (const TrimId trim : subgraph.spec().trims) {
+    for (const TrimId trim : subgraph.starts()) {
       std::vector<Point>& set_m = next_m[trim.index];
       if (step == 0) {
         set_m = standing_area_m(subgraph.automaton(), trim);

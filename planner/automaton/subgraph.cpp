@@ -1,103 +1,286 @@
 #include "planner/automaton/subgraph.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <stdexcept>
 
 namespace hlc {
 namespace {
 
-constexpr std::size_t kUnreachable = std::numeric_limits<std::size_t>::max();
-
 std::string printed(TrimId trim) { return std::to_string(trim.index + 1); }
 
-void check(const SubgraphSpec& spec, const std::vector<Trim>& trims) {
-  const auto fail = [&spec](const std::string& reason) {
-    throw std::invalid_argument("subgraph '" + spec.name + "': " + reason);
-  };
-  bool has_equilibrium = false;
-  for (std::size_t i = 0; i < spec.trims.size(); ++i) {
-    const TrimId trim = spec.trims[i];
-    if (trim.index >= trims.size()) {
-      fail("trim " + printed(trim) + ", allowed 1 ... " + std::to_string(trims.size()));
-    }
-    if (std::find(spec.trims.begin(), spec.trims.begin() + static_cast<std::ptrdiff_t>(i), trim) !=
-        spec.trims.begin() + static_cast<std::ptrdiff_t>(i)) {
-      fail("trim " + printed(trim) + " is listed twice");
-    }
-    has_equilibrium = has_equilibrium || trims[trim.index].is_equilibrium();
+std::string printed(const TrimPair& edge) { return printed(edge.from) + " -> " + printed(edge.to); }
+
+template <class T>
+bool holds(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+template <class T>
+bool holds_twice(const std::vector<T>& list, const T& value) {
+  return std::count(list.begin(), list.end(), value) > 1;
+}
+
+/// True if the bounds on the inputs allow the change within one step.
+bool are_in_reach(const Trim& a, const Trim& b, const VehicleLimits& limits, double step_s) {
+  constexpr double kRounding = 1.0 + 1e-9;
+  const double speed_mps = limits.acceleration_mps2 * step_s * kRounding;
+  const double steering_rad = limits.steering_rate_radps * step_s * kRounding;
+  return std::abs(b.speed_mps - a.speed_mps) <= speed_mps &&
+         std::abs(b.steering_rad - a.steering_rad) <= steering_rad;
+}
+
+bool is_off(const SubgraphSpec& spec, const TrimPair& edge, const std::string& label) {
+  return std::any_of(spec.off.begin(), spec.off.end(), [&](const EdgesOff& off) {
+    return off.edge == edge && (!off.label || *off.label == label);
+  });
+}
+
+const std::vector<std::string>& declared_labels(const SubgraphSpec& spec, const TrimPair& edge) {
+  for (const EdgeLabels& one : spec.edges) {
+    if (one.edge == edge) return one.labels;
   }
-  if (!has_equilibrium) {
-    fail("no trim of speed 0 among its trims");
+  return spec.labels;
+}
+
+/// The maneuvers out of each trim, in the automaton's order.
+using ManeuversFrom = std::vector<std::vector<const Maneuver*>>;
+
+ManeuversFrom maneuvers_from(const UniversalAutomaton& automaton) {
+  ManeuversFrom result(automaton.trims.size());
+  for (const Maneuver& maneuver : automaton.maneuvers) {
+    result[maneuver.from.index].push_back(&maneuver);
   }
+  return result;
+}
+
+const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
+                     const std::string& label) {
+  for (const Maneuver* maneuver : maneuvers) {
+    if (maneuver->to == to && (maneuver->from == to || maneuver->label == label)) return maneuver;
+  }
+  return nullptr;
 }
 
 }  // namespace
 
-std::vector<TrimPair> chain_edges(const std::vector<Trim>& trims, const std::vector<TrimId>& on) {
+std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
+                                 const std::vector<TrimId>& on, const VehicleLimits& limits,
+                                 double step_s) {
+  const auto has_edge = [&](std::size_t i, std::size_t j) {
+    const Trim& a = trims[on[i].index];
+    const Trim& b = trims[on[j].index];
+    if (i == j) return true;
+    if (rule == EdgeRule::kReachable) return are_in_reach(a, b, limits, step_s);
+    return i == j + 1 || j == i + 1 || a.is_equilibrium() || b.is_equilibrium();
+  };
   std::vector<TrimPair> edges;
   for (std::size_t i = 0; i < on.size(); ++i) {
     for (std::size_t j = 0; j < on.size(); ++j) {
-      const bool neighbours = i == j || i == j + 1 || j == i + 1;
-      if (neighbours || trims[on[i].index].is_equilibrium() ||
-          trims[on[j].index].is_equilibrium()) {
-        edges.push_back({on[i], on[j]});
-      }
+      if (has_edge(i, j)) edges.push_back({on[i], on[j]});
     }
   }
   std::sort(edges.begin(), edges.end());
   return edges;
 }
 
+std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edge) {
+  if (edge.from == edge.to) {
+    return is_off(spec, edge, kOwnStepLabel) ? std::vector<std::string>{}
+                                             : std::vector<std::string>{kOwnStepLabel};
+  }
+  std::vector<std::string> labels;
+  for (const std::string& label : declared_labels(spec, edge)) {
+    if (!is_off(spec, edge, label)) labels.push_back(label);
+  }
+  return labels;
+}
+
 Subgraph::Subgraph(std::shared_ptr<const UniversalAutomaton> automaton, SubgraphSpec spec)
     : automaton_(std::move(automaton)), spec_(std::move(spec)) {
+  check_spec();
+  switch_on();
+  measure_distances();
+  add_exits();
+  list_permitted();
+}
+
+void Subgraph::fail(const std::string& reason) const {
+  throw std::invalid_argument("subgraph '" + spec_.name + "': " + reason);
+}
+
+void Subgraph::check_spec() const {
   const std::vector<Trim>& trims = automaton_->trims;
-  check(spec_, trims);
-  standstill_ = *std::find_if(spec_.trims.begin(), spec_.trims.end(),
+  const auto check_trim = [&](TrimId trim) {
+    if (trim.index >= trims.size()) {
+      fail("trim " + printed(trim) + ", allowed 1 ... " + std::to_string(trims.size()));
+    }
+  };
+  const auto check_labels = [&](const std::vector<std::string>& labels) {
+    if (labels.empty()) fail("no label");
+    for (const std::string& label : labels) {
+      if (holds_twice(labels, label)) fail("label '" + label + "' is listed twice");
+    }
+  };
+  for (const TrimId trim : spec_.trims) {
+    check_trim(trim);
+    if (holds_twice(spec_.trims, trim)) fail("trim " + printed(trim) + " is listed twice");
+  }
+  if (std::none_of(spec_.trims.begin(), spec_.trims.end(),
+                   [&](TrimId trim) { return trims[trim.index].is_equilibrium(); })) {
+    fail("no trim of speed 0 among its trims");
+  }
+  check_labels(spec_.labels);
+  for (const EdgeLabels& one : spec_.edges) {
+    check_trim(one.edge.from);
+    check_trim(one.edge.to);
+    check_labels(one.labels);
+    if (one.edge.from == one.edge.to) fail("labels for a trim's own step " + printed(one.edge));
+  }
+  for (const EdgesOff& off : spec_.off) {
+    check_trim(off.edge.from);
+    check_trim(off.edge.to);
+    if (off.edge.from == off.edge.to && trims[off.edge.from.index].is_equilibrium()) {
+      fail("edge " + printed(off.edge) + " is off, but standing must be possible");
+    }
+  }
+}
+
+/// Fills trims_, is_on_, standstill_, and successors_ of the trims that are on.
+void Subgraph::switch_on() {
+  const std::vector<Trim>& trims = automaton_->trims;
+  const auto is_too_fast = [this](double speed_mps) {
+    return spec_.max_speed_mps && speed_mps > *spec_.max_speed_mps;
+  };
+  is_on_.assign(trims.size(), false);
+  for (const TrimId trim : spec_.trims) {
+    if (is_too_fast(trims[trim.index].speed_mps)) continue;
+    is_on_[trim.index] = true;
+    trims_.push_back(trim);
+  }
+  standstill_ = *std::find_if(trims_.begin(), trims_.end(),
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 
+  const std::vector<TrimPair> pairs =
+      rule_edges(spec_.rule, trims, spec_.trims, automaton_->limits, automaton_->step_s);
+  for (const EdgeLabels& one : spec_.edges) {
+    if (!std::binary_search(pairs.begin(), pairs.end(), one.edge)) {
+      fail("labels for edge " + printed(one.edge) + ", which its rule does not give");
+    }
+  }
+  const ManeuversFrom held = maneuvers_from(*automaton_);
   successors_.resize(trims.size());
-  for (const TrimPair& pair : chain_edges(trims, spec_.trims)) {
-    const Maneuver* maneuver = automaton_->find(pair.from, pair.to, spec_.label);
-    if (maneuver == nullptr) {
-      throw std::invalid_argument("subgraph '" + spec_.name + "': the automaton holds no edge " +
-                                  printed(pair.from) + " -> " + printed(pair.to) + " with label '" +
-                                  spec_.label + "'");
+  for (const TrimPair& pair : pairs) {
+    if (!is_on(pair.from) || !is_on(pair.to)) continue;
+    for (const std::string& label : labels_of(spec_, pair)) {
+      const Maneuver* maneuver = find(held[pair.from.index], pair.to, label);
+      if (maneuver == nullptr) {
+        fail("the automaton holds no edge " + printed(pair) + " with label '" + label + "'");
+      }
+      if (is_too_fast(top_speed_mps(*maneuver))) continue;
+      successors_[pair.from.index].push_back({pair.to, maneuver});
     }
-    successors_[pair.from.index].push_back({pair.to, maneuver});
   }
+}
 
-  distance_to_standstill_.assign(trims.size(), kUnreachable);
-  for (const TrimId trim : spec_.trims) {
-    if (trims[trim.index].is_equilibrium()) {
-      distance_to_standstill_[trim.index] = 0;
-    }
+void Subgraph::measure_distances() {
+  const std::vector<Trim>& trims = automaton_->trims;
+  distance_to_standstill_.assign(trims.size(), kNever);
+  for (std::size_t i = 0; i < trims.size(); ++i) {
+    if (trims[i].is_equilibrium()) distance_to_standstill_[i] = 0;
   }
-  // A shortest path has fewer edges than there are trims.
-  for (std::size_t sweep = 1; sweep < spec_.trims.size(); ++sweep) {
-    for (const TrimId trim : spec_.trims) {
+  for (bool is_shorter = true; is_shorter;) {
+    is_shorter = false;
+    for (const TrimId trim : trims_) {
       for (const Edge& edge : successors_[trim.index]) {
         const std::size_t via = distance_to_standstill_[edge.to.index];
-        if (via != kUnreachable) {
-          distance_to_standstill_[trim.index] =
-              std::min(distance_to_standstill_[trim.index], via + 1);
+        if (via == kNever || via + 1 >= distance_to_standstill_[trim.index]) continue;
+        distance_to_standstill_[trim.index] = via + 1;
+        is_shorter = true;
+      }
+    }
+  }
+  for (const TrimId trim : trims_) {
+    if (distance_to_standstill_[trim.index] == kNever) {
+      fail("no way from trim " + printed(trim) + " to a trim of speed 0");
+    }
+  }
+}
+
+/// Fills successors_ and distances of the trims that are off, and starts_.
+void Subgraph::add_exits() {
+  const std::vector<Trim>& trims = automaton_->trims;
+  const ManeuversFrom held = maneuvers_from(*automaton_);
+  const auto is_held_open = [this](const Maneuver& maneuver) {
+    return !is_off(spec_, {maneuver.from, maneuver.to}, maneuver.label);
+  };
+  // Trims by exit distance: the trims that are on are left at once, then ring after ring.
+  std::vector<bool> is_nearer = is_on_;
+  std::vector<TrimId> ring;
+  do {
+    ring.clear();
+    for (std::size_t i = 0; i < trims.size(); ++i) {
+      if (is_nearer[i]) continue;
+      std::vector<Edge>& exits = successors_[i];
+      for (const bool any_label : {false, true}) {
+        for (const Maneuver* maneuver : held[i]) {
+          const TrimPair pair{maneuver->from, maneuver->to};
+          const bool is_labelled =
+              any_label || holds(declared_labels(spec_, pair), maneuver->label);
+          if (is_nearer[pair.to.index] && is_labelled && is_held_open(*maneuver)) {
+            exits.push_back({pair.to, maneuver});
+          }
+        }
+        if (!exits.empty()) break;
+      }
+      if (!exits.empty()) ring.push_back({i});
+    }
+    for (const TrimId trim : ring) {
+      is_nearer[trim.index] = true;
+      std::size_t& distance = distance_to_standstill_[trim.index];
+      for (const Edge& edge : successors_[trim.index]) {
+        distance = std::min(distance, distance_to_standstill_[edge.to.index] + 1);
+      }
+    }
+  } while (!ring.empty());
+
+  for (std::size_t i = 0; i < trims.size(); ++i) {
+    std::vector<Edge>& edges = successors_[i];
+    if (!is_on_[i] && trims[i].is_equilibrium()) {
+      if (const Maneuver* own = find(held[i], {i}, kOwnStepLabel)) edges.push_back({{i}, own});
+    }
+    if (edges.empty()) continue;
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const Edge& a, const Edge& b) { return a.to < b.to; });
+    starts_.push_back({i});
+  }
+}
+
+void Subgraph::list_permitted() {
+  std::size_t farthest = 0;
+  for (const TrimId trim : starts_) {
+    farthest = std::max(farthest, distance_to_standstill_[trim.index]);
+  }
+  // With one step more than the farthest trim's distance, every edge is permitted.
+  permitted_.assign(farthest + 1, std::vector<std::vector<Edge>>(successors_.size()));
+  for (std::size_t steps_left = 1; steps_left <= farthest; ++steps_left) {
+    for (const TrimId trim : starts_) {
+      for (const Edge& edge : successors_[trim.index]) {
+        if (distance_to_standstill_[edge.to.index] + 1 <= steps_left) {
+          permitted_[steps_left][trim.index].push_back(edge);
         }
       }
     }
   }
-  for (const TrimId trim : spec_.trims) {
-    if (distance_to_standstill_[trim.index] == kUnreachable) {
-      throw std::invalid_argument("subgraph '" + spec_.name + "': no way from trim " +
-                                  printed(trim) + " to a trim of speed 0");
-    }
-  }
 }
 
-bool Subgraph::is_on(TrimId trim) const {
-  return std::find(spec_.trims.begin(), spec_.trims.end(), trim) != spec_.trims.end();
-}
+bool Subgraph::is_on(TrimId trim) const { return is_on_.at(trim.index); }
 
 std::span<const Edge> Subgraph::successors(TrimId trim) const { return successors_.at(trim.index); }
+
+std::span<const Edge> Subgraph::successors(TrimId trim, std::size_t steps_left) const {
+  return steps_left < permitted_.size() ? permitted_[steps_left].at(trim.index) : successors(trim);
+}
 
 std::size_t Subgraph::distance_to_standstill(TrimId trim) const {
   return distance_to_standstill_.at(trim.index);

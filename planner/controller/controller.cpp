@@ -21,20 +21,18 @@ constexpr double kReachRounding_m = 1e-5;
 
 double top_speed_mps(const Subgraph& subgraph) {
   double result = 0.0;
-  for (const TrimId trim : subgraph.spec().trims) {
+  for (const TrimId trim : subgraph.starts()) {
     for (const Edge& edge : subgraph.successors(trim)) {
-      for (const State& state : edge.maneuver->states) result = std::max(result, state.speed_mps);
+      result = std::max(result, top_speed_mps(*edge.maneuver));
     }
   }
   return result;
 }
 
-const Maneuver* standing_step(const Subgraph& subgraph) {
-  for (const Edge& edge : subgraph.successors(subgraph.standstill())) {
-    if (edge.to == subgraph.standstill()) return edge.maneuver;
-  }
-  assert(false && "every trim that is on has its own step");
-  return nullptr;
+const Maneuver* own_step(const UniversalAutomaton& automaton, TrimId trim) {
+  const Maneuver* step = automaton.find(trim, trim, kOwnStepLabel);
+  assert(step != nullptr && "every trim has its own step");
+  return step;
 }
 
 MissingVehicleRules rules_for_missing(const Subgraph& subgraph) {
@@ -94,7 +92,7 @@ Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph
       corridor_(std::move(corridor)),
       reachable_(std::move(reachable)),
       planner_(make_best_first_planner(*subgraph_, *reachable_, options.search)),
-      standstill_(standing_step(*subgraph_)),
+      standstill_(own_step(subgraph_->automaton(), subgraph_->standstill())),
       missing_rules_(rules_for_missing(*subgraph_)) {}
 
 std::unique_ptr<Controller> Controller::clone() const {
@@ -106,7 +104,19 @@ std::unique_ptr<Controller> Controller::clone() const {
   result->last_sign_of_life_ = last_sign_of_life_;
   result->last_not_standing_ = last_not_standing_;
   result->drives_out_ = drives_out_;
+  result->missing_rules_ = missing_rules_;
   return result;
+}
+
+void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph) {
+  assert(&subgraph->automaton() == &subgraph_->automaton());
+  auto reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
+  planner_ = make_best_first_planner(*subgraph, *reachable, options_.search);
+  subgraph_ = std::move(subgraph);
+  reachable_ = std::move(reachable);
+  standstill_ = own_step(subgraph_->automaton(), subgraph_->standstill());
+  missing_rules_.max_speed_mps =
+      std::max(missing_rules_.max_speed_mps, rules_for_missing(*subgraph_).max_speed_mps);
 }
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
@@ -289,7 +299,9 @@ void Controller::search_candidate(StepIndex next) {
     return;
   }
   step_.report.cost_m2 = result.cost;
-  step_.candidate = in_force_->base().continued(next, result.maneuvers);
+  step_.candidate =
+      in_force_->base().continued(next, result.maneuvers,
+                                  *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
   step_.candidate_areas_m = in_force_->areas_of(*step_.candidate, next);
   if (!is_candidate_free()) {
     step_.candidate.reset();
@@ -307,6 +319,11 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
   for (const VehicleId other : step_.report.missing) {
     // Nothing at all is known of it: it may be anywhere.
     if (measured(other) == nullptr) step_.obstacle = FallbackReason::kMissing;
+  }
+  if (step_.obstacle == FallbackReason::kNone &&
+      subgraph_->distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
+    step_.obstacle =
+        FallbackReason::kInfeasible;  // a trim that is off, with no way out or a long one
   }
   if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
     step_.problem = pose_problem();

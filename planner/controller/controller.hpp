@@ -71,6 +71,15 @@ class Controller {
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] const Subgraph& subgraph() const { return *subgraph_; }
 
+  /// From the next step on plans on another subgraph of the same automaton; computes its tables,
+  /// which takes milliseconds. Not in the middle of a step. The plan in force stays, whatever of it
+  /// is off now, and is the fallback as ever: see Subgraph for the rule.
+  ///
+  /// All vehicles of a run must switch in the same step: where a missing one may be is reckoned
+  /// with the highest speed of all subgraphs that this controller has used.
+  /// @pre `subgraph` belongs to the automaton of the former one
+  void switch_to(std::shared_ptr<const Subgraph> subgraph);
+
   /// A step before the start: the plan in force is to stand at the measured pose. Without a
   /// measurement of the own vehicle the former plan, if any, stays.
   [[nodiscard]] Report stand_by(const Observation& observation);

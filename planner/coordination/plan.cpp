@@ -44,10 +44,11 @@ OccupiedAreas Plan::areas_from(StepIndex from) const {
   return areas;
 }
 
-Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation) const {
+Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
+                     const Maneuver& standstill) const {
   const StepIndex keep_from{
       std::max(first_.value, step.value < 2 ? std::uint64_t{0} : step.value - 2)};
-  Plan result(keep_from, pose_at(keep_from), *standstill_);
+  Plan result(keep_from, pose_at(keep_from), standstill);
   const auto append = [&result](const Maneuver& maneuver) {
     result.maneuvers_.push_back(&maneuver);
     result.poses_.push_back(compose(result.poses_.back(), maneuver.displacement));
@@ -58,6 +59,7 @@ Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continu
            (result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to));
     append(*maneuver);
   }
+  assert(result.maneuvers_.empty() || result.maneuvers_.back()->to == standstill.from);
   return result;
 }
 

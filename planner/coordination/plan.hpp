@@ -17,11 +17,17 @@ class Plan {
   /// every maneuver of a plan, must outlive the plan (the automaton owns it).
   Plan(StepIndex first, const Pose& pose, const Maneuver& standstill);
 
-  /// This plan until t(step), then `continuation`; what lies before t(step - 2) is forgotten.
-  /// @pre continuation starts with the trim of this plan at t(step) and ends in the equilibrium
-  /// trim
+  /// This plan until t(step), then `continuation`, then `standstill`; what lies before t(step - 2)
+  /// is forgotten.
+  /// @pre continuation starts with the trim of this plan at t(step) and ends in the trim whose own
+  /// step is `standstill`
+  [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
+                               const Maneuver& standstill) const;
+  /// The same where the new plan ends in the equilibrium trim in which this one does.
   [[nodiscard]] Plan continued(StepIndex step,
-                               const std::vector<const Maneuver*>& continuation) const;
+                               const std::vector<const Maneuver*>& continuation) const {
+    return continued(step, continuation, *standstill_);
+  }
 
   /// The same maneuvers from elsewhere: the whole plan moved rigidly so that `from` comes to `to`.
   [[nodiscard]] Plan moved(const Pose& from, const Pose& to) const;

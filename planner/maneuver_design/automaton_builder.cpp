@@ -1,11 +1,16 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/automaton/swept_area.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/unit_cost.hpp"
+#include "planner/maneuver_design/weighted_sum.hpp"
 
 namespace hlc {
 namespace {
@@ -19,7 +24,11 @@ void complete(Maneuver& maneuver, const AutomatonConfiguration& configuration) {
 
 Maneuver own_step(TrimId id, const AutomatonConfiguration& configuration) {
   const Trim& trim = configuration.trims[id.index];
-  Maneuver step{id, id, kOwnStepLabel, configuration.step_s, {}, {}, {}, {}, {}};
+  Maneuver step;
+  step.from = id;
+  step.to = id;
+  step.label = kOwnStepLabel;
+  step.duration_s = configuration.step_s;
   step.inputs.assign(configuration.intervals, Input{});
   for (std::size_t k = 0; k <= configuration.intervals; ++k) {
     const double time_s = configuration.step_s * static_cast<double>(k) /
@@ -28,40 +37,143 @@ Maneuver own_step(TrimId id, const AutomatonConfiguration& configuration) {
         trim_motion(Pose{}, trim.speed_mps, trim.steering_rad, time_s, configuration.vehicle);
     step.states.push_back({pose, trim.speed_mps, trim.steering_rad});
   }
+  for (const std::string& name : criterion_names()) {
+    const auto criterion = make_criterion(name, configuration.vehicle);
+    step.criteria.push_back(
+        {name, trim_step_cost(trim, configuration.step_s, *criterion, configuration.vehicle)});
+  }
   complete(step, configuration);
   return step;
 }
 
-Maneuver designed(const TrimPair& edge, const std::string& criterion, const RunningCost& cost,
-                  const AutomatonConfiguration& configuration) {
-  const ManeuverProblem problem{configuration.trims[edge.from.index],
-                                configuration.trims[edge.to.index],
-                                configuration.step_s,
-                                configuration.intervals,
-                                configuration.vehicle,
-                                configuration.limits};
+std::vector<CriterionValue> unit_costs(const Trim& trim,
+                                       const AutomatonConfiguration& configuration) {
+  std::vector<CriterionValue> costs;
+  for (const std::string& name : criterion_names()) {
+    const auto cost = unit_cost(trim, *make_criterion(name, configuration.vehicle));
+    if (cost) costs.push_back({name, *cost});
+  }
+  return costs;
+}
+
+ManeuverSolution solved(const ManeuverProblem& problem, const RunningCost& cost,
+                        const DesignTask& task, const AutomatonConfiguration& configuration) {
   ManeuverSolution solution = solve(problem, cost);
   if (solution.status != ManeuverStatus::kOptimal) {
     throw std::invalid_argument(
-        configuration.source + ": maneuver " + std::to_string(edge.from.index + 1) + " -> " +
-        std::to_string(edge.to.index + 1) + " (" + criterion + "): " + solution.reason);
+        configuration.source + ": maneuver " + std::to_string(task.edge.from.index + 1) + " -> " +
+        std::to_string(task.edge.to.index + 1) + " (" +
+        configuration.criteria[task.criterion].label + "): " + solution.reason);
   }
-  Maneuver maneuver{edge.from,
-                    edge.to,
-                    criterion,
-                    configuration.step_s,
-                    std::move(solution.inputs),
-                    std::move(solution.states),
-                    {},
-                    {},
-                    {}};
-  complete(maneuver, configuration);
-  return maneuver;
+  return solution;
+}
+
+double value_of(const std::string& criterion, const ManeuverSolution& solution) {
+  const auto found =
+      std::find_if(solution.criteria.begin(), solution.criteria.end(),
+                   [&criterion](const CriterionValue& value) { return value.name == criterion; });
+  return found->value;
+}
+
+/// See `design`.
+WeightedSum normalised(const std::vector<CriterionWeight>& weights, const ManeuverProblem& problem,
+                       const DesignTask& task, const AutomatonConfiguration& configuration) {
+  constexpr double kNoRange = 1e-6;
+  std::vector<WeightedCost> terms;
+  std::vector<ManeuverSolution> optima;
+  for (const CriterionWeight& one : weights) {
+    terms.push_back({one.weight, make_criterion(one.criterion, configuration.vehicle)});
+    optima.push_back(solved(problem, *terms.back().cost, task, configuration));
+  }
+  std::vector<WeightedCost> kept;
+  std::vector<CriterionRange> ranges;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    CriterionRange range{value_of(weights[i].criterion, optima[i]), 0.0};
+    range.worst = range.best;
+    for (const ManeuverSolution& other : optima) {
+      range.worst = std::max(range.worst, value_of(weights[i].criterion, other));
+    }
+    if (range.worst - range.best <= kNoRange * std::abs(range.best)) continue;
+    kept.push_back(terms[i]);
+    ranges.push_back(range);
+  }
+  if (kept.empty()) return WeightedSum({terms.front()});
+  return normalised_sum(std::move(kept), ranges);
+}
+
+std::unique_ptr<RunningCost> make_cost(const ManeuverProblem& problem, const DesignTask& task,
+                                       const AutomatonConfiguration& configuration) {
+  const LabelledCriterion& criterion = configuration.criteria[task.criterion];
+  if (criterion.weights.empty()) return make_criterion(criterion.label, configuration.vehicle);
+  std::vector<CriterionWeight> weights = criterion.weights;
+  std::erase_if(weights, [](const CriterionWeight& one) { return one.weight == 0.0; });
+  if (criterion.normalised) {
+    return std::make_unique<WeightedSum>(normalised(weights, problem, task, configuration));
+  }
+  std::vector<WeightedCost> terms;
+  for (const CriterionWeight& one : weights) {
+    terms.push_back({one.weight, make_criterion(one.criterion, configuration.vehicle)});
+  }
+  return std::make_unique<WeightedSum>(std::move(terms));
+}
+
+/// Pairs of different trims that are needed, sorted.
+std::set<TrimPair> needed_pairs(const AutomatonConfiguration& configuration) {
+  std::set<TrimPair> needed;
+  const auto add = [&](EdgeRule rule, const std::vector<TrimId>& trims,
+                       const SubgraphSpec* subgraph) {
+    for (const TrimPair& pair :
+         rule_edges(rule, configuration.trims, trims, configuration.limits, configuration.step_s)) {
+      if (pair.from == pair.to) continue;
+      if (subgraph != nullptr && labels_of(*subgraph, pair).empty()) continue;
+      needed.insert(pair);
+    }
+  };
+  for (const SubgraphSpec& subgraph : configuration.subgraphs) {
+    add(subgraph.rule, subgraph.trims, &subgraph);
+  }
+  if (configuration.edges == EdgeChoice::kAll) {
+    std::vector<TrimId> all;
+    for (std::size_t i = 0; i < configuration.trims.size(); ++i) all.push_back({i});
+    add(EdgeRule::kReachable, all, nullptr);
+  }
+  return needed;
 }
 
 }  // namespace
 
-UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) {
+std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration) {
+  const std::set<TrimPair> pairs = needed_pairs(configuration);
+  std::vector<DesignTask> tasks;
+  for (std::size_t criterion = 0; criterion < configuration.criteria.size(); ++criterion) {
+    for (const TrimPair& pair : pairs) tasks.push_back({pair, criterion});
+  }
+  return tasks;
+}
+
+Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task) {
+  const ManeuverProblem problem{configuration.trims[task.edge.from.index],
+                                configuration.trims[task.edge.to.index],
+                                configuration.step_s,
+                                configuration.intervals,
+                                configuration.vehicle,
+                                configuration.limits};
+  ManeuverSolution solution =
+      solved(problem, *make_cost(problem, task, configuration), task, configuration);
+  Maneuver maneuver;
+  maneuver.from = task.edge.from;
+  maneuver.to = task.edge.to;
+  maneuver.label = configuration.criteria[task.criterion].label;
+  maneuver.duration_s = configuration.step_s;
+  maneuver.inputs = std::move(solution.inputs);
+  maneuver.states = std::move(solution.states);
+  maneuver.criteria = std::move(solution.criteria);
+  complete(maneuver, configuration);
+  return maneuver;
+}
+
+UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
+                             std::vector<Maneuver> designed) {
   UniversalAutomaton automaton;
   automaton.vehicle = configuration.vehicle;
   automaton.limits = configuration.limits;
@@ -69,24 +181,19 @@ UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) 
   automaton.step_s = configuration.step_s;
   automaton.trims = configuration.trims;
   for (std::size_t i = 0; i < configuration.trims.size(); ++i) {
+    automaton.unit_costs.push_back(unit_costs(configuration.trims[i], configuration));
     automaton.maneuvers.push_back(own_step(TrimId{i}, configuration));
   }
-
-  std::set<TrimPair> edges;
-  for (const SubgraphSpec& subgraph : configuration.subgraphs) {
-    for (const TrimPair& edge : chain_edges(configuration.trims, subgraph.trims)) {
-      if (edge.from != edge.to) {
-        edges.insert(edge);
-      }
-    }
-  }
-  for (const std::string& criterion : configuration.criteria) {
-    const std::unique_ptr<RunningCost> cost = make_criterion(criterion, configuration.vehicle);
-    for (const TrimPair& edge : edges) {
-      automaton.maneuvers.push_back(designed(edge, criterion, *cost, configuration));
-    }
-  }
+  for (Maneuver& maneuver : designed) automaton.maneuvers.push_back(std::move(maneuver));
   return automaton;
+}
+
+UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) {
+  std::vector<Maneuver> designed;
+  for (const DesignTask& task : design_tasks(configuration)) {
+    designed.push_back(design(configuration, task));
+  }
+  return assembled(configuration, std::move(designed));
 }
 
 std::shared_ptr<const UniversalAutomaton> build_shared_automaton(

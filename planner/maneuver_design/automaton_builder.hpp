@@ -1,22 +1,46 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "planner/automaton/automaton.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 
 namespace hlc {
 
-/// Builds the universal automaton: every trim's own step (exact arc, label "trim"), and for each
-/// criterion, with the criterion's name as label, the optimal maneuver of every edge between
-/// different trims that a declared subgraph needs. Order of the maneuvers: own steps by trim, then
-/// by criterion as listed, from, to.
+/// One maneuver to be designed.
+struct DesignTask {
+  TrimPair edge;
+  std::size_t criterion{};  ///< index into AutomatonConfiguration::criteria
+};
+
+/// All maneuvers between different trims that the configuration asks for: for each criterion every
+/// pair of trims that a subgraph needs, or every pair that the limits allow (EdgeChoice). By
+/// criterion as listed, from, to.
+[[nodiscard]] std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration);
+
+/// Designs one maneuver. Independent of all others and without side effects: programs may call it
+/// from several threads at once.
+///
+/// A normalised sum of criteria J_i with weights w_i becomes sum_i w_i J_i / (worst_i - best_i) on
+/// each pair of trims: best_i is the optimum of J_i alone, worst_i the largest J_i among the optima
+/// of the others (for two criteria these are the ends of the Pareto front). A criterion whose range
+/// is less than 1e-6 of its size does not contradict the others there, and is left out; if none
+/// does, the first alone decides.
+///
+/// @throws std::invalid_argument with one line naming configuration, edge, label and reason if the
+/// maneuver is infeasible or was not found (see ManeuverSolution::reason)
+[[nodiscard]] Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task);
+
+/// The automaton: every trim's own step (exact arc, label "trim"), then the designed maneuvers in
+/// their order.
+[[nodiscard]] UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
+                                           std::vector<Maneuver> designed);
+
+/// All three, one task after the other.
 ///
 /// The same configuration gives the same automaton, bit for bit, on one machine.
-///
-/// @throws std::invalid_argument with one line naming configuration, edge, criterion and reason if
-/// a
-///         maneuver is infeasible or was not found (see ManeuverSolution::reason)
 [[nodiscard]] UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration);
 
 /// The same, ready for a Subgraph.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/yaml_reader.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 
@@ -69,14 +70,43 @@ std::vector<Trim> read_trims(const YamlNode& file, const VehicleLimits& limits) 
   return trims;
 }
 
-std::vector<std::string> read_criteria(const YamlNode& file) {
-  std::vector<std::string> criteria;
+LabelledCriterion read_criterion(const YamlNode& entry) {
+  if (!entry.is_map()) return {entry.as<std::string>(one_of(criterion_names())), {}, false};
+  LabelledCriterion criterion;
+  criterion.label = entry.required<std::string>("name");
+  const std::vector<std::string> names = criterion_names();
+  if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
+      std::find(names.begin(), names.end(), criterion.label) != names.end()) {
+    entry.fail("name",
+               "a name of its own: neither empty, nor '" + kOwnStepLabel + "', nor a criterion's");
+  }
+  const YamlNode weights = entry.map("weights");
+  bool is_positive = false;
+  for (const std::string& name : names) {
+    if (!weights.has(name)) continue;
+    criterion.weights.push_back({name, weights.required<double>(name, at_least(0.0))});
+    is_positive = is_positive || criterion.weights.back().weight > 0.0;
+  }
+  weights.check_no_unknown_keys();
+  if (!is_positive) entry.fail("weights", "at least one weight > 0");
+  criterion.normalised = entry.optional("normalised", false);
+  if (criterion.normalised && criterion.weights.size() < 2) {
+    entry.fail("normalised", "false with a single criterion");
+  }
+  entry.check_no_unknown_keys();
+  return criterion;
+}
+
+std::vector<LabelledCriterion> read_criteria(const YamlNode& file) {
+  std::vector<LabelledCriterion> criteria;
   for (const YamlNode& entry : file.list("criteria")) {
-    const auto name = entry.as<std::string>(one_of(criterion_names()));
-    if (std::find(criteria.begin(), criteria.end(), name) != criteria.end()) {
+    LabelledCriterion criterion = read_criterion(entry);
+    if (std::any_of(criteria.begin(), criteria.end(), [&](const LabelledCriterion& other) {
+          return other.label == criterion.label;
+        })) {
       entry.fail("each criterion once");
     }
-    criteria.push_back(name);
+    criteria.push_back(std::move(criterion));
   }
   if (criteria.empty()) {
     file.fail("criteria", "at least one criterion");
@@ -84,49 +114,19 @@ std::vector<std::string> read_criteria(const YamlNode& file) {
   return criteria;
 }
 
-std::vector<TrimId> read_trim_numbers(const YamlNode& subgraph, const std::vector<Trim>& trims) {
-  std::vector<TrimId> result;
-  if (subgraph.is_value("trims")) {
-    (void)subgraph.required<std::string>("trims", one_of({"all"}));
-    for (std::size_t i = 0; i < trims.size(); ++i) {
-      result.push_back(TrimId{i});
-    }
-    return result;
-  }
-  for (const YamlNode& entry : subgraph.list("trims")) {
-    const auto number = entry.as<std::size_t>(between(1.0, static_cast<double>(trims.size())));
-    const TrimId trim{number - 1};
-    if (std::find(result.begin(), result.end(), trim) != result.end()) {
-      entry.fail("each trim once");
-    }
-    result.push_back(trim);
-  }
-  if (std::none_of(result.begin(), result.end(),
-                   [&trims](TrimId id) { return trims[id.index].is_equilibrium(); })) {
-    subgraph.fail("trims", "a list that holds a trim of speed 0");
-  }
-  return result;
+std::vector<std::string> labels_of(const std::vector<LabelledCriterion>& criteria) {
+  std::vector<std::string> labels;
+  for (const LabelledCriterion& criterion : criteria) labels.push_back(criterion.label);
+  return labels;
 }
 
-std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const std::vector<Trim>& trims,
-                                         const std::vector<std::string>& criteria) {
-  std::vector<SubgraphSpec> subgraphs;
-  for (const YamlNode& entry : file.list("subgraphs")) {
-    SubgraphSpec spec;
-    spec.name = entry.required<std::string>("name");
-    spec.label = entry.required<std::string>("label", one_of(criteria));
-    spec.trims = read_trim_numbers(entry, trims);
-    entry.check_no_unknown_keys();
-    if (std::any_of(subgraphs.begin(), subgraphs.end(),
-                    [&spec](const SubgraphSpec& other) { return other.name == spec.name; })) {
-      entry.fail("name", "a name that no other subgraph has");
-    }
-    subgraphs.push_back(std::move(spec));
-  }
-  if (subgraphs.empty()) {
-    file.fail("subgraphs", "at least one subgraph");
-  }
-  return subgraphs;
+bool uses(const SubgraphSpec& subgraph, const std::string& label) {
+  const auto holds = [&label](const std::vector<std::string>& labels) {
+    return std::find(labels.begin(), labels.end(), label) != labels.end();
+  };
+  return holds(subgraph.labels) ||
+         std::any_of(subgraph.edges.begin(), subgraph.edges.end(),
+                     [&](const EdgeLabels& edge) { return holds(edge.labels); });
 }
 
 }  // namespace
@@ -144,9 +144,27 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   configuration.step_s = file.required<double>("step_s", above(0.0));
   configuration.intervals =
       file.optional("intervals", configuration.intervals, between(10.0, 1000.0));
+  configuration.horizon_steps =
+      file.optional("horizon_steps", configuration.horizon_steps, between(1.0, 64.0));
+  configuration.edges =
+      file.optional<std::string>("edges", "subgraphs", one_of({"subgraphs", "all"})) == "all"
+          ? EdgeChoice::kAll
+          : EdgeChoice::kSubgraphs;
   configuration.criteria = read_criteria(file);
-  configuration.subgraphs = read_subgraphs(file, configuration.trims, configuration.criteria);
+  configuration.subgraphs =
+      read_subgraphs(file, {configuration.trims, configuration.limits, configuration.step_s,
+                            configuration.horizon_steps, labels_of(configuration.criteria)});
   file.check_no_unknown_keys();
+  return configuration;
+}
+
+AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
+                                 AutomatonConfiguration configuration) {
+  configuration.edges = EdgeChoice::kSubgraphs;
+  std::erase_if(configuration.criteria, [&](const LabelledCriterion& criterion) {
+    return !uses(subgraph, criterion.label);
+  });
+  configuration.subgraphs = {subgraph};
   return configuration;
 }
 

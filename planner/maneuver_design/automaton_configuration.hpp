@@ -8,6 +8,27 @@
 
 namespace hlc {
 
+/// Share of a criterion in a weighted sum.
+struct CriterionWeight {
+  std::string criterion;  ///< a name of criteria.hpp
+  double weight{};
+};
+
+/// What the maneuvers of one label are optimal for.
+struct LabelledCriterion {
+  std::string label;
+  std::vector<CriterionWeight> weights;  ///< empty: the criterion whose name is the label
+  /// Each criterion of the sum is divided by its range over the front of the maneuver's own ends
+  /// (see `design`).
+  bool normalised{false};
+};
+
+/// Which edges a universal automaton holds, each for every label.
+enum class EdgeChoice {
+  kSubgraphs,  ///< those that its subgraphs need
+  kAll,        ///< all pairs of trims that the bounds on acceleration and steering rate allow
+};
+
 /// What a universal automaton is built from. File: see launch_scripts/automata/paper.yaml.
 struct AutomatonConfiguration {
   std::string source;  ///< file it was read from, for messages
@@ -15,11 +36,13 @@ struct AutomatonConfiguration {
   IdentifiedVehicle identified;
   VehicleLimits limits;
   std::vector<Trim> trims;
-  double step_s{0.2};         ///< duration of every maneuver and of a trim's own step
+  double step_s{0.2};  ///< duration of every maneuver and of a trim's own step
+  std::size_t horizon_steps{
+      8};                     ///< in so many steps every trim of a subgraph must reach standstill
   std::size_t intervals{20};  ///< of constant input, per maneuver
-  std::vector<std::string>
-      criteria;  ///< every edge is built for each of them; names see criteria.hpp
-  std::vector<SubgraphSpec> subgraphs;  ///< together they say which edges are built
+  EdgeChoice edges{EdgeChoice::kSubgraphs};
+  std::vector<LabelledCriterion> criteria;
+  std::vector<SubgraphSpec> subgraphs;
 };
 
 /// Reads a configuration. Keys:
@@ -31,14 +54,24 @@ struct AutomatonConfiguration {
 ///                  steering_max_rad}
 ///     trims:      list of {speed_mps, steering_rad}; their numbers count from 1 in this order
 ///     step_s
+///     horizon_steps  (default 8)
 ///     intervals   (default 20)
-///     criteria:   list of names
-///     subgraphs:  list of {name, label: one of the criteria, trims: all, or a list of numbers}
+///     edges:      subgraphs (default) | all
+///     criteria:   list of names (see criteria.hpp), or of
+///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)}
+///     subgraphs:  list of subgraphs, see read_subgraphs (planner/automaton/subgraph_yaml.hpp);
+///                 their labels are names of `criteria`
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", for whatever
 /// is missing, unknown, of the wrong type or outside its range: trims must respect the limits and
-/// differ, there must be a trim of speed 0 in every subgraph, subgraphs' names must differ.
+/// differ, names must differ, subgraphs must hang together, and standstill must be within the
+/// horizon of each of their trims.
 [[nodiscard]] AutomatonConfiguration read_automaton_configuration(
     const std::filesystem::path& path);
+
+/// The same configuration with this subgraph alone and the labels that it uses: what a run needs
+/// that stays on one subgraph. Building it takes as long as that label does.
+[[nodiscard]] AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
+                                               AutomatonConfiguration configuration);
 
 }  // namespace hlc

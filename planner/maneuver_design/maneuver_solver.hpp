@@ -74,12 +74,6 @@ struct ConstraintResiduals {
   double path{};  ///< the largest g_i; g has no unit
 };
 
-/// Value of one criterion.
-struct CriterionValue {
-  std::string name;  ///< see criteria.hpp
-  double value{};
-};
-
 struct ManeuverSolution {
   ManeuverStatus status{ManeuverStatus::kNotConverged};
   std::string reason;  ///< empty if kOptimal; names the bound that is violated if kInfeasible

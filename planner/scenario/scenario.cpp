@@ -112,6 +112,18 @@ void read_circle(const YamlNode& node, const ScenarioChoices& choices, Scenario&
   }
 }
 
+/// Every plan ends in standstill, so no trim may be farther from it than the horizon.
+void check_standstill_is_near(const YamlNode& node, const Scenario& scenario) {
+  for (const TrimId trim : scenario.subgraph->trims()) {
+    const std::size_t steps = scenario.subgraph->distance_to_standstill(trim);
+    if (steps <= scenario.horizon_steps) continue;
+    node.fail(node.has("horizon_steps") ? "horizon_steps" : "subgraph",
+              "a horizon of at least " + std::to_string(steps) + " steps: so many takes trim " +
+                  std::to_string(trim.index + 1) + " of subgraph " +
+                  scenario.subgraph->spec().name + " to standstill");
+  }
+}
+
 void check_vehicles(const YamlNode& node, const Scenario& scenario) {
   const VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
   const auto area = [&](const ScenarioVehicle& vehicle) {
@@ -135,14 +147,12 @@ void check_vehicles(const YamlNode& node, const Scenario& scenario) {
   }
 }
 
-std::shared_ptr<const Subgraph> choose_subgraph(const YamlNode& node,
-                                                const ScenarioChoices& choices,
-                                                std::shared_ptr<const UniversalAutomaton> automaton,
-                                                const std::vector<SubgraphSpec>& subgraphs) {
+const SubgraphSpec& chosen_subgraph(const YamlNode& node, const ScenarioChoices& choices,
+                                    const std::vector<SubgraphSpec>& subgraphs) {
   const auto configured = node.required<std::string>("subgraph");
   const std::string name = choices.subgraph.value_or(configured);
   const auto spec = std::ranges::find(subgraphs, name, &SubgraphSpec::name);
-  if (spec != subgraphs.end()) return std::make_shared<Subgraph>(std::move(automaton), *spec);
+  if (spec != subgraphs.end()) return *spec;
   std::string known;
   for (const SubgraphSpec& one : subgraphs) known += (known.empty() ? "" : ", ") + one.name;
   if (choices.subgraph) {
@@ -152,8 +162,7 @@ std::shared_ptr<const Subgraph> choose_subgraph(const YamlNode& node,
 }
 
 Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
-                   std::shared_ptr<const UniversalAutomaton> automaton,
-                   const std::vector<SubgraphSpec>& subgraphs) {
+                   std::shared_ptr<const Subgraph> subgraph) {
   Scenario scenario;
   scenario.file = choices.file;
   scenario.name = node.required<std::string>("name");
@@ -165,7 +174,8 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.max_expansions =
       node.optional<std::size_t>("max_expansions", SearchOptions{}.max_expansions, at_least(1.0));
   scenario.profile = profile_from_name(choices.profile);
-  scenario.subgraph = choose_subgraph(node, choices, std::move(automaton), subgraphs);
+  scenario.subgraph = std::move(subgraph);
+  check_standstill_is_near(node, scenario);
   if (node.has("circle")) {
     read_circle(node, choices, scenario);
   } else {
@@ -183,15 +193,18 @@ Scenario read_scenario(const ScenarioChoices& choices) {
   const YamlNode node = YamlNode::read_file(choices.file);
   const AutomatonConfiguration configuration =
       read_automaton_configuration(beside(choices.file, node.required<std::string>("automaton")));
-  return read_with(node, choices,
-                   std::make_shared<const UniversalAutomaton>(build_automaton(configuration)),
-                   configuration.subgraphs);
+  const SubgraphSpec& spec = chosen_subgraph(node, choices, configuration.subgraphs);
+  return read_with(
+      node, choices,
+      std::make_shared<Subgraph>(build_shared_automaton(needed_by(spec, configuration)), spec));
 }
 
 Scenario read_scenario(const ScenarioChoices& choices,
                        std::shared_ptr<const UniversalAutomaton> automaton,
                        const std::vector<SubgraphSpec>& subgraphs) {
-  return read_with(YamlNode::read_file(choices.file), choices, std::move(automaton), subgraphs);
+  const YamlNode node = YamlNode::read_file(choices.file);
+  const SubgraphSpec& spec = chosen_subgraph(node, choices, subgraphs);
+  return read_with(node, choices, std::make_shared<Subgraph>(std::move(automaton), spec));
 }
 
 const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {

@@ -12,15 +12,14 @@ namespace {
 constexpr std::size_t kStopInterval = 64;
 
 /// Programmer's mistakes only; see the preconditions in the header.
-[[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const Subgraph& subgraph,
-                                     const ReachableSets& reachable, CostToGo kind) {
+[[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable,
+                                     CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
                             (kind == CostToGo::kReachable && problem.reference_speed_mps.empty());
   const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
   return n <= reachable.max_steps() && speeds_match && obstacles_match &&
-         subgraph.is_on(problem.start_trim) && problem.start.position_m().allFinite() &&
-         std::isfinite(problem.start.heading_rad);
+         problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);
 }
 
 }  // namespace
@@ -39,7 +38,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
       collision_(subgraph, reachable),
       steps_(subgraph.automaton().trims.size()) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  for (const TrimId trim : subgraph.spec().trims) {
+  for (const TrimId trim : subgraph.starts()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
                                     subgraph.distance_to_standstill(edge.to),
@@ -51,7 +50,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
 
 SearchResult BestFirstSearch::search(const HorizonProblem& problem,
                                      const std::function<bool()>& stop) {
-  assert(is_well_formed(problem, subgraph_, reachable_, options_.cost_to_go));
+  assert(is_well_formed(problem, reachable_, options_.cost_to_go));
   const std::size_t n = problem.horizon_steps();
 
   SearchResult result;

@@ -21,7 +21,7 @@ double radius_m(const ConvexPolygon& polygon) {
 CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
     : reachable_(reachable) {
   std::size_t max_vertices = 0;
-  for (const TrimId trim : subgraph.spec().trims) {
+  for (const TrimId trim : subgraph.starts()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       for (const ConvexPolygon* area_m :
            {&edge.maneuver->swept_area_m, &edge.maneuver->lane_area_m}) {

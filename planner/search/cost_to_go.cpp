@@ -37,7 +37,7 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
 
   // One row more than needed, so that the empty row of depth n has an address.
   reach_m_.resize(subgraph.automaton().trims.size() * (horizon_steps + 1) * horizon_steps + 1);
-  for (const TrimId trim : subgraph.spec().trims) {
+  for (const TrimId trim : subgraph.starts()) {
     for (std::size_t depth = 0; depth < horizon_steps; ++depth) {
       double marched_m = 0.0;
       for (std::size_t i = 1; i <= horizon_steps - depth; ++i) {

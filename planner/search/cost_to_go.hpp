@@ -52,7 +52,7 @@ class CostToGoFunction {
                    const HorizonProblem& problem, CostToGo kind);
 
   /// @param depth  steps already done, 0 ... n
-  /// @pre `trim` is on and can stand within the n - depth steps left
+  /// @pre `trim` is one of the subgraph's `starts` and can stand within the n - depth steps left
   [[nodiscard]] double operator()(TrimId trim, std::size_t depth, const Point& position_m) const {
     const std::size_t steps_left = reference_m_.size() - depth;
     const std::span<const double> reach_m{&reach_m_[row(trim, depth)], steps_left};

@@ -7,13 +7,9 @@ namespace {
 
 constexpr std::size_t kIntervals = 10;
 
-std::vector<Trim> paper_trims() {
-  return {{0.0, 0.0}, {0.4, -0.60}, {0.5, -0.48}, {0.6, -0.36}, {0.7, -0.24}, {0.8, -0.12},
-          {0.8, 0.0}, {0.8, 0.12},  {0.7, 0.24},  {0.6, 0.36},  {0.5, 0.48},  {0.4, 0.60}};
-}
-
 Maneuver make_maneuver(const UniversalAutomaton& automaton, TrimId from, TrimId to,
-                       double surge_mps2) {
+                       const LabelledSurge& label) {
+  const double surge_mps2 = label.surge_mps2;
   const Trim& begin = automaton.trims[from.index];
   const Trim& end = automaton.trims[to.index];
   const double interval_s = automaton.step_s / kIntervals;
@@ -22,7 +18,7 @@ Maneuver make_maneuver(const UniversalAutomaton& automaton, TrimId from, TrimId 
   Maneuver maneuver;
   maneuver.from = from;
   maneuver.to = to;
-  maneuver.label = own_step ? kOwnStepLabel : kTestLabel;
+  maneuver.label = own_step ? kOwnStepLabel : label.label;
   maneuver.duration_s = automaton.step_s;
   State state{{}, begin.speed_mps, begin.steering_rad};
   maneuver.states.push_back(state);
@@ -54,20 +50,33 @@ Maneuver make_maneuver(const UniversalAutomaton& automaton, TrimId from, TrimId 
 
 }  // namespace
 
-std::shared_ptr<const UniversalAutomaton> make_test_automaton(double surge_mps2) {
+std::vector<Trim> paper_trims() {
+  return {{0.0, 0.0}, {0.4, -0.60}, {0.5, -0.48}, {0.6, -0.36}, {0.7, -0.24}, {0.8, -0.12},
+          {0.8, 0.0}, {0.8, 0.12},  {0.7, 0.24},  {0.6, 0.36},  {0.5, 0.48},  {0.4, 0.60}};
+}
+
+std::shared_ptr<UniversalAutomaton> make_test_automaton(const std::vector<Trim>& trims,
+                                                        const std::vector<LabelledSurge>& labels) {
   auto automaton = std::make_shared<UniversalAutomaton>();
-  automaton->trims = paper_trims();
-  for (std::size_t from = 0; from < automaton->trims.size(); ++from) {
-    for (std::size_t to = 0; to < automaton->trims.size(); ++to) {
-      automaton->maneuvers.push_back(make_maneuver(*automaton, {from}, {to}, surge_mps2));
+  automaton->trims = trims;
+  for (std::size_t from = 0; from < trims.size(); ++from) {
+    for (std::size_t to = 0; to < trims.size(); ++to) {
+      for (const LabelledSurge& label : labels) {
+        automaton->maneuvers.push_back(make_maneuver(*automaton, {from}, {to}, label));
+        if (from == to) break;
+      }
     }
   }
   return automaton;
 }
 
+std::shared_ptr<const UniversalAutomaton> make_test_automaton(double surge_mps2) {
+  return make_test_automaton(paper_trims(), {{kTestLabel, surge_mps2}});
+}
+
 Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
                             const std::vector<std::size_t>& trims) {
-  SubgraphSpec spec{"test", kTestLabel, {}};
+  SubgraphSpec spec{.name = "test", .labels = {kTestLabel}, .trims = {}};
   for (const std::size_t number : trims) {
     spec.trims.push_back({number - 1});
   }

@@ -23,6 +23,19 @@ inline constexpr char kTestLabel[] = "test";
 [[nodiscard]] std::shared_ptr<const UniversalAutomaton> make_test_automaton(
     double surge_mps2 = 0.0);
 
+/// A label of a test automaton, and the surge of its maneuvers.
+struct LabelledSurge {
+  std::string label;
+  double surge_mps2{};
+};
+
+/// The same with other trims and with one maneuver per label between every two of them.
+[[nodiscard]] std::shared_ptr<UniversalAutomaton> make_test_automaton(
+    const std::vector<Trim>& trims, const std::vector<LabelledSurge>& labels);
+
+/// The twelve trims of the paper's Table 1.
+[[nodiscard]] std::vector<Trim> paper_trims();
+
 /// A subgraph with these trims, numbered from 1 as in the paper.
 [[nodiscard]] Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
                                           const std::vector<std::size_t>& trims);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "planner/maneuver_design/criteria.hpp"
@@ -104,6 +105,103 @@ TEST(AutomatonBuilder, TheSameConfigurationGivesTheSameAutomatonBitForBit) {
     EXPECT_EQ(a.swept_area_m, b.swept_area_m);
     EXPECT_EQ(a.lane_area_m, b.lane_area_m);
   }
+}
+
+double value_of(const std::string& name, const std::vector<CriterionValue>& values) {
+  for (const CriterionValue& value : values) {
+    if (value.name == name) return value.value;
+  }
+  throw std::logic_error("no value of " + name);
+}
+
+TEST(AutomatonBuilder, ManeuversCarryTheValuesOfAllCriteria) {
+  const auto automaton = paper_automaton();
+  for (const Maneuver& maneuver : automaton->maneuvers) {
+    ASSERT_EQ(maneuver.criteria.size(), criterion_names().size());
+    const Trim& from = automaton->trims[maneuver.from.index];
+    const Trim& to = automaton->trims[maneuver.to.index];
+    const double dv = to.speed_mps - from.speed_mps;
+    const double ddelta = to.steering_rad - from.steering_rad;
+    const double closed_form = (dv * dv + ddelta * ddelta) / automaton->step_s;
+    EXPECT_NEAR(value_of("J2", maneuver.criteria), closed_form, 1e-9 * (1.0 + closed_form));
+    EXPECT_NEAR(value_of("travel_time", maneuver.criteria), automaton->step_s, 1e-12);
+    EXPECT_LE(value_of("J1", maneuver.criteria), 0.0);
+  }
+  // Straight on at v: J1 is the integral of -(v t)^2 from the step's own start.
+  const Maneuver* straight = automaton->find(pi(7), pi(7), "J2");
+  EXPECT_NEAR(value_of("J1", straight->criteria), -0.64 * 0.008 / 3.0, 1e-12);
+}
+
+TEST(AutomatonBuilder, TrimsCarryTheUnitCostsOfTheCriteriaThatHaveOne) {
+  const auto automaton = paper_automaton();
+  ASSERT_EQ(automaton->unit_costs.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const Trim& trim = automaton->trims[i];
+    const double lateral =
+        trim.speed_mps * trim.speed_mps * curvature_per_m(trim.steering_rad, automaton->vehicle);
+    EXPECT_EQ(value_of("J2", automaton->unit_costs[i]), 0.0);
+    EXPECT_NEAR(value_of("comfort", automaton->unit_costs[i]), lateral * lateral, 1e-12);
+    EXPECT_THROW((void)value_of("J1", automaton->unit_costs[i]), std::logic_error);
+  }
+}
+
+TEST(AutomatonBuilder, AllEdgesAreThePairsThatTheLimitsAllow) {
+  AutomatonConfiguration configuration = paper_configuration();
+  EXPECT_EQ(design_tasks(configuration).size(), 50U);
+  configuration.edges = EdgeChoice::kAll;
+  EXPECT_EQ(design_tasks(configuration).size(), 132U);
+  configuration.limits.steering_rate_radps = 3.0;  // 0.6 rad in a step
+  configuration.subgraphs.front().trims = {pi(1), pi(7)};
+  configuration.subgraphs.resize(1);
+  for (const DesignTask& task : design_tasks(configuration)) {
+    EXPECT_LE(std::abs(configuration.trims[task.edge.from.index].steering_rad -
+                       configuration.trims[task.edge.to.index].steering_rad),
+              0.6 + 1e-9);
+  }
+}
+
+TEST(AutomatonBuilder, EveryPairIsDesignedForEveryCriterionThatIsListed) {
+  const std::vector<DesignTask> tasks = design_tasks(shipped_configuration());
+  EXPECT_EQ(tasks.size(), 150U);
+  EXPECT_EQ(
+      design_tasks(needed_by(shipped_configuration().subgraphs[1], shipped_configuration())).size(),
+      42U);
+  EXPECT_EQ(
+      design_tasks(needed_by(shipped_configuration().subgraphs[3], shipped_configuration())).size(),
+      26U);
+}
+
+/// The maneuver 7 -> 8 for one weighted sum of J1 and J2.
+Maneuver designed_for(double j1, double j2, bool normalised) {
+  AutomatonConfiguration configuration = paper_configuration();
+  configuration.criteria = {{"sum", {{"J1", j1}, {"J2", j2}}, normalised}};
+  return design(configuration, {{pi(7), pi(8)}, 0});
+}
+
+TEST(AutomatonBuilder, ANormalisedSumIsACompromiseAndAPlainOneIsJ2InEffect) {
+  const double least_j1 = value_of("J1", designed_for(1.0, 0.0, false).criteria);
+  const Maneuver softest = designed_for(0.0, 1.0, false);
+  const double most_j1 = value_of("J1", softest.criteria);
+  const double share_plain =
+      (value_of("J1", designed_for(0.5, 0.5, false).criteria) - most_j1) / (least_j1 - most_j1);
+  EXPECT_LT(share_plain, 0.01);
+  double last = 0.0;
+  for (const double weight : {0.2, 0.5, 0.8}) {
+    const Maneuver compromise = designed_for(weight, 1.0 - weight, true);
+    EXPECT_EQ(compromise.label, "sum");
+    const double share = (value_of("J1", compromise.criteria) - most_j1) / (least_j1 - most_j1);
+    EXPECT_GT(share, last + 0.05);
+    EXPECT_LT(share, 1.0);
+    EXPECT_GT(value_of("J2", compromise.criteria), value_of("J2", softest.criteria) * 1.01);
+    last = share;
+  }
+}
+
+TEST(AutomatonBuilder, CriteriaThatDoNotContradictEachOtherAreNotNormalised) {
+  AutomatonConfiguration configuration = paper_configuration();
+  configuration.criteria = {{"same", {{"J2", 1.0}, {"travel_time", 1.0}}, true}};
+  const Maneuver maneuver = design(configuration, {{pi(7), pi(8)}, 0});
+  EXPECT_NEAR(value_of("J2", maneuver.criteria), 0.072, 1e-9);
 }
 
 TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "planner/automaton/subgraph_yaml.hpp"
+
 namespace hlc {
 namespace {
 
@@ -80,13 +82,22 @@ TEST(AutomatonConfiguration, TheShippedFileHoldsThePapersTrimsAndTheDefaults) {
   EXPECT_EQ(c.limits.steering_max_rad, VehicleLimits{}.steering_max_rad);
   EXPECT_EQ(c.step_s, 0.2);
   EXPECT_EQ(c.intervals, 20U);
-  EXPECT_EQ(c.criteria, (std::vector<std::string>{"J2"}));
-  ASSERT_EQ(c.subgraphs.size(), 2U);
-  EXPECT_EQ(c.subgraphs[0].name, "B");
-  EXPECT_EQ(c.subgraphs[0].trims.size(), 12U);
-  EXPECT_EQ(c.subgraphs[1].name, "D");
-  EXPECT_EQ(c.subgraphs[1].trims.size(), 8U);
-  EXPECT_EQ(c.subgraphs[1].trims[2], TrimId{3});
+  EXPECT_EQ(c.edges, EdgeChoice::kSubgraphs);
+  ASSERT_EQ(c.criteria.size(), 3U);
+  ASSERT_EQ(c.subgraphs.size(), 4U);
+  const std::vector<std::string> names{"A", "B", "C", "D"};
+  const std::vector<std::string> labels{"J1", "J2", "J3", "J3"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(c.subgraphs[i].name, names[i]);
+    EXPECT_EQ(c.subgraphs[i].labels, (std::vector<std::string>{labels[i]}));
+    EXPECT_EQ(c.subgraphs[i].rule, EdgeRule::kChain);
+    EXPECT_EQ(c.subgraphs[i].trims.size(), i < 3 ? 12U : 8U);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(c.criteria[i].label, labels[i]);
+    EXPECT_TRUE(c.criteria[i].weights.empty());
+  }
+  EXPECT_EQ(c.subgraphs[3].trims[2], TrimId{3});
 }
 
 TEST(AutomatonConfiguration, OptionalKeysHaveTheirDefaults) {
@@ -140,6 +151,135 @@ TEST(AutomatonConfiguration, RefusesTrimsOutsideTheLimitsTwiceOrWithoutStandstil
             "FILE:10: trims[2] = (a map), allowed trims that differ from each other");
   EXPECT_EQ(message("speed_mps: 0, steering_rad: 0", "speed_mps: 0.4, steering_rad: 0"),
             "FILE:8: trims = (a list), allowed at least one trim of speed 0");
+}
+
+TEST(AutomatonConfiguration, ReadsWeightedSums) {
+  std::string text = kGood;
+  text.replace(text.find("[J2]"), 4,
+               "[J2, {name: half, weights: {J1: 0.5, J2: 0.25}, normalised: true}, {name: "
+               "much, weights: {comfort: 2}}]");
+  const AutomatonConfiguration c = read(text);
+  ASSERT_EQ(c.criteria.size(), 3U);
+  EXPECT_EQ(c.criteria[1].label, "half");
+  ASSERT_EQ(c.criteria[1].weights.size(), 2U);
+  EXPECT_EQ(c.criteria[1].weights[0].criterion, "J1");
+  EXPECT_EQ(c.criteria[1].weights[0].weight, 0.5);
+  EXPECT_EQ(c.criteria[1].weights[1].weight, 0.25);
+  EXPECT_TRUE(c.criteria[1].normalised);
+  EXPECT_FALSE(c.criteria[2].normalised);
+}
+
+TEST(AutomatonConfiguration, RefusesBadWeightedSums) {
+  const auto refusal = [](const std::string& sum) {
+    return message("[J2]", "[J2, " + sum + "]").substr(0, 90);
+  };
+  EXPECT_EQ(refusal("{name: J1, weights: {J1: 1}}"),
+            std::string("FILE:12: criteria[2].name = J1, allowed a name of its own: neither empty, "
+                        "nor 'trim', nor a criterion's")
+                .substr(0, 90));
+  EXPECT_EQ(refusal("{name: x, weights: {J1: -1}}"),
+            "FILE:12: criteria[2].weights.J1 = -1, allowed a number >= 0");
+  EXPECT_EQ(refusal("{name: x, weights: {J1: 0}}"),
+            "FILE:12: criteria[2].weights = (a map), allowed at least one weight > 0");
+  EXPECT_EQ(refusal("{name: x, weights: {J7: 1}}").substr(0, 54),
+            "FILE:12: criteria[2].weights.J7 = 1, unknown key, allo");
+  EXPECT_EQ(refusal("{name: x, weights: {J1: 1}, normalised: true}"),
+            "FILE:12: criteria[2].normalised = true, allowed false with a single criterion");
+}
+
+TEST(AutomatonConfiguration, ReadsAllThatASubgraphCanSay) {
+  std::string text = kGood;
+  text.replace(text.find("[J2]"), 4, "[J2, J3]");
+  text.replace(text.find("  - {speed_mps: 0.8, steering_rad: 0}"), 37,
+               "  - {speed_mps: 0.8, steering_rad: 0}\n  - {speed_mps: 0.4, steering_rad: 0.1}");
+  text += R"(  - name: all of it
+    labels: [J3, J2]
+    trims: [1, 3, 2]
+    rule: reachable
+    max_speed_mps: 0.9
+    off: [{from: 2, to: 3}, {from: 3, to: 2, label: J3}]
+    edges: [{from: 1, to: 2, labels: [J2]}]
+edges: all
+horizon_steps: 4
+)";
+  const AutomatonConfiguration c = read(text);
+  EXPECT_EQ(c.edges, EdgeChoice::kAll);
+  EXPECT_EQ(c.horizon_steps, 4U);
+  ASSERT_EQ(c.subgraphs.size(), 2U);
+  const SubgraphSpec& s = c.subgraphs[1];
+  EXPECT_EQ(s, (SubgraphSpec{.name = "all of it",
+                             .labels = {"J3", "J2"},
+                             .trims = {{0}, {2}, {1}},
+                             .rule = EdgeRule::kReachable,
+                             .max_speed_mps = 0.9,
+                             .off = {{{{1}, {2}}, std::nullopt}, {{{2}, {1}}, "J3"}},
+                             .edges = {{{{0}, {1}}, {"J2"}}}}));
+  // Printed, it reads back.
+  std::string again = text.substr(0, text.find("subgraphs:")) + "subgraphs:\n";
+  for (const SubgraphSpec& one : c.subgraphs) again += "  - " + to_yaml(one) + "\n";
+  EXPECT_EQ(read(again).subgraphs, c.subgraphs);
+}
+
+TEST(AutomatonConfiguration, RefusesTrimsThatDoNotHangTogetherOrCannotStopWithinTheHorizon) {
+  const std::string off = "trims: all, off: [{from: 1, to: 2}]}";
+  EXPECT_EQ(message("trims: all}", off),
+            "FILE:14: subgraphs[1].trims = all, allowed trims that hang together: no edges lead "
+            "from trim 1 to trim 2");
+  EXPECT_EQ(message("trims: all}", "trims: all, off: [{from: 2, to: 1}]}"),
+            "FILE:14: subgraphs[1].trims = all, allowed trims that reach a trim of speed 0 within "
+            "the horizon of 8 steps; trim 2 never reaches it");
+  // Ten trims of rising speed, each within one step of its neighbours alone.
+  std::string text = kGood;
+  text.replace(text.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 1");
+  text.replace(text.find("  - {speed_mps: 0.8, steering_rad: 0}\n"), 38, [] {
+    std::string trims;
+    for (int i = 1; i <= 9; ++i) {
+      trims += "  - {speed_mps: " + std::to_string(0.2 * i) + ", steering_rad: 0}\n";
+    }
+    return trims;
+  }());
+  text.replace(text.find("trims: all}"), 11, "trims: all, rule: reachable}");
+  try {
+    (void)read(text);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "FILE:22: subgraphs[1].trims = all, allowed trims that reach a trim of speed 0 "
+                 "within the horizon of 8 steps; trim 10 needs 9 steps");
+  }
+  text += "horizon_steps: 9\n";
+  EXPECT_NO_THROW((void)read(text));
+}
+
+TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
+  const auto refusal = [](const std::string& more) {
+    return message("trims: all}", "trims: all, " + more + "}");
+  };
+  EXPECT_EQ(refusal("labels: [J2]"),
+            "FILE:14: subgraphs[1].label = J2, allowed either `label` or `labels`");
+  EXPECT_EQ(refusal("rule: ring"), "FILE:14: subgraphs[1].rule = ring, allowed chain, reachable");
+  EXPECT_EQ(refusal("max_speed_mps: -1"),
+            "FILE:14: subgraphs[1].max_speed_mps = -1, allowed a number >= 0");
+  EXPECT_EQ(refusal("off: [{from: 1, to: 3}]"),
+            "FILE:14: subgraphs[1].off[1].to = 3, allowed a whole number >= 1 and <= 2");
+  EXPECT_EQ(refusal("off: [{from: 1, to: 1}]"),
+            "FILE:14: subgraphs[1].off[1].to = 1, allowed an edge other than standing, which must "
+            "be possible");
+  EXPECT_EQ(refusal("off: [{from: 1, to: 2, label: J1}]"),
+            "FILE:14: subgraphs[1].off[1].label = J1, allowed J2");
+  EXPECT_EQ(refusal("edges: [{from: 2, to: 2, labels: [J2]}]"),
+            "FILE:14: subgraphs[1].edges[1].to = 2, allowed a trim that the rule connects with "
+            "`from`");
+  EXPECT_EQ(refusal("edges: [{from: 1, to: 2, labels: []}]"),
+            "FILE:14: subgraphs[1].edges[1].labels = (a list), allowed at least one label");
+}
+
+TEST(AutomatonConfiguration, ARunNeedsTheLabelsOfItsSubgraphAlone) {
+  const auto c = read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+  const AutomatonConfiguration needed = needed_by(c.subgraphs[3], c);
+  ASSERT_EQ(needed.criteria.size(), 1U);
+  EXPECT_EQ(needed.criteria[0].label, "J3");
+  EXPECT_EQ(needed.subgraphs, (std::vector<SubgraphSpec>{c.subgraphs[3]}));
 }
 
 TEST(AutomatonConfiguration, RefusesUnknownCriteriaAndBadSubgraphs) {

@@ -65,20 +65,31 @@ struct Searcher {
 
 struct OptimalityCase {
   const char* name;
-  double surge_mps2;
+  std::vector<test::LabelledSurge> labels;
   std::vector<std::size_t> trims;  ///< from 1
   std::size_t horizon_steps;
   std::uint64_t problems;
 };
 
+/// All labels on.
+Subgraph make_subgraph(const OptimalityCase& param) {
+  SubgraphSpec spec{.name = param.name, .labels = {}, .trims = {}};
+  for (const test::LabelledSurge& label : param.labels) spec.labels.push_back(label.label);
+  for (const std::size_t number : param.trims) spec.trims.push_back({number - 1});
+  return {test::make_test_automaton(test::paper_trims(), param.labels), std::move(spec)};
+}
+
 std::ostream& operator<<(std::ostream& out, const OptimalityCase& c) { return out << c.name; }
+
+const test::LabelledSurge kSlow{"slow", 0.0};
+const test::LabelledSurge kFast{"fast", 8.0};
+const std::vector<std::size_t> kAllTrims{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
 
 class BestFirstSearchOptimality : public testing::TestWithParam<OptimalityCase> {};
 
 TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
   const OptimalityCase& param = GetParam();
-  Searcher searcher(
-      test::make_test_subgraph(test::make_test_automaton(param.surge_mps2), param.trims));
+  Searcher searcher(make_subgraph(param));
   std::uint64_t infeasible = 0;
   std::uint64_t obstructed = 0;
   const std::uint64_t problems = test::num_seeds(param.problems);
@@ -111,13 +122,73 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
 
 INSTANTIATE_TEST_SUITE_P(
     RandomProblems, BestFirstSearchOptimality,
-    testing::Values(
-        OptimalityCase{"TwelveTrims4", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 4, 300},
-        OptimalityCase{"TwelveTrims5", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 100},
-        OptimalityCase{"TwelveTrims6", 0.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 6, 20},
-        OptimalityCase{"FastManeuvers5", 8.0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5, 100},
-        OptimalityCase{"FewTrims8", 0.0, {1, 4, 7, 10}, 8, 30}),
+    testing::Values(OptimalityCase{"TwelveTrims4", {kSlow}, kAllTrims, 4, 300},
+                    OptimalityCase{"TwelveTrims5", {kSlow}, kAllTrims, 5, 100},
+                    OptimalityCase{"TwelveTrims6", {kSlow}, kAllTrims, 6, 20},
+                    OptimalityCase{"FastManeuvers5", {kFast}, kAllTrims, 5, 100},
+                    OptimalityCase{"FewTrims8", {kSlow}, {1, 4, 7, 10}, 8, 30},
+                    OptimalityCase{"TwoLabels4", {kSlow, kFast}, kAllTrims, 4, 60},
+                    OptimalityCase{"TwoLabelsOfFewTrims6", {kFast, kSlow}, {1, 4, 7, 10}, 6, 40}),
     [](const auto& instance) { return instance.param.name; });
+
+// Both maneuvers between two trims are used: with one of the labels alone the cost is higher.
+TEST(BestFirstSearch, OfTwoLabelsTheBetterIsTakenInEachStep) {
+  OptimalityCase both{"Both", {kSlow, kFast}, kAllTrims, 6, 0};
+  Searcher searcher(make_subgraph(both));
+  SubgraphSpec one = searcher.subgraph.spec();
+  one.labels = {"slow"};
+  Searcher slow(Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));
+  one.labels = {"fast"};
+  Searcher fast(Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));
+  std::size_t better = 0;
+  const std::uint64_t problems = test::num_seeds(40);
+  for (std::uint64_t seed = 0; seed < problems; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = test::random_free_problem(searcher.subgraph, 6, random);
+    const SearchResult result = searcher.search(problem);
+    ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+    const double alone = std::min(slow.search(problem).cost, fast.search(problem).cost);
+    ASSERT_LE(result.cost, alone + 1e-9);
+    better += result.cost < alone - 1e-6 ? 1U : 0U;
+  }
+  EXPECT_GE(better, problems / 10);
+}
+
+// From a trim that is off, plans leave along its exit edges: the same as trying every path.
+TEST(BestFirstSearch, FromATrimThatIsOffItAgreesWithTryingEveryPath) {
+  const auto automaton = test::make_test_automaton(test::paper_trims(), {kSlow, kFast});
+  SubgraphSpec spec{.name = "D", .labels = {"slow"}, .trims = {}};
+  for (const std::size_t number : {1U, 2U, 4U, 6U, 8U, 10U, 12U})
+    spec.trims.push_back({number - 1});
+  Searcher searcher(Subgraph(automaton, spec));
+  std::size_t feasible = 0;
+  for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    HorizonProblem problem = test::random_problem(searcher.subgraph, 5, random);
+    problem.start_trim = {std::vector<std::size_t>{2, 4, 6, 8, 10}.at(seed % 5)};
+    ASSERT_FALSE(searcher.subgraph.is_on(problem.start_trim));
+    const auto truth = test::exhaustive_search(searcher.subgraph, problem);
+    const SearchResult result = searcher.search(problem);
+    ASSERT_EQ(result.status == SearchStatus::kOptimal, truth.feasible);
+    if (!truth.feasible) continue;
+    ++feasible;
+    ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+    ASSERT_NEAR(result.cost, truth.cost, 1e-9);
+  }
+  EXPECT_GE(feasible, 20U);
+}
+
+TEST(BestFirstSearch, FromATrimWithoutAWayOutThereIsNoPath) {
+  const auto automaton = test::make_test_automaton(test::paper_trims(), {kSlow});
+  SubgraphSpec spec{.name = "stand", .labels = {"slow"}, .trims = {{0}}};
+  for (std::size_t to = 0; to < 12; ++to) {
+    if (to != 6) spec.off.push_back({{{6}, {to}}, std::nullopt});
+  }
+  Searcher searcher(Subgraph(automaton, spec));
+  EXPECT_EQ(searcher.search(straight_problem(8)).status, SearchStatus::kInfeasible);
+}
 
 TEST(BestFirstSearch, TwoSearchesOfOneProblemAgreeInEverything) {
   Searcher first(test::make_test_subgraph());

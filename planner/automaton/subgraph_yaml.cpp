@@ -1,0 +1,227 @@
+#include "planner/automaton/subgraph_yaml.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "planner/automaton/number_text.hpp"
+
+namespace hlc {
+namespace {
+
+template <class T>
+bool holds(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+TrimId as_trim(std::size_t number) { return TrimId{number - 1}; }
+
+Allowed trim_numbers(const SubgraphContext& context) {
+  return between(1.0, static_cast<double>(context.trims.size()));
+}
+
+std::vector<TrimId> read_trims(const YamlNode& entry, const SubgraphContext& context) {
+  std::vector<TrimId> result;
+  if (entry.is_value("trims")) {
+    (void)entry.required<std::string>("trims", one_of({"all"}));
+    for (std::size_t i = 0; i < context.trims.size(); ++i) result.push_back(TrimId{i});
+    return result;
+  }
+  for (const YamlNode& one : entry.list("trims")) {
+    const TrimId trim = as_trim(one.as<std::size_t>(trim_numbers(context)));
+    if (holds(result, trim)) one.fail("each trim once");
+    result.push_back(trim);
+  }
+  if (std::none_of(result.begin(), result.end(),
+                   [&](TrimId id) { return context.trims[id.index].is_equilibrium(); })) {
+    entry.fail("trims", "a list that holds a trim of speed 0");
+  }
+  return result;
+}
+
+std::vector<std::string> read_label_list(const YamlNode& entry, const SubgraphContext& context) {
+  std::vector<std::string> labels;
+  for (const YamlNode& one : entry.list("labels")) {
+    labels.push_back(one.as<std::string>(one_of(context.labels)));
+    if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("each label once");
+  }
+  if (labels.empty()) entry.fail("labels", "at least one label");
+  return labels;
+}
+
+std::vector<std::string> read_labels(const YamlNode& entry, const SubgraphContext& context) {
+  if (!entry.has("labels")) {
+    return {entry.required<std::string>("label", one_of(context.labels))};
+  }
+  if (entry.has("label")) entry.fail("label", "either `label` or `labels`");
+  return read_label_list(entry, context);
+}
+
+TrimPair read_pair(const YamlNode& entry, const SubgraphContext& context) {
+  const auto from = entry.required<std::size_t>("from", trim_numbers(context));
+  const auto to = entry.required<std::size_t>("to", trim_numbers(context));
+  return {as_trim(from), as_trim(to)};
+}
+
+void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+  for (const YamlNode& one : entry.optional_list("off")) {
+    EdgesOff off{read_pair(one, context), std::nullopt};
+    if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
+    one.check_no_unknown_keys();
+    if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
+      one.fail("to", "an edge other than standing, which must be possible");
+    }
+    if (holds(spec.off, off)) one.fail("each edge once");
+    spec.off.push_back(std::move(off));
+  }
+}
+
+/// The pairs that the rule gives among the declared trims.
+std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& context) {
+  return rule_edges(spec.rule, context.trims, spec.trims, context.limits, context.step_s);
+}
+
+void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+  const std::vector<TrimPair> pairs = pairs_of(spec, context);
+  for (const YamlNode& one : entry.optional_list("edges")) {
+    const TrimPair pair = read_pair(one, context);
+    if (pair.from == pair.to || !holds(pairs, pair)) {
+      one.fail("to", "a trim that the rule connects with `from`");
+    }
+    if (std::any_of(spec.edges.begin(), spec.edges.end(),
+                    [&](const EdgeLabels& other) { return other.edge == pair; })) {
+      one.fail("each edge once");
+    }
+    spec.edges.push_back({pair, read_label_list(one, context)});
+    one.check_no_unknown_keys();
+  }
+}
+
+/// Fewest steps from `start` to every trim, along the pairs or against them.
+std::vector<std::size_t> steps_from(const std::vector<TrimId>& starts,
+                                    const std::vector<TrimPair>& pairs, bool against,
+                                    std::size_t num_trims) {
+  std::vector<std::size_t> steps(num_trims, Subgraph::kNever);
+  for (const TrimId start : starts) steps[start.index] = 0;
+  for (bool is_shorter = true; is_shorter;) {
+    is_shorter = false;
+    for (const TrimPair& pair : pairs) {
+      const TrimId near = against ? pair.to : pair.from;
+      const TrimId far = against ? pair.from : pair.to;
+      if (steps[near.index] == Subgraph::kNever) continue;
+      if (steps[near.index] + 1 >= steps[far.index]) continue;
+      steps[far.index] = steps[near.index] + 1;
+      is_shorter = true;
+    }
+  }
+  return steps;
+}
+
+void check_connected(const YamlNode& entry, const SubgraphContext& context,
+                     const SubgraphSpec& spec) {
+  const auto is_too_fast = [&](TrimId trim) {
+    return spec.max_speed_mps && context.trims[trim.index].speed_mps > *spec.max_speed_mps;
+  };
+  std::vector<TrimPair> pairs = pairs_of(spec, context);
+  std::erase_if(pairs, [&](const TrimPair& pair) {
+    return is_too_fast(pair.from) || is_too_fast(pair.to) || labels_of(spec, pair).empty();
+  });
+  std::vector<TrimId> standing;
+  for (const TrimId trim : spec.trims) {
+    if (context.trims[trim.index].is_equilibrium()) standing.push_back(trim);
+  }
+  const auto from_start = steps_from({standing.front()}, pairs, false, context.trims.size());
+  const auto to_stand = steps_from(standing, pairs, true, context.trims.size());
+  for (const TrimId trim : spec.trims) {
+    if (is_too_fast(trim)) continue;
+    const std::string number = std::to_string(trim.index + 1);
+    if (from_start[trim.index] == Subgraph::kNever) {
+      entry.fail("trims", "trims that hang together: no edges lead from trim " +
+                              std::to_string(standing.front().index + 1) + " to trim " + number);
+    }
+    if (to_stand[trim.index] > context.horizon_steps) {
+      const std::string needed = to_stand[trim.index] == Subgraph::kNever
+                                     ? "never reaches it"
+                                     : "needs " + std::to_string(to_stand[trim.index]) + " steps";
+      entry.fail("trims", "trims that reach a trim of speed 0 within the horizon of " +
+                              std::to_string(context.horizon_steps) + " steps; trim " + number +
+                              " " + needed);
+    }
+  }
+}
+
+SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context) {
+  SubgraphSpec spec;
+  spec.name = entry.required<std::string>("name");
+  spec.labels = read_labels(entry, context);
+  spec.trims = read_trims(entry, context);
+  const auto rule = entry.optional<std::string>("rule", "chain", one_of({"chain", "reachable"}));
+  spec.rule = rule == "chain" ? EdgeRule::kChain : EdgeRule::kReachable;
+  if (entry.has("max_speed_mps")) {
+    spec.max_speed_mps = entry.required<double>("max_speed_mps", at_least(0.0));
+  }
+  read_off(entry, context, spec);
+  read_edge_labels(entry, context, spec);
+  entry.check_no_unknown_keys();
+  check_connected(entry, context, spec);
+  return spec;
+}
+
+/// Double-quoted, so that every text reads back.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+template <class T, class Print>
+std::string list_of(const std::vector<T>& values, Print print) {
+  std::string text;
+  for (const T& value : values) text += (text.empty() ? "" : ", ") + print(value);
+  return "[" + text + "]";
+}
+
+std::string number(TrimId trim) { return std::to_string(trim.index + 1); }
+
+std::string ends(const TrimPair& edge) {
+  return "from: " + number(edge.from) + ", to: " + number(edge.to);
+}
+
+}  // namespace
+
+std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const SubgraphContext& context) {
+  std::vector<SubgraphSpec> subgraphs;
+  for (const YamlNode& entry : file.list("subgraphs")) {
+    SubgraphSpec spec = read_subgraph(entry, context);
+    if (std::any_of(subgraphs.begin(), subgraphs.end(),
+                    [&spec](const SubgraphSpec& other) { return other.name == spec.name; })) {
+      entry.fail("name", "a name that no other subgraph has");
+    }
+    subgraphs.push_back(std::move(spec));
+  }
+  if (subgraphs.empty()) file.fail("subgraphs", "at least one subgraph");
+  return subgraphs;
+}
+
+std::string to_yaml(const SubgraphSpec& spec) {
+  std::string text = "{name: " + quoted(spec.name) + ", labels: " + list_of(spec.labels, quoted) +
+                     ", trims: " + list_of(spec.trims, number);
+  text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
+  if (spec.max_speed_mps) text += ", max_speed_mps: " + to_text(*spec.max_speed_mps);
+  if (!spec.off.empty()) {
+    text +=
+        ", off: " + list_of(spec.off, [](const EdgesOff& off) {
+          return "{" + ends(off.edge) + (off.label ? ", label: " + quoted(*off.label) : "") + "}";
+        });
+  }
+  if (!spec.edges.empty()) {
+    text += ", edges: " + list_of(spec.edges, [](const EdgeLabels& one) {
+              return "{" + ends(one.edge) + ", labels: " + list_of(one.labels, quoted) + "}";
+            });
+  }
+  return text + "}";
+}
+
+}  // namespace hlc

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+
+namespace hlc {
+
+/// What the subgraphs of a file belong to.
+struct SubgraphContext {
+  const std::vector<Trim>& trims;
+  const VehicleLimits& limits;
+  double step_s{};
+  std::size_t horizon_steps{};
+  const std::vector<std::string>& labels;  ///< that the automaton has
+};
+
+/// Reads the list `subgraphs` of a configuration or automaton file. Each entry:
+///
+///     name
+///     label: J2              one label for all edges, or
+///     labels: [J1, J2]       several: between two trims there is one edge for each
+///     trims: all, or a list of numbers from 1
+///     rule: chain (default) | reachable            (EdgeRule)
+///     max_speed_mps          speed limit along maneuvers, optional
+///     off: list of {from, to, label (default: every label)}
+///     edges: list of {from, to, labels: [...]}     labels of single edges, instead of the above
+///
+/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...": also if the
+/// trims do not hang together (each must be reached from the first trim of speed 0 and reach
+/// standstill within the horizon, over the edges that the rule gives and `off` leaves; what a speed
+/// limit takes away is known only once the maneuvers are, see Subgraph)
+[[nodiscard]] std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file,
+                                                       const SubgraphContext& context);
+
+/// The same entry as text, one line of YAML ("{name: B, ...}"): reads back to the same spec.
+[[nodiscard]] std::string to_yaml(const SubgraphSpec& spec);
+
+}  // namespace hlc
