@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "planner/automaton/number_text.hpp"
+#include "planner/automaton/yaml_text.hpp"
 
 namespace hlc {
 namespace {
@@ -166,16 +166,6 @@ SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context
   return spec;
 }
 
-/// Double-quoted, so that every text reads back.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + "\"";
-}
-
 template <class T, class Print>
 std::string list_of(const std::vector<T>& values, Print print) {
   std::string text;
@@ -206,19 +196,20 @@ std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const SubgraphCon
 }
 
 std::string to_yaml(const SubgraphSpec& spec) {
-  std::string text = "{name: " + quoted(spec.name) + ", labels: " + list_of(spec.labels, quoted) +
+  std::string text = "{name: " + quoted_yaml(spec.name) +
+                     ", labels: " + list_of(spec.labels, quoted_yaml) +
                      ", trims: " + list_of(spec.trims, number);
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + to_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {
-    text +=
-        ", off: " + list_of(spec.off, [](const EdgesOff& off) {
-          return "{" + ends(off.edge) + (off.label ? ", label: " + quoted(*off.label) : "") + "}";
-        });
+    text += ", off: " + list_of(spec.off, [](const EdgesOff& off) {
+              return "{" + ends(off.edge) +
+                     (off.label ? ", label: " + quoted_yaml(*off.label) : "") + "}";
+            });
   }
   if (!spec.edges.empty()) {
     text += ", edges: " + list_of(spec.edges, [](const EdgeLabels& one) {
-              return "{" + ends(one.edge) + ", labels: " + list_of(one.labels, quoted) + "}";
+              return "{" + ends(one.edge) + ", labels: " + list_of(one.labels, quoted_yaml) + "}";
             });
   }
   return text + "}";

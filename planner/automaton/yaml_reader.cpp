@@ -240,6 +240,12 @@ std::vector<YamlNode> YamlNode::entries() const {
   return result;
 }
 
+std::vector<std::string> YamlNode::keys() const {
+  std::vector<std::string> result;
+  for (const auto& entry : node_) result.push_back(printed(entry.first));
+  return result;
+}
+
 void YamlNode::check_no_unknown_keys() const {
   for (const auto& entry : node_) {
     const std::string key = printed(entry.first);

@@ -66,6 +66,9 @@ class YamlNode {
   /// The same; no entries if the key is absent.
   [[nodiscard]] std::vector<YamlNode> optional_list(const std::string& key) const;
 
+  /// The keys of this map, in their order in the file.
+  [[nodiscard]] std::vector<std::string> keys() const;
+
   /// True if this entry of a list is a map, a list.
   [[nodiscard]] bool is_map() const { return node_.IsMap(); }
   [[nodiscard]] bool is_list() const { return node_.IsSequence(); }

@@ -3,60 +3,17 @@
 #include <algorithm>
 
 #include "planner/automaton/subgraph_yaml.hpp"
+#include "planner/automaton/vehicle_yaml.hpp"
 #include "planner/automaton/yaml_reader.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 
 namespace hlc {
 namespace {
 
-IdentifiedVehicle read_identified(const YamlNode& node) {
-  IdentifiedVehicle v;
-  v.path_speed_gain = node.optional("path_speed_gain", v.path_speed_gain, above(0.0));
-  v.path_speed_steering =
-      node.optional("path_speed_steering", v.path_speed_steering, between(-1.0, 0.0));
-  v.slip_gain_rad = node.optional("slip_gain_rad", v.slip_gain_rad);
-  v.yaw_rate_gain_per_m = node.optional("yaw_rate_gain_per_m", v.yaw_rate_gain_per_m, above(0.0));
-  v.drag_per_s = node.optional("drag_per_s", v.drag_per_s);
-  v.thrust_offset_mps2 = node.optional("thrust_offset_mps2", v.thrust_offset_mps2);
-  v.thrust_per_volt = node.optional("thrust_per_volt", v.thrust_per_volt);
-  v.throttle_exponent = node.optional("throttle_exponent", v.throttle_exponent, above(0.0));
-  v.steering_offset = node.optional("steering_offset", v.steering_offset);
-  v.slip_offset_rad = node.optional("slip_offset_rad", v.slip_offset_rad);
-  node.check_no_unknown_keys();
-  return v;
-}
-
-VehicleParameters read_vehicle(const YamlNode& node) {
-  VehicleParameters v;
-  v.wheelbase_m = node.required<double>("wheelbase_m", above(0.0));
-  v.rear_axle_to_cg_m = node.required<double>("rear_axle_to_cg_m", between(0.0, v.wheelbase_m));
-  v.footprint.length_m = node.required<double>("length_m", above(0.0));
-  v.footprint.width_m = node.required<double>("width_m", above(0.0));
-  v.safety_margin_m = node.optional("safety_margin_m", v.safety_margin_m, at_least(0.0));
-  return v;
-}
-
-VehicleLimits read_limits(const YamlNode& node) {
-  VehicleLimits limits;
-  limits.acceleration_mps2 = node.required<double>("acceleration_mps2", above(0.0));
-  limits.steering_rate_radps = node.required<double>("steering_rate_radps", above(0.0));
-  limits.speed_min_mps = node.required<double>("speed_min_mps", at_least(0.0));
-  limits.speed_max_mps = node.required<double>("speed_max_mps", above(limits.speed_min_mps));
-  Allowed steering = above(0.0);
-  steering.max = 1.5;  // the model has no curvature at pi / 2
-  limits.steering_max_rad = node.required<double>("steering_max_rad", steering);
-  node.check_no_unknown_keys();
-  return limits;
-}
-
 std::vector<Trim> read_trims(const YamlNode& file, const VehicleLimits& limits) {
   std::vector<Trim> trims;
   for (const YamlNode& entry : file.list("trims")) {
-    Trim trim;
-    trim.speed_mps =
-        entry.required<double>("speed_mps", between(limits.speed_min_mps, limits.speed_max_mps));
-    trim.steering_rad = entry.required<double>(
-        "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
+    const Trim trim = read_trim(entry, limits);
     entry.check_no_unknown_keys();
     if (std::find(trims.begin(), trims.end(), trim) != trims.end()) {
       entry.fail("trims that differ from each other");

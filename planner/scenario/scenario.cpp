@@ -10,6 +10,7 @@
 #include "planner/geometry/footprint.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
 
@@ -191,8 +192,13 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
 
 Scenario read_scenario(const ScenarioChoices& choices) {
   const YamlNode node = YamlNode::read_file(choices.file);
-  const AutomatonConfiguration configuration =
-      read_automaton_configuration(beside(choices.file, node.required<std::string>("automaton")));
+  const std::filesystem::path path = beside(choices.file, node.required<std::string>("automaton"));
+  if (is_automaton_file(path)) {
+    const AutomatonFile file = read_current_automaton_file(path);
+    const SubgraphSpec& spec = chosen_subgraph(node, choices, file.subgraphs);
+    return read_with(node, choices, std::make_shared<Subgraph>(file.automaton, spec));
+  }
+  const AutomatonConfiguration configuration = read_automaton_configuration(path);
   const SubgraphSpec& spec = chosen_subgraph(node, choices, configuration.subgraphs);
   return read_with(
       node, choices,

@@ -49,8 +49,8 @@ struct ScenarioChoices {
   std::optional<std::size_t> cars;  ///< scenarios on a circle only
 };
 
-/// Reads the scenario, its map and its automaton's configuration, builds what the chosen subgraph
-/// needs of the automaton (maneuvers are solved) and checks that it can be driven: routes exist and
+/// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
+/// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved); and checks that it can be driven: routes exist and
 /// close, start poses do not overlap, standstill is within the horizon.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is
 /// allowed

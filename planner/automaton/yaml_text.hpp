@@ -8,4 +8,7 @@ namespace hlc {
 /// bits. @pre finite
 [[nodiscard]] std::string to_text(double value);
 
+/// The text in double quotes, so that any text without control characters reads back from YAML.
+[[nodiscard]] std::string quoted_yaml(const std::string& text);
+
 }  // namespace hlc

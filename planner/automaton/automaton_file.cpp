@@ -1,0 +1,291 @@
+#include "planner/automaton/automaton_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "planner/automaton/atomic_write.hpp"
+#include "planner/automaton/maneuver_check.hpp"
+#include "planner/automaton/sha256.hpp"
+#include "planner/automaton/subgraph_yaml.hpp"
+#include "planner/automaton/vehicle_yaml.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+#include "planner/automaton/yaml_text.hpp"
+
+namespace hlc {
+namespace {
+
+// --- writing ------------------------------------------------------------------------------------
+
+constexpr const char* kHashKey = "sha256: ";
+
+std::string row(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + to_text(value);
+  return text;
+}
+
+std::string row(const Input& u) { return row({u.acceleration_mps2, u.steering_rate_radps}); }
+std::string row(const State& x) {
+  return row({x.pose.x_m, x.pose.y_m, x.pose.heading_rad, x.speed_mps, x.steering_rad});
+}
+std::string row(const Point& p) { return row({p.x(), p.y()}); }
+
+/// A literal block: one row per line.
+template <class T>
+void append_table(std::string& text, const char* key, const std::vector<T>& rows) {
+  text += "    ";
+  text += key;
+  text += ": |\n";
+  for (const T& one : rows) text += "      " + row(one) + "\n";
+}
+
+std::string map_of(const std::vector<CriterionValue>& values) {
+  std::string text;
+  for (const CriterionValue& value : values) {
+    text += (text.empty() ? "" : ", ") + value.name + ": " + to_text(value.value);
+  }
+  return "{" + text + "}";
+}
+
+void append_maneuver(std::string& text, const Maneuver& m) {
+  text += "  - from: " + std::to_string(m.from.index + 1) + "\n";
+  text += "    to: " + std::to_string(m.to.index + 1) + "\n";
+  text += "    label: " + quoted_yaml(m.label) + "\n";
+  text += "    displacement: [" + to_text(m.displacement.x_m) + ", " + to_text(m.displacement.y_m) +
+          ", " + to_text(m.displacement.heading_rad) + "]\n";
+  text += "    criteria: " + map_of(m.criteria) + "\n";
+  append_table(text, "inputs", m.inputs);
+  append_table(text, "states", m.states);
+  append_table(text, "swept_area_m", m.swept_area_m.vertices_m);
+  append_table(text, "lane_area_m", m.lane_area_m.vertices_m);
+}
+
+/// Everything but the line with the hash, which comes second.
+std::string text_without_hash(const AutomatonFile& file) {
+  const UniversalAutomaton& automaton = *file.automaton;
+  std::string text = "automaton_schema: " + std::to_string(kAutomatonSchema) + "\n";
+  text +=
+      "# Built by build_automaton. Not to be edited: change the configuration and build again.\n";
+  text +=
+      "# Rows of inputs: u_v [m/s^2], u_delta [rad/s]; of states: x, y [m], psi [rad], v [m/s],\n";
+  text += "# delta [rad]; of areas: x, y [m]. In the frame of the start pose.\n";
+  text += "configuration: {file: " + quoted_yaml(file.configuration_file) +
+          ", sha256: " + file.configuration_sha256 +
+          ", intervals: " + std::to_string(file.intervals) +
+          ", horizon_steps: " + std::to_string(file.horizon_steps) + "}\n";
+  text += "vehicle: " + to_yaml(automaton.vehicle, automaton.identified) + "\n";
+  text += "limits: " + to_yaml(automaton.limits) + "\n";
+  text += "step_s: " + to_text(automaton.step_s) + "\n";
+  text += "labels:";
+  for (const std::string& label : file.labels) text += "\n  - " + quoted_yaml(label);
+  text += "\ntrims:\n";
+  for (std::size_t i = 0; i < automaton.trims.size(); ++i) {
+    const Trim& trim = automaton.trims[i];
+    text += "  - {speed_mps: " + to_text(trim.speed_mps) +
+            ", steering_rad: " + to_text(trim.steering_rad) +
+            ", unit_costs: " + map_of(automaton.unit_costs[i]) + "}\n";
+  }
+  text += "subgraphs:\n";
+  for (const SubgraphSpec& subgraph : file.subgraphs) text += "  - " + to_yaml(subgraph) + "\n";
+  text += "maneuvers:\n";
+  for (const Maneuver& maneuver : automaton.maneuvers) append_maneuver(text, maneuver);
+  return text;
+}
+
+// --- reading ------------------------------------------------------------------------------------
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::stringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    throw std::invalid_argument(path.string() + ": cannot be read, allowed an automaton file");
+  }
+  return text.str();
+}
+
+/// The hash of the text without its second line.
+std::string hash_of_rest(const std::string& text) {
+  const std::size_t first = std::min(text.find('\n'), text.size() - 1) + 1;
+  const std::size_t second = std::min(text.find('\n', first), text.size() - 1) + 1;
+  Sha256 hash;
+  hash.add(std::string_view(text).substr(0, first));
+  hash.add(std::string_view(text).substr(second));
+  return hash.hex();
+}
+
+/// Rows of `columns` finite numbers.
+std::vector<std::vector<double>> read_table(const YamlNode& entry, const std::string& key,
+                                            std::size_t columns) {
+  const auto text = entry.required<std::string>(key);
+  std::vector<std::vector<double>> rows;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end) {
+    std::vector<double> numbers;
+    while (at != end && *at != '\n') {
+      if (*at == ' ') {
+        ++at;
+        continue;
+      }
+      double number = 0.0;
+      const auto [next, error] = std::from_chars(at, end, number);
+      if (error != std::errc{} || !std::isfinite(number)) entry.fail(key, "a table of numbers");
+      numbers.push_back(number);
+      at = next;
+    }
+    if (at != end) ++at;
+    if (numbers.size() != columns) {
+      entry.fail(key, "a table of " + std::to_string(columns) + " columns");
+    }
+    rows.push_back(std::move(numbers));
+  }
+  return rows;
+}
+
+ConvexPolygon read_area(const YamlNode& entry, const std::string& key) {
+  ConvexPolygon area;
+  for (const auto& r : read_table(entry, key, 2)) area.vertices_m.emplace_back(r[0], r[1]);
+  return area;
+}
+
+std::vector<CriterionValue> read_values(const YamlNode& entry, const std::string& key) {
+  const YamlNode map = entry.map(key);
+  std::vector<CriterionValue> values;
+  for (const std::string& name : map.keys()) values.push_back({name, map.required<double>(name)});
+  return values;
+}
+
+Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automaton,
+                       const std::vector<std::string>& labels) {
+  const Allowed trims = between(1.0, static_cast<double>(automaton.trims.size()));
+  Maneuver m;
+  m.from = {entry.required<std::size_t>("from", trims) - 1};
+  m.to = {entry.required<std::size_t>("to", trims) - 1};
+  m.label = entry.required<std::string>("label",
+                                        m.from == m.to ? one_of({kOwnStepLabel}) : one_of(labels));
+  m.duration_s = automaton.step_s;
+  std::vector<double> end;
+  for (const YamlNode& number : entry.list("displacement")) end.push_back(number.as<double>());
+  if (end.size() != 3) entry.fail("displacement", "x, y and heading");
+  m.displacement = {end[0], end[1], end[2]};
+  m.criteria = read_values(entry, "criteria");
+  for (const auto& r : read_table(entry, "inputs", 2)) m.inputs.push_back({r[0], r[1]});
+  for (const auto& r : read_table(entry, "states", 5)) {
+    m.states.push_back({{r[0], r[1], r[2]}, r[3], r[4]});
+  }
+  m.swept_area_m = read_area(entry, "swept_area_m");
+  m.lane_area_m = read_area(entry, "lane_area_m");
+  entry.check_no_unknown_keys();
+  const std::string fault = fault_of(m, automaton);
+  if (!fault.empty()) {
+    entry.fail("label",
+               "a maneuver that its vehicle can drive: " + std::to_string(m.from.index + 1) +
+                   " -> " + std::to_string(m.to.index + 1) + ": " + fault);
+  }
+  return m;
+}
+
+void read_trims(const YamlNode& node, UniversalAutomaton& automaton) {
+  for (const YamlNode& entry : node.list("trims")) {
+    automaton.trims.push_back(read_trim(entry, automaton.limits));
+    automaton.unit_costs.push_back(read_values(entry, "unit_costs"));
+    entry.check_no_unknown_keys();
+  }
+}
+
+void check_subgraphs(const YamlNode& node, const AutomatonFile& file) {
+  for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
+    if (file.automaton->find({i}, {i}, kOwnStepLabel) == nullptr) {
+      node.fail("maneuvers", "the own step of every trim; that of trim " + std::to_string(i + 1) +
+                                 " is missing");
+    }
+  }
+  for (const SubgraphSpec& spec : file.subgraphs) {
+    try {
+      const Subgraph subgraph(file.automaton, spec);
+    } catch (const std::invalid_argument& error) {
+      node.fail("subgraphs", std::string("what the maneuvers allow: ") + error.what());
+    }
+  }
+}
+
+void check_version_and_hash(const YamlNode& node, const std::string& text,
+                            const std::string& command) {
+  const auto schema = node.required<std::size_t>("automaton_schema");
+  if (schema != kAutomatonSchema) {
+    node.fail("automaton_schema",
+              std::to_string(kAutomatonSchema) + "; build the file anew: " + command);
+  }
+  const auto hash = node.required<std::string>("sha256");
+  if (hash != hash_of_rest(text)) {
+    node.fail("sha256",
+              "the hash of the file's other lines: it was edited or damaged; build it "
+              "anew: " +
+                  command);
+  }
+}
+
+}  // namespace
+
+std::string to_text(const AutomatonFile& file) {
+  std::string text = text_without_hash(file);
+  const std::size_t second_line = text.find('\n') + 1;
+  return text.insert(second_line, kHashKey + sha256_of(text) + "\n");
+}
+
+void write_automaton_file(const AutomatonFile& file, const std::filesystem::path& path) {
+  write_atomically(to_text(file), path);
+}
+
+bool is_automaton_file(const std::filesystem::path& path) {
+  // The first line is enough: large files are read once.
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  return std::getline(stream, line) && line.starts_with("automaton_schema:");
+}
+
+AutomatonFile read_automaton_file(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  const YamlNode node = YamlNode::parse(text, path.string());
+  AutomatonFile file;
+  const YamlNode configuration = node.map("configuration");
+  file.configuration_file = configuration.required<std::string>("file");
+  file.configuration_sha256 = configuration.required<std::string>("sha256");
+  file.intervals = configuration.required<std::size_t>("intervals", at_least(1.0));
+  file.horizon_steps = configuration.required<std::size_t>("horizon_steps", at_least(1.0));
+  configuration.check_no_unknown_keys();
+  check_version_and_hash(node, text, rebuild_command(file, path));
+
+  auto automaton = std::make_shared<UniversalAutomaton>();
+  const YamlNode vehicle = node.map("vehicle");
+  automaton->vehicle = read_vehicle(vehicle);
+  automaton->identified = read_identified(vehicle.map("identified"));
+  vehicle.check_no_unknown_keys();
+  automaton->limits = read_limits(node.map("limits"));
+  automaton->step_s = node.required<double>("step_s", above(0.0));
+  for (const YamlNode& label : node.list("labels")) {
+    file.labels.push_back(label.as<std::string>());
+  }
+  read_trims(node, *automaton);
+  for (const YamlNode& entry : node.list("maneuvers")) {
+    automaton->maneuvers.push_back(read_maneuver(entry, *automaton, file.labels));
+  }
+  file.subgraphs = read_subgraphs(node, {automaton->trims, automaton->limits, automaton->step_s,
+                                         file.horizon_steps, file.labels});
+  node.check_no_unknown_keys();
+  file.automaton = std::move(automaton);
+  check_subgraphs(node, file);
+  return file;
+}
+
+std::string rebuild_command(const AutomatonFile& file, const std::filesystem::path& path) {
+  return "build_automaton " + (path.parent_path() / file.configuration_file).string() + " --out " +
+         path.string() + " --intervals " + std::to_string(file.intervals);
+}
+
+}  // namespace hlc

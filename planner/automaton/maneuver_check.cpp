@@ -1,0 +1,137 @@
+#include "planner/automaton/maneuver_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/automaton/yaml_text.hpp"
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kSame = 1e-9;
+
+bool is_bounded(double value, double min, double max) {
+  const double slack = kSame * std::max({1.0, std::abs(min), std::abs(max)});
+  return value >= min - slack && value <= max + slack;
+}
+
+bool is_trim(const State& state, const Trim& trim) {
+  return std::abs(state.speed_mps - trim.speed_mps) <= kSame &&
+         std::abs(state.steering_rad - trim.steering_rad) <= kSame;
+}
+
+double distance(const Pose& a, const Pose& b) {
+  return std::max((a.position_m() - b.position_m()).norm(),
+                  std::abs(a.heading_rad - b.heading_rad));
+}
+
+std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton) {
+  if (m.duration_s != automaton.step_s) return "its duration is not the step";
+  if (m.inputs.empty() || m.states.size() != m.inputs.size() + 1) {
+    return "it has " + std::to_string(m.inputs.size()) + " inputs and " +
+           std::to_string(m.states.size()) + " states, not one state more than inputs";
+  }
+  if (m.states.front().pose != Pose{}) return "it does not begin at the origin";
+  if (!is_trim(m.states.front(), automaton.trims[m.from.index])) {
+    return "it does not begin in its trim";
+  }
+  if (!is_trim(m.states.back(), automaton.trims[m.to.index])) return "it does not end in its trim";
+  if (m.displacement != m.states.back().pose) return "its displacement is not its last pose";
+  return "";
+}
+
+std::string fault_of_bounds(const Maneuver& m, const VehicleLimits& limits) {
+  for (const Input& u : m.inputs) {
+    if (!is_bounded(u.acceleration_mps2, -limits.acceleration_mps2, limits.acceleration_mps2)) {
+      return "it accelerates by " + to_text(u.acceleration_mps2) + " m/s^2, more than the limit";
+    }
+    if (!is_bounded(u.steering_rate_radps, -limits.steering_rate_radps,
+                    limits.steering_rate_radps)) {
+      return "it steers by " + to_text(u.steering_rate_radps) + " rad/s, more than the limit";
+    }
+  }
+  for (const State& x : m.states) {
+    if (!is_bounded(x.speed_mps, limits.speed_min_mps, limits.speed_max_mps)) {
+      return "its speed is " + to_text(x.speed_mps) + " m/s, outside the limits";
+    }
+    if (!is_bounded(x.steering_rad, -limits.steering_max_rad, limits.steering_max_rad)) {
+      return "its steering angle is " + to_text(x.steering_rad) + " rad, outside the limits";
+    }
+  }
+  return "";
+}
+
+/// Where the model leads from state k in one interval.
+State integrated_again(const Maneuver& m, std::size_t k, const VehicleParameters& vehicle) {
+  constexpr int kFiner = 10;
+  const double interval_s = m.duration_s / static_cast<double>(m.inputs.size());
+  if (m.from == m.to) {
+    State state = m.states[k];
+    state.pose = trim_motion(state.pose, state.speed_mps, state.steering_rad, interval_s, vehicle);
+    return state;
+  }
+  State state = m.states[k];
+  for (int i = 0; i < kFiner; ++i) {
+    state = integrated(state, m.inputs[k], interval_s / kFiner, vehicle);
+  }
+  return state;
+}
+
+std::string fault_of_motion(const Maneuver& m, const VehicleParameters& vehicle) {
+  const double tolerance =
+      (m.from == m.to ? kSame : 1e-6) *
+      std::max(1.0, top_speed_mps(m) * m.duration_s / static_cast<double>(m.inputs.size()));
+  for (std::size_t k = 0; k < m.inputs.size(); ++k) {
+    const State reached = integrated_again(m, k, vehicle);
+    const State& stored = m.states[k + 1];
+    const bool is_same = std::abs(reached.speed_mps - stored.speed_mps) <= tolerance &&
+                         std::abs(reached.steering_rad - stored.steering_rad) <= tolerance;
+    // Negated, so that a NaN is a fault.
+    if (!(is_same && distance(reached.pose, stored.pose) <= tolerance)) {
+      return "integrated again, it does not meet its state " + std::to_string(k + 2);
+    }
+  }
+  return "";
+}
+
+bool contains_footprint(const ConvexPolygon& area_m, const Pose& pose, double margin_m,
+                        const VehicleParameters& vehicle) {
+  const ConvexPolygon footprint = footprint_area(vehicle.footprint, pose, margin_m);
+  return !area_m.empty() &&
+         std::ranges::all_of(footprint.vertices_m, [&area_m](const Point& corner) {
+           return contains(area_m, corner, kSame);
+         });
+}
+
+std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automaton) {
+  const VehicleParameters& vehicle = automaton.vehicle;
+  const std::size_t halves = 2 * m.inputs.size();
+  for (std::size_t i = 0; i <= halves; ++i) {
+    const double time_s = m.duration_s * static_cast<double>(i) / static_cast<double>(halves);
+    const State state = state_at(m, time_s, vehicle);
+    Pose driven = state.pose;
+    driven.heading_rad += yaw_minus_heading_rad(state.steering_rad, vehicle, automaton.identified);
+    const double margin_m = vehicle.safety_margin_m;
+    if (!contains_footprint(m.swept_area_m, state.pose, margin_m, vehicle) ||
+        !contains_footprint(m.swept_area_m, driven, margin_m, vehicle)) {
+      return "its swept area does not contain the footprint at " + to_text(time_s) + " s";
+    }
+    if (!contains_footprint(m.lane_area_m, state.pose, 0.0, vehicle)) {
+      return "its lane area does not contain the footprint at " + to_text(time_s) + " s";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string fault_of(const Maneuver& maneuver, const UniversalAutomaton& automaton) {
+  std::string fault = fault_of_ends(maneuver, automaton);
+  if (fault.empty()) fault = fault_of_bounds(maneuver, automaton.limits);
+  if (fault.empty()) fault = fault_of_motion(maneuver, automaton.vehicle);
+  if (fault.empty()) fault = fault_of_areas(maneuver, automaton);
+  return fault;
+}
+
+}  // namespace hlc

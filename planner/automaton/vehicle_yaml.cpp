@@ -1,0 +1,105 @@
+#include "planner/automaton/vehicle_yaml.hpp"
+
+#include <initializer_list>
+#include <utility>
+
+#include "planner/automaton/yaml_text.hpp"
+
+namespace hlc {
+namespace {
+
+using Field = std::pair<const char*, double>;
+
+std::string fields(std::initializer_list<Field> list) {
+  std::string text;
+  for (const auto& [key, value] : list) {
+    text += (text.empty() ? "" : ", ") + std::string(key) + ": " + to_text(value);
+  }
+  return text;
+}
+
+}  // namespace
+
+VehicleParameters read_vehicle(const YamlNode& vehicle) {
+  VehicleParameters v;
+  v.wheelbase_m = vehicle.required<double>("wheelbase_m", above(0.0));
+  v.rear_axle_to_cg_m = vehicle.required<double>("rear_axle_to_cg_m", between(0.0, v.wheelbase_m));
+  v.footprint.length_m = vehicle.required<double>("length_m", above(0.0));
+  v.footprint.width_m = vehicle.required<double>("width_m", above(0.0));
+  v.safety_margin_m = vehicle.optional("safety_margin_m", v.safety_margin_m, at_least(0.0));
+  return v;
+}
+
+IdentifiedVehicle read_identified(const YamlNode& identified) {
+  IdentifiedVehicle v;
+  v.path_speed_gain = identified.optional("path_speed_gain", v.path_speed_gain, above(0.0));
+  v.path_speed_steering =
+      identified.optional("path_speed_steering", v.path_speed_steering, between(-1.0, 0.0));
+  v.slip_gain_rad = identified.optional("slip_gain_rad", v.slip_gain_rad);
+  v.yaw_rate_gain_per_m =
+      identified.optional("yaw_rate_gain_per_m", v.yaw_rate_gain_per_m, above(0.0));
+  v.drag_per_s = identified.optional("drag_per_s", v.drag_per_s);
+  v.thrust_offset_mps2 = identified.optional("thrust_offset_mps2", v.thrust_offset_mps2);
+  v.thrust_per_volt = identified.optional("thrust_per_volt", v.thrust_per_volt);
+  v.throttle_exponent = identified.optional("throttle_exponent", v.throttle_exponent, above(0.0));
+  v.steering_offset = identified.optional("steering_offset", v.steering_offset);
+  v.slip_offset_rad = identified.optional("slip_offset_rad", v.slip_offset_rad);
+  identified.check_no_unknown_keys();
+  return v;
+}
+
+VehicleLimits read_limits(const YamlNode& limits) {
+  VehicleLimits l;
+  l.acceleration_mps2 = limits.required<double>("acceleration_mps2", above(0.0));
+  l.steering_rate_radps = limits.required<double>("steering_rate_radps", above(0.0));
+  l.speed_min_mps = limits.required<double>("speed_min_mps", at_least(0.0));
+  l.speed_max_mps = limits.required<double>("speed_max_mps", above(l.speed_min_mps));
+  Allowed steering = above(0.0);
+  steering.max = 1.5;  // the model has no curvature at pi / 2
+  l.steering_max_rad = limits.required<double>("steering_max_rad", steering);
+  limits.check_no_unknown_keys();
+  return l;
+}
+
+Trim read_trim(const YamlNode& trim, const VehicleLimits& limits) {
+  Trim result;
+  result.speed_mps =
+      trim.required<double>("speed_mps", between(limits.speed_min_mps, limits.speed_max_mps));
+  result.steering_rad = trim.required<double>(
+      "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
+  return result;
+}
+
+std::string to_yaml(const VehicleParameters& vehicle, const IdentifiedVehicle& identified) {
+  const IdentifiedVehicle& i = identified;
+  return "{" +
+         fields({{"wheelbase_m", vehicle.wheelbase_m},
+                 {"rear_axle_to_cg_m", vehicle.rear_axle_to_cg_m},
+                 {"length_m", vehicle.footprint.length_m},
+                 {"width_m", vehicle.footprint.width_m},
+                 {"safety_margin_m", vehicle.safety_margin_m}}) +
+         ", identified: {" +
+         fields({{"path_speed_gain", i.path_speed_gain},
+                 {"path_speed_steering", i.path_speed_steering},
+                 {"slip_gain_rad", i.slip_gain_rad},
+                 {"yaw_rate_gain_per_m", i.yaw_rate_gain_per_m},
+                 {"drag_per_s", i.drag_per_s},
+                 {"thrust_offset_mps2", i.thrust_offset_mps2},
+                 {"thrust_per_volt", i.thrust_per_volt},
+                 {"throttle_exponent", i.throttle_exponent},
+                 {"steering_offset", i.steering_offset},
+                 {"slip_offset_rad", i.slip_offset_rad}}) +
+         "}}";
+}
+
+std::string to_yaml(const VehicleLimits& limits) {
+  return "{" +
+         fields({{"acceleration_mps2", limits.acceleration_mps2},
+                 {"steering_rate_radps", limits.steering_rate_radps},
+                 {"speed_min_mps", limits.speed_min_mps},
+                 {"speed_max_mps", limits.speed_max_mps},
+                 {"steering_max_rad", limits.steering_max_rad}}) +
+         "}";
+}
+
+}  // namespace hlc

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "planner/automaton/automaton.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+
+namespace hlc {
+
+/// Keys wheelbase_m, rear_axle_to_cg_m, length_m, width_m, safety_margin_m (default 0.010). Others
+/// are not checked.
+[[nodiscard]] VehicleParameters read_vehicle(const YamlNode& vehicle);
+
+/// Keys as the members of IdentifiedVehicle, all optional.
+[[nodiscard]] IdentifiedVehicle read_identified(const YamlNode& identified);
+
+/// Keys as the members of VehicleLimits, all required.
+[[nodiscard]] VehicleLimits read_limits(const YamlNode& limits);
+
+/// Keys speed_mps, steering_rad, within the limits. Others are not checked.
+[[nodiscard]] Trim read_trim(const YamlNode& trim, const VehicleLimits& limits);
+
+/// One line of YAML each, that reads back to the same bits; the first with `identified` inside.
+[[nodiscard]] std::string to_yaml(const VehicleParameters& vehicle,
+                                  const IdentifiedVehicle& identified);
+[[nodiscard]] std::string to_yaml(const VehicleLimits& limits);
+
+}  // namespace hlc

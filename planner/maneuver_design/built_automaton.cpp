@@ -1,0 +1,78 @@
+#include "planner/maneuver_design/built_automaton.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "planner/automaton/sha256.hpp"
+#include "planner/automaton/subgraph_yaml.hpp"
+#include "planner/automaton/vehicle_yaml.hpp"
+#include "planner/automaton/yaml_text.hpp"
+
+namespace hlc {
+namespace {
+
+std::string line_of(const LabelledCriterion& criterion) {
+  std::string text = "criterion " + quoted_yaml(criterion.label);
+  for (const CriterionWeight& one : criterion.weights) {
+    text += " " + one.criterion + " " + to_text(one.weight);
+  }
+  return text + (criterion.normalised ? " normalised\n" : "\n");
+}
+
+/// One line per value, in a fixed order.
+std::string canonical_text(const AutomatonConfiguration& c) {
+  std::string text = "schema " + std::to_string(kAutomatonSchema) + "\n";
+  text += "vehicle " + to_yaml(c.vehicle, c.identified) + "\n";
+  text += "limits " + to_yaml(c.limits) + "\n";
+  for (const Trim& trim : c.trims) {
+    text += "trim " + to_text(trim.speed_mps) + " " + to_text(trim.steering_rad) + "\n";
+  }
+  text += "step_s " + to_text(c.step_s) + "\n";
+  text += "horizon_steps " + std::to_string(c.horizon_steps) + "\n";
+  text += "intervals " + std::to_string(c.intervals) + "\n";
+  text += c.edges == EdgeChoice::kAll ? "edges all\n" : "edges subgraphs\n";
+  for (const LabelledCriterion& criterion : c.criteria) text += line_of(criterion);
+  for (const SubgraphSpec& subgraph : c.subgraphs) text += "subgraph " + to_yaml(subgraph) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string configuration_sha256(const AutomatonConfiguration& configuration) {
+  return sha256_of(canonical_text(configuration));
+}
+
+AutomatonFile file_of(const AutomatonConfiguration& configuration, UniversalAutomaton automaton) {
+  AutomatonFile file;
+  file.configuration_file = std::filesystem::path(configuration.source).filename().string();
+  file.configuration_sha256 = configuration_sha256(configuration);
+  file.intervals = configuration.intervals;
+  file.horizon_steps = configuration.horizon_steps;
+  for (const LabelledCriterion& criterion : configuration.criteria) {
+    file.labels.push_back(criterion.label);
+  }
+  file.subgraphs = configuration.subgraphs;
+  file.automaton = std::make_shared<const UniversalAutomaton>(std::move(automaton));
+  return file;
+}
+
+void check_is_current(const AutomatonFile& file, const std::filesystem::path& path,
+                      const std::filesystem::path& configuration_path) {
+  AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
+  configuration.intervals = file.intervals;
+  if (configuration_sha256(configuration) == file.configuration_sha256) return;
+  throw std::invalid_argument(path.string() + ": stale, built from another state of " +
+                              configuration_path.string() + ", allowed what it says now; build " +
+                              "it anew: build_automaton " + configuration_path.string() +
+                              " --out " + path.string() + " --intervals " +
+                              std::to_string(file.intervals));
+}
+
+AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {
+  AutomatonFile file = read_automaton_file(path);
+  const std::filesystem::path beside = path.parent_path() / file.configuration_file;
+  if (std::filesystem::exists(beside)) check_is_current(file, path, beside);
+  return file;
+}
+
+}  // namespace hlc

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "planner/automaton/automaton_file.hpp"
+#include "planner/maneuver_design/automaton_configuration.hpp"
+
+namespace hlc {
+
+/// SHA-256 over all that the configuration says, its defaults included: comments, spelling and the
+/// file's name make no difference, any value does.
+[[nodiscard]] std::string configuration_sha256(const AutomatonConfiguration& configuration);
+
+/// What is written to a file: the automaton and what it was built from.
+[[nodiscard]] AutomatonFile file_of(const AutomatonConfiguration& configuration,
+                                    UniversalAutomaton automaton);
+
+/// Compares a file with the configuration `configuration_path`, read again (with the number of
+/// intervals that the file was built with).
+/// @throws std::invalid_argument with one line that names both files and the command that builds
+/// the file anew, if the configuration says something else; or as read_automaton_configuration
+void check_is_current(const AutomatonFile& file, const std::filesystem::path& path,
+                      const std::filesystem::path& configuration_path);
+
+/// Reads an automaton file (read_automaton_file) and refuses it if it is stale: if the
+/// configuration that it was built from lies beside it, under its name, and says something else
+/// now. Without it, the file stands for itself.
+[[nodiscard]] AutomatonFile read_current_automaton_file(const std::filesystem::path& path);
+
+}  // namespace hlc
