@@ -24,6 +24,9 @@ class RunningCost {
   /// True if l depends on the pose, so that a shift of the pose changes J. Without it, l(x, 0) is
   /// constant along a trim: the trim's unit cost.
   [[nodiscard]] virtual bool depends_on_pose() const { return false; }
+  /// True if J usually has several local optima of different value: the solver then tries several
+  /// starts.
+  [[nodiscard]] virtual bool has_many_optima() const { return false; }
 };
 
 }  // namespace hlc

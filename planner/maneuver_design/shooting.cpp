@@ -6,8 +6,13 @@
 namespace hlc {
 namespace {
 
-/// Where the four stages of a Runge-Kutta step evaluate the model.
-using Stages = std::array<StateVector, 4>;
+/// Where a Runge-Kutta step evaluates model and cost, and what it finds there.
+struct Stage {
+  StateVector x;
+  StateVector derivative;
+  double running_cost{};
+};
+using Stages = std::array<Stage, 4>;
 
 constexpr std::array<double, 4> kWeights{1.0 / 6.0, 2.0 / 6.0, 2.0 / 6.0, 1.0 / 6.0};
 /// Stage i starts from x + kLead[i] h k_{i-1}.
@@ -18,13 +23,17 @@ struct Step {
   StateVector end;
 };
 
-Step stepped(const StateVector& x, const Input& u, double h, const VehicleParameters& vehicle) {
+Step stepped(const StateVector& x, const Input& u, double h, const RunningCost& cost,
+             const VehicleParameters& vehicle) {
   Step step;
   step.end = x;
   StateVector k = StateVector::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
-    step.stages[i] = x + kLead[i] * h * k;
-    k = derivative(step.stages[i], u, vehicle);
+    Stage& stage = step.stages[i];
+    stage.x = x + kLead[i] * h * k;
+    k = derivative(stage.x, u, vehicle);
+    stage.derivative = k;
+    stage.running_cost = cost.value(stage.x, u);
     step.end += kWeights[i] * h * k;
   }
   return step;
@@ -40,14 +49,15 @@ Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
   Eigen::Vector2d du = Eigen::Vector2d::Zero();
   StateVector dk = kWeights[3] * h * end;  // dJ/dk of the stage at hand
   for (std::size_t i = 4; i-- > 0;) {
-    const CostGradient l = cost.gradient(stages[i], u);
-    const StateVector dx = state_jacobian(stages[i], vehicle).transpose() * dk +
-                           kWeights[i] * h * l.state;  // dJ/d(stages[i])
+    const Stage& stage = stages[i];
+    const CostGradient l = cost.gradient(stage.x, u);
+    const StateVector dx = state_jacobian(stage.x, vehicle).transpose() * dk +
+                           kWeights[i] * h * l.state;  // dJ/d(stage.x)
     du += B.transpose() * dk + kWeights[i] * h * l.input;
     lambda += dx;
-    dh += kWeights[i] * (end.dot(derivative(stages[i], u, vehicle)) + cost.value(stages[i], u));
+    dh += kWeights[i] * (end.dot(stage.derivative) + stage.running_cost);
     if (i > 0) {
-      dh += kLead[i] * dx.dot(derivative(stages[i - 1], u, vehicle));
+      dh += kLead[i] * dx.dot(stages[i - 1].derivative);
       dk = kWeights[i - 1] * h * end + kLead[i] * h * dx;
     }
   }
@@ -64,14 +74,16 @@ Shot shoot(const State& start, const std::vector<Input>& inputs, double duration
   shot.states.reserve(inputs.size() + 1);
   shot.states.push_back(start);
   std::vector<Stages> stages;
-  stages.reserve(inputs.size());
+  stages.reserve(with_gradient == WithGradient::kYes ? inputs.size() : 0);
   StateVector x = to_vector(start);
   for (const Input& u : inputs) {
-    const Step step = stepped(x, u, h, vehicle);
+    const Step step = stepped(x, u, h, cost, vehicle);
     for (std::size_t i = 0; i < 4; ++i) {
-      shot.cost += kWeights[i] * h * cost.value(step.stages[i], u);
+      shot.cost += kWeights[i] * h * step.stages[i].running_cost;
     }
-    stages.push_back(step.stages);
+    if (with_gradient == WithGradient::kYes) {
+      stages.push_back(step.stages);
+    }
     x = step.end;
     shot.states.push_back(to_state(x));
   }

@@ -7,12 +7,14 @@ namespace hlc {
 /// l = s_x^2 + s_y^2 [m^2], with s measured from the maneuver's start: least for the motion that
 /// stays near its start. Meant for maneuvers into standstill: the emergency brake of a trim.
 ///
-/// It depends on the position as J1 does (see Distance).
+/// It depends on the position as J1 does (see Distance). Weaving shortens the way, to the left
+/// first or to the right first: there are several local optima.
 class StoppingDistance final : public RunningCost {
  public:
   [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
   [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
   [[nodiscard]] bool depends_on_pose() const override { return true; }
+  [[nodiscard]] bool has_many_optima() const override { return true; }
 };
 
 }  // namespace hlc

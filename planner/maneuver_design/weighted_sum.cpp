@@ -30,6 +30,12 @@ bool WeightedSum::depends_on_pose() const {
   });
 }
 
+bool WeightedSum::has_many_optima() const {
+  return std::any_of(terms_.begin(), terms_.end(), [](const WeightedCost& term) {
+    return term.weight != 0.0 && term.cost->has_many_optima();
+  });
+}
+
 WeightedSum normalised_sum(std::vector<WeightedCost> terms,
                            const std::vector<CriterionRange>& ranges) {
   if (terms.size() != ranges.size()) {

@@ -23,6 +23,7 @@ class WeightedSum final : public RunningCost {
   [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
   [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
   [[nodiscard]] bool depends_on_pose() const override;
+  [[nodiscard]] bool has_many_optima() const override;
 
  private:
   std::vector<WeightedCost> terms_;

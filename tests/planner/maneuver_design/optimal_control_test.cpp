@@ -147,9 +147,8 @@ TEST(OptimalControl, MirroredTrimsHaveMirroredManeuversForEveryCriterion) {
       problem.from.steering_rad *= -1.0;
       problem.to.steering_rad *= -1.0;
       const ManeuverSolution right = solved(problem, criterion);
-      EXPECT_NEAR(left.cost, right.cost, 1e-7 * std::abs(left.cost));
-      // J1 is flat in the steering (values repeat, poses do so less well).
-      const double tolerance = criterion == "J1" ? 1e-3 : 1e-6;
+      EXPECT_NEAR(left.cost, right.cost, 1e-12 * std::abs(left.cost));
+      constexpr double tolerance = 1e-9;
       for (std::size_t k = 0; k < left.states.size(); ++k) {
         const State& l = left.states[k];
         const State& r = right.states[k];

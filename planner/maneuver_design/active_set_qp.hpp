@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hlc {
+
+/// A small dense quadratic problem around a point that is feasible:
+///
+///     min over p of  g^T p + p^T H p / 2,   E p = 0,   C p <= room,   lower <= p <= upper
+///
+/// H may be indefinite (J1 is concave in the acceleration). p = 0 is feasible: room >= 0, lower <=
+/// 0 <= upper, all bounds finite.
+struct QuadraticProblem {
+  Eigen::MatrixXd hessian;     ///< H, n x n, symmetric
+  Eigen::VectorXd gradient;    ///< g, n
+  Eigen::MatrixXd equalities;  ///< E, (any) x n
+  Eigen::MatrixXd rows;        ///< C, (any) x n
+  Eigen::VectorXd room;
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+};
+
+/// A local minimum of the problem, by the primal active-set method (Nocedal and Wright, Numerical
+/// Optimization, 2006, Algorithm 16.3): within the constraints at hand it takes the Newton step in
+/// their null space, or, where the curvature there is negative, goes downhill until a constraint
+/// stops it; where it can go no further, it lets go of the constraint whose multiplier has the
+/// wrong sign most. Every step lowers the value, so the result is never worse than p = 0; after 20
+/// (n + rows) steps it ends where it is.
+[[nodiscard]] Eigen::VectorXd local_minimum(const QuadraticProblem& problem);
+
+}  // namespace hlc

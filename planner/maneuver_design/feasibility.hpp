@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/maneuver_design/maneuver_solver.hpp"
+
+namespace hlc {
+
+/// What the bounds on inputs and states say before anything is solved: each input must be able to
+/// make its change in the given time, and the trims must lie within the bounds.
+struct Feasibility {
+  std::string reason;            ///< names every bound that is in the way; empty if none is
+  double shortest_duration_s{};  ///< see ManeuverSolution
+};
+
+[[nodiscard]] Feasibility feasibility_of(const ManeuverProblem& problem);
+
+/// How far a motion violates the constraints of a problem.
+[[nodiscard]] ConstraintResiduals residuals_of(const ManeuverProblem& problem,
+                                               const std::vector<Input>& inputs,
+                                               const std::vector<State>& states, double duration_s);
+
+/// Tolerances: 1e-9 relative to each bound, 1e-8 for g, which has none.
+inline constexpr double kFeasibilityTolerance = 1e-9;
+inline constexpr double kPathTolerance = 1e-8;
+
+[[nodiscard]] bool within_tolerance(const ConstraintResiduals& residuals,
+                                    const VehicleLimits& limits);
+
+}  // namespace hlc

@@ -1,0 +1,72 @@
+// How long the maneuvers of the paper's universal automaton take, criterion by criterion, in CPU
+// time on one core: maneuver_design_benchmark [INTERVALS] [CONFIG.yaml]
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/maneuver_design/criteria.hpp"
+#include "planner/maneuver_design/maneuver_solver.hpp"
+
+namespace {
+
+double cpu_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Row {
+  std::vector<double> times_ms;
+  std::size_t not_optimal{};
+  int evaluations{};
+  double residual{};
+};
+
+Row measured(const hlc::AutomatonConfiguration& c, const std::set<hlc::TrimPair>& edges,
+             const std::string& criterion) {
+  Row row;
+  const auto cost = hlc::make_criterion(criterion, c.vehicle);
+  for (const hlc::TrimPair& edge : edges) {
+    const double begin_ms = cpu_ms();
+    const hlc::ManeuverSolution solution =
+        hlc::solve({c.trims[edge.from.index], c.trims[edge.to.index], c.step_s, c.intervals,
+                    c.vehicle, c.limits},
+                   *cost);
+    row.times_ms.push_back(cpu_ms() - begin_ms);
+    row.not_optimal += solution.status == hlc::ManeuverStatus::kOptimal ? 0 : 1;
+    row.evaluations += solution.evaluations;
+    row.residual = std::max(row.residual, solution.first_order_residual);
+  }
+  std::sort(row.times_ms.begin(), row.times_ms.end());
+  return row;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hlc::AutomatonConfiguration configuration = hlc::read_automaton_configuration(
+      argc > 2 ? argv[2] : HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+  if (argc > 1) configuration.intervals = std::strtoul(argv[1], nullptr, 10);
+  std::set<hlc::TrimPair> edges;
+  for (const hlc::SubgraphSpec& subgraph : configuration.subgraphs) {
+    for (const hlc::TrimPair& edge : hlc::chain_edges(configuration.trims, subgraph.trims)) {
+      if (edge.from != edge.to) edges.insert(edge);
+    }
+  }
+  std::printf("%zu edges, N = %zu, CPU time on one core\n", edges.size(), configuration.intervals);
+  std::printf("%-18s %9s %11s %10s %13s %13s %12s\n", "criterion", "all [ms]", "median [ms]",
+              "max [ms]", "evaluations", "max residual", "not optimal");
+  double total_ms = 0.0;
+  for (const std::string criterion : {"J1", "J2", "J3", "comfort", "energy"}) {
+    const Row row = measured(configuration, edges, criterion);
+    double sum_ms = 0.0;
+    for (const double time_ms : row.times_ms) sum_ms += time_ms;
+    if (criterion[0] == 'J') total_ms += sum_ms;
+    std::printf("%-18s %9.1f %11.2f %10.2f %13d %13.1e %12zu\n", criterion.c_str(), sum_ms,
+                row.times_ms[row.times_ms.size() / 2], row.times_ms.back(), row.evaluations,
+                row.residual, row.not_optimal);
+  }
+  std::printf("%-18s %9.1f\n", "J1, J2, J3", total_ms);
+  return 0;
+}
