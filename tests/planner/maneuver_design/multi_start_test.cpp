@@ -46,7 +46,7 @@ TEST(MultiStart, NoRandomStartFindsAnythingBetterForAnyEdgeOfThePaper) {
     const auto cost = make_criterion(criterion, c.vehicle);
     std::mt19937_64 random(kSeed);
     for (const Maneuver& maneuver : paper_automaton()->maneuvers) {
-      if (maneuver.from == maneuver.to) {
+      if (maneuver.label != criterion) {
         continue;
       }
       SCOPED_TRACE(Message() << criterion << ", " << maneuver.from.index + 1 << " -> "

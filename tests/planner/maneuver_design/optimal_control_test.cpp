@@ -85,7 +85,7 @@ TEST(OptimalControl, ReachesTheEndPointsOfThePapersParetoFront) {
 TEST(OptimalControl, FirstOrderConditionsHoldForAllEdgesOfThePapersCriteria) {
   for (const std::string criterion : {"J1", "J2", "J3"}) {
     for (const Maneuver& maneuver : paper_automaton()->maneuvers) {
-      if (maneuver.from == maneuver.to) {
+      if (maneuver.label != criterion) {
         continue;
       }
       SCOPED_TRACE(Message() << criterion << ", " << maneuver.from.index + 1 << " -> "
