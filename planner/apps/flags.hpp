@@ -1,8 +1,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 
 #include "planner/scenario/scenario.hpp"
 
@@ -21,6 +23,22 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::cerr << app.get_name() << ": " << error.what() << '\n';
     return 2;
+  }
+}
+
+/// Runs the program's work. 0 if it is good, 2 after one line about bad input
+/// (std::invalid_argument), 1 after one line about anything else.
+template <class Work>
+int exit_code_of(const char* program, Work work) {
+  try {
+    work();
+    return 0;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return 1;
   }
 }
 

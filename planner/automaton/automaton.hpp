@@ -69,7 +69,8 @@ struct UniversalAutomaton {
   double step_s{0.2};
   std::vector<Trim> trims;
   /// Unit costs l(x, 0) of each trim [per second], of the criteria that have one: those that do not
-  /// depend on the pose, hence not J1. One entry per trim, or none at all.
+  /// depend on the pose, hence neither J1 nor stopping_distance. One entry per trim, or none at
+  /// all.
   std::vector<std::vector<CriterionValue>> unit_costs;
   std::vector<Maneuver> maneuvers;
 

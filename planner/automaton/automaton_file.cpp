@@ -252,6 +252,10 @@ bool is_automaton_file(const std::filesystem::path& path) {
 AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   const YamlNode node = YamlNode::parse(text, path.string());
+  if (!node.has("automaton_schema")) {
+    throw std::invalid_argument(path.string() +
+                                ":1: no built automaton, allowed a file of build_automaton");
+  }
   AutomatonFile file;
   const YamlNode configuration = node.map("configuration");
   file.configuration_file = configuration.required<std::string>("file");

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace hlc::test {
+
+struct Outcome {
+  int exit_code{};
+  std::string output;  ///< of both streams
+};
+
+/// Runs a program of this build to its end. @param command  name and flags, as for a shell
+inline Outcome run_program(const std::string& command) {
+  const std::string line = HLC_BINARY_DIR "/bin/" + command + " 2>&1";
+  FILE* pipe = popen(line.c_str(), "r");
+  EXPECT_NE(pipe, nullptr);
+  Outcome outcome;
+  std::array<char, 256> buffer{};
+  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
+    outcome.output += buffer.data();
+  }
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+}  // namespace hlc::test
