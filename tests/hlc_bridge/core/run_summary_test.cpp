@@ -138,6 +138,39 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   EXPECT_EQ(summary().vehicles.at(0).astray_steps, 1U);
 }
 
+// A car that drives its plan exactly, with the two maneuvers between two trims in turn.
+TEST_F(RunSummaryTest, OfSeveralManeuversBetweenTwoTrimsTheOneThatWasPlannedIsComparedWith) {
+  reports_.clear();
+  drives_.clear();
+  description_.vehicles.pop_back();
+  const auto automaton =
+      test::make_test_automaton(test::paper_trims(), {{"slow", 0.0}, {"fast", 8.0}});
+  SubgraphSpec spec{.name = "both", .labels = {"slow", "fast"}, .trims = {{0}, {6}, {7}}};
+  description_.automaton = std::make_shared<const Subgraph>(automaton, spec);
+  Pose pose;
+  for (std::uint64_t k = 5; k < 65; ++k) {
+    const TrimId from{k % 2 == 0 ? 6U : 7U};
+    const TrimId to{k % 2 == 0 ? 7U : 6U};
+    const Maneuver& maneuver = *automaton->find(from, to, k % 3 == 0 ? "slow" : "fast");
+    ReportRecord record;
+    record.report.vehicle = VehicleId{1};
+    record.report.step = StepIndex{k};
+    record.report.status = StepStatus::kPlanned;
+    record.report.planned_pose = pose;
+    record.report.planned_trim = from;
+    reports_.push_back(record);
+    for (std::uint64_t tick = 0; tick < 10; ++tick) {
+      const State state = state_at(maneuver, 0.02 * static_cast<double>(tick), automaton->vehicle);
+      DrivenSample sample;
+      sample.t = k * kPeriod + tick * kPeriod / 10;
+      sample.pose = compose(pose, state.pose);
+      drives_[1].push_back(sample);
+    }
+    pose = compose(pose, maneuver.displacement);
+  }
+  EXPECT_LT(summary().vehicles.at(0).tracking_error_m->max, 1e-9);
+}
+
 TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
   report(2, 7).report.status = StepStatus::kFallback;
   report(2, 9).report.status = StepStatus::kFallback;
