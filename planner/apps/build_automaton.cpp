@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "planner/apps/automaton_plot.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/maneuver_table.hpp"
 #include "planner/apps/parallel.hpp"
@@ -105,6 +106,7 @@ void run(const Choices& choices) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   hlc::write_automaton_file(file, choices.out);
   if (choices.table) hlc::write_atomically(hlc::maneuver_table(*file.automaton), *choices.table);
+  if (choices.plot) hlc::write_atomically(hlc::automaton_plot(file), *choices.plot);
   std::printf("%s: %zu trims, %zu maneuvers, labels", choices.out.c_str(),
               configuration.trims.size(),
               file.automaton->maneuvers.size() - configuration.trims.size());

@@ -120,6 +120,26 @@ TEST_F(AutomatonPrograms, TheTableHasOneRowPerEdgeAndLabelInFullPrecision) {
   EXPECT_EQ(rows, 2 * (6 + 4 + 2U));  // chain 1 3 2 4: 6 and 4; C adds 3-4 both ways
 }
 
+TEST_F(AutomatonPrograms, ThePlotHasAnArrowPerPairAndLabelWithADoubleHeadWhereBothDirectionsExist) {
+  ASSERT_EQ(build("--plot " + path("automaton.svg")).exit_code, 0);
+  const std::string plot = text_of("automaton.svg");
+  const auto count = [&plot](const std::string& piece) {
+    std::size_t times = 0;
+    for (std::size_t at = plot.find(piece); at != std::string::npos;
+         at = plot.find(piece, at + 1)) {
+      ++times;
+    }
+    return times;
+  };
+  for (const char* text :
+       {"steering angle [rad]", "speed [m/s]", "optimal for J2", "optimal for J3"}) {
+    EXPECT_EQ(count(text), 1U) << text;
+  }
+  EXPECT_GE(count("#d62728"), 6U);  // J2: six pairs, both ways
+  EXPECT_GE(count("#2ca02c"), 6U);
+  EXPECT_EQ(count("#1f4fd8"), 0U);  // no J1
+}
+
 TEST_F(AutomatonPrograms, BadInputIsOneLineWithExitCode2AndLeavesTheOldFileAlone) {
   ASSERT_EQ(build().exit_code, 0);
   const std::string before = text_of("automaton.yaml");
