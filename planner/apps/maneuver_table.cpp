@@ -9,7 +9,7 @@ namespace {
 
 std::string value_of(const std::string& criterion, const Maneuver& maneuver) {
   const auto found = std::ranges::find(maneuver.criteria, criterion, &CriterionValue::name);
-  return found == maneuver.criteria.end() ? "" : to_text(found->value);
+  return found == maneuver.criteria.end() ? "" : shortest_text(found->value);
 }
 
 std::string field(const std::string& text) {
@@ -27,9 +27,9 @@ std::string maneuver_table(const UniversalAutomaton& automaton) {
     if (m.from == m.to) continue;
     text += std::to_string(m.from.index + 1) + "," + std::to_string(m.to.index + 1) + "," +
             field(m.label) + "," + std::to_string(m.inputs.size()) + "," + value_of("J1", m) + "," +
-            value_of("J2", m) + "," + to_text(m.displacement.x_m) + "," +
-            to_text(m.displacement.y_m) + "," + to_text(m.displacement.heading_rad) + "," +
-            to_text(top_speed_mps(m)) + ",optimal\n";
+            value_of("J2", m) + "," + shortest_text(m.displacement.x_m) + "," +
+            shortest_text(m.displacement.y_m) + "," + shortest_text(m.displacement.heading_rad) +
+            "," + shortest_text(top_speed_mps(m)) + ",optimal\n";
   }
   return text;
 }

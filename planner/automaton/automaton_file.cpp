@@ -25,7 +25,7 @@ constexpr const char* kHashKey = "sha256: ";
 
 std::string row(std::initializer_list<double> values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + to_text(value);
+  for (const double value : values) text += (text.empty() ? "" : " ") + shortest_text(value);
   return text;
 }
 
@@ -47,7 +47,7 @@ void append_table(std::string& text, const char* key, const std::vector<T>& rows
 std::string map_of(const std::vector<CriterionValue>& values) {
   std::string text;
   for (const CriterionValue& value : values) {
-    text += (text.empty() ? "" : ", ") + value.name + ": " + to_text(value.value);
+    text += (text.empty() ? "" : ", ") + value.name + ": " + shortest_text(value.value);
   }
   return "{" + text + "}";
 }
@@ -56,8 +56,9 @@ void append_maneuver(std::string& text, const Maneuver& m) {
   text += "  - from: " + std::to_string(m.from.index + 1) + "\n";
   text += "    to: " + std::to_string(m.to.index + 1) + "\n";
   text += "    label: " + quoted_yaml(m.label) + "\n";
-  text += "    displacement: [" + to_text(m.displacement.x_m) + ", " + to_text(m.displacement.y_m) +
-          ", " + to_text(m.displacement.heading_rad) + "]\n";
+  text += "    displacement: [" + shortest_text(m.displacement.x_m) + ", " +
+          shortest_text(m.displacement.y_m) + ", " + shortest_text(m.displacement.heading_rad) +
+          "]\n";
   text += "    criteria: " + map_of(m.criteria) + "\n";
   append_table(text, "inputs", m.inputs);
   append_table(text, "states", m.states);
@@ -80,14 +81,14 @@ std::string text_without_hash(const AutomatonFile& file) {
           ", horizon_steps: " + std::to_string(file.horizon_steps) + "}\n";
   text += "vehicle: " + to_yaml(automaton.vehicle, automaton.identified) + "\n";
   text += "limits: " + to_yaml(automaton.limits) + "\n";
-  text += "step_s: " + to_text(automaton.step_s) + "\n";
+  text += "step_s: " + shortest_text(automaton.step_s) + "\n";
   text += "labels:";
   for (const std::string& label : file.labels) text += "\n  - " + quoted_yaml(label);
   text += "\ntrims:\n";
   for (std::size_t i = 0; i < automaton.trims.size(); ++i) {
     const Trim& trim = automaton.trims[i];
-    text += "  - {speed_mps: " + to_text(trim.speed_mps) +
-            ", steering_rad: " + to_text(trim.steering_rad) +
+    text += "  - {speed_mps: " + shortest_text(trim.speed_mps) +
+            ", steering_rad: " + shortest_text(trim.steering_rad) +
             ", unit_costs: " + map_of(automaton.unit_costs[i]) + "}\n";
   }
   text += "subgraphs:\n";

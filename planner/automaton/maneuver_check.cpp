@@ -44,19 +44,20 @@ std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton
 std::string fault_of_bounds(const Maneuver& m, const VehicleLimits& limits) {
   for (const Input& u : m.inputs) {
     if (!is_bounded(u.acceleration_mps2, -limits.acceleration_mps2, limits.acceleration_mps2)) {
-      return "it accelerates by " + to_text(u.acceleration_mps2) + " m/s^2, more than the limit";
+      return "it accelerates by " + shortest_text(u.acceleration_mps2) +
+             " m/s^2, more than the limit";
     }
     if (!is_bounded(u.steering_rate_radps, -limits.steering_rate_radps,
                     limits.steering_rate_radps)) {
-      return "it steers by " + to_text(u.steering_rate_radps) + " rad/s, more than the limit";
+      return "it steers by " + shortest_text(u.steering_rate_radps) + " rad/s, more than the limit";
     }
   }
   for (const State& x : m.states) {
     if (!is_bounded(x.speed_mps, limits.speed_min_mps, limits.speed_max_mps)) {
-      return "its speed is " + to_text(x.speed_mps) + " m/s, outside the limits";
+      return "its speed is " + shortest_text(x.speed_mps) + " m/s, outside the limits";
     }
     if (!is_bounded(x.steering_rad, -limits.steering_max_rad, limits.steering_max_rad)) {
-      return "its steering angle is " + to_text(x.steering_rad) + " rad, outside the limits";
+      return "its steering angle is " + shortest_text(x.steering_rad) + " rad, outside the limits";
     }
   }
   return "";
@@ -115,10 +116,10 @@ std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automato
     const double margin_m = vehicle.safety_margin_m;
     if (!contains_footprint(m.swept_area_m, state.pose, margin_m, vehicle) ||
         !contains_footprint(m.swept_area_m, driven, margin_m, vehicle)) {
-      return "its swept area does not contain the footprint at " + to_text(time_s) + " s";
+      return "its swept area does not contain the footprint at " + shortest_text(time_s) + " s";
     }
     if (!contains_footprint(m.lane_area_m, state.pose, 0.0, vehicle)) {
-      return "its lane area does not contain the footprint at " + to_text(time_s) + " s";
+      return "its lane area does not contain the footprint at " + shortest_text(time_s) + " s";
     }
   }
   return "";

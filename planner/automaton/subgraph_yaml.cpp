@@ -200,7 +200,7 @@ std::string to_yaml(const SubgraphSpec& spec) {
                      ", labels: " + list_of(spec.labels, quoted_yaml) +
                      ", trims: " + list_of(spec.trims, number);
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
-  if (spec.max_speed_mps) text += ", max_speed_mps: " + to_text(*spec.max_speed_mps);
+  if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {
     text += ", off: " + list_of(spec.off, [](const EdgesOff& off) {
               return "{" + ends(off.edge) +

@@ -13,7 +13,7 @@ using Field = std::pair<const char*, double>;
 std::string fields(std::initializer_list<Field> list) {
   std::string text;
   for (const auto& [key, value] : list) {
-    text += (text.empty() ? "" : ", ") + std::string(key) + ": " + to_text(value);
+    text += (text.empty() ? "" : ", ") + std::string(key) + ": " + shortest_text(value);
   }
   return text;
 }

@@ -14,7 +14,7 @@ namespace {
 std::string line_of(const LabelledCriterion& criterion) {
   std::string text = "criterion " + quoted_yaml(criterion.label);
   for (const CriterionWeight& one : criterion.weights) {
-    text += " " + one.criterion + " " + to_text(one.weight);
+    text += " " + one.criterion + " " + shortest_text(one.weight);
   }
   return text + (criterion.normalised ? " normalised\n" : "\n");
 }
@@ -25,9 +25,9 @@ std::string canonical_text(const AutomatonConfiguration& c) {
   text += "vehicle " + to_yaml(c.vehicle, c.identified) + "\n";
   text += "limits " + to_yaml(c.limits) + "\n";
   for (const Trim& trim : c.trims) {
-    text += "trim " + to_text(trim.speed_mps) + " " + to_text(trim.steering_rad) + "\n";
+    text += "trim " + shortest_text(trim.speed_mps) + " " + shortest_text(trim.steering_rad) + "\n";
   }
-  text += "step_s " + to_text(c.step_s) + "\n";
+  text += "step_s " + shortest_text(c.step_s) + "\n";
   text += "horizon_steps " + std::to_string(c.horizon_steps) + "\n";
   text += "intervals " + std::to_string(c.intervals) + "\n";
   text += c.edges == EdgeChoice::kAll ? "edges all\n" : "edges subgraphs\n";
