@@ -20,6 +20,7 @@
 #include "hlc_bridge/record/step_files.hpp"
 #include "hlc_bridge/record/summary_file.hpp"
 #include "hlc_bridge/record/text_file.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
@@ -49,7 +50,7 @@ void check_scenario(const hlc::RunFacts& facts, const hlc::RunDescription& descr
   if (std::abs(period_s - description.step_s) > 1e-9) {
     throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
                              ", must be the step of scenario " + description.scenario + ", " +
-                             hlc::to_text(description.step_s) + " s");
+                             hlc::shortest_text(description.step_s) + " s");
   }
   for (const std::uint8_t id : facts.vehicle_ids) {
     if (std::none_of(description.vehicles.begin(), description.vehicles.end(),

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "hlc_bridge/record/text_file.hpp"
+#include "planner/automaton/yaml_text.hpp"
 
 namespace hlc {
 namespace {
@@ -23,17 +24,17 @@ std::string line(const ReportRecord& record) {
   add(std::to_string(report.vehicle.value));
   add(to_string(report.status));
   add(to_string(report.reason));
-  add(to_text(report.planned_pose.x_m));
-  add(to_text(report.planned_pose.y_m));
-  add(to_text(report.planned_pose.heading_rad));
+  add(shortest_text(report.planned_pose.x_m));
+  add(shortest_text(report.planned_pose.y_m));
+  add(shortest_text(report.planned_pose.heading_rad));
   add(std::to_string(report.planned_trim.index + 1));
-  add(to_text(report.cost_m2));
+  add(shortest_text(report.cost_m2));
   add(std::to_string(report.generated));
   add(std::to_string(report.expanded));
   add(std::to_string(report.level));
   add(ids_to_text(report.coupled));
   add(ids_to_text(report.missing));
-  add(to_text(report.deviation_m));
+  add(shortest_text(report.deviation_m));
   add(std::to_string(record.planning_ns));
   add(record.deadline_missed ? "1" : "0");
   add(std::to_string(record.late_ns));

@@ -2,13 +2,14 @@
 
 #include "hlc_bridge/record/report_file.hpp"
 #include "hlc_bridge/record/text_file.hpp"
+#include "planner/automaton/yaml_text.hpp"
 
 namespace hlc {
 namespace {
 
 std::string driven_fields(const std::optional<Pose>& driven) {
-  return driven ? to_text(driven->x_m) + "," + to_text(driven->y_m) + "," +
-                      to_text(driven->heading_rad)
+  return driven ? shortest_text(driven->x_m) + "," + shortest_text(driven->y_m) + "," +
+                      shortest_text(driven->heading_rad)
                 : ",,";
 }
 
@@ -22,13 +23,13 @@ std::string steps_csv(std::span<const StepRecord> rows) {
     const Report& report = row.record.report;
     text += std::to_string(row.step) + "," + std::to_string(report.vehicle.value) + "," +
             to_string(report.status) + "," + to_string(report.reason) + "," +
-            to_text(report.planned_pose.x_m) + "," + to_text(report.planned_pose.y_m) + "," +
-            to_text(report.planned_pose.heading_rad) + "," +
+            shortest_text(report.planned_pose.x_m) + "," + shortest_text(report.planned_pose.y_m) +
+            "," + shortest_text(report.planned_pose.heading_rad) + "," +
             std::to_string(report.planned_trim.index + 1) + "," + driven_fields(row.driven) + "," +
-            to_text(report.cost_m2) + "," + std::to_string(report.generated) + "," +
+            shortest_text(report.cost_m2) + "," + std::to_string(report.generated) + "," +
             std::to_string(report.expanded) + "," + std::to_string(report.level) + "," +
             ids_to_text(report.coupled) + "," + ids_to_text(report.missing) + "," +
-            to_text(report.deviation_m) + "\n";
+            shortest_text(report.deviation_m) + "\n";
   }
   return text;
 }
@@ -39,9 +40,9 @@ std::string timing_csv(std::span<const StepRecord> rows) {
   for (const StepRecord& row : rows) {
     const ReportRecord& record = row.record;
     text += std::to_string(row.step) + "," + std::to_string(record.report.vehicle.value) + "," +
-            to_text(static_cast<double>(record.planning_ns) * kMillisecondsPerNanosecond) + "," +
-            (record.deadline_missed ? "1" : "0") + "," +
-            to_text(static_cast<double>(record.late_ns) * kMillisecondsPerNanosecond) + "\n";
+            shortest_text(static_cast<double>(record.planning_ns) * kMillisecondsPerNanosecond) +
+            "," + (record.deadline_missed ? "1" : "0") + "," +
+            shortest_text(static_cast<double>(record.late_ns) * kMillisecondsPerNanosecond) + "\n";
   }
   return text;
 }

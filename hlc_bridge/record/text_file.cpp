@@ -1,10 +1,11 @@
 #include "hlc_bridge/record/text_file.hpp"
 
-#include <array>
 #include <charconv>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+
+#include "planner/automaton/atomic_write.hpp"
 
 namespace hlc {
 namespace {
@@ -18,18 +19,7 @@ bool parse(const std::string& text, Number& value) {
 }  // namespace
 
 void write_file(const std::filesystem::path& file, std::string_view content) {
-  std::filesystem::path temporary = file;
-  temporary += ".tmp";
-  std::ofstream stream{temporary, std::ios::binary | std::ios::trunc};
-  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) {
-    std::filesystem::rename(temporary, file, error);
-  }
-  if (!stream || error) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  write_atomically(content, file);
 }
 
 std::string read_file(const std::filesystem::path& file) {
@@ -39,12 +29,6 @@ std::string read_file(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": cannot be read");
   }
   return content;
-}
-
-std::string to_text(double value) {
-  std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), end};
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

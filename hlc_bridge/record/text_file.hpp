@@ -8,15 +8,12 @@
 
 namespace hlc {
 
-/// Writes a whole file so that a reader sees the old content or the new one, never a part: into
-/// `<file>.tmp`, then renamed. @throws std::runtime_error naming the file
+/// Writes a whole file so that a reader sees the old content or the new one, never a part: beside
+/// it, then renamed. @throws std::runtime_error naming the file
 void write_file(const std::filesystem::path& file, std::string_view content);
 
 /// @throws std::runtime_error naming the file
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
-
-/// The shortest decimal number that reads back as the very same double; nan and inf as such.
-[[nodiscard]] std::string to_text(double value);
 
 /// A CSV file of ours: fields hold no commas, quotes or line breaks.
 class CsvTable {

@@ -5,7 +5,7 @@
 
 namespace hlc {
 
-void write_atomically(const std::string& text, const std::filesystem::path& path) {
+void write_atomically(std::string_view text, const std::filesystem::path& path) {
   std::filesystem::path temporary = path;
   temporary += ".part";
   std::error_code error;

@@ -3,11 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <charconv>
 #include <cmath>
-#include <limits>
-#include <random>
 #include <stdexcept>
 
 #include "tests/hlc_bridge/record/temporary_folder.hpp"
@@ -46,22 +42,6 @@ TEST(TextFile, FailureNamesTheFile) {
               ThrowsMessage<std::runtime_error>(HasSubstr("no/file: cannot be written")));
   EXPECT_THAT([&] { (void)read_file(folder / "nothing"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("nothing: cannot be read")));
-}
-
-TEST(ToText, ReadsBackAsTheSameBits) {
-  std::mt19937_64 random{17};
-  for (int i = 0; i < 10'000; ++i) {
-    const auto value = std::bit_cast<double>(random());
-    if (!std::isfinite(value)) {
-      continue;
-    }
-    const std::string text = to_text(value);
-    double back{};
-    std::from_chars(text.data(), text.data() + text.size(), back);
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(back), std::bit_cast<std::uint64_t>(value)) << text;
-  }
-  EXPECT_EQ(to_text(0.1), "0.1");
-  EXPECT_EQ(to_text(-0.0), "-0");
 }
 
 TEST(Split, KeepsEmptyPieces) {

@@ -1,0 +1,40 @@
+#include "planner/automaton/yaml_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "planner/automaton/yaml_reader.hpp"
+
+namespace hlc {
+namespace {
+
+TEST(ShortestText, ReadsBackAsTheSameBits) {
+  std::mt19937_64 random{17};
+  for (int i = 0; i < 10'000; ++i) {
+    const auto value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) {
+      continue;
+    }
+    const std::string text = shortest_text(value);
+    double back{};
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(back), std::bit_cast<std::uint64_t>(value)) << text;
+  }
+  EXPECT_EQ(shortest_text(0.1), "0.1");
+  EXPECT_EQ(shortest_text(-0.0), "-0");
+}
+
+TEST(QuotedYaml, ReadsBack) {
+  for (const char* text : {"", "B", "a: b # c", "\"\\\"", "- [x]", "µCar"}) {
+    const YamlNode node = YamlNode::parse("key: " + quoted_yaml(text), "test");
+    EXPECT_EQ(node.required<std::string>("key"), text);
+  }
+}
+
+}  // namespace
+}  // namespace hlc
