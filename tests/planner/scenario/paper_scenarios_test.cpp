@@ -174,6 +174,63 @@ TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
   EXPECT_LE(fallbacks, steps / 50) << "of " << steps;
 }
 
+struct Lap {
+  const char* subgraph;
+  double min_s;
+  double max_s;
+};
+
+// With the paper's rules all four subgraphs drive a round, A faster than the others.
+TEST(Subgraphs, AllFourDriveARoundWithThePapersRules) {
+  for (const Lap& lap :
+       {Lap{"A", 14.6, 15.4}, Lap{"B", 15.5, 16.3}, Lap{"C", 15.5, 16.3}, Lap{"D", 15.8, 16.7}}) {
+    SCOPED_TRACE(lap.subgraph);
+    const Course course = drive(read_scenario(
+        {.file = kFolder + "paper_red_alone.yaml", .profile = "2022", .subgraph = lap.subgraph}));
+    ASSERT_TRUE(course.lap_s);
+    EXPECT_GE(*course.lap_s, lap.min_s);
+    EXPECT_LE(*course.lap_s, lap.max_s);
+    EXPECT_EQ(course.fallbacks, 0);
+    EXPECT_LE(course.mean_error_mm, 32.0);
+  }
+}
+
+// J3 without normalisation is J2 in effect: maneuvers differ by at most 7.5 um and 12 urad, hence
+// positions of a plan of 8 steps by some 0.2 mm and its cost by little. Where two plans cost nearly
+// the same, B and C may choose differently.
+TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
+  const Scenario b = read_scenario({.file = kFolder + "paper_red_alone.yaml", .subgraph = "B"});
+  const Scenario c = read_scenario({.file = kFolder + "paper_red_alone.yaml", .subgraph = "C"});
+  const ReachableSets reachable_b(*b.subgraph, b.horizon_steps);
+  const ReachableSets reachable_c(*c.subgraph, c.horizon_steps);
+  const auto planner_b = make_best_first_planner(*b.subgraph, reachable_b, {});
+  const auto planner_c = make_best_first_planner(*c.subgraph, reachable_c, {});
+  constexpr double kApart_m = 2e-4;  // a sum of squares of distances moves by 2 sum d_j * this
+  Rollout rollout = rollout_of(b);
+  std::size_t same = 0;
+  for (std::size_t step = 0; step < b.steps; ++step) {
+    static_cast<void>(rollout.step());
+    const HorizonProblem& problem = rollout.controllers().front()->problem().value();
+    const SearchResult of_b = planner_b->plan(problem);
+    const SearchResult of_c = planner_c->plan(problem);
+    ASSERT_EQ(of_b.status, SearchStatus::kOptimal);
+    ASSERT_EQ(of_c.status, SearchStatus::kOptimal);
+    const double n = static_cast<double>(b.horizon_steps);
+    EXPECT_NEAR(of_b.cost, of_c.cost,
+                2.0 * kApart_m * std::sqrt(n * of_b.cost) + n * kApart_m * kApart_m);
+    bool is_same = true;
+    for (std::size_t j = 0; j < b.horizon_steps; ++j) {
+      is_same = is_same && of_b.maneuvers[j]->to == of_c.maneuvers[j]->to;
+    }
+    if (!is_same) continue;
+    ++same;
+    for (std::size_t j = 0; j < b.horizon_steps; ++j) {
+      EXPECT_LT((of_b.poses[j].position_m() - of_c.poses[j].position_m()).norm(), kApart_m);
+    }
+  }
+  EXPECT_GE(same, b.steps * 9 / 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Profiles, PaperScenario,
                          testing::Combine(testing::Values("default", "2022"), testing::Bool()),
                          [](const auto& one) {
