@@ -199,7 +199,7 @@ std::string arrow_of(const PlotArrow& arrow, const Frame& frame) {
 }
 
 std::string legend_of(const PlotPanel& panel, const Frame& frame) {
-  constexpr double kCharacter_px = 6.4;
+  constexpr double kCharacter_px = 7.2;
   std::size_t longest = 0;
   for (const PlotLegend& entry : panel.legend) longest = std::max(longest, entry.text.size());
   const Vector2d size(34.0 + kCharacter_px * static_cast<double>(longest),

@@ -1,6 +1,7 @@
 #include "planner/maneuver_design/maneuver_solver.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <sstream>
 
 #include "planner/maneuver_design/attempt.hpp"
@@ -117,11 +118,35 @@ void explain_path_violation(const ManeuverProblem& problem, const SolverOptions&
   solution.evaluations = evaluations;
 }
 
+/// Asks, for a problem whose bounds on other costs the solver could not keep, how low those costs
+/// can be. Makes the solution an infeasible one if that is higher than allowed.
+void explain_cost_bound(const ManeuverProblem& problem, ManeuverSolution& solution) {
+  ManeuverProblem unbounded = problem;
+  unbounded.cost_bounds.clear();
+  for (const CostBound& bound : problem.cost_bounds) {
+    const ManeuverSolution least = attempt(unbounded, *bound.cost, {});
+    if (least.status == ManeuverStatus::kOptimal &&
+        least.cost > bound.max + kPathTolerance * std::abs(bound.max)) {
+      std::ostringstream reason;
+      reason << "a cost that is bounded by " << bound.max << " is at least " << least.cost;
+      const int evaluations = solution.evaluations + least.evaluations;
+      solution = {};
+      solution.status = ManeuverStatus::kInfeasible;
+      solution.reason = reason.str();
+      solution.evaluations = evaluations;
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 ManeuverSolution solve(const ManeuverProblem& problem, const RunningCost& cost,
                        const SolverOptions& options) {
   ManeuverSolution solution = attempt(problem, cost, options);
+  if (solution.residuals.cost_bound > kPathTolerance) {
+    explain_cost_bound(problem, solution);
+  }
   if (solution.residuals.path > kPathTolerance) {
     explain_path_violation(problem, options, solution);
   }

@@ -1,0 +1,150 @@
+// The Pareto front of the maneuvers between two trims, as a table and as a plot in the manner of
+// the paper's Fig. 1:
+//
+//     pareto_front launch_scripts/automata/pareto_example.yaml --from 0 0 --to 2.3 0.62
+//         --points 31 --out front.csv --plot front.svg
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "planner/apps/flags.hpp"
+#include "planner/apps/pareto_output.hpp"
+#include "planner/automaton/atomic_write.hpp"
+#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/maneuver_design/criteria.hpp"
+
+namespace {
+
+struct Flags {
+  std::string configuration;
+  std::vector<double> from;
+  std::vector<double> to;
+  std::vector<std::string> criteria{"J1", "J2"};
+  std::size_t points{31};
+  double duration_s{};      ///< 0: the configuration's
+  std::size_t intervals{};  ///< 0: the configuration's
+  std::string spacing{"front"};
+  std::string table;
+  std::string plot;
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("configuration", flags.configuration, "automaton configuration (YAML)")
+      ->required();
+  app.add_option("--from", flags.from, "speed [m/s] and steering [rad] at the start")
+      ->expected(2)
+      ->required();
+  app.add_option("--to", flags.to, "speed [m/s] and steering [rad] at the end")
+      ->expected(2)
+      ->required();
+  app.add_option("--points", flags.points, "of the front")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
+      ->check(CLI::Range(1e-3, 100.0));
+  app.add_option("--intervals", flags.intervals,
+                 "of constant input, instead of the configuration's")
+      ->check(CLI::Range(2, 1000));
+  app.add_option("--criteria", flags.criteria,
+                 "two criteria; the first is minimised, the second "
+                 "bounded")
+      ->expected(2)
+      ->check(CLI::IsMember(hlc::criterion_names()))
+      ->capture_default_str();
+  app.add_option("--spacing", flags.spacing,
+                 "front: equal distances along it; second: equal steps of the second criterion")
+      ->check(CLI::IsMember({"front", "second"}))
+      ->capture_default_str();
+  app.add_option("--out", flags.table, "table to write (CSV)")->required();
+  app.add_option("--plot", flags.plot, "plot to write (SVG)");
+  app.footer("Exit codes: 0 good, 1 a point was not found, 2 bad input.");
+}
+
+hlc::ParetoProblem problem_of(const Flags& flags) {
+  if (flags.criteria[0] == flags.criteria[1]) {
+    throw std::invalid_argument("--criteria = " + flags.criteria[0] + " " + flags.criteria[1] +
+                                ", allowed two that differ");
+  }
+  const hlc::AutomatonConfiguration c = hlc::read_automaton_configuration(flags.configuration);
+  hlc::ParetoProblem problem;
+  problem.maneuver = {{flags.from[0], flags.from[1]},
+                      {flags.to[0], flags.to[1]},
+                      flags.duration_s > 0.0 ? flags.duration_s : c.step_s,
+                      flags.intervals > 0 ? flags.intervals : c.intervals,
+                      c.vehicle,
+                      c.limits};
+  for (const std::string& name : flags.criteria) {
+    problem.criteria.push_back(hlc::make_criterion(name, c.vehicle));
+  }
+  return problem;
+}
+
+/// Dominated share of the rectangle between the ends.
+double dominated_share(const hlc::ParetoFront& front, const hlc::ObjectiveRange& range) {
+  const double area = (range.worst - range.best).prod();
+  return area > 0.0 ? hlc::hypervolume(front.objectives(), range.worst) / area : 0.0;
+}
+
+void print(const char* name, const hlc::ParetoPoint& point) {
+  std::printf("%-18s %14.6g %14.6g\n", name, point.objectives(0), point.objectives(1));
+}
+
+void print_summary(const Flags& flags, const hlc::ParetoFront& front,
+                   const hlc::ParetoFront& weighted_sums) {
+  std::printf("%-18s %14s %14s\n", "", flags.criteria[0].c_str(), flags.criteria[1].c_str());
+  print(("optimum of " + flags.criteria[1]).c_str(), front.points.front());
+  print("knee", front.points[hlc::knee_point(front.objectives())]);
+  print(("optimum of " + flags.criteria[0]).c_str(), front.points.back());
+  if (front.points.size() == 1) {
+    std::printf("the front is one point: here the criteria do not contradict each other\n");
+    return;
+  }
+  const hlc::ObjectiveRange range = hlc::range_of(front.objectives());
+  std::printf("hypervolume %.4f, of weighted sums %.4f (share of the rectangle between the ends)\n",
+              dominated_share(front, range), dominated_share(weighted_sums, range));
+}
+
+void run(const Flags& flags) {
+  const hlc::ParetoProblem problem = problem_of(flags);
+  hlc::ParetoOptions options;
+  options.points = flags.points;
+  options.spacing =
+      flags.spacing == "front" ? hlc::Spacing::kAlongFront : hlc::Spacing::kSecondCriterion;
+  const bool is_watched = isatty(STDERR_FILENO) != 0;
+  if (is_watched) {
+    options.progress = [](std::size_t done, std::size_t of) {
+      std::fprintf(stderr, "\r%zu of at most %zu maneuvers  ", done, of);
+    };
+  }
+  const hlc::ParetoFront front = hlc::epsilon_constraint_front(problem, options);
+  const hlc::ParetoFront weighted_sums = hlc::weighted_sum_front(problem, options);
+  if (is_watched) std::fprintf(stderr, "\n");
+  if (front.status == hlc::ManeuverStatus::kInfeasible) {
+    throw std::invalid_argument(flags.configuration + ": " + front.reason);
+  }
+  if (front.status != hlc::ManeuverStatus::kOptimal) {
+    throw std::runtime_error(flags.configuration + ": " + front.reason);
+  }
+  const hlc::ParetoDescription description{problem.maneuver.from, problem.maneuver.to,
+                                           problem.maneuver.duration_s, flags.criteria};
+  hlc::write_atomically(hlc::csv_of(front, description), flags.table);
+  if (!flags.plot.empty()) {
+    hlc::write_atomically(hlc::svg_of(front, weighted_sums, description), flags.plot);
+  }
+  print_summary(flags, front, weighted_sums);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Pareto front of the maneuvers between two trims, as a table and a plot.",
+               "pareto_front"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  return hlc::exit_code_of("pareto_front", [&flags] { run(flags); });
+}

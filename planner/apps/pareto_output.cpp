@@ -1,0 +1,159 @@
+#include "planner/apps/pareto_output.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+namespace hlc {
+namespace {
+
+using Eigen::Vector2d;
+
+std::string exact(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%g", value);
+  return text;
+}
+
+double highest_speed_mps(const ManeuverSolution& solution) {
+  double highest = 0.0;
+  for (const State& state : solution.states) highest = std::max(highest, state.speed_mps);
+  return highest;
+}
+
+std::string colour_of(std::size_t point, const ParetoFront& front) {
+  const std::size_t last = std::max<std::size_t>(front.points.size() - 1, 1);
+  return red_to_blue(static_cast<double>(point) / static_cast<double>(last));
+}
+
+std::string label_of(const std::string& criterion) {
+  if (criterion == "J1") return "J1: -integral of squared distance [m² s]";
+  if (criterion == "J2") return "J2: integral of squared inputs [m²/s³ + rad²/s]";
+  return criterion;
+}
+
+/// One line per maneuver.
+PlotPanel lines_of(const ParetoFront& front,
+                   const std::function<std::vector<Vector2d>(const ManeuverSolution&)>& points) {
+  PlotPanel panel;
+  for (std::size_t i = 0; i < front.points.size(); ++i) {
+    panel.lines.push_back({points(front.points[i].solution), colour_of(i, front)});
+  }
+  return panel;
+}
+
+PlotPanel over_time(const ParetoFront& front, const std::string& title, const std::string& label,
+                    double (*value)(const State&)) {
+  PlotPanel panel = lines_of(front, [value](const ManeuverSolution& solution) {
+    std::vector<Vector2d> points;
+    for (std::size_t k = 0; k < solution.states.size(); ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(solution.states.size() - 1);
+      points.emplace_back(share * solution.duration_s, value(solution.states[k]));
+    }
+    return points;
+  });
+  panel.title = title;
+  panel.x_label = "time [s]";
+  panel.y_label = label;
+  return panel;
+}
+
+/// Steps: an input is constant on each interval.
+PlotPanel input_over_time(const ParetoFront& front, const std::string& title,
+                          const std::string& label, double Input::*value) {
+  PlotPanel panel = lines_of(front, [value](const ManeuverSolution& solution) {
+    std::vector<Vector2d> points;
+    const double interval_s =
+        solution.duration_s / static_cast<double>(std::max<std::size_t>(solution.inputs.size(), 1));
+    for (std::size_t k = 0; k < solution.inputs.size(); ++k) {
+      const double begin_s = interval_s * static_cast<double>(k);
+      points.emplace_back(begin_s, solution.inputs[k].*value);
+      points.emplace_back(begin_s + interval_s, solution.inputs[k].*value);
+    }
+    return points;
+  });
+  panel.title = title;
+  panel.x_label = "time [s]";
+  panel.y_label = label;
+  return panel;
+}
+
+PlotPanel front_panel(const ParetoFront& front, const ParetoFront& weighted_sums,
+                      const ParetoDescription& description) {
+  PlotPanel panel;
+  panel.title = "Pareto front";
+  panel.x_label = label_of(description.criteria[1]);
+  panel.y_label = label_of(description.criteria[0]);
+  const auto at = [](const ParetoPoint& point) {
+    return Vector2d(point.objectives(1), point.objectives(0));
+  };
+  for (std::size_t i = 0; i < front.points.size(); ++i) {
+    panel.marks.push_back({at(front.points[i]), colour_of(i, front)});
+  }
+  for (const ParetoPoint& point : weighted_sums.points) {
+    panel.marks.push_back({at(point), "#666666", Mark::kCross, 2.5});
+  }
+  const std::size_t knee = knee_point(front.objectives());
+  panel.marks.push_back({at(front.points[knee]), "#000000", Mark::kRing, 7.0});
+  panel.legend = {
+      {"optimum of " + description.criteria[1], colour_of(0, front)},
+      {"optimum of " + description.criteria[0], colour_of(front.points.size() - 1, front)},
+      {"knee", "#000000", Mark::kRing, 5.0},
+      {"weighted sums", "#666666", Mark::kCross, 2.5}};
+  return panel;
+}
+
+}  // namespace
+
+std::string csv_of(const ParetoFront& front, const ParetoDescription& description) {
+  std::string out;
+  for (const std::string& criterion : description.criteria) out += criterion + ",";
+  out += "dx,dy,dpsi,status,v_max,dominated,knee,first_order_residual\n";
+  const std::size_t knee = front.points.empty() ? 0 : knee_point(front.objectives());
+  for (std::size_t i = 0; i < front.points.size(); ++i) {
+    const ParetoPoint& point = front.points[i];
+    const Pose end = point.solution.states.back().pose;
+    for (const double value : point.objectives) out += exact(value) + ",";
+    out += exact(end.x_m) + "," + exact(end.y_m) + "," + exact(end.heading_rad) + ",";
+    out += point.solution.status == ManeuverStatus::kOptimal ? "optimal," : "not_converged,";
+    out += exact(highest_speed_mps(point.solution)) + "," + (point.is_dominated ? "1," : "0,") +
+           (i == knee ? "1," : "0,") + exact(point.solution.first_order_residual) + "\n";
+  }
+  return out;
+}
+
+std::string svg_of(const ParetoFront& front, const ParetoFront& weighted_sums,
+                   const ParetoDescription& description) {
+  PlotPanel positions = lines_of(front, [](const ManeuverSolution& solution) {
+    std::vector<Vector2d> points;
+    for (const State& state : solution.states) points.push_back(state.pose.position_m());
+    return points;
+  });
+  positions.title = "Positions";
+  positions.x_label = "s_x [m]";
+  positions.y_label = "s_y [m]";
+  positions.equal_scale = true;
+  const std::string title =
+      "Pareto-optimal maneuvers from (" + rounded(description.from.speed_mps) + " m/s, " +
+      rounded(description.from.steering_rad) + " rad) to (" + rounded(description.to.speed_mps) +
+      " m/s, " + rounded(description.to.steering_rad) + " rad) in " +
+      rounded(description.duration_s) + " s";
+  return svg_of(
+      title,
+      {front_panel(front, weighted_sums, description), positions,
+       over_time(front, "Orientations", "psi [rad]",
+                 [](const State& state) { return state.pose.heading_rad; }),
+       input_over_time(front, "Inputs: acceleration", "u_v [m/s²]", &Input::acceleration_mps2),
+       input_over_time(front, "Inputs: steering rate", "u_delta [rad/s]",
+                       &Input::steering_rate_radps),
+       over_time(front, "Speeds", "v [m/s]", [](const State& state) { return state.speed_mps; })},
+      3);
+}
+
+}  // namespace hlc

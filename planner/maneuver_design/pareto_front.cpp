@@ -1,0 +1,348 @@
+#include "planner/maneuver_design/pareto_front.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "planner/maneuver_design/shooting.hpp"
+#include "planner/maneuver_design/transcription.hpp"
+#include "planner/maneuver_design/weighted_sum.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kNoRange = 1e-6;     // relative to the size of a criterion
+constexpr double kDominance = 1e-6;   // relative to the range: less is the solver's noise
+constexpr double kEvenEnough = 0.02;  // of the mean distance between neighbours
+
+ParetoPoint point_of(const ParetoProblem& problem, ManeuverSolution solution) {
+  ParetoPoint point;
+  point.objectives.resize(static_cast<Eigen::Index>(problem.criteria.size()));
+  for (std::size_t i = 0; i < problem.criteria.size() && !solution.inputs.empty(); ++i) {
+    point.objectives(static_cast<Eigen::Index>(i)) =
+        shoot(start_state(problem.maneuver), solution.inputs, solution.duration_s,
+              *problem.criteria[i], problem.maneuver.vehicle, WithGradient::kNo)
+            .cost;
+  }
+  point.solution = std::move(solution);
+  return point;
+}
+
+/// The optimum of each criterion alone, and what they span.
+struct SingleOptima {
+  std::vector<ParetoPoint> points;
+  ObjectiveRange range;
+
+  [[nodiscard]] double width(std::size_t criterion) const {
+    const auto i = static_cast<Eigen::Index>(criterion);
+    return range.worst(i) - range.best(i);
+  }
+  /// True if the criteria contradict each other at all.
+  [[nodiscard]] bool have_range() const {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      const double size = std::max(std::abs(range.best(index)), std::abs(range.worst(index)));
+      if (!(width(i) > kNoRange * size)) {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+/// Adds a solution's status to that of the front; true if it is an optimum.
+bool is_optimal(const ManeuverSolution& solution, ParetoFront& front) {
+  if (solution.status != ManeuverStatus::kOptimal && front.status == ManeuverStatus::kOptimal) {
+    front.status = solution.status;
+    front.reason = solution.reason;
+  }
+  return solution.status == ManeuverStatus::kOptimal;
+}
+
+/// Counts solved problems for whoever watches.
+class Counter {
+ public:
+  Counter(const ParetoProgress& progress, std::size_t of) : progress_(progress), of_(of) {}
+
+  void count() {
+    if (progress_) {
+      progress_(++done_, of_);
+    }
+  }
+
+ private:
+  const ParetoProgress& progress_;
+  std::size_t of_;
+  std::size_t done_{};
+};
+
+SingleOptima single_optima(const ParetoProblem& problem, ParetoFront& front) {
+  SingleOptima optima;
+  std::vector<Objectives> objectives;
+  for (const auto& criterion : problem.criteria) {
+    optima.points.push_back(point_of(problem, solve(problem.maneuver, *criterion)));
+    if (!is_optimal(optima.points.back().solution, front)) {
+      return optima;
+    }
+    objectives.push_back(optima.points.back().objectives);
+  }
+  optima.range = range_of(objectives);
+  return optima;
+}
+
+void mark_dominated(const SingleOptima& optima, ParetoFront& front) {
+  const Objectives tolerance = kDominance * (optima.range.worst - optima.range.best);
+  for (ParetoPoint& point : front.points) {
+    point.is_dominated = true;
+  }
+  for (const std::size_t i : non_dominated(front.objectives(), tolerance)) {
+    front.points[i].is_dominated = false;
+  }
+}
+
+/// min J_1 subject to J_i <= eps_i; `eps` starts with i = 2.
+ManeuverSolution bounded(const ParetoProblem& problem, const std::vector<double>& eps,
+                         const std::vector<Input>& start) {
+  ManeuverProblem maneuver = problem.maneuver;
+  for (std::size_t i = 0; i < eps.size(); ++i) {
+    maneuver.cost_bounds.push_back({problem.criteria[i + 1], eps[i]});
+  }
+  SolverOptions options;
+  options.start = start;
+  ManeuverSolution solution = solve(maneuver, *problem.criteria.front(), options);
+  if (solution.status != ManeuverStatus::kOptimal) {
+    solution = solve(maneuver, *problem.criteria.front());
+  }
+  return solution;
+}
+
+/// Length along a front up to each point, criteria divided by their ranges.
+std::vector<double> lengths_along(const std::vector<Objectives>& points,
+                                  const ObjectiveRange& range) {
+  std::vector<double> lengths{0.0};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Objectives step = (points[i] - points[i - 1]).cwiseQuotient(range.worst - range.best);
+    lengths.push_back(lengths.back() + step.norm());
+  }
+  return lengths;
+}
+
+/// J_2 at equally spaced lengths, without the ends, by linear interpolation. `points` run from one
+/// end of the front to the other.
+std::vector<double> evenly_spaced(const std::vector<Objectives>& points,
+                                  const ObjectiveRange& range, std::size_t count) {
+  const std::vector<double> lengths = lengths_along(points, range);
+  std::vector<double> result;
+  std::size_t piece = 0;
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const double wanted = lengths.back() * static_cast<double>(i) / static_cast<double>(count - 1);
+    while (piece + 2 < lengths.size() && lengths[piece + 1] < wanted) {
+      ++piece;
+    }
+    const double share = (wanted - lengths[piece]) / (lengths[piece + 1] - lengths[piece]);
+    result.push_back(points[piece](1) + share * (points[piece + 1](1) - points[piece](1)));
+  }
+  return result;
+}
+
+bool is_even(const std::vector<Objectives>& points, const ObjectiveRange& range) {
+  const std::vector<double> lengths = lengths_along(points, range);
+  const double mean = lengths.back() / static_cast<double>(lengths.size() - 1);
+  for (std::size_t i = 1; i < lengths.size(); ++i) {
+    if (std::abs(lengths[i] - lengths[i - 1] - mean) > kEvenEnough * mean) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Two criteria: from the optimum of J_2 over the bounds `eps` (ascending) to the optimum of J_1.
+void sweep(const ParetoProblem& problem, const SingleOptima& optima, const std::vector<double>& eps,
+           Counter& counter, ParetoFront& front) {
+  front.points = {optima.points[1]};
+  for (const double bound : eps) {
+    ManeuverSolution solution = bounded(problem, {bound}, front.points.back().solution.inputs);
+    counter.count();
+    if (!is_optimal(solution, front)) {
+      return;
+    }
+    front.points.push_back(point_of(problem, std::move(solution)));
+  }
+  front.points.push_back(optima.points[0]);
+}
+
+std::vector<double> equal_steps(const SingleOptima& optima, std::size_t criterion,
+                                std::size_t points) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i + 1 < points; ++i) {
+    steps.push_back(optima.range.best(static_cast<Eigen::Index>(criterion)) +
+                    optima.width(criterion) * static_cast<double>(i) /
+                        static_cast<double>(points - 1));
+  }
+  return steps;
+}
+
+ManeuverSolution weighted(const ParetoProblem& problem, const SingleOptima& optima,
+                          const std::vector<double>& weights) {
+  std::vector<WeightedCost> terms;
+  std::vector<CriterionRange> ranges;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    terms.push_back({weights[i], problem.criteria[i]});
+    ranges.push_back({optima.range.best(index), optima.range.worst(index)});
+  }
+  return solve(problem.maneuver, normalised_sum(std::move(terms), ranges));
+}
+
+/// Two criteria: where weighted sums lie, in order along the front, ends included.
+std::vector<Objectives> rough_front(const ParetoProblem& problem, const SingleOptima& optima,
+                                    std::size_t points, Counter& counter) {
+  std::vector<Objectives> rough{optima.points[1].objectives};
+  for (std::size_t i = 1; i + 1 < points; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(points - 1);
+    const ParetoPoint point = point_of(problem, weighted(problem, optima, {share, 1.0 - share}));
+    counter.count();
+    const bool goes_on = point.solution.status == ManeuverStatus::kOptimal &&
+                         point.objectives(1) > rough.back()(1) &&
+                         point.objectives(1) < optima.points[0].objectives(1);
+    if (goes_on) {
+      rough.push_back(point.objectives);
+    }
+  }
+  rough.push_back(optima.points[0].objectives);
+  return rough;
+}
+
+void fill_two_criteria(const ParetoProblem& problem, const SingleOptima& optima,
+                       const ParetoOptions& options, ParetoFront& front) {
+  constexpr std::size_t kCorrections = 4;
+  const std::size_t inner = options.points - 2;
+  if (options.spacing == Spacing::kSecondCriterion) {
+    Counter counter(options.progress, inner);
+    sweep(problem, optima, equal_steps(optima, 1, options.points), counter, front);
+    return;
+  }
+  Counter counter(options.progress, inner * (2 + kCorrections));
+  std::vector<Objectives> known = rough_front(problem, optima, options.points, counter);
+  for (std::size_t i = 0; i <= kCorrections; ++i) {
+    sweep(problem, optima, evenly_spaced(known, optima.range, options.points), counter, front);
+    known = front.objectives();
+    if (front.status != ManeuverStatus::kOptimal || is_even(known, optima.range)) {
+      return;
+    }
+  }
+}
+
+/// Calls `visit` with every combination of one value of each list.
+void for_each_combination(const std::vector<std::vector<double>>& lists,
+                          const std::function<void(const std::vector<double>&)>& visit) {
+  std::vector<std::size_t> index(lists.size(), 0);
+  std::vector<double> values(lists.size());
+  for (;;) {
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      values[i] = lists[i][index[i]];
+    }
+    visit(values);
+    std::size_t digit = 0;
+    while (digit < lists.size() && ++index[digit] == lists[digit].size()) {
+      index[digit++] = 0;
+    }
+    if (digit == lists.size()) {
+      return;
+    }
+  }
+}
+
+void fill_grid(const ParetoProblem& problem, const SingleOptima& optima,
+               const ParetoOptions& options, ParetoFront& front) {
+  front.points = optima.points;
+  std::vector<std::vector<double>> lists;
+  std::size_t combinations = 1;
+  for (std::size_t i = 1; i < problem.criteria.size(); ++i) {
+    lists.push_back(equal_steps(optima, i, options.points));
+    lists.back().push_back(optima.range.worst(static_cast<Eigen::Index>(i)));
+    combinations *= lists.back().size();
+  }
+  Counter counter(options.progress, combinations);
+  for_each_combination(lists, [&](const std::vector<double>& eps) {
+    ManeuverSolution solution = bounded(problem, eps, {});
+    counter.count();
+    if (solution.status != ManeuverStatus::kInfeasible && is_optimal(solution, front)) {
+      front.points.push_back(point_of(problem, std::move(solution)));
+    }
+  });
+}
+
+/// All ways to share `left` pieces of 1 / total among the criteria.
+void add_weights(std::size_t left, std::size_t total, std::size_t criteria,
+                 std::vector<double>& weights, std::vector<std::vector<double>>& all) {
+  if (weights.size() + 1 == criteria) {
+    weights.push_back(static_cast<double>(left) / static_cast<double>(total));
+    all.push_back(weights);
+    weights.pop_back();
+    return;
+  }
+  for (std::size_t share = 0; share <= left; ++share) {
+    weights.push_back(static_cast<double>(share) / static_cast<double>(total));
+    add_weights(left - share, total, criteria, weights, all);
+    weights.pop_back();
+  }
+}
+
+}  // namespace
+
+std::vector<Objectives> ParetoFront::objectives() const {
+  std::vector<Objectives> result;
+  for (const ParetoPoint& point : points) {
+    result.push_back(point.objectives);
+  }
+  return result;
+}
+
+ParetoFront epsilon_constraint_front(const ParetoProblem& problem, const ParetoOptions& options) {
+  assert(problem.criteria.size() >= 2 && options.points >= 2);
+  ParetoFront front;
+  const SingleOptima optima = single_optima(problem, front);
+  if (front.status != ManeuverStatus::kOptimal) {
+    return front;
+  }
+  if (!optima.have_range()) {
+    front.points = {optima.points.front()};
+    return front;
+  }
+  if (problem.criteria.size() == 2) {
+    fill_two_criteria(problem, optima, options, front);
+  } else {
+    fill_grid(problem, optima, options, front);
+  }
+  mark_dominated(optima, front);
+  return front;
+}
+
+ParetoFront weighted_sum_front(const ParetoProblem& problem, const ParetoOptions& options) {
+  assert(problem.criteria.size() >= 2 && options.points >= 2);
+  ParetoFront front;
+  const SingleOptima optima = single_optima(problem, front);
+  if (front.status != ManeuverStatus::kOptimal) {
+    return front;
+  }
+  if (!optima.have_range()) {
+    front.points = {optima.points.front()};
+    return front;
+  }
+  std::vector<double> weights;
+  std::vector<std::vector<double>> all;
+  add_weights(options.points - 1, options.points - 1, problem.criteria.size(), weights, all);
+  Counter counter(options.progress, all.size());
+  for (const std::vector<double>& choice : all) {
+    ManeuverSolution solution = weighted(problem, optima, choice);
+    counter.count();
+    if (is_optimal(solution, front)) {
+      front.points.push_back(point_of(problem, std::move(solution)));
+    }
+  }
+  mark_dominated(optima, front);
+  return front;
+}
+
+}  // namespace hlc

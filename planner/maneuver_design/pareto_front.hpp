@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/maneuver_design/dominance.hpp"
+#include "planner/maneuver_design/maneuver_solver.hpp"
+
+namespace hlc {
+
+/// One maneuver, several criteria (paper, Eq. 2 and Fig. 1).
+struct ParetoProblem {
+  ManeuverProblem maneuver;
+  std::vector<std::shared_ptr<const RunningCost>> criteria;  ///< J_1 ... J_K, K >= 2
+};
+
+struct ParetoPoint {
+  Objectives objectives;      ///< J_1 ... J_K
+  ManeuverSolution solution;  ///< its `cost` is that of what was minimised for this point
+  bool is_dominated{};        ///< by another point of the front
+};
+
+/// How the points of a front of two criteria lie.
+enum class Spacing {
+  kAlongFront,       ///< equal distances between neighbours, criteria divided by their ranges
+  kSecondCriterion,  ///< equal steps of J_2
+};
+
+/// Told after each solved problem: how many are done, and of how many at most.
+using ParetoProgress = std::function<void(std::size_t done, std::size_t of)>;
+
+struct ParetoOptions {
+  std::size_t points{31};  ///< at least 2; for more than two criteria: per bounded criterion
+  Spacing spacing{Spacing::kAlongFront};
+  ParetoProgress progress{};
+};
+
+struct ParetoFront {
+  /// kOptimal if every point is an optimum; else the first other status, with its reason.
+  ManeuverStatus status{ManeuverStatus::kOptimal};
+  std::string reason;
+  /// Two criteria: from the optimum of J_2 to that of J_1. More: no order.
+  std::vector<ParetoPoint> points;
+
+  [[nodiscard]] std::vector<Objectives> objectives() const;
+};
+
+/// The front by the epsilon-constraint method: min J_1 subject to J_i <= eps_i, i = 2 ... K, for a
+/// grid of eps between each J_i's best and worst value among the single optima of all criteria.
+/// Reaches points in dents of the front, too, which no weighted sum can.
+///
+/// Two criteria: the ends are the single optima, and eps is chosen so that the points are spaced as
+/// asked for. kAlongFront starts from where weighted sums lie and corrects eps by interpolation
+/// until the distances differ from their mean by less than 2 %, at most four times. If the criteria
+/// do not contradict each other (ranges below 1e-6 of their size) the front is one point.
+///
+/// More criteria: a full grid of `points` values per bounded criterion, points whose bounds cannot
+/// be met left out.
+///
+/// @pre K >= 2, points >= 2
+[[nodiscard]] ParetoFront epsilon_constraint_front(const ParetoProblem& problem,
+                                                   const ParetoOptions& options = {});
+
+/// For comparison: min sum_i w_i J_i / (worst_i - best_i) with evenly spaced weights (for more than
+/// two criteria: all multiples of 1 / (points - 1) that add up to 1). Finds no point in a dent, and
+/// crowds where the front is strongly curved.
+[[nodiscard]] ParetoFront weighted_sum_front(const ParetoProblem& problem,
+                                             const ParetoOptions& options = {});
+
+}  // namespace hlc
