@@ -4,16 +4,12 @@
 #include <cstdio>
 #include <functional>
 
+#include "planner/automaton/yaml_text.hpp"
+
 namespace hlc {
 namespace {
 
 using Eigen::Vector2d;
-
-std::string exact(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
 
 std::string rounded(double value) {
   char text[32];
@@ -119,11 +115,13 @@ std::string csv_of(const ParetoFront& front, const ParetoDescription& descriptio
   for (std::size_t i = 0; i < front.points.size(); ++i) {
     const ParetoPoint& point = front.points[i];
     const Pose end = point.solution.states.back().pose;
-    for (const double value : point.objectives) out += exact(value) + ",";
-    out += exact(end.x_m) + "," + exact(end.y_m) + "," + exact(end.heading_rad) + ",";
+    for (const double value : point.objectives) out += shortest_text(value) + ",";
+    out += shortest_text(end.x_m) + "," + shortest_text(end.y_m) + "," +
+           shortest_text(end.heading_rad) + ",";
     out += point.solution.status == ManeuverStatus::kOptimal ? "optimal," : "not_converged,";
-    out += exact(highest_speed_mps(point.solution)) + "," + (point.is_dominated ? "1," : "0,") +
-           (i == knee ? "1," : "0,") + exact(point.solution.first_order_residual) + "\n";
+    out += shortest_text(highest_speed_mps(point.solution)) + "," +
+           (point.is_dominated ? "1," : "0,") + (i == knee ? "1," : "0,") +
+           shortest_text(point.solution.first_order_residual) + "\n";
   }
   return out;
 }

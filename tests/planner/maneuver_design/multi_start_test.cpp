@@ -71,6 +71,29 @@ TEST(MultiStart, NoRandomStartFindsAnythingBetterForAnyEdgeOfThePaper) {
   }
 }
 
+TEST(MultiStart, NoRandomStartStopsShorterByMuch) {
+  constexpr std::uint64_t kSeed = 73;
+  SCOPED_TRACE(Message() << "seed " << kSeed);
+  const AutomatonConfiguration& c = paper_configuration();
+  const auto cost = make_criterion("stopping_distance", c.vehicle);
+  std::mt19937_64 random(kSeed);
+  for (std::size_t from = 2; from <= 12; ++from) {
+    SCOPED_TRACE(Message() << "from " << from);
+    const ManeuverProblem problem{c.trims[from - 1], c.trims[0], c.step_s,
+                                  c.intervals,       c.vehicle,  c.limits};
+    const ManeuverSolution own = solve(problem, *cost);
+    ASSERT_EQ(own.status, ManeuverStatus::kOptimal) << own.reason;
+    for (std::uint64_t i = 0; i < test::num_seeds(6); ++i) {
+      SolverOptions options;
+      options.start = random_inputs(i, c.intervals, c.limits, random);
+      const ManeuverSolution other = solve(problem, *cost, options);
+      if (other.status == ManeuverStatus::kOptimal) {
+        EXPECT_GT(other.cost, own.cost * (1.0 - 1e-3)) << "start " << i;
+      }
+    }
+  }
+}
+
 struct Car {
   const char* name;
   VehicleParameters vehicle;
