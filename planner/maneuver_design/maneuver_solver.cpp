@@ -6,6 +6,7 @@
 
 #include "planner/maneuver_design/attempt.hpp"
 #include "planner/maneuver_design/criteria.hpp"
+#include "planner/maneuver_design/effort.hpp"
 #include "planner/maneuver_design/feasibility.hpp"
 #include "planner/maneuver_design/optimality.hpp"
 #include "planner/maneuver_design/shooting.hpp"
@@ -87,20 +88,31 @@ ManeuverSolution attempt(const ManeuverProblem& problem, const RunningCost& cost
   return solution;
 }
 
+/// The fastest maneuver that satisfies the g_i, not faster than `longest_s`; not optimal if it was
+/// not found from any of several durations.
+ManeuverSolution fastest_from(const ManeuverProblem& problem, double longest_s) {
+  SolverOptions from_constant;
+  from_constant.guess = Guess::kConstant;
+  ManeuverSolution found;
+  for (const double ample : {3.0, 10.0, 1.5, 30.0}) {
+    ManeuverProblem fastest = problem;
+    fastest.cost_bounds.clear();
+    fastest.duration_s = ample * longest_s;
+    fastest.free_duration = DurationRange{longest_s, 2.0 * ample * longest_s};
+    found = attempt(fastest, TravelTime{}, from_constant);
+    if (found.status == ManeuverStatus::kOptimal) {
+      break;
+    }
+  }
+  return found;
+}
+
 /// Asks, for a problem whose g_i the solver could not satisfy, how long they need. Makes the
 /// solution an infeasible one if that is longer than allowed.
-void explain_path_violation(const ManeuverProblem& problem, const SolverOptions& options,
-                            ManeuverSolution& solution) {
+void explain_path_violation(const ManeuverProblem& problem, ManeuverSolution& solution) {
   const double longest_s =
       problem.free_duration ? problem.free_duration->max_s : problem.duration_s;
-  ManeuverProblem fastest = problem;
-  constexpr double kAmple = 10.0;
-  fastest.duration_s = kAmple * longest_s;
-  fastest.free_duration = DurationRange{longest_s, 2.0 * kAmple * longest_s};
-  SolverOptions from_constant = options;
-  from_constant.guess = Guess::kConstant;
-  from_constant.start.clear();
-  ManeuverSolution found = attempt(fastest, TravelTime{}, from_constant);
+  const ManeuverSolution found = fastest_from(problem, longest_s);
   if (found.status != ManeuverStatus::kOptimal ||
       found.duration_s <= longest_s * (1.0 + kPathTolerance)) {
     return;
@@ -116,6 +128,22 @@ void explain_path_violation(const ManeuverProblem& problem, const SolverOptions&
   solution.reason = reason.str();
   solution.shortest_duration_s = found.duration_s;
   solution.evaluations = evaluations;
+}
+
+/// Once more, from the maneuver of least effort, if that satisfies the constraints.
+void try_again_from_least_effort(const ManeuverProblem& problem, const RunningCost& cost,
+                                 const SolverOptions& options, ManeuverSolution& solution) {
+  ManeuverProblem unbounded = problem;
+  unbounded.cost_bounds.clear();
+  const ManeuverSolution soft = attempt(unbounded, Effort{}, {});
+  solution.evaluations += soft.evaluations;
+  if (soft.status == ManeuverStatus::kOptimal) {
+    const int evaluations = solution.evaluations;
+    SolverOptions from_soft = options;
+    from_soft.start = soft.inputs;
+    solution = attempt(problem, cost, from_soft);
+    solution.evaluations += evaluations;
+  }
 }
 
 /// Asks, for a problem whose bounds on other costs the solver could not keep, how low those costs
@@ -144,11 +172,14 @@ void explain_cost_bound(const ManeuverProblem& problem, ManeuverSolution& soluti
 ManeuverSolution solve(const ManeuverProblem& problem, const RunningCost& cost,
                        const SolverOptions& options) {
   ManeuverSolution solution = attempt(problem, cost, options);
+  if (solution.status == ManeuverStatus::kNotConverged && options.start.empty()) {
+    try_again_from_least_effort(problem, cost, options, solution);
+  }
   if (solution.residuals.cost_bound > kPathTolerance) {
     explain_cost_bound(problem, solution);
   }
   if (solution.residuals.path > kPathTolerance) {
-    explain_path_violation(problem, options, solution);
+    explain_path_violation(problem, solution);
   }
   return solution;
 }
