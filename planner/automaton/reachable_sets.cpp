@@ -1,7 +1,9 @@
 #include "planner/automaton/reachable_sets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "planner/geometry/footprint.hpp"
@@ -9,26 +11,49 @@
 namespace hlc {
 namespace {
 
-using SetPerTrim = std::vector<std::vector<Point>>;
-
 /// Kept vertices of a swept area's hull; the recursion itself uses all of them.
 constexpr std::size_t kMaxVertices = 16;
 
-void append_transformed(const std::vector<Point>& points_m, const Pose& frame,
-                        std::vector<Point>& out_m) {
-  const ConvexPolygon moved = transformed(ConvexPolygon{points_m}, frame);
-  out_m.insert(out_m.end(), moved.vertices_m.begin(), moved.vertices_m.end());
+/// The extreme points in eight directions, counter-clockwise; one may stand there several times.
+std::array<Point, 8> extreme_points(const std::vector<Point>& points_m) {
+  const std::array<Point, 8> directions{Point{1, 0},  Point{1, 1},   Point{0, 1},  Point{-1, 1},
+                                        Point{-1, 0}, Point{-1, -1}, Point{0, -1}, Point{1, -1}};
+  std::array<Point, 8> extreme;
+  std::array<double, 8> largest;
+  largest.fill(-std::numeric_limits<double>::infinity());
+  for (const Point& point : points_m) {
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const double along = directions[i].dot(point);
+      if (along <= largest[i]) continue;
+      largest[i] = along;
+      extreme[i] = point;
+    }
+  }
+  return extreme;
 }
 
-/// Vertices of the hull of what the successors hold, each seen through its edge:
-/// hull of union over successors u of T_tu * sets[u].
-std::vector<Point> hull_over_successors(const Subgraph& subgraph, TrimId trim,
-                                        const SetPerTrim& sets_m) {
-  std::vector<Point> points_m;
-  for (const Edge& edge : subgraph.successors(trim)) {
-    append_transformed(sets_m[edge.to.index], edge.maneuver->displacement, points_m);
+/// Drops points that lie clearly inside the polygon of the extreme points: they are no vertices of
+/// the hull, and sorting what is left is quicker by far.
+void drop_inner_points(std::vector<Point>& points_m) {
+  constexpr std::size_t kFew = 64;
+  if (points_m.size() < kFew) return;
+  const std::array<Point, 8> extreme = extreme_points(points_m);
+  std::array<Point, 8> along;
+  std::array<double, 8> clear;
+  for (std::size_t i = 0; i < extreme.size(); ++i) {
+    along[i] = extreme[(i + 1) % extreme.size()] - extreme[i];
+    clear[i] = 10.0 * kHullTolerance_m * along[i].norm();
   }
-  return hull_vertices(std::move(points_m));
+  std::erase_if(points_m, [&](const Point& point) {
+    bool is_inner = false;
+    for (std::size_t i = 0; i < extreme.size(); ++i) {
+      if (along[i].isZero(0.0)) continue;
+      const Point offset = point - extreme[i];
+      if (along[i].x() * offset.y() - along[i].y() * offset.x() <= clear[i]) return false;
+      is_inner = true;
+    }
+    return is_inner;
+  });
 }
 
 double largest_norm(const std::vector<Point>& points_m) {
@@ -78,12 +103,37 @@ ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
   for (const TrimId trim : subgraph.starts()) {
     max_steps_left_ = std::max(max_steps_left_, subgraph.distance_to_standstill(trim));
   }
+  shifts_.resize(num_trims_);
+  for (const TrimId trim : subgraph.starts()) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      const Pose& end = edge.maneuver->displacement;
+      shifts_[trim.index].push_back(
+          {edge.to, end.position_m(), std::cos(end.heading_rad), std::sin(end.heading_rad)});
+    }
+  }
   const std::size_t rows = (max_steps_ + 1) * (max_steps_left_ + 1);
   max_distance_m_.assign(rows * num_trims_, -std::numeric_limits<double>::infinity());
   for (std::size_t steps_left = 0; steps_left <= max_steps_left_; ++steps_left) {
     compute_distances(subgraph, steps_left);
   }
   compute_swept_areas(subgraph);
+  shifts_.clear();
+}
+
+/// Vertices of the hull of what the successors hold, each seen through its edge:
+/// hull of union over successors u of T_tu * sets[u].
+std::vector<Point> ReachableSets::hull_over_successors(TrimId trim,
+                                                       const SetPerTrim& sets_m) const {
+  std::vector<Point> points_m;
+  for (const Shift& shift : shifts_[trim.index]) {
+    for (const Point& point : sets_m[shift.to.index]) {
+      points_m.emplace_back(
+          shift.origin_m.x() + shift.cos_heading * point.x() - shift.sin_heading * point.y(),
+          shift.origin_m.y() + shift.sin_heading * point.x() + shift.cos_heading * point.y());
+    }
+  }
+  drop_inner_points(points_m);
+  return hull_vertices(std::move(points_m));
 }
 
 void ReachableSets::compute_distances(const Subgraph& subgraph, std::size_t steps_left) {
@@ -92,7 +142,7 @@ void ReachableSets::compute_distances(const Subgraph& subgraph, std::size_t step
     SetPerTrim next_m(num_trims_);
     for (const TrimId trim : subgraph.starts()) {
       if (steps > 0) {
-        next_m[trim.index] = hull_over_successors(subgraph, trim, sets_m);
+        next_m[trim.index] = hull_over_successors(trim, sets_m);
       } else if (subgraph.distance_to_standstill(trim) <= steps_left) {
         next_m[trim.index] = {Point::Zero()};
       }
@@ -117,7 +167,7 @@ void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
       } else if (step == 1) {
         set_m = first_step_area_m(subgraph, trim);
       } else {
-        set_m = hull_over_successors(subgraph, trim, sets_m);
+        set_m = hull_over_successors(trim, sets_m);
       }
       std::vector<Point>& all_m = until_m[trim.index];
       all_m.insert(all_m.end(), set_m.begin(), set_m.end());

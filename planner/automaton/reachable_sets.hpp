@@ -9,7 +9,8 @@ namespace hlc {
 
 /// What a subgraph can reach, in the frame of the start pose. Tables, computed once per subgraph,
 /// for every trim that planning may start from (Subgraph::starts). For the paper's 12 trims and 9
-/// steps that takes 3 ms (Release, one core).
+/// steps that takes 3 ms,
+/// for 95 trims with 5000 edges 0.7 s (Release, one core).
 ///
 /// With T_tu the displacement of the edge t -> u, the sets after m steps follow from those after m
 /// - 1:
@@ -47,6 +48,17 @@ class ReachableSets {
   [[nodiscard]] const ConvexPolygon& swept_area_until_m(TrimId trim, std::size_t steps) const;
 
  private:
+  using SetPerTrim = std::vector<std::vector<Point>>;
+  /// T_tu of one edge t -> u.
+  struct Shift {
+    TrimId to;
+    Point origin_m;
+    double cos_heading;
+    double sin_heading;
+  };
+
+  [[nodiscard]] std::vector<Point> hull_over_successors(TrimId trim,
+                                                        const SetPerTrim& sets_m) const;
   void compute_distances(const Subgraph& subgraph, std::size_t steps_left);
   void compute_swept_areas(const Subgraph& subgraph);
   [[nodiscard]] std::size_t distance_index(TrimId trim, std::size_t steps,
@@ -59,6 +71,7 @@ class ReachableSets {
   std::vector<ConvexPolygon> swept_area_m_;
   std::vector<ConvexPolygon> swept_area_until_m_;
   std::size_t num_trims_{};
+  std::vector<std::vector<Shift>> shifts_;  ///< by trim; empty once the tables are there
 };
 
 }  // namespace hlc

@@ -108,9 +108,13 @@ std::unique_ptr<Controller> Controller::clone() const {
   return result;
 }
 
-void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph) {
+void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
+                           std::shared_ptr<const ReachableSets> reachable) {
   assert(&subgraph->automaton() == &subgraph_->automaton());
-  auto reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
+  if (!reachable) {
+    reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
+  }
+  assert(reachable->max_steps() > options_.horizon_steps);
   planner_ = make_best_first_planner(*subgraph, *reachable, options_.search);
   subgraph_ = std::move(subgraph);
   reachable_ = std::move(reachable);
@@ -299,9 +303,8 @@ void Controller::search_candidate(StepIndex next) {
     return;
   }
   step_.report.cost_m2 = result.cost;
-  step_.candidate =
-      in_force_->base().continued(next, result.maneuvers,
-                                  *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
+  step_.candidate = in_force_->base().continued(
+      next, result.maneuvers, *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
   step_.candidate_areas_m = in_force_->areas_of(*step_.candidate, next);
   if (!is_candidate_free()) {
     step_.candidate.reset();
