@@ -132,6 +132,18 @@ TEST(ParetoFront, ThreeCriteriaGiveASurfaceWhosePointsNoOtherDominates) {
   EXPECT_LT(knee_point(kept), kept.size());
 }
 
+TEST(ParetoFront, FindsOptimaThatCoast) {
+  ParetoProblem problem = paper_example(20, {"J1", "energy"});
+  problem.maneuver.from = {0.8, 0.0};
+  problem.maneuver.to = {0.8, 0.12};
+  ParetoOptions options;
+  options.points = 7;
+  const ParetoFront front = epsilon_constraint_front(problem, options);
+  ASSERT_EQ(front.status, ManeuverStatus::kOptimal) << front.reason;
+  EXPECT_EQ(front.points.size(), 7U);
+  expect_convex(scaled(front));
+}
+
 TEST(ParetoFront, IsOnePointWhereTheLimitsLeaveNoChoice) {
   // 11.5 m/s^2 and 3.1 rad/s are exactly what the change takes.
   ParetoProblem problem = paper_example(20, {"J1", "J2"});
