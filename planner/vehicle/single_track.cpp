@@ -1,5 +1,6 @@
 #include "planner/vehicle/single_track.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace hlc {
@@ -30,6 +31,12 @@ double slip_angle_rad(double steering_rad, const VehicleParameters& vehicle) {
 double curvature_per_m(double steering_rad, const VehicleParameters& vehicle) {
   return std::tan(steering_rad) * std::cos(slip_angle_rad(steering_rad, vehicle)) /
          vehicle.wheelbase_m;
+}
+
+double steering_for_curvature_rad(double curvature_per_m, const VehicleParameters& vehicle) {
+  const double slip_sine = curvature_per_m * vehicle.rear_axle_to_cg_m;
+  assert(std::abs(slip_sine) < 1.0);
+  return std::atan(curvature_per_m * vehicle.wheelbase_m / std::sqrt(1.0 - slip_sine * slip_sine));
 }
 
 StateVector derivative(const StateVector& x, const Input& u, const VehicleParameters& vehicle) {

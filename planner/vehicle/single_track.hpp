@@ -56,6 +56,10 @@ using InputJacobian = Eigen::Matrix<double, 5, 2>;
 /// Curvature of the path of the centre of gravity, tan(delta) cos(beta) / L [1/m].
 [[nodiscard]] double curvature_per_m(double steering_rad, const VehicleParameters& vehicle);
 
+/// The steering with that curvature [rad]. @pre |curvature| l_r < 1
+[[nodiscard]] double steering_for_curvature_rad(double curvature_per_m,
+                                                const VehicleParameters& vehicle);
+
 /// f(x, u) of the paper, Eq. 1.
 [[nodiscard]] StateVector derivative(const StateVector& x, const Input& u,
                                      const VehicleParameters& vehicle);

@@ -62,6 +62,7 @@ TEST(SingleTrack, TurnsAboutThePointWhereTheAxlesLinesMeet) {
   EXPECT_NEAR(slip_angle_rad(delta, vehicle), std::atan2(vehicle.rear_axle_to_cg_m, rear_radius_m),
               1e-12);
   EXPECT_NEAR(curvature_per_m(delta, vehicle), 4.315, 1e-3);
+  EXPECT_NEAR(steering_for_curvature_rad(1.0 / radius_m, vehicle), delta, 1e-12);
 }
 
 TEST(SingleTrack, VectorAndStateHoldTheSameInTheSameOrder) {

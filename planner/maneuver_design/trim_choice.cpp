@@ -1,0 +1,125 @@
+#include "planner/maneuver_design/trim_choice.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace hlc {
+namespace {
+
+constexpr int kMaxIterations = 1000;
+
+std::size_t nearest(const Point& point, const std::vector<Point>& centres) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < centres.size(); ++i) {
+    if ((point - centres[i]).squaredNorm() < (point - centres[best]).squaredNorm()) best = i;
+  }
+  return best;
+}
+
+/// The sample farthest from its nearest centre.
+const Point& farthest(const std::vector<Point>& points, const std::vector<Point>& centres) {
+  return *std::ranges::max_element(points, {}, [&centres](const Point& point) {
+    return (point - centres[nearest(point, centres)]).squaredNorm();
+  });
+}
+
+std::vector<Point> scattered(const std::vector<Point>& points, std::size_t count) {
+  Point mean = Point::Zero();
+  for (const Point& point : points) mean += point / static_cast<double>(points.size());
+  std::vector<Point> centres{farthest(points, {mean})};
+  while (centres.size() < count) {
+    const Point& next = farthest(points, centres);
+    if ((next - centres[nearest(next, centres)]).norm() == 0.0) {
+      throw std::invalid_argument("the drive has only " + std::to_string(centres.size()) +
+                                  " different ways of moving, needed " + std::to_string(count));
+    }
+    centres.push_back(next);
+  }
+  return centres;
+}
+
+double rounded(double value) { return std::round(value * 1000.0) / 1000.0 + 0.0; }
+
+}  // namespace
+
+std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, double window_s,
+                                       const VehicleParameters& vehicle) {
+  std::vector<DriveSample> samples;
+  std::size_t end = 0;
+  for (const DrivePoint& begin : points) {
+    while (end < points.size() && points[end].time_s < begin.time_s + window_s) ++end;
+    if (end == points.size()) break;
+    const double turn_rad = wrap_angle(points[end].pose.heading_rad - begin.pose.heading_rad);
+    const double chord_m = (points[end].pose.position_m() - begin.pose.position_m()).norm();
+    if (std::abs(turn_rad) > 0.5 * std::numbers::pi) continue;
+    const double half = 0.5 * std::abs(turn_rad);
+    const double arc_m = half > 0.0 ? chord_m * half / std::sin(half) : chord_m;
+    const double speed_mps = arc_m / (points[end].time_s - begin.time_s);
+    if (speed_mps < kSlowestDrive_mps) {
+      samples.push_back({});
+      continue;
+    }
+    if (std::abs(turn_rad / arc_m) * vehicle.rear_axle_to_cg_m >= 1.0) continue;
+    samples.push_back({speed_mps, steering_for_curvature_rad(turn_rad / arc_m, vehicle)});
+  }
+  return samples;
+}
+
+std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std::size_t count,
+                                     const VehicleLimits& limits) {
+  assert(count >= 2);
+  const Point unit{limits.speed_max_mps, limits.steering_max_rad};
+  std::vector<Point> points;
+  for (const DriveSample& sample : drive) {
+    if (sample.speed_mps < kSlowestDrive_mps) continue;
+    points.emplace_back(
+        std::clamp(sample.speed_mps, limits.speed_min_mps, limits.speed_max_mps) / unit.x(),
+        std::clamp(sample.steering_rad, -limits.steering_max_rad, limits.steering_max_rad) /
+            unit.y());
+  }
+  if (points.empty()) throw std::invalid_argument("the vehicle stood for the whole drive");
+
+  std::vector<Point> centres = scattered(points, count - 1);
+  std::vector<std::size_t> sizes;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    std::vector<Point> sums(centres.size(), Point::Zero());
+    sizes.assign(centres.size(), 0);
+    for (const Point& point : points) {
+      const std::size_t cluster = nearest(point, centres);
+      sums[cluster] += point;
+      ++sizes[cluster];
+    }
+    const std::vector<Point> before = centres;
+    for (std::size_t cluster = 0; cluster < centres.size(); ++cluster) {
+      if (sizes[cluster] > 0)
+        centres[cluster] = sums[cluster] / static_cast<double>(sizes[cluster]);
+    }
+    if (centres == before) break;
+  }
+
+  std::vector<ChosenTrim> moving;
+  const auto total = static_cast<double>(drive.size());
+  for (std::size_t cluster = 0; cluster < centres.size(); ++cluster) {
+    const Point& centre = centres[cluster];
+    moving.push_back({{rounded(centre.x() * unit.x()), rounded(centre.y() * unit.y())},
+                      static_cast<double>(sizes[cluster]) / total});
+  }
+  std::ranges::sort(moving, [](const ChosenTrim& a, const ChosenTrim& b) {
+    return std::pair(a.trim.steering_rad, a.trim.speed_mps) <
+           std::pair(b.trim.steering_rad, b.trim.speed_mps);
+  });
+  const auto same = std::ranges::adjacent_find(moving, {}, &ChosenTrim::trim);
+  if (same != moving.end()) {
+    throw std::invalid_argument("two of the chosen trims are the same to 0.001; choose fewer");
+  }
+  std::vector<ChosenTrim> chosen{{{}, static_cast<double>(drive.size() - points.size()) / total}};
+  chosen.insert(chosen.end(), moving.begin(), moving.end());
+  return chosen;
+}
+
+}  // namespace hlc

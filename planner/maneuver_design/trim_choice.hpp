@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/automaton/automaton.hpp"
+
+namespace hlc {
+
+/// Where a vehicle was at a time of a drive.
+struct DrivePoint {
+  double time_s{};
+  Pose pose;
+};
+
+/// How a vehicle drove at a moment.
+struct DriveSample {
+  double speed_mps{};
+  double steering_rad{};
+};
+
+/// Speed and steering of a drive that is known by its poses: of each window of `window_s` the
+/// circular arc from its first to its last point, and the steering with which the single-track
+/// model drives that arc. Windows in which the vehicle turned by more than a half turn, or on a
+/// smaller circle than the model can drive, say nothing and are left out.
+/// @pre times increase, window_s > 0
+[[nodiscard]] std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points,
+                                                     double window_s,
+                                                     const VehicleParameters& vehicle);
+
+/// A trim and the share of the drive that it stands for, in 0 ... 1.
+struct ChosenTrim {
+  Trim trim;
+  double share{};
+};
+
+/// Slower than this counts as standing [m/s].
+inline constexpr double kSlowestDrive_mps = 0.05;
+
+/// `count` trims that stand for a drive: standstill, and one per cluster of the samples in which
+/// the vehicle moved.
+///
+/// The clusters are a local optimum of k-means (Lloyd's iteration): each trim is the mean of its
+/// samples and each sample belongs to the nearest trim, in the plane of speed / largest speed and
+/// steering / largest steering of the limits. The iteration starts from samples that are far from
+/// each other (each next one the farthest from all before), so the same drive gives the same trims.
+/// Samples outside the limits are moved to their border. The trims are rounded to 0.001 and ordered
+/// as the paper's: standstill first, then by steering, then by speed.
+///
+/// @throws std::invalid_argument if the drive has fewer than count - 1 different ways of moving
+/// @pre count >= 2
+[[nodiscard]] std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive,
+                                                   std::size_t count, const VehicleLimits& limits);
+
+}  // namespace hlc
