@@ -193,7 +193,7 @@ Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automato
 
 void read_trims(const YamlNode& node, UniversalAutomaton& automaton) {
   for (const YamlNode& entry : node.list("trims")) {
-    automaton.trims.push_back(read_trim(entry, automaton.limits));
+    automaton.trims.push_back(read_trim(entry, automaton.vehicle, automaton.limits));
     automaton.unit_costs.push_back(read_values(entry, "unit_costs"));
     entry.check_no_unknown_keys();
   }
@@ -269,9 +269,9 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   auto automaton = std::make_shared<UniversalAutomaton>();
   const YamlNode vehicle = node.map("vehicle");
   automaton->vehicle = read_vehicle(vehicle);
-  automaton->identified = read_identified(vehicle.map("identified"));
-  vehicle.check_no_unknown_keys();
   automaton->limits = read_limits(node.map("limits"));
+  automaton->identified = read_identified(vehicle, automaton->vehicle, automaton->limits);
+  vehicle.check_no_unknown_keys();
   automaton->step_s = node.required<double>("step_s", above(0.0));
   for (const YamlNode& label : node.list("labels")) {
     file.labels.push_back(label.as<std::string>());
@@ -280,8 +280,8 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   for (const YamlNode& entry : node.list("maneuvers")) {
     automaton->maneuvers.push_back(read_maneuver(entry, *automaton, file.labels));
   }
-  file.subgraphs = read_subgraphs(node, {automaton->trims, automaton->limits, automaton->step_s,
-                                         file.horizon_steps, file.labels});
+  file.subgraphs = read_subgraphs(node, {automaton->trims, automaton->vehicle, automaton->limits,
+                                         automaton->step_s, file.horizon_steps, file.labels});
   node.check_no_unknown_keys();
   file.automaton = std::move(automaton);
   check_subgraphs(node, file);

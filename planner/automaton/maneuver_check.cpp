@@ -5,6 +5,7 @@
 
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/geometry/footprint.hpp"
+#include "planner/vehicle/lateral_acceleration.hpp"
 
 namespace hlc {
 namespace {
@@ -41,7 +42,8 @@ std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton
   return "";
 }
 
-std::string fault_of_bounds(const Maneuver& m, const VehicleLimits& limits) {
+std::string fault_of_bounds(const Maneuver& m, const UniversalAutomaton& automaton) {
+  const VehicleLimits& limits = automaton.limits;
   for (const Input& u : m.inputs) {
     if (!is_bounded(u.acceleration_mps2, -limits.acceleration_mps2, limits.acceleration_mps2)) {
       return "it accelerates by " + shortest_text(u.acceleration_mps2) +
@@ -58,6 +60,12 @@ std::string fault_of_bounds(const Maneuver& m, const VehicleLimits& limits) {
     }
     if (!is_bounded(x.steering_rad, -limits.steering_max_rad, limits.steering_max_rad)) {
       return "its steering angle is " + shortest_text(x.steering_rad) + " rad, outside the limits";
+    }
+  }
+  for (std::size_t k = 0; k < m.inputs.size(); ++k) {
+    if (!is_within_friction(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
+        !is_within_friction(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
+      return "it exceeds the friction circle in interval " + std::to_string(k + 1);
     }
   }
   return "";
@@ -129,7 +137,7 @@ std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automato
 
 std::string fault_of(const Maneuver& maneuver, const UniversalAutomaton& automaton) {
   std::string fault = fault_of_ends(maneuver, automaton);
-  if (fault.empty()) fault = fault_of_bounds(maneuver, automaton.limits);
+  if (fault.empty()) fault = fault_of_bounds(maneuver, automaton);
   if (fault.empty()) fault = fault_of_motion(maneuver, automaton.vehicle);
   if (fault.empty()) fault = fault_of_areas(maneuver, automaton);
   return fault;

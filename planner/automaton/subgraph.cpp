@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/vehicle/lateral_acceleration.hpp"
+
 namespace hlc {
 namespace {
 
@@ -21,13 +23,28 @@ bool holds_twice(const std::vector<T>& list, const T& value) {
   return std::count(list.begin(), list.end(), value) > 1;
 }
 
-/// True if the bounds on the inputs allow the change within one step.
-bool are_in_reach(const Trim& a, const Trim& b, const VehicleLimits& limits, double step_s) {
+/// True if constant inputs that make the change within one step are within the limits. Without a
+/// friction circle there are none otherwise: v and delta are linear in the inputs.
+bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle,
+                  const VehicleLimits& limits, double step_s) {
   constexpr double kRounding = 1.0 + 1e-9;
   const double speed_mps = limits.acceleration_mps2 * step_s * kRounding;
   const double steering_rad = limits.steering_rate_radps * step_s * kRounding;
-  return std::abs(b.speed_mps - a.speed_mps) <= speed_mps &&
-         std::abs(b.steering_rad - a.steering_rad) <= steering_rad;
+  if (std::abs(b.speed_mps - a.speed_mps) > speed_mps ||
+      std::abs(b.steering_rad - a.steering_rad) > steering_rad) {
+    return false;
+  }
+  const Input input{(b.speed_mps - a.speed_mps) / step_s,
+                    (b.steering_rad - a.steering_rad) / step_s};
+  constexpr int kSamples = 100;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double share = static_cast<double>(i) / kSamples;
+    const State state{{},
+                      std::lerp(a.speed_mps, b.speed_mps, share),
+                      std::lerp(a.steering_rad, b.steering_rad, share)};
+    if (!is_within_friction(state, input, vehicle, limits)) return false;
+  }
+  return true;
 }
 
 bool is_off(const SubgraphSpec& spec, const TrimPair& edge, const std::string& label) {
@@ -65,13 +82,13 @@ const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
 }  // namespace
 
 std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
-                                 const std::vector<TrimId>& on, const VehicleLimits& limits,
-                                 double step_s) {
+                                 const std::vector<TrimId>& on, const VehicleParameters& vehicle,
+                                 const VehicleLimits& limits, double step_s) {
   const auto has_edge = [&](std::size_t i, std::size_t j) {
     const Trim& a = trims[on[i].index];
     const Trim& b = trims[on[j].index];
     if (i == j) return true;
-    if (rule == EdgeRule::kReachable) return are_in_reach(a, b, limits, step_s);
+    if (rule == EdgeRule::kReachable) return are_in_reach(a, b, vehicle, limits, step_s);
     return i == j + 1 || j == i + 1 || a.is_equilibrium() || b.is_equilibrium();
   };
   std::vector<TrimPair> edges;
@@ -161,8 +178,8 @@ void Subgraph::switch_on() {
   standstill_ = *std::find_if(trims_.begin(), trims_.end(),
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 
-  const std::vector<TrimPair> pairs =
-      rule_edges(spec_.rule, trims, spec_.trims, automaton_->limits, automaton_->step_s);
+  const std::vector<TrimPair> pairs = rule_edges(
+      spec_.rule, trims, spec_.trims, automaton_->vehicle, automaton_->limits, automaton_->step_s);
   for (const EdgeLabels& one : spec_.edges) {
     if (!std::binary_search(pairs.begin(), pairs.end(), one.edge)) {
       fail("labels for edge " + printed(one.edge) + ", which its rule does not give");

@@ -20,8 +20,10 @@ struct TrimPair {
 
 /// Which edges there are between the trims of a subgraph, beside each trim's own step.
 enum class EdgeRule {
-  kChain,      ///< every equilibrium trim to and from every trim, and neighbours in their order
-  kReachable,  ///< all pairs that the bounds on acceleration and steering rate allow in one step
+  kChain,  ///< every equilibrium trim to and from every trim, and neighbours in their order
+  /// All pairs that the bounds on acceleration and steering rate allow in one step. With a friction
+  /// circle: those that constant inputs connect within it.
+  kReachable,
 };
 
 /// Edges that are off: those from one trim to another with that label, or with every label.
@@ -59,6 +61,7 @@ struct SubgraphSpec {
 /// @pre every element of `on` is an index into `trims`
 [[nodiscard]] std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
                                                const std::vector<TrimId>& on,
+                                               const VehicleParameters& vehicle,
                                                const VehicleLimits& limits, double step_s);
 
 /// The labels of the edges from one trim to another, without those that are off.

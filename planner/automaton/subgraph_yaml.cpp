@@ -77,7 +77,8 @@ void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpe
 
 /// The pairs that the rule gives among the declared trims.
 std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& context) {
-  return rule_edges(spec.rule, context.trims, spec.trims, context.limits, context.step_s);
+  return rule_edges(spec.rule, context.trims, spec.trims, context.vehicle, context.limits,
+                    context.step_s);
 }
 
 void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {

@@ -11,6 +11,7 @@ namespace hlc {
 /// What the subgraphs of a file belong to.
 struct SubgraphContext {
   const std::vector<Trim>& trims;
+  const VehicleParameters& vehicle;
   const VehicleLimits& limits;
   double step_s{};
   std::size_t horizon_steps{};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planner/automaton/yaml_text.hpp"
+#include "planner/vehicle/lateral_acceleration.hpp"
 
 namespace hlc {
 namespace {
@@ -30,7 +31,13 @@ VehicleParameters read_vehicle(const YamlNode& vehicle) {
   return v;
 }
 
-IdentifiedVehicle read_identified(const YamlNode& identified) {
+IdentifiedVehicle read_identified(const YamlNode& vehicle, const VehicleParameters& parameters,
+                                  const VehicleLimits& limits) {
+  if (vehicle.is_value("identified")) {
+    static_cast<void>(vehicle.required<std::string>("identified", one_of({"kinematic"})));
+    return kinematic_vehicle(parameters, limits.steering_max_rad);
+  }
+  const YamlNode identified = vehicle.optional_map("identified");
   IdentifiedVehicle v;
   v.path_speed_gain = identified.optional("path_speed_gain", v.path_speed_gain, above(0.0));
   v.path_speed_steering =
@@ -57,16 +64,23 @@ VehicleLimits read_limits(const YamlNode& limits) {
   Allowed steering = above(0.0);
   steering.max = 1.5;  // the model has no curvature at pi / 2
   l.steering_max_rad = limits.required<double>("steering_max_rad", steering);
+  if (limits.has("friction_mps2")) {
+    l.friction_mps2 = limits.required<double>("friction_mps2", above(0.0));
+  }
   limits.check_no_unknown_keys();
   return l;
 }
 
-Trim read_trim(const YamlNode& trim, const VehicleLimits& limits) {
+Trim read_trim(const YamlNode& trim, const VehicleParameters& vehicle,
+               const VehicleLimits& limits) {
   Trim result;
   result.speed_mps =
       trim.required<double>("speed_mps", between(limits.speed_min_mps, limits.speed_max_mps));
   result.steering_rad = trim.required<double>(
       "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
+  if (!is_within_friction({{}, result.speed_mps, result.steering_rad}, {}, vehicle, limits)) {
+    trim.fail("speed_mps", "less with this steering: the friction circle is exceeded");
+  }
   return result;
 }
 
@@ -93,13 +107,15 @@ std::string to_yaml(const VehicleParameters& vehicle, const IdentifiedVehicle& i
 }
 
 std::string to_yaml(const VehicleLimits& limits) {
+  const std::string friction =
+      limits.friction_mps2 ? ", " + fields({{"friction_mps2", *limits.friction_mps2}}) : "";
   return "{" +
          fields({{"acceleration_mps2", limits.acceleration_mps2},
                  {"steering_rate_radps", limits.steering_rate_radps},
                  {"speed_min_mps", limits.speed_min_mps},
                  {"speed_max_mps", limits.speed_max_mps},
                  {"steering_max_rad", limits.steering_max_rad}}) +
-         "}";
+         friction + "}";
 }
 
 }  // namespace hlc

@@ -11,14 +11,18 @@ namespace hlc {
 /// are not checked.
 [[nodiscard]] VehicleParameters read_vehicle(const YamlNode& vehicle);
 
-/// Keys as the members of IdentifiedVehicle, all optional.
-[[nodiscard]] IdentifiedVehicle read_identified(const YamlNode& identified);
+/// Key `identified` of the vehicle: a map with the members of IdentifiedVehicle, all optional, or
+/// the word `kinematic` (kinematic_vehicle); absent: the µCar.
+[[nodiscard]] IdentifiedVehicle read_identified(const YamlNode& vehicle,
+                                                const VehicleParameters& parameters,
+                                                const VehicleLimits& limits);
 
-/// Keys as the members of VehicleLimits, all required.
+/// Keys as the members of VehicleLimits, all required but friction_mps2.
 [[nodiscard]] VehicleLimits read_limits(const YamlNode& limits);
 
 /// Keys speed_mps, steering_rad, within the limits. Others are not checked.
-[[nodiscard]] Trim read_trim(const YamlNode& trim, const VehicleLimits& limits);
+[[nodiscard]] Trim read_trim(const YamlNode& trim, const VehicleParameters& vehicle,
+                             const VehicleLimits& limits);
 
 /// One line of YAML each, that reads back to the same bits; the first with `identified` inside.
 [[nodiscard]] std::string to_yaml(const VehicleParameters& vehicle,

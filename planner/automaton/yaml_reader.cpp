@@ -185,6 +185,11 @@ bool YamlNode::is_value(const std::string& key) const {
   return found && found->node_.IsScalar();
 }
 
+bool YamlNode::is_list(const std::string& key) const {
+  const std::optional<YamlNode> found = find(key);
+  return found && found->node_.IsSequence();
+}
+
 template <typename T>
 T YamlNode::required(const std::string& key, const Allowed& allowed) const {
   const YamlNode found = child(key, description<T>(allowed));

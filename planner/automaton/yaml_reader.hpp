@@ -50,6 +50,9 @@ class YamlNode {
   /// True if the key is there and holds a single value, neither a map nor a list.
   [[nodiscard]] bool is_value(const std::string& key) const;
 
+  /// True if the key is there and holds a list.
+  [[nodiscard]] bool is_list(const std::string& key) const;
+
   /// Value of a key of this map. T: double (finite), int, std::size_t, bool, std::string.
   template <typename T>
   [[nodiscard]] T required(const std::string& key, const Allowed& allowed = {}) const;

@@ -8,7 +8,7 @@
 
 #include "planner/automaton/swept_area.hpp"
 #include "planner/maneuver_design/criteria.hpp"
-#include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/friction_circle.hpp"
 #include "planner/maneuver_design/unit_cost.hpp"
 #include "planner/maneuver_design/weighted_sum.hpp"
 
@@ -122,8 +122,8 @@ std::set<TrimPair> needed_pairs(const AutomatonConfiguration& configuration) {
   std::set<TrimPair> needed;
   const auto add = [&](EdgeRule rule, const std::vector<TrimId>& trims,
                        const SubgraphSpec* subgraph) {
-    for (const TrimPair& pair :
-         rule_edges(rule, configuration.trims, trims, configuration.limits, configuration.step_s)) {
+    for (const TrimPair& pair : rule_edges(rule, configuration.trims, trims, configuration.vehicle,
+                                           configuration.limits, configuration.step_s)) {
       if (pair.from == pair.to) continue;
       if (subgraph != nullptr && labels_of(*subgraph, pair).empty()) continue;
       needed.insert(pair);
@@ -151,13 +151,26 @@ std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration
   return tasks;
 }
 
+ManeuverProblem problem_between(const Trim& from, const Trim& to,
+                                const AutomatonConfiguration& configuration) {
+  ManeuverProblem problem;
+  problem.from = from;
+  problem.to = to;
+  problem.duration_s = configuration.step_s;
+  problem.intervals = configuration.intervals;
+  problem.vehicle = configuration.vehicle;
+  problem.limits = configuration.limits;
+  if (const auto friction_mps2 = configuration.limits.friction_mps2) {
+    problem.path_constraints.push_back(
+        std::make_shared<FrictionCircle>(*friction_mps2, configuration.vehicle));
+  }
+  return problem;
+}
+
 Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task) {
-  const ManeuverProblem problem{configuration.trims[task.edge.from.index],
-                                configuration.trims[task.edge.to.index],
-                                configuration.step_s,
-                                configuration.intervals,
-                                configuration.vehicle,
-                                configuration.limits};
+  const ManeuverProblem problem =
+      problem_between(configuration.trims[task.edge.from.index],
+                      configuration.trims[task.edge.to.index], configuration);
   ManeuverSolution solution =
       solved(problem, *make_cost(problem, task, configuration), task, configuration);
   Maneuver maneuver;

@@ -6,8 +6,14 @@
 
 #include "planner/automaton/automaton.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/maneuver_design/maneuver_solver.hpp"
 
 namespace hlc {
+
+/// The optimal control problem between two trims of that vehicle, with its limits, friction circle
+/// included.
+[[nodiscard]] ManeuverProblem problem_between(const Trim& from, const Trim& to,
+                                              const AutomatonConfiguration& configuration);
 
 /// One maneuver to be designed.
 struct DesignTask {

@@ -6,14 +6,16 @@
 #include "planner/automaton/vehicle_yaml.hpp"
 #include "planner/automaton/yaml_reader.hpp"
 #include "planner/maneuver_design/criteria.hpp"
+#include "planner/vehicle/lateral_acceleration.hpp"
 
 namespace hlc {
 namespace {
 
-std::vector<Trim> read_trims(const YamlNode& file, const VehicleLimits& limits) {
+std::vector<Trim> listed_trims(const YamlNode& file, const VehicleParameters& vehicle,
+                               const VehicleLimits& limits) {
   std::vector<Trim> trims;
   for (const YamlNode& entry : file.list("trims")) {
-    const Trim trim = read_trim(entry, limits);
+    const Trim trim = read_trim(entry, vehicle, limits);
     entry.check_no_unknown_keys();
     if (std::find(trims.begin(), trims.end(), trim) != trims.end()) {
       entry.fail("trims that differ from each other");
@@ -25,6 +27,51 @@ std::vector<Trim> read_trims(const YamlNode& file, const VehicleLimits& limits) 
     file.fail("trims", "at least one trim of speed 0");
   }
   return trims;
+}
+
+std::vector<double> increasing_numbers(const YamlNode& map, const std::string& key,
+                                       const Allowed& allowed) {
+  std::vector<double> numbers;
+  for (const YamlNode& entry : map.list(key)) {
+    numbers.push_back(entry.as<double>(allowed));
+    if (numbers.size() > 1 && numbers.back() <= numbers[numbers.size() - 2]) {
+      entry.fail("numbers that increase");
+    }
+  }
+  if (numbers.empty()) map.fail(key, "at least one number");
+  return numbers;
+}
+
+/// Standstill, then every speed with every steering angle that the friction circle allows it.
+std::vector<Trim> grid_trims(const YamlNode& file, const VehicleParameters& vehicle,
+                             const VehicleLimits& limits) {
+  const YamlNode grid = file.map("trims");
+  Allowed moving = above(0.0);
+  moving.max = limits.speed_max_mps;
+  const std::vector<double> speeds = increasing_numbers(grid, "speeds_mps", moving);
+  const std::vector<double> steering = increasing_numbers(
+      grid, "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
+  grid.check_no_unknown_keys();
+  std::vector<Trim> trims{{}};
+  for (const double speed_mps : speeds) {
+    for (const double steering_rad : steering) {
+      if (is_within_friction({{}, speed_mps, steering_rad}, {}, vehicle, limits)) {
+        trims.push_back({speed_mps, steering_rad});
+      }
+    }
+  }
+  return trims;
+}
+
+std::vector<Trim> read_trims(const YamlNode& file, const VehicleParameters& vehicle,
+                             const VehicleLimits& limits) {
+  if (file.is_list("trims")) return listed_trims(file, vehicle, limits);
+  if (!file.has("trims") || file.is_value("trims") || limits.speed_min_mps > 0.0) {
+    file.fail("trims",
+              "a list of {speed_mps, steering_rad}, one of speed 0 among them, or, with "
+              "limits.speed_min_mps = 0, a grid {speeds_mps, steering_rad}");
+  }
+  return grid_trims(file, vehicle, limits);
 }
 
 LabelledCriterion read_criterion(const YamlNode& entry) {
@@ -94,10 +141,10 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   configuration.source = path.string();
   const YamlNode vehicle = file.map("vehicle");
   configuration.vehicle = read_vehicle(vehicle);
-  configuration.identified = read_identified(vehicle.optional_map("identified"));
-  vehicle.check_no_unknown_keys();
   configuration.limits = read_limits(file.map("limits"));
-  configuration.trims = read_trims(file, configuration.limits);
+  configuration.identified = read_identified(vehicle, configuration.vehicle, configuration.limits);
+  vehicle.check_no_unknown_keys();
+  configuration.trims = read_trims(file, configuration.vehicle, configuration.limits);
   configuration.step_s = file.required<double>("step_s", above(0.0));
   configuration.intervals =
       file.optional("intervals", configuration.intervals, between(10.0, 1000.0));
@@ -108,9 +155,9 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
           ? EdgeChoice::kAll
           : EdgeChoice::kSubgraphs;
   configuration.criteria = read_criteria(file);
-  configuration.subgraphs =
-      read_subgraphs(file, {configuration.trims, configuration.limits, configuration.step_s,
-                            configuration.horizon_steps, labels_of(configuration.criteria)});
+  configuration.subgraphs = read_subgraphs(
+      file, {configuration.trims, configuration.vehicle, configuration.limits, configuration.step_s,
+             configuration.horizon_steps, labels_of(configuration.criteria)});
   file.check_no_unknown_keys();
   return configuration;
 }

@@ -49,10 +49,12 @@ struct AutomatonConfiguration {
 ///
 ///     vehicle:    {wheelbase_m, rear_axle_to_cg_m, length_m, width_m,
 ///                  safety_margin_m (default 0.010),
-///                  identified: {... (see IdentifiedVehicle), all optional}}
+///                  identified: {... (see IdentifiedVehicle), all optional}, or kinematic}
 ///     limits:     {acceleration_mps2, steering_rate_radps, speed_min_mps, speed_max_mps,
-///                  steering_max_rad}
-///     trims:      list of {speed_mps, steering_rad}; their numbers count from 1 in this order
+///                  steering_max_rad, friction_mps2 (default: no friction circle)}
+///     trims:      list of {speed_mps, steering_rad}, or a grid {speeds_mps: [...], steering_rad:
+///                  [...]}: standstill, then every speed > 0 with every angle, without what the
+///                  friction circle forbids. Numbers count from 1 in this order
 ///     step_s
 ///     horizon_steps  (default 8)
 ///     intervals   (default 20)

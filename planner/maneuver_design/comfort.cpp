@@ -1,6 +1,6 @@
 #include "planner/maneuver_design/comfort.hpp"
 
-#include "planner/maneuver_design/lateral_acceleration.hpp"
+#include "planner/vehicle/lateral_acceleration.hpp"
 
 namespace hlc {
 

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "planner/maneuver_design/lateral_acceleration.hpp"
+#include "planner/vehicle/lateral_acceleration.hpp"
 
 namespace hlc {
 

@@ -20,4 +20,15 @@ double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle)
   return vehicle.slip_gain_rad * delta + vehicle.slip_offset_rad;
 }
 
+IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle, double steering_max_rad) {
+  IdentifiedVehicle result;
+  result.path_speed_gain = 1.0;
+  result.path_speed_steering = 0.0;
+  result.slip_gain_rad = slip_angle_rad(steering_max_rad, vehicle);
+  result.yaw_rate_gain_per_m = curvature_per_m(steering_max_rad, vehicle);
+  result.steering_offset = 0.0;
+  result.slip_offset_rad = 0.0;
+  return result;
+}
+
 }  // namespace hlc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "planner/vehicle/single_track.hpp"
+
 namespace hlc {
 
 /// Parameters p1 ... p10 of the lab's identified vehicle model and what follows from them. State:
@@ -24,6 +26,14 @@ struct IdentifiedVehicle {
   double steering_offset{0.032208};       ///< p9
   double slip_offset_rad{-0.012863};      ///< p10
 };
+
+/// A vehicle of which nothing is identified: the single-track model in the form of the identified
+/// one, curvature proportional to steering and slip proportional to curvature, both exact straight
+/// ahead and at full steering, |s| = 1 at `steering_max_rad`. Between them the slip is off by some
+/// milliradians.
+/// @pre 0 < steering_max_rad < pi / 2
+[[nodiscard]] IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle,
+                                                  double steering_max_rad);
 
 /// delta (= s + p9) at which the identified vehicle drives a path of this curvature in steady
 /// state: the solution of curvature = p4 delta / (p1 (1 + p2 delta^2)) nearest to 0. Not limited to

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/geometry/pose.hpp"
@@ -41,6 +42,8 @@ struct VehicleLimits {
   double speed_min_mps{0.0};
   double speed_max_mps{3.7};
   double steering_max_rad{0.62};
+  /// Friction circle: u_v^2 + a_lat^2 <= friction^2 (lateral_acceleration.hpp); absent: none.
+  std::optional<double> friction_mps2{};
 };
 
 using StateVector = Eigen::Matrix<double, 5, 1>;

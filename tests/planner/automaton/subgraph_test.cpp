@@ -127,7 +127,7 @@ TEST(Subgraph, RuleReachableConnectsWhatTheLimitsAllowInOneStep) {
   const std::vector<Trim> trims{{0.0, 0.0}, {1.0, 0.0}, {2.4, 0.0}, {2.5, 0.0}, {1.0, 0.62}};
   const std::vector<TrimId> on{{0}, {1}, {2}, {3}, {4}};
   VehicleLimits limits;  // 12 m/s^2 and 6.2 rad/s: 2.4 m/s and 1.24 rad within 0.2 s
-  const auto edges = rule_edges(EdgeRule::kReachable, trims, on, limits, 0.2);
+  const auto edges = rule_edges(EdgeRule::kReachable, trims, on, {}, limits, 0.2);
   for (const TrimId from : on) {
     for (const TrimId to : on) {
       const double change = std::abs(trims[from.index].speed_mps - trims[to.index].speed_mps);
@@ -135,9 +135,27 @@ TEST(Subgraph, RuleReachableConnectsWhatTheLimitsAllowInOneStep) {
     }
   }
   limits.steering_rate_radps = 3.0;  // 0.6 rad
-  const auto slower = rule_edges(EdgeRule::kReachable, trims, on, limits, 0.2);
+  const auto slower = rule_edges(EdgeRule::kReachable, trims, on, {}, limits, 0.2);
   EXPECT_FALSE(std::binary_search(slower.begin(), slower.end(), TrimPair{{1}, {4}}));
   EXPECT_TRUE(std::binary_search(slower.begin(), slower.end(), TrimPair{{4}, {4}}));
+}
+
+TEST(Subgraph, RuleReachableKeepsWithinTheFrictionCircle) {
+  // 2 m/s at 0.3 rad: 2.04 1/m * 4 m^2/s^2 = 8.1 m/s^2 across; 1 m/s more in 0.2 s: 5 m/s^2 along.
+  const std::vector<Trim> trims{{1.0, 0.3}, {2.0, 0.3}, {1.0, 0.0}, {2.0, 0.0}};
+  const std::vector<TrimId> on{{0}, {1}, {2}, {3}};
+  VehicleLimits limits;
+  limits.friction_mps2 = 9.0;  // sqrt(8.1^2 + 5^2) = 9.6
+  const auto edges = rule_edges(EdgeRule::kReachable, trims, on, {}, limits, 0.2);
+  const auto has = [&edges](std::size_t from, std::size_t to) {
+    return std::binary_search(edges.begin(), edges.end(), TrimPair{{from}, {to}});
+  };
+  EXPECT_FALSE(has(0, 1));
+  EXPECT_FALSE(has(1, 0));
+  EXPECT_FALSE(has(2, 1));
+  EXPECT_TRUE(has(2, 3));
+  EXPECT_TRUE(has(1, 3));
+  EXPECT_TRUE(has(1, 1));
 }
 
 /// Maneuvers of label "fast" outrun their trims by about 0.8 m/s.

@@ -117,6 +117,64 @@ TEST(AutomatonConfiguration, TheIdentifiedVehicleCanBeChanged) {
       "FILE:1: vehicle.identified.path_speed_steering = 0.3, allowed a number >= -1 and <= 0");
 }
 
+TEST(AutomatonConfiguration, AVehicleOfWhichNothingIsIdentifiedDrivesAsTheModelDoes) {
+  std::string text = kGood;
+  text.replace(text.find("width_m: 0.107"), 14, "width_m: 0.107, identified: kinematic");
+  const AutomatonConfiguration c = read(text);
+  for (const double share : {-1.0, 0.0, 1.0}) {
+    EXPECT_NEAR(yaw_minus_heading_rad(share * c.limits.steering_max_rad, c.vehicle, c.identified),
+                0.0, 1e-12);
+  }
+  for (double delta = -0.62; delta < 0.62; delta += 0.01) {
+    EXPECT_NEAR(yaw_minus_heading_rad(delta, c.vehicle, c.identified), 0.0, 0.01);
+  }
+  EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: ideal"),
+            "FILE:1: vehicle.identified = ideal, allowed kinematic");
+}
+
+constexpr const char* kTrims =
+    "trims:\n  - {speed_mps: 0, steering_rad: 0}\n  - {speed_mps: 0.8, steering_rad: 0}\n";
+
+TEST(AutomatonConfiguration, AGridOfTrimsIsStandstillAndEachSpeedWithEachAngle) {
+  std::string text = kGood;
+  text.replace(text.find(kTrims), std::string(kTrims).size(),
+               "trims: {speeds_mps: [0.4, 0.8], steering_rad: [-0.2, 0, 0.3]}\n");
+  const std::vector<Trim> expected{{0.0, 0.0},  {0.4, -0.2}, {0.4, 0.0}, {0.4, 0.3},
+                                   {0.8, -0.2}, {0.8, 0.0},  {0.8, 0.3}};
+  EXPECT_EQ(read(text).trims, expected);
+}
+
+TEST(AutomatonConfiguration, TheFrictionCircleLimitsTheTrims) {
+  // At 0.8 m/s and 0.3 rad: 0.8^2 m^2/s^2 * 2.04 1/m = 1.30 m/s^2.
+  std::string text = kGood;
+  text.replace(text.find("steering_max_rad: 0.62"), 22,
+               "steering_max_rad: 0.62\n  friction_mps2: 1.2");
+  text.replace(text.find(kTrims), std::string(kTrims).size(),
+               "trims: {speeds_mps: [0.4, 0.8], steering_rad: [0, 0.3]}\n");
+  const AutomatonConfiguration c = read(text);
+  EXPECT_EQ(c.limits.friction_mps2, 1.2);
+  EXPECT_EQ(c.trims, (std::vector<Trim>{{0.0, 0.0}, {0.4, 0.0}, {0.4, 0.3}, {0.8, 0.0}}));
+  EXPECT_EQ(message("steering_max_rad: 0.62\ntrims:\n  - {speed_mps: 0, steering_rad: 0}",
+                    "steering_max_rad: 0.62\n  friction_mps2: 1.2\ntrims:\n"
+                    "  - {speed_mps: 0.8, steering_rad: 0.3}"),
+            "FILE:10: trims[1].speed_mps = 0.8, allowed less with this steering: the friction "
+            "circle is exceeded");
+}
+
+TEST(AutomatonConfiguration, RefusesAGridThatIsNone) {
+  const std::string allowed =
+      "allowed a list of {speed_mps, steering_rad}, one of speed 0 among them, or, with "
+      "limits.speed_min_mps = 0, a grid {speeds_mps, steering_rad}";
+  EXPECT_EQ(message(kTrims, "trims: many\n"), "FILE:8: trims = many, " + allowed);
+  EXPECT_EQ(message(kTrims, ""), "FILE:1: trims is missing, " + allowed);
+  EXPECT_EQ(message(kTrims, "trims: {speeds_mps: [0.8, 0.4], steering_rad: [0]}\n"),
+            "FILE:8: trims.speeds_mps[2] = 0.4, allowed numbers that increase");
+  EXPECT_EQ(message(kTrims, "trims: {speeds_mps: [0], steering_rad: [0]}\n"),
+            "FILE:8: trims.speeds_mps[1] = 0, allowed a number > 0 and <= 3.7");
+  EXPECT_EQ(message(kTrims, "trims: {speeds_mps: [], steering_rad: [0]}\n"),
+            "FILE:8: trims.speeds_mps = (a list), allowed at least one number");
+}
+
 TEST(AutomatonConfiguration, RefusesWhatIsWrongNamingLineKeyValueAndRule) {
   EXPECT_EQ(message("acceleration_mps2: 12", "acceleration_mps2: -12"),
             "FILE:3: limits.acceleration_mps2 = -12, allowed a number > 0");
@@ -131,7 +189,7 @@ TEST(AutomatonConfiguration, RefusesWhatIsWrongNamingLineKeyValueAndRule) {
   EXPECT_EQ(
       message("steering_max_rad: 0.62", "steering_max_rad: 0.62\n  jerk: 1"),
       "FILE:8: limits.jerk = 1, unknown key, allowed keys acceleration_mps2, steering_rate_radps, "
-      "speed_min_mps, speed_max_mps, steering_max_rad");
+      "speed_min_mps, speed_max_mps, steering_max_rad, friction_mps2");
   EXPECT_EQ(message("step_s: 0.2", "step_s: 0"), "FILE:11: step_s = 0, allowed a number > 0");
   EXPECT_EQ(message("step_s: 0.2\n", ""), "FILE:1: step_s is missing, allowed a number > 0");
   EXPECT_EQ(message("step_s: 0.2", "step_s: 0.2\nintervals: 5"),

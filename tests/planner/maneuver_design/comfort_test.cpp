@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planner/maneuver_design/lateral_acceleration.hpp"
+#include "planner/vehicle/lateral_acceleration.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
 namespace hlc {
