@@ -14,6 +14,7 @@
 #include "planner/apps/flags.hpp"
 #include "planner/apps/pareto_output.hpp"
 #include "planner/automaton/atomic_write.hpp"
+#include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 
@@ -71,12 +72,10 @@ hlc::ParetoProblem problem_of(const Flags& flags) {
   }
   const hlc::AutomatonConfiguration c = hlc::read_automaton_configuration(flags.configuration);
   hlc::ParetoProblem problem;
-  problem.maneuver = {{flags.from[0], flags.from[1]},
-                      {flags.to[0], flags.to[1]},
-                      flags.duration_s > 0.0 ? flags.duration_s : c.step_s,
-                      flags.intervals > 0 ? flags.intervals : c.intervals,
-                      c.vehicle,
-                      c.limits};
+  problem.maneuver =
+      hlc::problem_between({flags.from[0], flags.from[1]}, {flags.to[0], flags.to[1]}, c);
+  if (flags.duration_s > 0.0) problem.maneuver.duration_s = flags.duration_s;
+  if (flags.intervals > 0) problem.maneuver.intervals = flags.intervals;
   for (const std::string& name : flags.criteria) {
     problem.criteria.push_back(hlc::make_criterion(name, c.vehicle));
   }

@@ -28,9 +28,11 @@ void print_head(const AutomatonFile& file, const std::string& path) {
       automaton.vehicle.wheelbase_m, automaton.vehicle.rear_axle_to_cg_m,
       automaton.vehicle.footprint.length_m, automaton.vehicle.footprint.width_m,
       automaton.vehicle.safety_margin_m);
-  std::printf("limits     +-%g m/s^2, +-%g rad/s, %g ... %g m/s, +-%g rad\n",
+  std::printf("limits     +-%g m/s^2, +-%g rad/s, %g ... %g m/s, +-%g rad",
               limits.acceleration_mps2, limits.steering_rate_radps, limits.speed_min_mps,
               limits.speed_max_mps, limits.steering_max_rad);
+  if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
+  std::printf("\n");
   std::printf("step       %g s\n", automaton.step_s);
 }
 
