@@ -13,7 +13,7 @@ namespace hlc {
 /// A built automaton as it lies in a file, with what it was built from.
 struct AutomatonFile {
   std::string configuration_file;    ///< name of the configuration, without its folder
-  std::string configuration_sha256;  ///< of all that the configuration says (see current_file.hpp)
+  std::string configuration_sha256;  ///< of all that the configuration says (see built_automaton.hpp)
   std::size_t intervals{};           ///< of constant input, per maneuver
   std::size_t horizon_steps{};       ///< that its subgraphs were checked for
   std::vector<std::string> labels;
@@ -47,12 +47,12 @@ inline constexpr std::size_t kAutomatonSchema = 1;
 void write_automaton_file(const AutomatonFile& file, const std::filesystem::path& path);
 
 /// True if the file has the key `automaton_schema`, which a configuration has not.
-/// @throws std::invalid_argument as YamlNode::read_file
+/// False if it cannot be read, too: who reads it as a configuration then says why.
 [[nodiscard]] bool is_automaton_file(const std::filesystem::path& path);
 
 /// Reads a file and checks it: version, hash, each maneuver (fault_of in maneuver_check.hpp), and
 /// that it holds what its subgraphs need. Whether it still is what its configuration says is
-/// another question: current_file.hpp.
+/// another question: built_automaton.hpp.
 ///
 /// @throws std::invalid_argument with one line: file, line, what is wrong, and, if the file was
 /// edited or is of another version, the command that builds it anew

@@ -19,12 +19,11 @@ constexpr double kBoundaryReserve_m = 0.4;
 /// Swept areas are rounded outwards on the way to the reachable area.
 constexpr double kReachRounding_m = 1e-5;
 
-double top_speed_mps(const Subgraph& subgraph) {
+/// Over all maneuvers: another vehicle may drive on any subgraph.
+double top_speed_mps(const UniversalAutomaton& automaton) {
   double result = 0.0;
-  for (const TrimId trim : subgraph.starts()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
-      result = std::max(result, top_speed_mps(*edge.maneuver));
-    }
+  for (const Maneuver& maneuver : automaton.maneuvers) {
+    result = std::max(result, top_speed_mps(maneuver));
   }
   return result;
 }
@@ -35,10 +34,10 @@ const Maneuver* own_step(const UniversalAutomaton& automaton, TrimId trim) {
   return step;
 }
 
-MissingVehicleRules rules_for_missing(const Subgraph& subgraph) {
-  const VehicleParameters& vehicle = subgraph.automaton().vehicle;
+MissingVehicleRules rules_for_missing(const UniversalAutomaton& automaton) {
+  const VehicleParameters& vehicle = automaton.vehicle;
   return {
-      .max_speed_mps = top_speed_mps(subgraph),
+      .max_speed_mps = top_speed_mps(automaton),
       .circumradius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m) +
                         std::sqrt(2.0) * vehicle.safety_margin_m,
       .footprint = vehicle.footprint,
@@ -93,7 +92,7 @@ Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph
       reachable_(std::move(reachable)),
       planner_(make_best_first_planner(*subgraph_, *reachable_, options.search)),
       standstill_(own_step(subgraph_->automaton(), subgraph_->standstill())),
-      missing_rules_(rules_for_missing(*subgraph_)) {}
+      missing_rules_(rules_for_missing(subgraph_->automaton())) {}
 
 std::unique_ptr<Controller> Controller::clone() const {
   std::unique_ptr<Controller> result(
@@ -119,8 +118,6 @@ void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
   subgraph_ = std::move(subgraph);
   reachable_ = std::move(reachable);
   standstill_ = own_step(subgraph_->automaton(), subgraph_->standstill());
-  missing_rules_.max_speed_mps =
-      std::max(missing_rules_.max_speed_mps, rules_for_missing(*subgraph_).max_speed_mps);
 }
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {

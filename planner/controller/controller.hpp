@@ -74,10 +74,9 @@ class Controller {
   /// From the next step on plans on another subgraph of the same automaton. Its tables, for one
   /// step more than the horizon, are computed unless they are given: a matter of milliseconds for a
   /// dozen trims, not for a hundred (ReachableSets). Not in the middle of a step. The plan in force
-  /// stays, whatever of it is off now, and is the fallback as ever: see Subgraph for the rule.
-  ///
-  /// All vehicles of a run must switch in the same step: where a missing one may be is reckoned
-  /// with the highest speed of all subgraphs that this controller has used.
+  /// stays, whatever of it is off now, and is the fallback as ever: see Subgraph for the rule. The
+  /// other vehicles need not switch in the same step: where a missing one may be is reckoned with
+  /// the highest speed of the whole automaton.
   /// @pre `subgraph` belongs to the automaton of the former one, `reachable` to `subgraph`
   void switch_to(std::shared_ptr<const Subgraph> subgraph,
                  std::shared_ptr<const ReachableSets> reachable = nullptr);

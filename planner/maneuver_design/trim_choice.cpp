@@ -43,7 +43,10 @@ std::vector<Point> scattered(const std::vector<Point>& points, std::size_t count
   return centres;
 }
 
-double rounded(double value) { return std::round(value * 1000.0) / 1000.0 + 0.0; }
+/// Towards 0, so that a trim at a limit stays within it; what is off by rounding is not.
+double rounded(double value) {
+  return std::trunc(value * 1000.0 + std::copysign(1e-6, value)) / 1000.0 + 0.0;
+}
 
 }  // namespace
 

@@ -33,6 +33,15 @@ inline std::shared_ptr<const UniversalAutomaton> paper_automaton() {
   return automaton;
 }
 
+/// The pairs of different trims that the paper's four subgraphs need: 50.
+inline std::vector<TrimPair> paper_edges() {
+  std::vector<TrimPair> edges;
+  for (const Maneuver& maneuver : paper_automaton()->maneuvers) {
+    if (maneuver.from != maneuver.to) edges.push_back({maneuver.from, maneuver.to});
+  }
+  return edges;
+}
+
 /// Trim with the paper's number, from 1.
 inline TrimId pi(std::size_t number) { return TrimId{number - 1}; }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/automaton/maneuver_check.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
@@ -90,6 +91,29 @@ TEST(AutomatonBuilder, EveryManeuverIsAStationaryPointOfItsCriterion) {
     for (const Eigen::Vector2d& gradient : shot.gradient) {
       EXPECT_LT((gradient - shot.gradient.front()).norm(), 1e-9 * (1.0 + gradient.norm()));
     }
+  }
+}
+
+TEST(AutomatonBuilder, EveryManeuverOfTheShippedConfigurationObeysItsRulesAndIsOptimal) {
+  const AutomatonConfiguration& c = shipped_configuration();
+  const UniversalAutomaton automaton = build_automaton(c);
+  ASSERT_EQ(automaton.maneuvers.size(), 12U + 3U * 50U);
+  for (const Maneuver& maneuver : automaton.maneuvers) {
+    SCOPED_TRACE(testing::Message() << maneuver.label << ", " << maneuver.from.index + 1 << " -> "
+                                    << maneuver.to.index + 1);
+    EXPECT_EQ(fault_of(maneuver, automaton), "");
+    if (maneuver.from == maneuver.to) continue;
+    // Started where it is, the solver finds nothing to change.
+    SolverOptions options;
+    options.start = maneuver.inputs;
+    const auto cost = make_criterion(maneuver.label, c.vehicle);
+    const ManeuverSolution again =
+        solve(problem_between(c.trims[maneuver.from.index], c.trims[maneuver.to.index], c), *cost,
+              options);
+    ASSERT_EQ(again.status, ManeuverStatus::kOptimal) << again.reason;
+    EXPECT_LT(again.first_order_residual, 1e-5);
+    EXPECT_LT((again.states.back().pose.position_m() - maneuver.displacement.position_m()).norm(),
+              1e-9);
   }
 }
 

@@ -83,15 +83,13 @@ TEST(OptimalControl, ReachesTheEndPointsOfThePapersParetoFront) {
 }
 
 TEST(OptimalControl, FirstOrderConditionsHoldForAllEdgesOfThePapersCriteria) {
+  ASSERT_EQ(paper_edges().size(), 50U);
   for (const std::string criterion : {"J1", "J2", "J3"}) {
-    for (const Maneuver& maneuver : paper_automaton()->maneuvers) {
-      if (maneuver.label != criterion) {
-        continue;
-      }
-      SCOPED_TRACE(Message() << criterion << ", " << maneuver.from.index + 1 << " -> "
-                             << maneuver.to.index + 1);
+    for (const TrimPair& edge : paper_edges()) {
+      SCOPED_TRACE(Message() << criterion << ", " << edge.from.index + 1 << " -> "
+                             << edge.to.index + 1);
       const ManeuverSolution solution =
-          solved(paper_problem(maneuver.from.index + 1, maneuver.to.index + 1), criterion);
+          solved(paper_problem(edge.from.index + 1, edge.to.index + 1), criterion);
       ASSERT_EQ(solution.status, ManeuverStatus::kOptimal) << solution.reason;
       EXPECT_LT(solution.first_order_residual, 1e-5);
     }

@@ -87,10 +87,12 @@ TEST(ChooseTrims, TheSameDriveInAnyOrderGivesTheSameTrims) {
 
 TEST(ChooseTrims, StaysWithinTheLimits) {
   const std::vector<DriveSample> drive{{5.0, -1.0}, {0.5, 1.0}};
-  for (const ChosenTrim& one : choose_trims(drive, 3, kLimits)) {
-    EXPECT_LE(one.trim.speed_mps, kLimits.speed_max_mps);
-    EXPECT_LE(std::abs(one.trim.steering_rad), kLimits.steering_max_rad);
-  }
+  VehicleLimits limits;
+  limits.speed_max_mps = 3.7006;
+  limits.steering_max_rad = 0.6106;
+  const std::vector<ChosenTrim> chosen = choose_trims(drive, 3, limits);
+  EXPECT_EQ(chosen[1].trim, (Trim{3.700, -0.610}));
+  EXPECT_EQ(chosen[2].trim, (Trim{0.5, 0.610}));
 }
 
 TEST(ChooseTrims, ADriveWithTooFewWaysOfMovingIsRefused) {
