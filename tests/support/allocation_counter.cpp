@@ -19,5 +19,12 @@ void* operator new(std::size_t size) {
   return memory;
 }
 
+// std::stable_sort asks for its buffer in this way; what is deleted below must come from malloc,
+// too.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  ++counter;
+  return std::malloc(size);
+}
+
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
