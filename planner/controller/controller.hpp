@@ -55,8 +55,7 @@ struct Observation {
 ///
 /// The plan of step k is for what happens from t(k+1) on: the search starts where the plan in force
 /// will be then. If no new plan comes into force, the one in force stays: every plan ends in
-/// standstill.
-///
+/// standstill. What is done where the vehicle is not on its plan: plan_in_force.hpp.
 class Controller {
  public:
   /// @param path      what the vehicle shall follow

@@ -289,47 +289,8 @@ void add_weights(std::size_t left, std::size_t total, std::size_t criteria,
   }
 }
 
-}  // namespace
-
-std::vector<Objectives> ParetoFront::objectives() const {
-  std::vector<Objectives> result;
-  for (const ParetoPoint& point : points) {
-    result.push_back(point.objectives);
-  }
-  return result;
-}
-
-ParetoFront epsilon_constraint_front(const ParetoProblem& problem, const ParetoOptions& options) {
-  assert(problem.criteria.size() >= 2 && options.points >= 2);
-  ParetoFront front;
-  const SingleOptima optima = single_optima(problem, front);
-  if (front.status != ManeuverStatus::kOptimal) {
-    return front;
-  }
-  if (!optima.have_range()) {
-    front.points = {optima.points.front()};
-    return front;
-  }
-  if (problem.criteria.size() == 2) {
-    fill_two_criteria(problem, optima, options, front);
-  } else {
-    fill_grid(problem, optima, options, front);
-  }
-  mark_dominated(optima, front);
-  return front;
-}
-
-ParetoFront weighted_sum_front(const ParetoProblem& problem, const ParetoOptions& options) {
-  assert(problem.criteria.size() >= 2 && options.points >= 2);
-  ParetoFront front;
-  const SingleOptima optima = single_optima(problem, front);
-  if (front.status != ManeuverStatus::kOptimal) {
-    return front;
-  }
-  if (!optima.have_range()) {
-    front.points = {optima.points.front()};
-    return front;
-  }
+void fill_weighted(const ParetoProblem& problem, const SingleOptima& optima,
+                   const ParetoOptions& options, ParetoFront& front) {
   std::vector<double> weights;
   std::vector<std::vector<double>> all;
   add_weights(options.points - 1, options.points - 1, problem.criteria.size(), weights, all);
@@ -341,8 +302,44 @@ ParetoFront weighted_sum_front(const ParetoProblem& problem, const ParetoOptions
       front.points.push_back(point_of(problem, std::move(solution)));
     }
   }
+}
+
+using Fill = void (*)(const ParetoProblem&, const SingleOptima&, const ParetoOptions&,
+                      ParetoFront&);
+
+/// The points that `fill` finds between the optima of the single criteria.
+ParetoFront front_by(Fill fill, const ParetoProblem& problem, const ParetoOptions& options) {
+  assert(problem.criteria.size() >= 2 && options.points >= 2);
+  ParetoFront front;
+  const SingleOptima optima = single_optima(problem, front);
+  if (front.status != ManeuverStatus::kOptimal) {
+    return front;
+  }
+  if (!optima.have_range()) {
+    front.points = {optima.points.front()};
+    return front;
+  }
+  fill(problem, optima, options, front);
   mark_dominated(optima, front);
   return front;
+}
+
+}  // namespace
+
+std::vector<Objectives> ParetoFront::objectives() const {
+  std::vector<Objectives> result;
+  for (const ParetoPoint& point : points) {
+    result.push_back(point.objectives);
+  }
+  return result;
+}
+
+ParetoFront epsilon_constraint_front(const ParetoProblem& problem, const ParetoOptions& options) {
+  return front_by(problem.criteria.size() == 2 ? fill_two_criteria : fill_grid, problem, options);
+}
+
+ParetoFront weighted_sum_front(const ParetoProblem& problem, const ParetoOptions& options) {
+  return front_by(fill_weighted, problem, options);
 }
 
 }  // namespace hlc

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "planner/maneuver_design/automaton_builder.hpp"
-#include "tests/planner/apps/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace hlc {
 namespace {

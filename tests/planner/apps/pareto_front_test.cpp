@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "tests/planner/apps/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace hlc::test {
 namespace {

@@ -1,33 +1,15 @@
 // The program with flags that it must refuse: it ends before it joins any domain.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include "tests/support/program.hpp"
 
 namespace hlc {
 namespace {
 
-struct Outcome {
-  int exit_code{};
-  std::string output;
-};
-
-Outcome run(const std::string& flags) {
-  const std::string command = HLC_BINARY_DIR "/bin/vehicle_sim " + flags + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  EXPECT_NE(pipe, nullptr);
-  Outcome outcome;
-  std::array<char, 256> buffer{};
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
-    outcome.output += buffer.data();
-  }
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
+test::Outcome run(const std::string& flags) { return test::run_program("vehicle_sim " + flags); }
 
 struct BadFlags {
   std::string flags;
