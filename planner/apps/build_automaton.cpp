@@ -89,15 +89,17 @@ void run(const Choices& choices) {
     throw std::invalid_argument(choices.configuration.string() +
                                 ": a built automaton, allowed a configuration");
   }
-  hlc::AutomatonConfiguration configuration =
+  const hlc::AutomatonConfiguration configuration =
       hlc::read_automaton_configuration(choices.configuration);
   check_outputs(choices);
-  configuration.intervals = choices.intervals.value_or(configuration.intervals);
+  hlc::AutomatonConfiguration to_build = configuration;
+  to_build.intervals = choices.intervals.value_or(configuration.intervals);
   const auto begin = std::chrono::steady_clock::now();
-  const hlc::AutomatonFile file = hlc::file_of(configuration, built(configuration, choices.jobs));
+  const hlc::AutomatonFile file =
+      hlc::file_of(configuration, built(to_build, choices.jobs), choices.intervals);
   for (const hlc::SubgraphSpec& subgraph : file.subgraphs) {
-    try {  // a speed limit may have left a trim without edges
-      const hlc::Subgraph view(file.automaton, subgraph);
+    try {  // a speed limit may have taken maneuvers away
+      hlc::check_driving(hlc::Subgraph(file.automaton, subgraph), file.horizon_steps);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(choices.configuration.string() + ": " + error.what());
     }

@@ -137,18 +137,14 @@ int main(int argc, char** argv) {
                  "automaton configuration with the vehicle and its limits; default: the uCar");
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
+  return hlc::exit_code_of("choose_trims", [&] {
     hlc::AutomatonConfiguration automaton;
     if (!configuration.empty()) automaton = hlc::read_automaton_configuration(configuration);
     const std::vector<hlc::DriveSample> samples = read_drive(drive, automaton.vehicle);
     try {
-      print(hlc::choose_trims(samples, count, automaton.limits), drive);
+      print(hlc::choose_trims(samples, count, automaton.vehicle, automaton.limits), drive);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(drive.string() + ": " + error.what());
     }
-  } catch (const std::exception& error) {
-    std::cerr << "choose_trims: " << error.what() << '\n';
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -105,6 +105,9 @@ void print_summary(const Flags& flags, const hlc::ParetoFront& front,
   const hlc::ObjectiveRange range = hlc::range_of(front.objectives());
   std::printf("hypervolume %.4f, of weighted sums %.4f (share of the rectangle between the ends)\n",
               dominated_share(front, range), dominated_share(weighted_sums, range));
+  if (weighted_sums.status != hlc::ManeuverStatus::kOptimal) {
+    std::printf("not all weighted sums were found: %s\n", weighted_sums.reason.c_str());
+  }
 }
 
 void run(const Flags& flags) {

@@ -21,7 +21,8 @@ void print_head(const AutomatonFile& file, const std::string& path) {
   const hlc::UniversalAutomaton& automaton = *file.automaton;
   std::printf("automaton  %s\n", path.c_str());
   std::printf("built from %s, sha256 %.16s..., %zu intervals per maneuver\n",
-              file.configuration_file.c_str(), file.configuration_sha256.c_str(), file.intervals);
+              file.configuration_file.c_str(), file.configuration_sha256.c_str(),
+              file.automaton->maneuvers.front().inputs.size());
   const hlc::VehicleLimits& limits = automaton.limits;
   std::printf(
       "vehicle    wheelbase %g m, rear axle to centre of gravity %g m, %g m x %g m, margin %g m\n",

@@ -77,7 +77,7 @@ std::string text_without_hash(const AutomatonFile& file) {
   text += "# delta [rad]; of areas: x, y [m]. In the frame of the start pose.\n";
   text += "configuration: {file: " + quoted_yaml(file.configuration_file) +
           ", sha256: " + file.configuration_sha256 +
-          ", intervals: " + std::to_string(file.intervals) +
+          (file.chosen_intervals ? ", intervals: " + std::to_string(*file.chosen_intervals) : "") +
           ", horizon_steps: " + std::to_string(file.horizon_steps) + "}\n";
   text += "vehicle: " + to_yaml(automaton.vehicle, automaton.identified) + "\n";
   text += "limits: " + to_yaml(automaton.limits) + "\n";
@@ -208,7 +208,7 @@ void check_subgraphs(const YamlNode& node, const AutomatonFile& file) {
   }
   for (const SubgraphSpec& spec : file.subgraphs) {
     try {
-      const Subgraph subgraph(file.automaton, spec);
+      check_driving(Subgraph(file.automaton, spec), file.horizon_steps);
     } catch (const std::invalid_argument& error) {
       node.fail("subgraphs", std::string("what the maneuvers allow: ") + error.what());
     }
@@ -261,10 +261,13 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   const YamlNode configuration = node.map("configuration");
   file.configuration_file = configuration.required<std::string>("file");
   file.configuration_sha256 = configuration.required<std::string>("sha256");
-  file.intervals = configuration.required<std::size_t>("intervals", at_least(1.0));
+  if (configuration.has("intervals")) {
+    file.chosen_intervals = configuration.required<std::size_t>("intervals", at_least(1.0));
+  }
   file.horizon_steps = configuration.required<std::size_t>("horizon_steps", at_least(1.0));
   configuration.check_no_unknown_keys();
-  check_version_and_hash(node, text, rebuild_command(file, path));
+  check_version_and_hash(node, text,
+                         rebuild_command(file, path, path.parent_path() / file.configuration_file));
 
   auto automaton = std::make_shared<UniversalAutomaton>();
   const YamlNode vehicle = node.map("vehicle");
@@ -288,9 +291,10 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   return file;
 }
 
-std::string rebuild_command(const AutomatonFile& file, const std::filesystem::path& path) {
-  return "build_automaton " + (path.parent_path() / file.configuration_file).string() + " --out " +
-         path.string() + " --intervals " + std::to_string(file.intervals);
+std::string rebuild_command(const AutomatonFile& file, const std::filesystem::path& path,
+                            const std::filesystem::path& configuration_path) {
+  return "build_automaton " + configuration_path.string() + " --out " + path.string() +
+         (file.chosen_intervals ? " --intervals " + std::to_string(*file.chosen_intervals) : "");
 }
 
 }  // namespace hlc

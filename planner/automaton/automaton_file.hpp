@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,12 @@ namespace hlc {
 
 /// A built automaton as it lies in a file, with what it was built from.
 struct AutomatonFile {
-  std::string configuration_file;    ///< name of the configuration, without its folder
-  std::string configuration_sha256;  ///< of all that the configuration says (see built_automaton.hpp)
-  std::size_t intervals{};           ///< of constant input, per maneuver
-  std::size_t horizon_steps{};       ///< that its subgraphs were checked for
+  std::string configuration_file;  ///< name of the configuration, without its folder
+  std::string
+      configuration_sha256;  ///< of all that the configuration says (see built_automaton.hpp)
+  /// Intervals of constant input that were chosen instead of the configuration's, if any.
+  std::optional<std::size_t> chosen_intervals{};
+  std::size_t horizon_steps{};  ///< that its subgraphs were checked for
   std::vector<std::string> labels;
   std::vector<SubgraphSpec> subgraphs;
   std::shared_ptr<const UniversalAutomaton> automaton;
@@ -28,7 +31,7 @@ inline constexpr std::size_t kAutomatonSchema = 1;
 ///
 ///     automaton_schema   kAutomatonSchema
 ///     sha256             of all other lines of the file, in order
-///     configuration      {file, sha256, intervals, horizon_steps}
+///     configuration      {file, sha256, intervals (if others were chosen), horizon_steps}
 ///     vehicle, limits    as in a configuration; step_s
 ///     labels             list of names
 ///     trims              list of {speed_mps, steering_rad, unit_costs: {criterion: per second}}
@@ -60,6 +63,7 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
 
 /// The command that builds the file anew.
 [[nodiscard]] std::string rebuild_command(const AutomatonFile& file,
-                                          const std::filesystem::path& path);
+                                          const std::filesystem::path& path,
+                                          const std::filesystem::path& configuration_path);
 
 }  // namespace hlc

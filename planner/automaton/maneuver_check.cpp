@@ -17,8 +17,9 @@ bool is_bounded(double value, double min, double max) {
   return value >= min - slack && value <= max + slack;
 }
 
-bool is_trim(const State& state, const Trim& trim) {
-  return std::abs(state.speed_mps - trim.speed_mps) <= kSame &&
+bool is_trim(const State& state, const Trim& trim, const VehicleLimits& limits) {
+  return std::abs(state.speed_mps - trim.speed_mps) <=
+             kSame * std::max(1.0, limits.speed_max_mps) &&
          std::abs(state.steering_rad - trim.steering_rad) <= kSame;
 }
 
@@ -34,10 +35,11 @@ std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton
            std::to_string(m.states.size()) + " states, not one state more than inputs";
   }
   if (m.states.front().pose != Pose{}) return "it does not begin at the origin";
-  if (!is_trim(m.states.front(), automaton.trims[m.from.index])) {
+  if (!is_trim(m.states.front(), automaton.trims[m.from.index], automaton.limits)) {
     return "it does not begin in its trim";
   }
-  if (!is_trim(m.states.back(), automaton.trims[m.to.index])) return "it does not end in its trim";
+  if (!is_trim(m.states.back(), automaton.trims[m.to.index], automaton.limits))
+    return "it does not end in its trim";
   if (m.displacement != m.states.back().pose) return "its displacement is not its last pose";
   return "";
 }

@@ -303,4 +303,32 @@ std::size_t Subgraph::distance_to_standstill(TrimId trim) const {
   return distance_to_standstill_.at(trim.index);
 }
 
+void check_driving(const Subgraph& subgraph, std::size_t horizon_steps) {
+  const auto fail = [&subgraph](TrimId trim, const std::string& what) {
+    throw std::invalid_argument("subgraph '" + subgraph.spec().name + "': trim " + printed(trim) +
+                                what);
+  };
+  std::vector<bool> is_reached(subgraph.automaton().trims.size());
+  std::vector<TrimId> to_visit{subgraph.standstill()};
+  is_reached[subgraph.standstill().index] = true;
+  while (!to_visit.empty()) {
+    const TrimId trim = to_visit.back();
+    to_visit.pop_back();
+    for (const Edge& edge : subgraph.successors(trim)) {
+      if (is_reached[edge.to.index]) continue;
+      is_reached[edge.to.index] = true;
+      to_visit.push_back(edge.to);
+    }
+  }
+  for (const TrimId trim : subgraph.trims()) {
+    if (!is_reached[trim.index]) fail(trim, " cannot be reached from standstill");
+    const std::size_t steps = subgraph.distance_to_standstill(trim);
+    if (steps > horizon_steps) {
+      fail(trim, " needs " + std::to_string(steps) +
+                     " steps to standstill, allowed the horizon of " +
+                     std::to_string(horizon_steps));
+    }
+  }
+}
+
 }  // namespace hlc

@@ -151,4 +151,9 @@ class Subgraph {
   std::vector<std::vector<std::vector<Edge>>> permitted_;
 };
 
+/// What every declared subgraph must fulfil beyond what makes a Subgraph: each trim that is on can
+/// be reached from standstill, and reaches standstill within the horizon.
+/// @throws std::invalid_argument naming subgraph and trim
+void check_driving(const Subgraph& subgraph, std::size_t horizon_steps);
+
 }  // namespace hlc

@@ -70,6 +70,9 @@ void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpe
     if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
       one.fail("to", "an edge other than standing, which must be possible");
     }
+    if (off.edge.from == off.edge.to && off.label) {
+      one.fail("label", "none for a trim's own step, which is the same for all labels");
+    }
     if (holds(spec.off, off)) one.fail("each edge once");
     spec.off.push_back(std::move(off));
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/automaton/maneuver_check.hpp"
 #include "planner/automaton/swept_area.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/friction_circle.hpp"
@@ -14,6 +15,10 @@
 
 namespace hlc {
 namespace {
+
+/// A criterion whose range over the optima of others is smaller than this, relative, does not
+/// contradict them.
+constexpr double kNoRange = 1e-6;
 
 void complete(Maneuver& maneuver, const AutomatonConfiguration& configuration) {
   maneuver.displacement = maneuver.states.back().pose;
@@ -56,14 +61,28 @@ std::vector<CriterionValue> unit_costs(const Trim& trim,
   return costs;
 }
 
+/// How messages about a maneuver begin.
+std::string name_of(const DesignTask& task, const AutomatonConfiguration& configuration) {
+  return configuration.source + ": maneuver " + std::to_string(task.edge.from.index + 1) + " -> " +
+         std::to_string(task.edge.to.index + 1) + " (" +
+         configuration.criteria[task.criterion].label + "): ";
+}
+
+UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration) {
+  UniversalAutomaton automaton;
+  automaton.vehicle = configuration.vehicle;
+  automaton.limits = configuration.limits;
+  automaton.identified = configuration.identified;
+  automaton.step_s = configuration.step_s;
+  automaton.trims = configuration.trims;
+  return automaton;
+}
+
 ManeuverSolution solved(const ManeuverProblem& problem, const RunningCost& cost,
                         const DesignTask& task, const AutomatonConfiguration& configuration) {
   ManeuverSolution solution = solve(problem, cost);
   if (solution.status != ManeuverStatus::kOptimal) {
-    throw std::invalid_argument(
-        configuration.source + ": maneuver " + std::to_string(task.edge.from.index + 1) + " -> " +
-        std::to_string(task.edge.to.index + 1) + " (" +
-        configuration.criteria[task.criterion].label + "): " + solution.reason);
+    throw std::invalid_argument(name_of(task, configuration) + solution.reason);
   }
   return solution;
 }
@@ -78,7 +97,6 @@ double value_of(const std::string& criterion, const ManeuverSolution& solution) 
 /// See `design`.
 WeightedSum normalised(const std::vector<CriterionWeight>& weights, const ManeuverProblem& problem,
                        const DesignTask& task, const AutomatonConfiguration& configuration) {
-  constexpr double kNoRange = 1e-6;
   std::vector<WeightedCost> terms;
   std::vector<ManeuverSolution> optima;
   for (const CriterionWeight& one : weights) {
@@ -104,6 +122,9 @@ WeightedSum normalised(const std::vector<CriterionWeight>& weights, const Maneuv
 std::unique_ptr<RunningCost> make_cost(const ManeuverProblem& problem, const DesignTask& task,
                                        const AutomatonConfiguration& configuration) {
   const LabelledCriterion& criterion = configuration.criteria[task.criterion];
+  if (const auto& point = criterion.front_point) {
+    return make_criterion(point->minimised, configuration.vehicle);
+  }
   if (criterion.weights.empty()) return make_criterion(criterion.label, configuration.vehicle);
   std::vector<CriterionWeight> weights = criterion.weights;
   std::erase_if(weights, [](const CriterionWeight& one) { return one.weight == 0.0; });
@@ -115,6 +136,19 @@ std::unique_ptr<RunningCost> make_cost(const ManeuverProblem& problem, const Des
     terms.push_back({one.weight, make_criterion(one.criterion, configuration.vehicle)});
   }
   return std::make_unique<WeightedSum>(std::move(terms));
+}
+
+/// Adds the bound of a point of a front, see FrontPoint. Criteria that do not contradict each other
+/// on these trims need none.
+void add_bound(const FrontPoint& point, const DesignTask& task,
+               const AutomatonConfiguration& configuration, ManeuverProblem& problem) {
+  const auto minimised = make_criterion(point.minimised, configuration.vehicle);
+  const std::shared_ptr<const RunningCost> bounded =
+      make_criterion(point.bounded, configuration.vehicle);
+  const double best = solved(problem, *bounded, task, configuration).cost;
+  const double worst = value_of(point.bounded, solved(problem, *minimised, task, configuration));
+  if (worst - best <= kNoRange * std::abs(best)) return;
+  problem.cost_bounds.push_back({bounded, best + point.share * (worst - best)});
 }
 
 /// Pairs of different trims that are needed, sorted.
@@ -168,9 +202,11 @@ ManeuverProblem problem_between(const Trim& from, const Trim& to,
 }
 
 Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task) {
-  const ManeuverProblem problem =
-      problem_between(configuration.trims[task.edge.from.index],
-                      configuration.trims[task.edge.to.index], configuration);
+  ManeuverProblem problem = problem_between(configuration.trims[task.edge.from.index],
+                                            configuration.trims[task.edge.to.index], configuration);
+  if (const auto& point = configuration.criteria[task.criterion].front_point) {
+    add_bound(*point, task, configuration, problem);
+  }
   ManeuverSolution solution =
       solved(problem, *make_cost(problem, task, configuration), task, configuration);
   Maneuver maneuver;
@@ -182,17 +218,17 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   maneuver.states = std::move(solution.states);
   maneuver.criteria = std::move(solution.criteria);
   complete(maneuver, configuration);
+  if (const std::string fault = fault_of(maneuver, without_maneuvers(configuration));
+      !fault.empty()) {
+    throw std::invalid_argument(name_of(task, configuration) + fault + "; allowed more than " +
+                                std::to_string(configuration.intervals) + " intervals");
+  }
   return maneuver;
 }
 
 UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
                              std::vector<Maneuver> designed) {
-  UniversalAutomaton automaton;
-  automaton.vehicle = configuration.vehicle;
-  automaton.limits = configuration.limits;
-  automaton.identified = configuration.identified;
-  automaton.step_s = configuration.step_s;
-  automaton.trims = configuration.trims;
+  UniversalAutomaton automaton = without_maneuvers(configuration);
   for (std::size_t i = 0; i < configuration.trims.size(); ++i) {
     automaton.unit_costs.push_back(unit_costs(configuration.trims[i], configuration));
     automaton.maneuvers.push_back(own_step(TrimId{i}, configuration));

@@ -36,7 +36,8 @@ struct DesignTask {
 /// does, the first alone decides.
 ///
 /// @throws std::invalid_argument with one line naming configuration, edge, label and reason if the
-/// maneuver is infeasible or was not found (see ManeuverSolution::reason)
+/// maneuver is infeasible or was not found (see ManeuverSolution::reason), or if its intervals are
+/// so long that one Runge-Kutta step does not follow the model (see fault_of)
 [[nodiscard]] Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task);
 
 /// The automaton: every trim's own step (exact arc, label "trim"), then the designed maneuvers in

@@ -74,15 +74,35 @@ std::vector<Trim> read_trims(const YamlNode& file, const VehicleParameters& vehi
   return grid_trims(file, vehicle, limits);
 }
 
+void read_front_point(const YamlNode& entry, LabelledCriterion& criterion) {
+  FrontPoint point;
+  point.minimised = entry.required<std::string>("minimise", one_of(criterion_names()));
+  point.bounded = entry.required<std::string>("bound", one_of(criterion_names()));
+  if (point.bounded == point.minimised) entry.fail("bound", "another criterion than `minimise`");
+  point.share = entry.required<double>("share", between(0.0, 1.0));
+  if (point.share == 0.0 || point.share == 1.0) {
+    entry.fail("share", "a number between 0 and 1; the ends of the front are the criteria alone");
+  }
+  entry.check_no_unknown_keys();
+  criterion.front_point = point;
+}
+
 LabelledCriterion read_criterion(const YamlNode& entry) {
-  if (!entry.is_map()) return {entry.as<std::string>(one_of(criterion_names())), {}, false};
   LabelledCriterion criterion;
+  if (!entry.is_map()) {
+    criterion.label = entry.as<std::string>(one_of(criterion_names()));
+    return criterion;
+  }
   criterion.label = entry.required<std::string>("name");
   const std::vector<std::string> names = criterion_names();
   if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
     entry.fail("name",
                "a name of its own: neither empty, nor '" + kOwnStepLabel + "', nor a criterion's");
+  }
+  if (entry.has("minimise")) {
+    read_front_point(entry, criterion);
+    return criterion;
   }
   const YamlNode weights = entry.map("weights");
   bool is_positive = false;

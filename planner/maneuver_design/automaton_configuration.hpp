@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,24 @@ struct CriterionWeight {
   double weight{};
 };
 
-/// What the maneuvers of one label are optimal for.
+/// A point of the Pareto front of two criteria (epsilon-constraint): J_minimised is least among the
+/// maneuvers with J_bounded <= best + share (worst - best), where best is the optimum of J_bounded
+/// and worst its value at the optimum of J_minimised. On each pair of trims it is another bound.
+struct FrontPoint {
+  std::string minimised;
+  std::string bounded;
+  double share{};  ///< 0: the optimum of J_bounded, 1: that of J_minimised
+};
+
+/// What the maneuvers of one label are optimal for: the criterion whose name is the label, a
+/// weighted sum, or a point of a front.
 struct LabelledCriterion {
   std::string label;
-  std::vector<CriterionWeight> weights;  ///< empty: the criterion whose name is the label
+  std::vector<CriterionWeight> weights;  ///< of a weighted sum
   /// Each criterion of the sum is divided by its range over the front of the maneuver's own ends
   /// (see `design`).
   bool normalised{false};
+  std::optional<FrontPoint> front_point{};
 };
 
 /// Which edges a universal automaton holds, each for every label.
@@ -60,7 +72,9 @@ struct AutomatonConfiguration {
 ///     intervals   (default 20)
 ///     edges:      subgraphs (default) | all
 ///     criteria:   list of names (see criteria.hpp), or of
-///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)}
+///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)}, or of
+///                 {name, minimise: J1, bound: J2, share: 0.5} (a point of their front, 0 < share <
+///                 1)
 ///     subgraphs:  list of subgraphs, see read_subgraphs (planner/automaton/subgraph_yaml.hpp);
 ///                 their labels are names of `criteria`
 ///

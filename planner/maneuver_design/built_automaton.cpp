@@ -16,6 +16,10 @@ std::string line_of(const LabelledCriterion& criterion) {
   for (const CriterionWeight& one : criterion.weights) {
     text += " " + one.criterion + " " + shortest_text(one.weight);
   }
+  if (const auto& point = criterion.front_point) {
+    text += " minimise " + point->minimised + " bound " + point->bounded + " share " +
+            shortest_text(point->share);
+  }
   return text + (criterion.normalised ? " normalised\n" : "\n");
 }
 
@@ -42,11 +46,12 @@ std::string configuration_sha256(const AutomatonConfiguration& configuration) {
   return sha256_of(canonical_text(configuration));
 }
 
-AutomatonFile file_of(const AutomatonConfiguration& configuration, UniversalAutomaton automaton) {
+AutomatonFile file_of(const AutomatonConfiguration& configuration, UniversalAutomaton automaton,
+                      std::optional<std::size_t> chosen_intervals) {
   AutomatonFile file;
   file.configuration_file = std::filesystem::path(configuration.source).filename().string();
   file.configuration_sha256 = configuration_sha256(configuration);
-  file.intervals = configuration.intervals;
+  file.chosen_intervals = chosen_intervals;
   file.horizon_steps = configuration.horizon_steps;
   for (const LabelledCriterion& criterion : configuration.criteria) {
     file.labels.push_back(criterion.label);
@@ -58,14 +63,11 @@ AutomatonFile file_of(const AutomatonConfiguration& configuration, UniversalAuto
 
 void check_is_current(const AutomatonFile& file, const std::filesystem::path& path,
                       const std::filesystem::path& configuration_path) {
-  AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
-  configuration.intervals = file.intervals;
+  const AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
   if (configuration_sha256(configuration) == file.configuration_sha256) return;
   throw std::invalid_argument(path.string() + ": stale, built from another state of " +
                               configuration_path.string() + ", allowed what it says now; build " +
-                              "it anew: build_automaton " + configuration_path.string() +
-                              " --out " + path.string() + " --intervals " +
-                              std::to_string(file.intervals));
+                              "it anew: " + rebuild_command(file, path, configuration_path));
 }
 
 AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {

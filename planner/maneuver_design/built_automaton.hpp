@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "planner/automaton/automaton_file.hpp"
@@ -13,11 +15,13 @@ namespace hlc {
 [[nodiscard]] std::string configuration_sha256(const AutomatonConfiguration& configuration);
 
 /// What is written to a file: the automaton and what it was built from.
+/// @param configuration     as it was read
+/// @param chosen_intervals  of constant input, if the automaton was built with others than it says
 [[nodiscard]] AutomatonFile file_of(const AutomatonConfiguration& configuration,
-                                    UniversalAutomaton automaton);
+                                    UniversalAutomaton automaton,
+                                    std::optional<std::size_t> chosen_intervals = std::nullopt);
 
-/// Compares a file with the configuration `configuration_path`, read again (with the number of
-/// intervals that the file was built with).
+/// Compares a file with the configuration `configuration_path`, read again.
 /// @throws std::invalid_argument with one line that names both files and the command that builds
 /// the file anew, if the configuration says something else; or as read_automaton_configuration
 void check_is_current(const AutomatonFile& file, const std::filesystem::path& path,

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/vehicle/lateral_acceleration.hpp"
+
 namespace hlc {
 namespace {
 
@@ -74,6 +76,7 @@ std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, do
 }
 
 std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std::size_t count,
+                                     const VehicleParameters& vehicle,
                                      const VehicleLimits& limits) {
   assert(count >= 2);
   const Point unit{limits.speed_max_mps, limits.steering_max_rad};
@@ -116,6 +119,12 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
     return std::pair(a.trim.steering_rad, a.trim.speed_mps) <
            std::pair(b.trim.steering_rad, b.trim.speed_mps);
   });
+  for (const ChosenTrim& one : moving) {
+    if (!is_within_friction({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle, limits)) {
+      throw std::invalid_argument(
+          "the vehicle was driven beyond the friction circle of the limits");
+    }
+  }
   const auto same = std::ranges::adjacent_find(moving, {}, &ChosenTrim::trim);
   if (same != moving.end()) {
     throw std::invalid_argument("two of the chosen trims are the same to 0.001; choose fewer");

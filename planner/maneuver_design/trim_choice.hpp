@@ -44,12 +44,15 @@ inline constexpr double kSlowestDrive_mps = 0.05;
 /// samples and each sample belongs to the nearest trim, in the plane of speed / largest speed and
 /// steering / largest steering of the limits. The iteration starts from samples that are far from
 /// each other (each next one the farthest from all before), so the same drive gives the same trims.
-/// Samples outside the limits are moved to their border. The trims are rounded to 0.001, towards 0, and ordered
-/// as the paper's: standstill first, then by steering, then by speed.
+/// Samples outside the limits are moved to their border. The trims are rounded to 0.001, towards 0,
+/// and ordered as the paper's: standstill first, then by steering, then by speed.
 ///
-/// @throws std::invalid_argument if the drive has fewer than count - 1 different ways of moving
+/// @throws std::invalid_argument if the drive has fewer than count - 1 different ways of moving, or
+/// if a trim exceeds the friction circle of the limits
 /// @pre count >= 2
 [[nodiscard]] std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive,
-                                                   std::size_t count, const VehicleLimits& limits);
+                                                   std::size_t count,
+                                                   const VehicleParameters& vehicle,
+                                                   const VehicleLimits& limits);
 
 }  // namespace hlc

@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/hlc_bridge/record/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {

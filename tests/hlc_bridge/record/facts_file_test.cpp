@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "tests/hlc_bridge/record/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {

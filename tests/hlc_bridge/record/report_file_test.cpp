@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "hlc_bridge/record/text_file.hpp"
-#include "tests/hlc_bridge/record/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {

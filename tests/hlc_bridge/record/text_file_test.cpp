@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/hlc_bridge/record/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {

@@ -135,8 +135,8 @@ TEST_F(AutomatonPrograms, ThePlotHasAnArrowPerPairAndLabelWithADoubleHeadWhereBo
        {"steering angle [rad]", "speed [m/s]", "optimal for J2", "optimal for J3"}) {
     EXPECT_EQ(count(text), 1U) << text;
   }
-  EXPECT_GE(count("#d62728"), 6U);  // J2: six pairs, both ways
-  EXPECT_GE(count("#2ca02c"), 6U);
+  EXPECT_EQ(count("<polygon fill=\"#d62728\""), 12U);  // J2: six pairs, a head at both ends
+  EXPECT_EQ(count("<polygon fill=\"#2ca02c\""), 12U);
   EXPECT_EQ(count("#1f4fd8"), 0U);  // no J1
 }
 

@@ -158,6 +158,18 @@ TEST(Subgraph, RuleReachableKeepsWithinTheFrictionCircle) {
   EXPECT_TRUE(has(1, 1));
 }
 
+TEST(Subgraph, CheckDrivingRefusesTrimsThatStandstillIsTooFarFromOrThatNothingLeadsTo) {
+  const auto automaton = paper_automaton();
+  SubgraphSpec spec{"B", {"J2"}, {}};
+  for (std::size_t i = 0; i < 12; ++i) spec.trims.push_back({i});
+  EXPECT_NO_THROW(check_driving(Subgraph(automaton, spec), 1));
+  spec.off = {{{pi(7), pi(1)}, {}}};  // two steps now
+  EXPECT_NO_THROW(check_driving(Subgraph(automaton, spec), 2));
+  EXPECT_THROW(check_driving(Subgraph(automaton, spec), 1), std::invalid_argument);
+  spec.off = {{{pi(1), pi(7)}, {}}, {{pi(6), pi(7)}, {}}, {{pi(8), pi(7)}, {}}};
+  EXPECT_THROW(check_driving(Subgraph(automaton, spec), 8), std::invalid_argument);
+}
+
 /// Maneuvers of label "fast" outrun their trims by about 0.8 m/s.
 std::shared_ptr<const UniversalAutomaton> two_labels() {
   static const auto automaton =

@@ -117,6 +117,64 @@ TEST(AutomatonBuilder, EveryManeuverOfTheShippedConfigurationObeysItsRulesAndIsO
   }
 }
 
+TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuvers) {
+  const UniversalAutomaton automaton = build_automaton(shipped_configuration());
+  const auto mirrored = [](TrimId trim) {  // the paper's trims 2 ... 12 are symmetric about 7
+    return trim.index == 0 ? trim : TrimId{12 - trim.index};
+  };
+  constexpr double kSame = 1e-10;
+  for (const Maneuver& maneuver : automaton.maneuvers) {
+    SCOPED_TRACE(testing::Message() << maneuver.label << ", " << maneuver.from.index + 1 << " -> "
+                                    << maneuver.to.index + 1);
+    const Maneuver* other =
+        automaton.find(mirrored(maneuver.from), mirrored(maneuver.to), maneuver.label);
+    ASSERT_NE(other, nullptr);
+    for (std::size_t k = 0; k < maneuver.states.size(); ++k) {
+      const State& a = maneuver.states[k];
+      const State& b = other->states[k];
+      EXPECT_NEAR(a.pose.x_m, b.pose.x_m, kSame);
+      EXPECT_NEAR(a.pose.y_m, -b.pose.y_m, kSame);
+      EXPECT_NEAR(a.pose.heading_rad, -b.pose.heading_rad, kSame);
+      EXPECT_NEAR(a.speed_mps, b.speed_mps, kSame);
+      EXPECT_NEAR(a.steering_rad, -b.steering_rad, kSame);
+    }
+  }
+}
+
+TEST(AutomatonBuilder, APointOfAFrontLiesBetweenItsEndsAtItsShare) {
+  AutomatonConfiguration c = shipped_configuration();
+  LabelledCriterion middle;
+  middle.label = "middle";
+  middle.front_point = FrontPoint{"J1", "J2", 0.25};
+  c.criteria = {{"J1", {}, false}, {"J2", {}, false}, middle};
+  for (const TrimPair& edge : {TrimPair{pi(7), pi(8)}, {pi(1), pi(12)}, {pi(5), pi(1)}}) {
+    const auto value = [](const Maneuver& maneuver, const std::string& name) {
+      return std::ranges::find(maneuver.criteria, name, &CriterionValue::name)->value;
+    };
+    const Maneuver far = design(c, {edge, 0});
+    const Maneuver soft = design(c, {edge, 1});
+    const Maneuver between = design(c, {edge, 2});
+    EXPECT_EQ(between.label, "middle");
+    const double bound = value(soft, "J2") + 0.25 * (value(far, "J2") - value(soft, "J2"));
+    EXPECT_NEAR(value(between, "J2"), bound, 1e-6 * bound) << "the bound is active";
+    EXPECT_LT(value(between, "J1"), value(soft, "J1"));
+    EXPECT_GT(value(between, "J1"), value(far, "J1"));
+  }
+}
+
+TEST(AutomatonBuilder, IntervalsThatAreTooLongForTheModelAreRefused) {
+  AutomatonConfiguration c =
+      read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml");
+  c.intervals = 10;
+  try {
+    static_cast<void>(build_automaton(c));
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("allowed more than 10 intervals"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(AutomatonBuilder, TheSameConfigurationGivesTheSameAutomatonBitForBit) {
   const UniversalAutomaton again = build_automaton(paper_configuration());
   ASSERT_EQ(again.maneuvers.size(), paper_automaton()->maneuvers.size());

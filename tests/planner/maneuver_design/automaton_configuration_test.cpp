@@ -135,6 +135,30 @@ TEST(AutomatonConfiguration, AVehicleOfWhichNothingIsIdentifiedDrivesAsTheModelD
 constexpr const char* kTrims =
     "trims:\n  - {speed_mps: 0, steering_rad: 0}\n  - {speed_mps: 0.8, steering_rad: 0}\n";
 
+TEST(AutomatonConfiguration, ALabelMayBeAPointOfAFront) {
+  const std::string list = "criteria: [J2]";
+  std::string text = kGood;
+  text.replace(text.find(list), list.size(),
+               "criteria: [J2, {name: middle, minimise: J1, bound: J2, share: 0.25}]");
+  const AutomatonConfiguration c = read(text);
+  ASSERT_EQ(c.criteria.size(), 2U);
+  ASSERT_TRUE(c.criteria[1].front_point);
+  EXPECT_EQ(c.criteria[1].front_point->minimised, "J1");
+  EXPECT_EQ(c.criteria[1].front_point->bounded, "J2");
+  EXPECT_EQ(c.criteria[1].front_point->share, 0.25);
+  const auto refused = [&](const std::string& entry) {
+    return message(list, "criteria: [J2, {name: middle, " + entry + "}]");
+  };
+  EXPECT_EQ(refused("minimise: J1, bound: J1, share: 0.5"),
+            "FILE:12: criteria[2].bound = J1, allowed another criterion than `minimise`");
+  EXPECT_EQ(refused("minimise: J1, bound: J2, share: 1"),
+            "FILE:12: criteria[2].share = 1, allowed a number between 0 and 1; the ends of the "
+            "front are the criteria alone");
+  EXPECT_EQ(refused("minimise: J1, bound: J2, share: 0.5, weights: {J1: 1}"),
+            "FILE:12: criteria[2].weights = (a map), unknown key, allowed keys name, minimise, "
+            "bound, share");
+}
+
 TEST(AutomatonConfiguration, AGridOfTrimsIsStandstillAndEachSpeedWithEachAngle) {
   std::string text = kGood;
   text.replace(text.find(kTrims), std::string(kTrims).size(),

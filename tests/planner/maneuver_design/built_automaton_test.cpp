@@ -141,8 +141,7 @@ TEST_F(BuiltAutomaton, AnEditedFileIsRefusedWithTheCommandThatBuildsItAnew) {
   const std::string said = refusal("length_m: 0.22", "length_m: 0.21", false);
   EXPECT_EQ(said.substr(0, 26), "DIR/automaton.yaml:2: sha2");
   EXPECT_NE(said.find("allowed the hash of the file's other lines: it was edited or damaged; build "
-                      "it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml --intervals "
-                      "20"),
+                      "it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
             std::string::npos)
       << said;
 }
@@ -153,8 +152,7 @@ TEST_F(BuiltAutomaton, AStaleFileIsRefusedWithTheCommandThatBuildsItAnew) {
   write("car.yaml", changed);
   EXPECT_EQ(refusal(),
             "DIR/automaton.yaml: stale, built from another state of DIR/car.yaml, allowed what it "
-            "says now; build it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml "
-            "--intervals 20");
+            "says now; build it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
   fs::remove(folder_ / "car.yaml");
   EXPECT_EQ(refusal(), "accepted");
 }
@@ -169,6 +167,8 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
       {"step_s: 0.2", "step_s: 0.25"},
       {"step_s: 0.2", "step_s: 0.2\nhorizon_steps: 7"},
       {"step_s: 0.2", "step_s: 0.2\nedges: all"},
+      {"step_s: 0.2", "step_s: 0.2\nintervals: 21"},
+      {"steering_max_rad: 0.62", "steering_max_rad: 0.62, friction_mps2: 90"},
       {"J1: 1,", "J1: 2,"},
       {"normalised: true", "normalised: false"},
       {"name: B", "name: C"},
@@ -186,7 +186,7 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
 TEST_F(BuiltAutomaton, AnotherVersionIsRefused) {
   EXPECT_EQ(refusal("automaton_schema: 1", "automaton_schema: 2", true),
             "DIR/automaton.yaml:1: automaton_schema = 2, allowed 1; build the file anew: "
-            "build_automaton DIR/car.yaml --out DIR/automaton.yaml --intervals 20");
+            "build_automaton DIR/car.yaml --out DIR/automaton.yaml");
 }
 
 TEST_F(BuiltAutomaton, WhatTheVehicleCannotDriveIsRefusedEvenWithAHashThatFits) {

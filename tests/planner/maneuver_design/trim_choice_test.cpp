@@ -32,7 +32,7 @@ TEST(ChooseTrims, FindsTheWaysInWhichAVehicleWasDriven) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::vector<DriveSample> drive = around(driven, seed);
     drive.insert(drive.end(), 80, {0.01, 0.3});  // stands, the wheels turned
-    const std::vector<ChosenTrim> chosen = choose_trims(drive, 5, kLimits);
+    const std::vector<ChosenTrim> chosen = choose_trims(drive, 5, {}, kLimits);
     ASSERT_EQ(chosen.size(), 5U);
     EXPECT_EQ(chosen[0].trim, Trim{});
     EXPECT_NEAR(chosen[0].share, 80.0 / 320.0, 1e-12);
@@ -52,7 +52,7 @@ TEST(ChooseTrims, EachIsTheMeanOfTheSamplesThatAreNearestToIt) {
     std::uniform_real_distribution<double> steering(-0.6, 0.6);
     std::vector<DriveSample> drive(500);
     for (DriveSample& sample : drive) sample = {speed(random), steering(random)};
-    const std::vector<ChosenTrim> chosen = choose_trims(drive, 12, kLimits);
+    const std::vector<ChosenTrim> chosen = choose_trims(drive, 12, {}, kLimits);
     std::vector<DriveSample> sums(chosen.size());
     std::vector<int> sizes(chosen.size());
     for (const DriveSample& sample : drive) {
@@ -79,9 +79,9 @@ TEST(ChooseTrims, EachIsTheMeanOfTheSamplesThatAreNearestToIt) {
 
 TEST(ChooseTrims, TheSameDriveInAnyOrderGivesTheSameTrims) {
   std::vector<DriveSample> drive = around({{0.4, -0.5}, {0.7, 0.2}, {0.6, 0.4}}, 7);
-  const std::vector<ChosenTrim> chosen = choose_trims(drive, 4, kLimits);
+  const std::vector<ChosenTrim> chosen = choose_trims(drive, 4, {}, kLimits);
   std::ranges::reverse(drive);
-  const std::vector<ChosenTrim> again = choose_trims(drive, 4, kLimits);
+  const std::vector<ChosenTrim> again = choose_trims(drive, 4, {}, kLimits);
   for (std::size_t i = 0; i < chosen.size(); ++i) EXPECT_EQ(chosen[i].trim, again[i].trim);
 }
 
@@ -90,15 +90,18 @@ TEST(ChooseTrims, StaysWithinTheLimits) {
   VehicleLimits limits;
   limits.speed_max_mps = 3.7006;
   limits.steering_max_rad = 0.6106;
-  const std::vector<ChosenTrim> chosen = choose_trims(drive, 3, limits);
+  const std::vector<ChosenTrim> chosen = choose_trims(drive, 3, {}, limits);
   EXPECT_EQ(chosen[1].trim, (Trim{3.700, -0.610}));
   EXPECT_EQ(chosen[2].trim, (Trim{0.5, 0.610}));
+  limits.friction_mps2 = 8.0;
+  EXPECT_THROW((void)choose_trims(drive, 3, {}, limits), std::invalid_argument);
 }
 
 TEST(ChooseTrims, ADriveWithTooFewWaysOfMovingIsRefused) {
-  EXPECT_THROW((void)choose_trims({{0.0, 0.0}}, 2, kLimits), std::invalid_argument);
-  EXPECT_THROW((void)choose_trims({{0.5, 0.1}, {0.5, 0.1}}, 3, kLimits), std::invalid_argument);
-  EXPECT_THROW((void)choose_trims({{0.5, 0.1}, {0.5001, 0.1}}, 3, kLimits), std::invalid_argument);
+  EXPECT_THROW((void)choose_trims({{0.0, 0.0}}, 2, {}, kLimits), std::invalid_argument);
+  EXPECT_THROW((void)choose_trims({{0.5, 0.1}, {0.5, 0.1}}, 3, {}, kLimits), std::invalid_argument);
+  EXPECT_THROW((void)choose_trims({{0.5, 0.1}, {0.5001, 0.1}}, 3, {}, kLimits),
+               std::invalid_argument);
 }
 
 TEST(DriveSamples, AreTheSpeedAndTheSteeringOfATrim) {
