@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "planner/maneuver_design/attempt.hpp"
@@ -146,24 +147,41 @@ void try_again_from_least_effort(const ManeuverProblem& problem, const RunningCo
   }
 }
 
+/// The least of what `bound` bounds, under the other bounds that `problem` has, if it is more than
+/// allowed: then an infeasible solution, with the reason.
+std::optional<ManeuverSolution> broken_bound(const ManeuverProblem& problem,
+                                             const CostBound& bound) {
+  const ManeuverSolution least = attempt(problem, *bound.cost, {});
+  const bool is_kept = least.cost <= bound.max + kPathTolerance * std::abs(bound.max);
+  if (least.status != ManeuverStatus::kOptimal || is_kept) return std::nullopt;
+  std::ostringstream reason;
+  reason << "a cost that is bounded by " << bound.max << " is at least " << least.cost;
+  if (!problem.cost_bounds.empty()) reason << " under the bounds on other costs";
+  ManeuverSolution none;
+  none.status = ManeuverStatus::kInfeasible;
+  none.reason = reason.str();
+  none.evaluations = least.evaluations;
+  return none;
+}
+
 /// Asks, for a problem whose bounds on other costs the solver could not keep, how low those costs
-/// can be. Makes the solution an infeasible one if that is higher than allowed.
+/// can be: each alone, then each under the bounds before it. Makes the solution an infeasible one
+/// if that is higher than allowed.
 void explain_cost_bound(const ManeuverProblem& problem, ManeuverSolution& solution) {
-  ManeuverProblem unbounded = problem;
-  unbounded.cost_bounds.clear();
+  const auto is_broken_under_first = [&](std::size_t others, const CostBound& bound) {
+    ManeuverProblem bounded = problem;
+    bounded.cost_bounds.resize(others);
+    std::optional<ManeuverSolution> none = broken_bound(bounded, bound);
+    if (!none) return false;
+    none->evaluations += solution.evaluations;
+    solution = *std::move(none);
+    return true;
+  };
   for (const CostBound& bound : problem.cost_bounds) {
-    const ManeuverSolution least = attempt(unbounded, *bound.cost, {});
-    if (least.status == ManeuverStatus::kOptimal &&
-        least.cost > bound.max + kPathTolerance * std::abs(bound.max)) {
-      std::ostringstream reason;
-      reason << "a cost that is bounded by " << bound.max << " is at least " << least.cost;
-      const int evaluations = solution.evaluations + least.evaluations;
-      solution = {};
-      solution.status = ManeuverStatus::kInfeasible;
-      solution.reason = reason.str();
-      solution.evaluations = evaluations;
-      return;
-    }
+    if (is_broken_under_first(0, bound)) return;
+  }
+  for (std::size_t i = 1; i < problem.cost_bounds.size(); ++i) {
+    if (is_broken_under_first(i, problem.cost_bounds[i])) return;
   }
 }
 

@@ -164,6 +164,16 @@ TEST(ParetoFront, SaysWhyThereIsNone) {
   EXPECT_TRUE(front.points.empty());
 }
 
+TEST(ParetoFront, OfThreeCriteriaLeavesOutBoundsThatContradictEachOther) {
+  ParetoProblem problem = paper_example(10, {"J2", "J1", "comfort"});
+  problem.maneuver.from = {0.8, -0.24};
+  problem.maneuver.to = {0.8, 0.24};
+  const ParetoFront front = epsilon_constraint_front(problem, {.points = 4});
+  EXPECT_EQ(front.status, ManeuverStatus::kOptimal) << front.reason;
+  EXPECT_GT(front.points.size(), 3U);  // more than the optima of the single criteria
+  EXPECT_LT(front.points.size(), 3U + 9U);
+}
+
 TEST(CostBound, IsKeptAndOneThatCannotBeIsNamed) {
   ManeuverProblem problem = paper_example(20, {}).maneuver;
   const auto j1 = make_criterion("J1", problem.vehicle);
