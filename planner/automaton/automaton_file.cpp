@@ -215,20 +215,23 @@ void check_subgraphs(const YamlNode& node, const AutomatonFile& file) {
   }
 }
 
-void check_version_and_hash(const YamlNode& node, const std::string& text,
-                            const std::string& command) {
-  const auto schema = node.required<std::size_t>("automaton_schema");
-  if (schema != kAutomatonSchema) {
-    node.fail("automaton_schema",
-              std::to_string(kAutomatonSchema) + "; build the file anew: " + command);
+/// Before anything else is read: another version may have other keys.
+void check_version(const YamlNode& node, const std::filesystem::path& path) {
+  if (!node.has("automaton_schema")) {
+    throw std::invalid_argument(path.string() +
+                                ":1: no built automaton, allowed a file of build_automaton");
   }
-  const auto hash = node.required<std::string>("sha256");
-  if (hash != hash_of_rest(text)) {
-    node.fail("sha256",
-              "the hash of the file's other lines: it was edited or damaged; build it "
-              "anew: " +
-                  command);
-  }
+  if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
+  node.fail("automaton_schema", std::to_string(kAutomatonSchema) +
+                                    "; build the file anew from its configuration: " +
+                                    "build_automaton CONFIG.yaml --out " + path.string());
+}
+
+void check_hash(const YamlNode& node, const std::string& text, const std::string& command) {
+  if (node.required<std::string>("sha256") == hash_of_rest(text)) return;
+  node.fail(
+      "sha256",
+      "the hash of the file's other lines: it was edited or damaged; build it anew: " + command);
 }
 
 }  // namespace
@@ -253,10 +256,7 @@ bool is_automaton_file(const std::filesystem::path& path) {
 AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   const YamlNode node = YamlNode::parse(text, path.string());
-  if (!node.has("automaton_schema")) {
-    throw std::invalid_argument(path.string() +
-                                ":1: no built automaton, allowed a file of build_automaton");
-  }
+  check_version(node, path);
   AutomatonFile file;
   const YamlNode configuration = node.map("configuration");
   file.configuration_file = configuration.required<std::string>("file");
@@ -266,8 +266,7 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   }
   file.horizon_steps = configuration.required<std::size_t>("horizon_steps", at_least(1.0));
   configuration.check_no_unknown_keys();
-  check_version_and_hash(node, text,
-                         rebuild_command(file, path, path.parent_path() / file.configuration_file));
+  check_hash(node, text, rebuild_command(file, path, path.parent_path() / file.configuration_file));
 
   auto automaton = std::make_shared<UniversalAutomaton>();
   const YamlNode vehicle = node.map("vehicle");

@@ -63,6 +63,22 @@ std::string message(const std::string& piece, const std::string& replacement) {
   return "no error";
 }
 
+TEST(AutomatonConfiguration, EveryShippedFileIsReadAndItsGridsAreOfTheSizeInTheirName) {
+  std::size_t files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(HLC_SOURCE_DIR "/launch_scripts/automata")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++files;
+    const auto c = read_automaton_configuration(entry.path());
+    EXPECT_FALSE(c.subgraphs.empty() && c.edges == EdgeChoice::kSubgraphs) << entry.path();
+    const std::string name = entry.path().stem().string();
+    if (name.starts_with("ucar_grid_")) {
+      EXPECT_EQ(std::to_string(c.trims.size()), name.substr(name.rfind('_') + 1));
+    }
+  }
+  EXPECT_GE(files, 5U);
+}
+
 TEST(AutomatonConfiguration, TheShippedFileHoldsThePapersTrimsAndTheDefaults) {
   const auto c = read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
   ASSERT_EQ(c.trims.size(), 12U);

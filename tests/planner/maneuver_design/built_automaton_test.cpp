@@ -183,10 +183,13 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
   }
 }
 
-TEST_F(BuiltAutomaton, AnotherVersionIsRefused) {
-  EXPECT_EQ(refusal("automaton_schema: 1", "automaton_schema: 2", true),
-            "DIR/automaton.yaml:1: automaton_schema = 2, allowed 1; build the file anew: "
-            "build_automaton DIR/car.yaml --out DIR/automaton.yaml");
+TEST_F(BuiltAutomaton, AnotherVersionIsRefusedWhateverItsKeysAre) {
+  const std::string message =
+      "DIR/automaton.yaml:1: automaton_schema = 2, allowed 1; build the file anew from its "
+      "configuration: build_automaton CONFIG.yaml --out DIR/automaton.yaml";
+  EXPECT_EQ(refusal("automaton_schema: 1", "automaton_schema: 2", true), message);
+  write("automaton.yaml", "automaton_schema: 2\nbuilt_from: another.yaml\n");
+  EXPECT_EQ(refusal(), message);
 }
 
 TEST_F(BuiltAutomaton, WhatTheVehicleCannotDriveIsRefusedEvenWithAHashThatFits) {
