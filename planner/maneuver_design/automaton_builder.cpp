@@ -78,9 +78,39 @@ UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration
   return automaton;
 }
 
+/// Is the maneuver designed as the mirror image of its mirror image's problem? Of two mirrored
+/// pairs of trims exactly one is.
+bool leans_right(const ManeuverProblem& problem) {
+  const double sum_rad = problem.from.steering_rad + problem.to.steering_rad;
+  return sum_rad < 0.0 || (sum_rad == 0.0 && problem.from.steering_rad < 0.0);
+}
+
+ManeuverProblem mirrored(ManeuverProblem problem) {
+  problem.from.steering_rad = 0.0 - problem.from.steering_rad;
+  problem.to.steering_rad = 0.0 - problem.to.steering_rad;
+  return problem;
+}
+
+/// Seen in a mirror along the direction of travel. (0 - x, since -0 is printed unlike 0.)
+ManeuverSolution mirrored(ManeuverSolution solution) {
+  for (Input& input : solution.inputs) {
+    input.steering_rate_radps = 0.0 - input.steering_rate_radps;
+  }
+  for (State& state : solution.states) {
+    state.pose.y_m = 0.0 - state.pose.y_m;
+    state.pose.heading_rad = 0.0 - state.pose.heading_rad;
+    state.steering_rad = 0.0 - state.steering_rad;
+  }
+  return solution;
+}
+
+/// No criterion, bound or limit tells left from right, so mirrored pairs of trims have mirrored
+/// optima. Where several are equally good it is the design that must not prefer a side: one of the
+/// two is solved, the other is its image.
 ManeuverSolution solved(const ManeuverProblem& problem, const RunningCost& cost,
                         const DesignTask& task, const AutomatonConfiguration& configuration) {
-  ManeuverSolution solution = solve(problem, cost);
+  ManeuverSolution solution =
+      leans_right(problem) ? mirrored(solve(mirrored(problem), cost)) : solve(problem, cost);
   if (solution.status != ManeuverStatus::kOptimal) {
     throw std::invalid_argument(name_of(task, configuration) + solution.reason);
   }

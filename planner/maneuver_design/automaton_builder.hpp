@@ -27,7 +27,8 @@ struct DesignTask {
 [[nodiscard]] std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration);
 
 /// Designs one maneuver. Independent of all others and without side effects: programs may call it
-/// from several threads at once.
+/// from several threads at once. Mirrored pairs of trims get mirrored maneuvers, bit by bit, unless
+/// the pair is its own mirror image.
 ///
 /// A normalised sum of criteria J_i with weights w_i becomes sum_i w_i J_i / (worst_i - best_i) on
 /// each pair of trims: best_i is the optimum of J_i alone, worst_i the largest J_i among the optima

@@ -109,8 +109,7 @@ ConstraintResiduals residuals_of(const ManeuverProblem& problem, const std::vect
     const double value =
         shoot(states.front(), inputs, duration_s, *bound.cost, problem.vehicle, WithGradient::kNo)
             .cost;
-    const double scale = bound.max != 0.0 ? std::abs(bound.max) : 1.0;
-    r.cost_bound = std::max(r.cost_bound, (value - bound.max) / scale);
+    r.cost_bound = std::max(r.cost_bound, (value - bound.max) / bound.scale());
   }
   return r;
 }

@@ -152,7 +152,7 @@ void try_again_from_least_effort(const ManeuverProblem& problem, const RunningCo
 std::optional<ManeuverSolution> broken_bound(const ManeuverProblem& problem,
                                              const CostBound& bound) {
   const ManeuverSolution least = attempt(problem, *bound.cost, {});
-  const bool is_kept = least.cost <= bound.max + kPathTolerance * std::abs(bound.max);
+  const bool is_kept = least.cost <= bound.max + kPathTolerance * bound.scale();
   if (least.status != ManeuverStatus::kOptimal || is_kept) return std::nullopt;
   std::ostringstream reason;
   reason << "a cost that is bounded by " << bound.max << " is at least " << least.cost;

@@ -23,6 +23,13 @@ struct DurationRange {
 struct CostBound {
   std::shared_ptr<const RunningCost> cost;
   double max{};
+  double size{};  ///< of differences in this cost that count; 0: |max|, or 1 if that is 0 too
+
+  /// What the bound is scaled by.
+  [[nodiscard]] double scale() const {
+    if (size > 0.0) return size;
+    return max != 0.0 ? std::abs(max) : 1.0;
+  }
 };
 
 /// Optimal control problem of one maneuver (paper, Eq. 2):
@@ -87,7 +94,7 @@ struct ConstraintResiduals {
   double speed_mps{};
   double steering_rad{};
   double path{};        ///< the largest g_i; g has no unit
-  double cost_bound{};  ///< of J_i <= max_i, relative to max_i
+  double cost_bound{};  ///< of J_i <= max_i, relative to CostBound::scale
 };
 
 struct ManeuverSolution {

@@ -14,6 +14,8 @@ namespace {
 constexpr double kNoRange = 1e-6;     // relative to the size of a criterion
 constexpr double kDominance = 1e-6;   // relative to the range: less is the solver's noise
 constexpr double kEvenEnough = 0.02;  // of the mean distance between neighbours
+constexpr double kEqualCost = 1e-7;   // relative to the range: maneuvers as good as the optimum
+constexpr double kWorthIt = 0.01;     // of the range, that another criterion must gain by a choice
 
 ParetoPoint point_of(const ParetoProblem& problem, ManeuverSolution solution) {
   ParetoPoint point;
@@ -76,17 +78,56 @@ class Counter {
   std::size_t done_{};
 };
 
+/// The bound J_i <= max, its size that of the criterion's range.
+CostBound bound_on(const ParetoProblem& problem, const SingleOptima& optima, std::size_t criterion,
+                   double max) {
+  return {problem.criteria[criterion], max, optima.width(criterion)};
+}
+
+/// Where maneuvers that differ are equally good for a criterion, the one among them that is best
+/// for another criterion, if it is clearly better there: else the ends would not belong to the
+/// front.
+void choose_among_equals(const ParetoProblem& problem, SingleOptima& optima) {
+  for (std::size_t i = 0; i < problem.criteria.size(); ++i) {
+    for (std::size_t other = 0; other < problem.criteria.size(); ++other) {
+      if (other == i) continue;
+      const auto index = static_cast<Eigen::Index>(other);
+      ParetoPoint& point = optima.points[i];
+      ManeuverProblem maneuver = problem.maneuver;
+      maneuver.cost_bounds.push_back(
+          bound_on(problem, optima, i,
+                   point.objectives(static_cast<Eigen::Index>(i)) + kEqualCost * optima.width(i)));
+      SolverOptions options;
+      options.start = point.solution.inputs;
+      ParetoPoint choice = point_of(problem, solve(maneuver, *problem.criteria[other], options));
+      const bool is_better =
+          choice.solution.status == ManeuverStatus::kOptimal &&
+          choice.objectives(index) < point.objectives(index) - kWorthIt * optima.width(other);
+      if (is_better) point = std::move(choice);
+    }
+  }
+}
+
+/// Range of the criteria over the single optima.
+ObjectiveRange range_over(const SingleOptima& optima) {
+  std::vector<Objectives> objectives;
+  for (const ParetoPoint& point : optima.points) objectives.push_back(point.objectives);
+  return range_of(objectives);
+}
+
 SingleOptima single_optima(const ParetoProblem& problem, ParetoFront& front) {
   SingleOptima optima;
-  std::vector<Objectives> objectives;
   for (const auto& criterion : problem.criteria) {
     optima.points.push_back(point_of(problem, solve(problem.maneuver, *criterion)));
     if (!is_optimal(optima.points.back().solution, front)) {
       return optima;
     }
-    objectives.push_back(optima.points.back().objectives);
   }
-  optima.range = range_of(objectives);
+  optima.range = range_over(optima);
+  if (optima.have_range()) {
+    choose_among_equals(problem, optima);
+    optima.range = range_over(optima);
+  }
   return optima;
 }
 
@@ -101,11 +142,11 @@ void mark_dominated(const SingleOptima& optima, ParetoFront& front) {
 }
 
 /// min J_1 subject to J_i <= eps_i; `eps` starts with i = 2.
-ManeuverSolution bounded(const ParetoProblem& problem, const std::vector<double>& eps,
-                         const std::vector<Input>& start) {
+ManeuverSolution bounded(const ParetoProblem& problem, const SingleOptima& optima,
+                         const std::vector<double>& eps, const std::vector<Input>& start) {
   ManeuverProblem maneuver = problem.maneuver;
   for (std::size_t i = 0; i < eps.size(); ++i) {
-    maneuver.cost_bounds.push_back({problem.criteria[i + 1], eps[i]});
+    maneuver.cost_bounds.push_back(bound_on(problem, optima, i + 1, eps[i]));
   }
   SolverOptions options;
   options.start = start;
@@ -161,7 +202,8 @@ void sweep(const ParetoProblem& problem, const SingleOptima& optima, const std::
            Counter& counter, ParetoFront& front) {
   front.points = {optima.points[1]};
   for (const double bound : eps) {
-    ManeuverSolution solution = bounded(problem, {bound}, front.points.back().solution.inputs);
+    ManeuverSolution solution =
+        bounded(problem, optima, {bound}, front.points.back().solution.inputs);
     counter.count();
     if (!is_optimal(solution, front)) {
       return;
@@ -265,7 +307,7 @@ void fill_grid(const ParetoProblem& problem, const SingleOptima& optima,
   }
   Counter counter(options.progress, combinations);
   for_each_combination(lists, [&](const std::vector<double>& eps) {
-    ManeuverSolution solution = bounded(problem, eps, {});
+    ManeuverSolution solution = bounded(problem, optima, eps, {});
     counter.count();
     if (solution.status != ManeuverStatus::kInfeasible && is_optimal(solution, front)) {
       front.points.push_back(point_of(problem, std::move(solution)));

@@ -23,9 +23,6 @@ double value_of(const RunningCost& cost, const ManeuverProblem& problem,
   return shot.cost;
 }
 
-/// Size of a bound on a cost, so that its constraint is of size 1.
-double scale_of(const CostBound& bound) { return bound.max != 0.0 ? std::abs(bound.max) : 1.0; }
-
 }  // namespace
 
 State start_state(const ManeuverProblem& problem) {
@@ -170,8 +167,8 @@ ConstraintValues Transcription::cost_bounds(const Eigen::VectorXd& z) const {
   for (Eigen::Index i = 0; i < size; ++i) {
     const CostBound& bound = problem_.cost_bounds[static_cast<std::size_t>(i)];
     const double value = value_of(*bound.cost, problem_, variables_, z, &gradient);
-    bounds.value(i) = (value - bound.max) / scale_of(bound);
-    bounds.jacobian.row(i) = gradient.transpose() / scale_of(bound);
+    bounds.value(i) = (value - bound.max) / bound.scale();
+    bounds.jacobian.row(i) = gradient.transpose() / bound.scale();
   }
   return bounds;
 }
