@@ -73,7 +73,8 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
 AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {
   AutomatonFile file = read_automaton_file(path);
   const std::filesystem::path beside = path.parent_path() / file.configuration_file;
-  if (std::filesystem::exists(beside)) check_is_current(file, path, beside);
+  const bool is_there = std::filesystem::exists(beside) && !is_automaton_file(beside);
+  if (is_there) check_is_current(file, path, beside);
   return file;
 }
 

@@ -29,7 +29,7 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
 
 /// Reads an automaton file (read_automaton_file) and refuses it if it is stale: if the
 /// configuration that it was built from lies beside it, under its name, and says something else
-/// now. Without it, the file stands for itself.
+/// now. Without it, or if a built automaton bears that name, the file stands for itself.
 [[nodiscard]] AutomatonFile read_current_automaton_file(const std::filesystem::path& path);
 
 }  // namespace hlc

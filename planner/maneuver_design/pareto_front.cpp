@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/transcription.hpp"
@@ -197,13 +198,49 @@ bool is_even(const std::vector<Objectives>& points, const ObjectiveRange& range)
   return true;
 }
 
+/// Two criteria: the known point that keeps the bound on J_2 and is best in J_1, if that is clearly
+/// less than `cost`.
+const ParetoPoint* better_known(const std::vector<ParetoPoint>& known, double bound, double cost,
+                                const SingleOptima& optima) {
+  const ParetoPoint* best = nullptr;
+  for (const ParetoPoint& point : known) {
+    const double least =
+        best != nullptr ? best->objectives(0) : cost - kDominance * optima.width(0);
+    if (point.objectives(1) <= bound && point.objectives(0) < least) best = &point;
+  }
+  return best;
+}
+
+/// Two criteria: the point with that bound on J_2, started from the better of two neighbours.
+/// @param gain  share of the range of J_1 that makes it worth while
+void improve(const ParetoProblem& problem, const SingleOptima& optima, double bound,
+             const ParetoPoint& neighbour, double gain, ParetoPoint& point) {
+  ParetoPoint other =
+      point_of(problem, bounded(problem, optima, {bound}, neighbour.solution.inputs));
+  const bool is_better = other.solution.status == ManeuverStatus::kOptimal &&
+                         other.objectives(0) < point.objectives(0) - gain * optima.width(0);
+  if (is_better) point = std::move(other);
+}
+
 /// Two criteria: from the optimum of J_2 over the bounds `eps` (ascending) to the optimum of J_1.
-void sweep(const ParetoProblem& problem, const SingleOptima& optima, const std::vector<double>& eps,
-           Counter& counter, ParetoFront& front) {
+/// Each point starts from the one before, and once more from a known one that is better than what
+/// came of that: then it was a local optimum, and those before may be, too. Then, and whenever
+/// asked to, the way goes back once, each point started from the one after it, the optimum of J_2
+/// too.
+void sweep(const ParetoProblem& problem, SingleOptima& optima, const std::vector<double>& eps,
+           const std::vector<ParetoPoint>& known, bool goes_back, Counter& counter,
+           ParetoFront& front) {
   front.points = {optima.points[1]};
   for (const double bound : eps) {
     ManeuverSolution solution =
         bounded(problem, optima, {bound}, front.points.back().solution.inputs);
+    const double cost = solution.status == ManeuverStatus::kOptimal
+                            ? solution.cost
+                            : std::numeric_limits<double>::infinity();
+    if (const ParetoPoint* better = better_known(known, bound, cost, optima)) {
+      solution = bounded(problem, optima, {bound}, better->solution.inputs);
+      goes_back = true;
+    }
     counter.count();
     if (!is_optimal(solution, front)) {
       return;
@@ -211,6 +248,14 @@ void sweep(const ParetoProblem& problem, const SingleOptima& optima, const std::
     front.points.push_back(point_of(problem, std::move(solution)));
   }
   front.points.push_back(optima.points[0]);
+  if (!goes_back) return;
+  for (std::size_t i = eps.size(); i > 0; --i) {
+    improve(problem, optima, eps[i - 1], front.points[i + 1], kDominance, front.points[i]);
+  }
+  const double least = front.points[0].objectives(1) + kEqualCost * optima.width(1);
+  improve(problem, optima, least, front.points[1], kWorthIt, front.points[0]);
+  optima.points[1] = front.points[0];
+  optima.range = range_over(optima);
 }
 
 std::vector<double> equal_steps(const SingleOptima& optima, std::size_t criterion,
@@ -237,41 +282,43 @@ ManeuverSolution weighted(const ParetoProblem& problem, const SingleOptima& opti
 }
 
 /// Two criteria: where weighted sums lie, in order along the front, ends included.
-std::vector<Objectives> rough_front(const ParetoProblem& problem, const SingleOptima& optima,
-                                    std::size_t points, Counter& counter) {
-  std::vector<Objectives> rough{optima.points[1].objectives};
+std::vector<ParetoPoint> rough_front(const ParetoProblem& problem, const SingleOptima& optima,
+                                     std::size_t points, Counter& counter) {
+  std::vector<ParetoPoint> rough{optima.points[1]};
   for (std::size_t i = 1; i + 1 < points; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(points - 1);
-    const ParetoPoint point = point_of(problem, weighted(problem, optima, {share, 1.0 - share}));
+    ParetoPoint point = point_of(problem, weighted(problem, optima, {share, 1.0 - share}));
     counter.count();
     const bool goes_on = point.solution.status == ManeuverStatus::kOptimal &&
-                         point.objectives(1) > rough.back()(1) &&
+                         point.objectives(1) > rough.back().objectives(1) &&
                          point.objectives(1) < optima.points[0].objectives(1);
-    if (goes_on) {
-      rough.push_back(point.objectives);
-    }
+    if (goes_on) rough.push_back(std::move(point));
   }
-  rough.push_back(optima.points[0].objectives);
+  rough.push_back(optima.points[0]);
   return rough;
 }
 
-void fill_two_criteria(const ParetoProblem& problem, const SingleOptima& optima,
+void fill_two_criteria(const ParetoProblem& problem, SingleOptima& optima,
                        const ParetoOptions& options, ParetoFront& front) {
   constexpr std::size_t kCorrections = 4;
   const std::size_t inner = options.points - 2;
+  Counter counter(options.progress,
+                  inner * (options.spacing == Spacing::kAlongFront ? 2 + kCorrections : 2));
+  std::vector<ParetoPoint> known = rough_front(problem, optima, options.points, counter);
   if (options.spacing == Spacing::kSecondCriterion) {
-    Counter counter(options.progress, inner);
-    sweep(problem, optima, equal_steps(optima, 1, options.points), counter, front);
+    sweep(problem, optima, equal_steps(optima, 1, options.points), known, true, counter, front);
     return;
   }
-  Counter counter(options.progress, inner * (2 + kCorrections));
-  std::vector<Objectives> known = rough_front(problem, optima, options.points, counter);
+  std::vector<Objectives> course;
+  for (const ParetoPoint& point : known) course.push_back(point.objectives);
   for (std::size_t i = 0; i <= kCorrections; ++i) {
-    sweep(problem, optima, evenly_spaced(known, optima.range, options.points), counter, front);
-    known = front.objectives();
-    if (front.status != ManeuverStatus::kOptimal || is_even(known, optima.range)) {
+    sweep(problem, optima, evenly_spaced(course, optima.range, options.points), known, i == 0,
+          counter, front);
+    course = front.objectives();
+    if (front.status != ManeuverStatus::kOptimal || is_even(course, optima.range)) {
       return;
     }
+    known.insert(known.end(), front.points.begin(), front.points.end());
   }
 }
 
@@ -295,8 +342,8 @@ void for_each_combination(const std::vector<std::vector<double>>& lists,
   }
 }
 
-void fill_grid(const ParetoProblem& problem, const SingleOptima& optima,
-               const ParetoOptions& options, ParetoFront& front) {
+void fill_grid(const ParetoProblem& problem, SingleOptima& optima, const ParetoOptions& options,
+               ParetoFront& front) {
   front.points = optima.points;
   std::vector<std::vector<double>> lists;
   std::size_t combinations = 1;
@@ -331,8 +378,8 @@ void add_weights(std::size_t left, std::size_t total, std::size_t criteria,
   }
 }
 
-void fill_weighted(const ParetoProblem& problem, const SingleOptima& optima,
-                   const ParetoOptions& options, ParetoFront& front) {
+void fill_weighted(const ParetoProblem& problem, SingleOptima& optima, const ParetoOptions& options,
+                   ParetoFront& front) {
   std::vector<double> weights;
   std::vector<std::vector<double>> all;
   add_weights(options.points - 1, options.points - 1, problem.criteria.size(), weights, all);
@@ -346,14 +393,13 @@ void fill_weighted(const ParetoProblem& problem, const SingleOptima& optima,
   }
 }
 
-using Fill = void (*)(const ParetoProblem&, const SingleOptima&, const ParetoOptions&,
-                      ParetoFront&);
+using Fill = void (*)(const ParetoProblem&, SingleOptima&, const ParetoOptions&, ParetoFront&);
 
-/// The points that `fill` finds between the optima of the single criteria.
+/// The points that `fill` finds between the optima of the single criteria, which it may improve.
 ParetoFront front_by(Fill fill, const ParetoProblem& problem, const ParetoOptions& options) {
   assert(problem.criteria.size() >= 2 && options.points >= 2);
   ParetoFront front;
-  const SingleOptima optima = single_optima(problem, front);
+  SingleOptima optima = single_optima(problem, front);
   if (front.status != ManeuverStatus::kOptimal) {
     return front;
   }

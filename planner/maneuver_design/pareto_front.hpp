@@ -51,8 +51,11 @@ struct ParetoFront {
 /// grid of eps between each J_i's best and worst value among the single optima of all criteria.
 /// Reaches points in dents of the front, too, which no weighted sum can.
 ///
-/// Two criteria: the ends are the single optima, and eps is chosen so that the points are spaced as
-/// asked for. kAlongFront starts from where weighted sums lie and corrects eps by interpolation
+/// Two criteria: the ends are the single optima (where several maneuvers are equally good, the one
+/// that is best for the other criterion, if that makes 1 % of its range), and eps is chosen so that
+/// the points are spaced as asked for. Every point is a local optimum; it is started from its
+/// neighbours and from weighted sums, and what is worse than one already known is solved anew from
+/// that. kAlongFront starts from where weighted sums lie and corrects eps by interpolation
 /// until the distances differ from their mean by less than 2 %, at most four times. If the criteria
 /// do not contradict each other (ranges below 1e-6 of their size) the front is one point.
 ///

@@ -141,6 +141,24 @@ TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuvers) {
   }
 }
 
+// Standing, the steering costs nothing: many maneuvers are equally good.
+TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuversToTheLastBitAlsoWhereManyAreEquallyGood) {
+  AutomatonConfiguration c = shipped_configuration();
+  c.criteria = {{"stopping_distance", {}, false}, {"J1", {}, false}};
+  for (std::size_t criterion = 0; criterion < c.criteria.size(); ++criterion) {
+    const Maneuver left = design(c, {{pi(1), pi(10)}, criterion});
+    const Maneuver right = design(c, {{pi(1), pi(4)}, criterion});
+    for (std::size_t k = 0; k < left.inputs.size(); ++k) {
+      EXPECT_EQ(left.inputs[k].acceleration_mps2, right.inputs[k].acceleration_mps2);
+      EXPECT_EQ(left.inputs[k].steering_rate_radps, -right.inputs[k].steering_rate_radps);
+    }
+    EXPECT_EQ(left.displacement.x_m, right.displacement.x_m);
+    EXPECT_EQ(left.displacement.y_m, -right.displacement.y_m);
+    EXPECT_EQ(left.displacement.heading_rad, -right.displacement.heading_rad);
+    EXPECT_LT(left.inputs.size(), left.states.size());
+  }
+}
+
 TEST(AutomatonBuilder, APointOfAFrontLiesBetweenItsEndsAtItsShare) {
   AutomatonConfiguration c = shipped_configuration();
   LabelledCriterion middle;

@@ -157,6 +157,13 @@ TEST_F(BuiltAutomaton, AStaleFileIsRefusedWithTheCommandThatBuildsItAnew) {
   EXPECT_EQ(refusal(), "accepted");
 }
 
+TEST_F(BuiltAutomaton, AFileThatBearsTheNameOfItsConfigurationIsNotTakenForIt) {
+  const fs::path elsewhere = folder_ / "built";
+  fs::create_directory(elsewhere);
+  fs::copy_file(path_, elsewhere / "car.yaml");
+  EXPECT_NO_THROW(static_cast<void>(read_current_automaton_file(elsewhere / "car.yaml")));
+}
+
 TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
   const std::vector<std::pair<std::string, std::string>> changes{
       {"width_m: 0.107", "width_m: 0.108"},

@@ -85,7 +85,7 @@ TEST(ParetoFront, EqualStepsOfTheSecondCriterionIfAskedFor) {
   const ParetoFront front = epsilon_constraint_front(paper_example(20, {"J1", "J2"}), options);
   ASSERT_EQ(front.status, ManeuverStatus::kOptimal) << front.reason;
   ASSERT_EQ(front.points.size(), 9U);
-  EXPECT_EQ(done, 7U);
+  EXPECT_EQ(done, 2U * 7U);  // weighted sums first, to start from
   const double step =
       (front.points.back().objectives(1) - front.points.front().objectives(1)) / 8.0;
   for (std::size_t i = 1; i < 9; ++i) {
@@ -162,6 +162,40 @@ TEST(ParetoFront, SaysWhyThereIsNone) {
   EXPECT_EQ(front.status, ManeuverStatus::kInfeasible);
   EXPECT_NE(front.reason.find("needs acceleration 11.5 m/s^2"), std::string::npos) << front.reason;
   EXPECT_TRUE(front.points.empty());
+}
+
+// Stopping distances are all but flat near their optimum, and full of local optima.
+TEST(ParetoFront, IsEvenAndUndominatedByWeightedSumsWhereACriterionIsFlat) {
+  ParetoProblem problem = paper_example(20, {"J2", "stopping_distance"});
+  std::swap(problem.maneuver.from, problem.maneuver.to);
+  const ParetoFront front = epsilon_constraint_front(problem, {.points = 7});
+  ASSERT_EQ(front.status, ManeuverStatus::kOptimal) << front.reason;
+  const ParetoFront weighted = weighted_sum_front(problem, {.points = 7});
+  const ObjectiveRange range = range_of(front.objectives());
+  const Objectives noise = 1e-3 * (range.worst - range.best);
+  for (const ParetoPoint& sum : weighted.points) {
+    for (const ParetoPoint& point : front.points) {
+      EXPECT_FALSE(dominates(sum.objectives, point.objectives, noise))
+          << sum.objectives.transpose() << " dominates " << point.objectives.transpose();
+    }
+  }
+  const std::vector<Objectives> points = scaled(front);
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    EXPECT_NEAR((points[i] - points[i - 1]).norm(), (points[1] - points[0]).norm(), 0.1);
+  }
+}
+
+// Every braking without a push needs no energy; the end is the one that drives farthest.
+TEST(ParetoFront, HasAtItsEndsTheBestOfEquallyGoodManeuvers) {
+  ParetoProblem problem = paper_example(20, {"J1", "energy"});
+  std::swap(problem.maneuver.from, problem.maneuver.to);
+  const ParetoFront front = epsilon_constraint_front(problem, {.points = 5});
+  ASSERT_EQ(front.status, ManeuverStatus::kOptimal) << front.reason;
+  ManeuverProblem least = problem.maneuver;
+  least.cost_bounds = {{problem.criteria[1], 1e-4}};
+  const ManeuverSolution farthest = solve(least, *problem.criteria[0]);
+  ASSERT_EQ(farthest.status, ManeuverStatus::kOptimal) << farthest.reason;
+  EXPECT_NEAR(front.points.front().objectives(0), farthest.cost, 0.02 * std::abs(farthest.cost));
 }
 
 TEST(ParetoFront, OfThreeCriteriaLeavesOutBoundsThatContradictEachOther) {
