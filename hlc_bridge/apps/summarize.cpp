@@ -10,6 +10,7 @@
 #include <string>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/run_summary.hpp"
 #include "hlc_bridge/core/summary_table.hpp"
 #include "hlc_bridge/record/configuration.hpp"
@@ -24,25 +25,6 @@
 #include "planner/scenario/scenario.hpp"
 
 namespace {
-
-hlc::RunDescription description_of(const hlc::Scenario& scenario,
-                                   std::optional<std::uint64_t> noise_seed) {
-  const hlc::UniversalAutomaton& automaton = scenario.subgraph->automaton();
-  hlc::RunDescription description;
-  description.scenario = scenario.name;
-  description.profile = scenario.profile.name;
-  description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
-  description.noise_seed = noise_seed;
-  description.subgraph = scenario.subgraph->spec().name;
-  description.horizon_steps = scenario.horizon_steps;
-  description.step_s = automaton.step_s;
-  description.automaton = scenario.subgraph;
-  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
-    description.vehicles.push_back(
-        {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
-  }
-  return description;
-}
 
 /// @throws std::runtime_error if the run is not one of this scenario
 void check_scenario(const hlc::RunFacts& facts, const hlc::RunDescription& description) {
@@ -95,7 +77,7 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
     facts.first_step = hlc::first_step_of(reports);  // the lab control did not end the run
   }
   const hlc::Scenario scenario = hlc::read_scenario(choices);
-  const hlc::RunDescription description = description_of(scenario, noise_seed);
+  const hlc::RunDescription description = hlc::describe(scenario, noise_seed);
   check_scenario(facts, description);
   const hlc::Drives drives = read_drives(run, facts);
   const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);

@@ -10,8 +10,8 @@
 #include "hlc_bridge/core/command.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/observation.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
-#include "hlc_bridge/hlc/observation.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 
 namespace hlc {
@@ -43,8 +43,8 @@ std::string joined(const std::set<std::string>& names) {
 
 HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller)
     : options_(std::move(options)),
-      controller_(std::move(controller)),
-      vehicle_(controller_->options().vehicle),
+      core_(std::move(controller)),
+      vehicle_(core_.controller().options().vehicle),
       middleware_(middleware_name(vehicle_.value)),
       started_at_(Clock::now()),
       lab_(on_domain(options_, vehicle_, options_.domains.lab, DomainRole::kLab),
@@ -95,8 +95,8 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
 }
 
 void HlcProcess::check_plan_fits_commands() const {
-  const ControllerOptions& options = controller_->options();
-  const double step_s = controller_->subgraph().automaton().step_s;
+  const ControllerOptions& options = core_.controller().options();
+  const double step_s = core_.controller().subgraph().automaton().step_s;
   const double drivable_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime);
   if (static_cast<double>(options.horizon_steps + 1) * step_s > drivable_s + 1e-9) {
     throw std::invalid_argument("horizon_steps = " + std::to_string(options.horizon_steps) +
@@ -239,55 +239,32 @@ int HlcProcess::run() {
   }
 }
 
-void HlcProcess::watch_vehicles(const VehicleStateList& list) {
-  for (const VehicleState& state : list.states) {
-    if (is_usable(state, list.t_now)) settled_[{state.vehicle_id}].add(state);
-  }
-}
-
-/// Real time: the lab control's trigger says so, logical time: the states do.
-bool HlcProcess::starts_with(const VehicleStateList& list, const Observation& observation) {
-  if (!controller_->has_plan() || !is_ready_) return false;
-  if (options_.logical_time) {
-    return is_complete(observation) &&
-           std::ranges::all_of(observation.active, [this](VehicleId id) {
-             const auto found = settled_.find(id);
-             return found != settled_.end() && found->second.have_settled();
-           });
-  }
-  const std::optional<Nanoseconds> start = signal_.locked([this] { return start_; });
-  return start && list.t_now >= *start;
-}
-
 void HlcProcess::answer(const VehicleStateList& list) {
-  const double step_s = controller_->subgraph().automaton().step_s;
-  if (list.period_ms == 0 || std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) > 1e-9) {
-    spdlog::error("{}: the middleware's period is {} ms, the automaton's step is {} s",
-                  options_.node_id, list.period_ms, step_s);
+  if (const std::string problem = core_.problem_with(list); !problem.empty()) {
+    spdlog::error("{}: {}", options_.node_id, problem);
     has_bad_period_ = true;
     return;
   }
-  Observation observation = observation_of(list);
-  observation.present = present(observation.active);
-  if (last_step_ && observation.step <= *last_step_) return;  // heard twice
-  active_ = observation.active;
+  std::optional<Observation> observation = core_.observe(list);
+  if (!observation) return;  // heard twice
+  observation->present = present(observation->active);
+  active_ = observation->active;
   if (options_.logical_time && !wait_for_everybody()) return;
 
-  if (!is_started_) watch_vehicles(list);
+  if (!core_.has_begun()) core_.note(list);
   signal_.locked([&] {
-    traffic_inbox_.begin(observation.step);
-    prediction_inbox_.begin(observation.step);
-    outcome_inbox_.begin(observation.step);
+    traffic_inbox_.begin(observation->step);
+    prediction_inbox_.begin(observation->step);
+    outcome_inbox_.begin(observation->step);
   });
+  const std::optional<Nanoseconds> trigger = signal_.locked([this] { return start_; });
   ReportRecord record;
-  if (is_started_ || starts_with(list, observation)) {
-    is_started_ = true;
-    record = run_step(list, observation);
+  if (is_ready_ && core_.begins(list, *observation, options_.logical_time, trigger)) {
+    record = run_step(list, *observation);
   } else {
-    record.report = controller_->stand_by(observation);
-    send_command(list, observation.step);
+    record.report = core_.controller().stand_by(*observation);
+    send_answer(list);
   }
-  last_step_ = observation.step;
   report_writer_.write(record);
 }
 
@@ -329,7 +306,7 @@ void HlcProcess::wait_for(const StepMailbox<Message>& mailbox, const std::vector
 
 ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observation& observation) {
   ReportRecord record;
-  Controller& controller = *controller_;
+  Controller& controller = core_.controller();
   if (signal_.locked([this] { return drive_out_; })) controller.drive_out();
 
   traffic_writer_.write(controller.observe(observation));
@@ -363,22 +340,20 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
   } else {
     record.report = controller.settle(predictions, outcomes);
   }
-  send_command(list, observation.step);
+  send_answer(list);
   return record;
 }
 
-void HlcProcess::send_command(const VehicleStateList& list, StepIndex step) {
+void HlcProcess::send_answer(const VehicleStateList& list) {
   if (copy_due_) command_writer_.write(copy_due_->second);
-  const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
-  const TrajectoryCommand command = command_of(vehicle_, plan, step, list.t_now, period_of(list),
-                                               controller_->subgraph().automaton().vehicle);
-  command_writer_.write(command);
   copy_due_.reset();
-  if (command.points.empty()) return;
+  const AnswerToList answer = core_.answer(list);
+  command_writer_.write(answer.command);
+  if (!answer.copy) return;
   if (options_.transport == Transport::kLoopback) {
-    command_writer_.write(copy_for_later(command));
+    command_writer_.write(*answer.copy);
   } else if (!options_.logical_time) {
-    copy_due_.emplace(Clock::now() + kCopyPause, copy_for_later(command));
+    copy_due_.emplace(Clock::now() + kCopyPause, *answer.copy);
   }
 }
 

@@ -3,16 +3,15 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/core/hlc_core.hpp"
 #include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
-#include "hlc_bridge/core/settled_states.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
@@ -79,8 +78,6 @@ class HlcProcess {
   [[nodiscard]] bool wait_for_everybody();
 
   void answer(const VehicleStateList& list);
-  void watch_vehicles(const VehicleStateList& list);
-  [[nodiscard]] bool starts_with(const VehicleStateList& list, const Observation& observation);
   [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
   /// Waits until all of `from` are in the mailbox, or need not be waited for any more.
   template <class Message>
@@ -88,11 +85,11 @@ class HlcProcess {
                 const VehicleStateList& list, double deadline_share);
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
-  void send_command(const VehicleStateList& list, StepIndex step);
+  void send_answer(const VehicleStateList& list);
   [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;
 
   HlcProcessOptions options_;
-  std::unique_ptr<Controller> controller_;
+  HlcCore core_;
   VehicleId vehicle_;
   std::string middleware_;  ///< its name, if it is one of ours
   std::chrono::steady_clock::time_point started_at_;
@@ -119,13 +116,10 @@ class HlcProcess {
   Writer<ReportRecord> report_writer_;
 
   std::vector<VehicleId> active_;
-  std::map<VehicleId, SettledStates> settled_;  ///< until the start
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
   bool had_middleware_{};
   bool is_ready_{};
   bool has_bad_period_{};
-  bool is_started_{};
-  std::optional<StepIndex> last_step_;
   std::chrono::steady_clock::time_point next_ready_at_{};
   std::optional<std::pair<std::chrono::steady_clock::time_point, TrajectoryCommand>> copy_due_;
 

@@ -47,10 +47,6 @@ Rollout Rollout::clone() const {
   return result;
 }
 
-bool Rollout::arrives(MessageKind kind, VehicleId from, VehicleId to) const {
-  return from != to && !(is_lost_ && is_lost_({kind, next_step_, from, to}));
-}
-
 std::vector<MeasuredVehicle> Rollout::measure(StepIndex step) const {
   std::vector<MeasuredVehicle> states;
   for (const auto& controller : controllers_) {
@@ -68,27 +64,9 @@ std::vector<Report> Rollout::step() {
   std::ranges::sort(observation.active);
   observation.present = observation.active;
 
-  const auto heard = [this](MessageKind kind, const auto& messages, VehicleId receiver) {
-    auto result = messages;
-    std::erase_if(result,
-                  [&](const auto& message) { return !arrives(kind, message.vehicle, receiver); });
-    return result;
-  };
-
-  std::vector<Traffic> traffic;
-  std::vector<Prediction> predictions;
-  std::vector<Outcome> outcomes;
-  std::vector<Report> reports;
-  for (const auto& one : controllers_) traffic.push_back(one->observe(observation));
-  for (const auto& one : controllers_) one->couple(heard(MessageKind::kTraffic, traffic, id(one)));
-  for (const auto& one : controllers_) {
-    predictions.push_back(one->plan(heard(MessageKind::kPrediction, predictions, id(one))));
-  }
-  for (const auto& one : controllers_) outcomes.push_back(one->vote());
-  for (const auto& one : controllers_) {
-    reports.push_back(one->settle(heard(MessageKind::kPrediction, predictions, id(one)),
-                                  heard(MessageKind::kOutcome, outcomes, id(one))));
-  }
+  std::vector<Controller*> controllers;
+  for (const auto& controller : controllers_) controllers.push_back(controller.get());
+  std::vector<Report> reports = joint_step(controllers, observation, rules_);
   ++next_step_.value;
   return reports;
 }

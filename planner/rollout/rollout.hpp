@@ -5,22 +5,12 @@
 #include <vector>
 
 #include "planner/controller/controller.hpp"
+#include "planner/rollout/joint_step.hpp"
 
 namespace hlc {
 
-enum class MessageKind { kTraffic, kPrediction, kOutcome };
-
-/// One message on its way, for a rollout that loses some.
-struct Delivery {
-  MessageKind kind;
-  StepIndex step;
-  VehicleId from;
-  VehicleId to;
-};
-
 /// Controllers stepped together, each driven by a vehicle that follows its plan perfectly: planning
-/// and coordination alone, for look-ahead, campaigns and tests. Messages are handed over in memory;
-/// vehicles plan in the order of their priorities, so that nobody waits.
+/// and coordination alone, for look-ahead, campaigns and tests.
 class Rollout {
  public:
   /// @param controllers  one per vehicle, any order
@@ -31,7 +21,7 @@ class Rollout {
   [[nodiscard]] Rollout clone() const;
 
   /// Messages for which this says true do not arrive. None by default.
-  void lose(std::function<bool(const Delivery&)> is_lost) { is_lost_ = std::move(is_lost); }
+  void lose(std::function<bool(const Delivery&)> is_lost) { rules_.is_lost = std::move(is_lost); }
 
   /// One control step of all vehicles; reports in the order of priorities.
   std::vector<Report> step();
@@ -44,10 +34,9 @@ class Rollout {
  private:
   Rollout() = default;
   [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
-  [[nodiscard]] bool arrives(MessageKind kind, VehicleId from, VehicleId to) const;
 
   std::vector<std::unique_ptr<Controller>> controllers_;
-  std::function<bool(const Delivery&)> is_lost_;
+  JointStepRules rules_;
   StepIndex next_step_{0};
 };
 

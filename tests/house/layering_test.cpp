@@ -146,7 +146,7 @@ TEST(House, EveryIncludeFollowsAnArrow) {
 
 TEST(House, AnArrowThatRunsUpIsNoticed) {
   EXPECT_TRUE(fault_of("planner/geometry/pose.cpp", "planner/search/planner.hpp"));
-  EXPECT_TRUE(fault_of("hlc_bridge/hlc/observation.cpp", "vehicle_sim/plant/plant.hpp"));
+  EXPECT_TRUE(fault_of("hlc_bridge/hlc/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
   EXPECT_TRUE(fault_of("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
   EXPECT_FALSE(fault_of("planner/search/planner.hpp", "planner/geometry/pose.hpp"));
 }

@@ -70,6 +70,9 @@ LabProcesses::LabProcesses(const LabOptions& options)
                            "--pose=" + number(pose.x_m) + "," + number(pose.y_m) + "," +
                                number(pose.heading_rad),
                            "--record=" + (folder_ / ("vehicle_" + id + ".csv")).string()});
+    if (options.noise_seed) {
+      car.push_back("--noise_seed=" + std::to_string(*options.noise_seed + vehicle.id.value));
+    }
     add("vehicle_" + id, car, options.vehicle_flags);
     auto middleware = common("middleware");
     middleware.insert(middleware.end(), {"--vehicle_ids=" + id, local});

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,10 @@ struct LabOptions {
   std::string map_file{};  ///< instead of the scenario's
   int steps{25};
   bool simulated_time{true};
-  std::vector<std::string> vehicle_flags;  ///< further flags of every vehicle_sim
-  std::vector<std::string> absent;         ///< processes that are not started
-  int startup_timeout_s{60};               ///< of lab control; the others wait 10 s longer
+  std::optional<std::uint64_t> noise_seed;  ///< vehicle i has noise_seed + i
+  std::vector<std::string> vehicle_flags;   ///< further flags of every vehicle_sim
+  std::vector<std::string> absent;          ///< processes that are not started
+  int startup_timeout_s{60};                ///< of lab control; the others wait 10 s longer
 };
 
 /// All processes of a run, started one by one in any order, each known by its name: lab_control,

@@ -84,7 +84,7 @@ TEST(Run, TheSameScenarioGivesTheSameBytesInWhateverOrderTheProcessesStart) {
   std::string hash;
   for (unsigned seed = 0; seed < 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    LabProcesses lab({.steps = 40, .vehicle_flags = {"--noise_seed=7"}});
+    LabProcesses lab({.steps = 40, .noise_seed = 7});
     std::vector<std::string> order = lab.names();
     std::mt19937 random(seed);
     std::ranges::shuffle(order, random);
@@ -113,7 +113,7 @@ TEST(Run, WithoutTheFollowersGainsTheRunFails) {
 }
 
 TEST(Run, MeasurementNoiseDoesNotMakeCarsTouch) {
-  LabProcesses lab({.steps = 100, .vehicle_flags = {"--noise_seed=3"}});
+  LabProcesses lab({.steps = 100, .noise_seed = 3});
   const nlohmann::json summary = drive(lab, lab.names());
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["collisions"], 0);

@@ -1,4 +1,4 @@
-#include "hlc_bridge/hlc/observation.hpp"
+#include "hlc_bridge/core/observation.hpp"
 
 #include <algorithm>
 

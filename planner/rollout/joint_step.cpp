@@ -1,0 +1,35 @@
+#include "planner/rollout/joint_step.hpp"
+
+namespace hlc {
+
+std::vector<Report> joint_step(std::span<Controller* const> controllers,
+                               const Observation& observation, const JointStepRules& rules) {
+  const auto heard = [&](MessageKind kind, const auto& messages, const Controller& receiver) {
+    const VehicleId to = receiver.options().vehicle;
+    auto result = messages;
+    std::erase_if(result, [&](const auto& message) {
+      return message.vehicle == to ||
+             (rules.is_lost && rules.is_lost({kind, observation.step, message.vehicle, to}));
+    });
+    return result;
+  };
+
+  std::vector<Traffic> traffic;
+  std::vector<Prediction> predictions;
+  std::vector<Outcome> outcomes;
+  std::vector<Report> reports;
+  for (Controller* one : controllers) traffic.push_back(one->observe(observation));
+  for (Controller* one : controllers) one->couple(heard(MessageKind::kTraffic, traffic, *one));
+  for (Controller* one : controllers) {
+    const std::vector<Prediction> of_others = heard(MessageKind::kPrediction, predictions, *one);
+    predictions.push_back(rules.plan ? rules.plan(*one, of_others) : one->plan(of_others));
+  }
+  for (Controller* one : controllers) outcomes.push_back(one->vote());
+  for (Controller* one : controllers) {
+    reports.push_back(one->settle(heard(MessageKind::kPrediction, predictions, *one),
+                                  heard(MessageKind::kOutcome, outcomes, *one)));
+  }
+  return reports;
+}
+
+}  // namespace hlc

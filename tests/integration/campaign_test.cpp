@@ -1,0 +1,62 @@
+// The same run with processes over DDS and within one process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/core/run_summary.hpp"
+#include "tests/integration/lab_processes.hpp"
+#include "vehicle_sim/campaign/experiment.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Same {
+  std::string scenario;
+  std::string profile;
+  std::optional<std::uint64_t> noise_seed;
+};
+
+class SameRun : public testing::TestWithParam<Same> {};
+
+std::string trace_with_processes(const Same& same, int steps) {
+  LabProcesses lab({.scenario = same.scenario,
+                    .profile = same.profile,
+                    .steps = steps,
+                    .noise_seed = same.noise_seed});
+  lab.start_all();
+  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
+  return nlohmann::json::parse(read_text(lab.folder() / "summary.json")).at("trace_sha256");
+}
+
+TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
+  constexpr int kSteps = 40;
+  const Scenario scenario = read_scenario(
+      {.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
+       .profile = GetParam().profile});
+  const ExperimentOptions options{.steps = kSteps, .noise_seed = GetParam().noise_seed};
+  const Experiment experiment = drive_experiment(scenario, options);
+  const std::vector<StepRecord> rows =
+      step_records(experiment.reports, experiment.drives, experiment.facts);
+  EXPECT_EQ(rows.size(), kSteps * scenario.vehicles.size());
+  const std::string trace =
+      summarize(describe(scenario, options.noise_seed), experiment.facts, rows, experiment.drives)
+          .trace_sha256;
+  EXPECT_EQ(trace_with_processes(GetParam(), kSteps), trace);
+}
+
+INSTANTIATE_TEST_SUITE_P(Campaign, SameRun,
+                         testing::Values(Same{"paper_three_cars", "default", std::nullopt},
+                                         Same{"paper_three_cars", "2022", 7},
+                                         Same{"circle", "default", 3}),
+                         [](const auto& one) {
+                           return one.param.scenario + "_" + one.param.profile +
+                                  (one.param.noise_seed ? "_with_noise" : "");
+                         });
+
+}  // namespace
+}  // namespace hlc::test

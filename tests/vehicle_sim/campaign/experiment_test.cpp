@@ -1,0 +1,57 @@
+#include "vehicle_sim/campaign/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/core/run_summary.hpp"
+
+namespace hlc {
+namespace {
+
+Scenario scenario_of(const std::string& name) {
+  return read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + name + ".yaml"});
+}
+
+RunSummary summary_of(const Scenario& scenario, const ExperimentOptions& options) {
+  const Experiment experiment = drive_experiment(scenario, options);
+  EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
+  const std::vector<StepRecord> rows =
+      step_records(experiment.reports, experiment.drives, experiment.facts);
+  return summarize(describe(scenario, options.noise_seed), experiment.facts, rows,
+                   experiment.drives);
+}
+
+TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
+  const Scenario scenario = scenario_of("paper_three_cars");
+  const RunSummary summary = summary_of(scenario, {.steps = 150});
+  EXPECT_EQ(summary.steps, 150U);
+  EXPECT_EQ(summary.collisions, 0U);
+  ASSERT_EQ(summary.vehicles.size(), 3U);
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    EXPECT_EQ(vehicle.steps, 150U);
+    EXPECT_EQ(vehicle.fallback_steps, 0U);
+    EXPECT_EQ(vehicle.deadline_misses, 0U);
+    ASSERT_TRUE(vehicle.tracking_error_m);
+    EXPECT_LT(vehicle.tracking_error_m->max, 0.020);
+    EXPECT_GT(vehicle.tracking_error_m->max, 0.0) << "the plan is not the drive";
+  }
+}
+
+TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
+  const Scenario scenario = scenario_of("circle");
+  const std::string trace = summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256;
+  EXPECT_EQ(summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256, trace);
+  EXPECT_NE(summary_of(scenario, {.steps = 30, .noise_seed = 6}).trace_sha256, trace);
+  EXPECT_NE(summary_of(scenario, {.steps = 30}).trace_sha256, trace);
+}
+
+TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
+  const Scenario scenario = scenario_of("paper_red_alone");
+  const Experiment experiment =
+      drive_experiment(scenario, {.steps = 15, .gains = scaled(FollowerGains{}, 0.0)});
+  const Drive& drive = experiment.drives.at(scenario.vehicles.front().id.value);
+  EXPECT_EQ(drive.back().pose, drive.front().pose);
+}
+
+}  // namespace
+}  // namespace hlc

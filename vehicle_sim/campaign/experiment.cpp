@@ -1,0 +1,215 @@
+#include "vehicle_sim/campaign/experiment.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "hlc_bridge/core/command_check.hpp"
+#include "hlc_bridge/core/hlc_core.hpp"
+#include "hlc_bridge/core/logical_run.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/state_buffer.hpp"
+#include "planner/coordination/priority.hpp"
+#include "planner/rollout/joint_step.hpp"
+#include "vehicle_sim/campaign/simulated_vehicle.hpp"
+
+namespace hlc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A vehicle with its controller.
+struct Member {
+  std::uint8_t id;
+  SimulatedVehicle vehicle;
+  HlcCore hlc;
+  bool was_told_to_stop{};
+  bool has_left{};
+};
+
+LabRunSettings settings_of(const Scenario& scenario, std::uint64_t steps) {
+  LabRunSettings settings;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    settings.vehicle_ids.push_back(vehicle.id.value);
+  }
+  settings.period =
+      static_cast<Nanoseconds>(std::llround(1e9 * scenario.subgraph->automaton().step_s));
+  settings.steps = steps;
+  assert(settings.period % kVehiclePeriod == 0);
+  return settings;
+}
+
+class Lab {
+ public:
+  Lab(const Scenario& scenario, const ExperimentOptions& options)
+      : settings_(settings_of(scenario, options.steps)), run_(settings_) {
+    for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+      const std::uint8_t id = vehicle.id.value;
+      SimulatedVehicleOptions simulated{
+          .vehicle_id = id, .start = measured_start(scenario, vehicle), .gains = options.gains};
+      if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
+      members_.push_back({.id = id,
+                          .vehicle = SimulatedVehicle(simulated),
+                          .hlc = HlcCore(make_controller(scenario, vehicle.id))});
+    }
+    std::ranges::sort(members_, plans_before,
+                      [](const Member& member) { return VehicleId{member.id}; });
+  }
+
+  Experiment drive() {
+    appear();
+    while (!run_.finished()) {
+      for (const Nanoseconds trigger : run_.advance(kNoWallTime).triggers) {
+        if (trigger == kStopSymbol) {
+          stop();
+        } else {
+          release(trigger);
+        }
+      }
+    }
+    write_facts();
+    return std::move(experiment_);
+  }
+
+ private:
+  /// Nobody keeps anybody waiting here.
+  static constexpr Nanoseconds kNoWallTime = 0;
+
+  /// Everybody is there, hears everybody and asks for its first tick.
+  void appear() {
+    std::set<std::string> timers;
+    for (const Member& member : members_) {
+      alive_.insert(controller_name(member.id));
+      run_.ready({.source_id = vehicle_name(member.id), .next_start = 0});
+      run_.ready({.source_id = middleware_name(member.id), .next_start = kListOffset});
+      timers.insert({vehicle_name(member.id), middleware_name(member.id)});
+    }
+    alive_.insert(timers.begin(), timers.end());
+    run_.presence(alive_, lost_);
+    run_.trigger_readers(timers);
+  }
+
+  void release(Nanoseconds t) {
+    if (t % settings_.period == kListOffset) {
+      answer_list(t);
+      for (const Member& member : members_) {
+        run_.ready({.source_id = middleware_name(member.id), .next_start = t + settings_.period});
+      }
+    } else {
+      for (Member& member : members_) tick(member, t);
+    }
+  }
+
+  void tick(Member& member, Nanoseconds t) {
+    if (member.has_left) return;
+    const SimulatedVehicle::Tick done = member.vehicle.tick(t);
+    states_.add(member.id, done.state);
+    experiment_.drives[member.id].push_back(done.driven);
+    if (member.was_told_to_stop && !member.vehicle.is_braking()) {
+      member.has_left = true;
+      alive_.erase(vehicle_name(member.id));
+      lost_.insert(vehicle_name(member.id));
+      run_.presence(alive_, lost_);
+    } else {
+      run_.ready({.source_id = vehicle_name(member.id), .next_start = t + kVehiclePeriod});
+    }
+  }
+
+  void answer_list(Nanoseconds t_now) {
+    const std::vector<std::int32_t> active(settings_.vehicle_ids.begin(),
+                                           settings_.vehicle_ids.end());
+    states_.forget_before(t_now);
+    const VehicleStateList list = compose_state_list(states_, t_now, settings_.period, active);
+    step_controllers(list);
+    for (Member& member : members_) {
+      const AnswerToList answer = member.hlc.answer(list);
+      carry(answer.command, t_now, member);
+      if (answer.copy) carry(*answer.copy, t_now, member);
+    }
+  }
+
+  void step_controllers(const VehicleStateList& list) {
+    Observation observation;
+    bool begins = true;
+    for (Member& member : members_) {
+      observation = member.hlc.observe(list).value();
+      if (!member.hlc.has_begun()) member.hlc.note(list);
+      begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
+    }
+    observation.present = observation.active;
+    if (!begins) {
+      for (Member& member : members_) {
+        report({.report = member.hlc.controller().stand_by(observation)});
+      }
+      return;
+    }
+    std::vector<Controller*> controllers;
+    for (Member& member : members_) controllers.push_back(&member.hlc.controller());
+    std::vector<Nanoseconds> planning_ns;
+    const auto timed_plan = [&](Controller& controller, std::span<const Prediction> heard) {
+      const Clock::time_point from = Clock::now();
+      Prediction prediction = controller.plan(heard);
+      planning_ns.push_back(
+          static_cast<Nanoseconds>(std::chrono::nanoseconds(Clock::now() - from).count()));
+      return prediction;
+    };
+    const std::vector<Report> reports = joint_step(controllers, observation, {.plan = timed_plan});
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      report({.report = reports[i], .planning_ns = planning_ns[i]});
+    }
+  }
+
+  void report(const ReportRecord& record) {
+    run_.report(record);
+    experiment_.reports.push_back(record);
+  }
+
+  static void carry(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
+    const std::vector<std::uint8_t> own{member.id};
+    if (check_command(command, t_now, t_now, own).forward) member.vehicle.receive(command);
+  }
+
+  void stop() {
+    for (Member& member : members_) {
+      member.vehicle.brake();
+      member.was_told_to_stop = true;
+    }
+  }
+
+  void write_facts() {
+    const LabRunResult& result = run_.result();
+    RunFacts& facts = experiment_.facts;
+    facts.simulated_time = true;
+    facts.vehicle_ids = settings_.vehicle_ids;
+    facts.period = settings_.period;
+    facts.steps = settings_.steps;
+    facts.first_step = result.first_step;
+    facts.clock_s = 1e-9 * static_cast<double>(result.clock);
+    facts.exit_code = result.exit_code;
+    facts.reason = result.reason;
+    facts.died = result.deaths;
+  }
+
+  LabRunSettings settings_;
+  LogicalRun run_;
+  std::vector<Member> members_;  ///< in the order of priorities
+  StateBuffer states_;
+  std::set<std::string> alive_;
+  std::set<std::string> lost_;
+  Experiment experiment_;
+};
+
+}  // namespace
+
+Experiment drive_experiment(const Scenario& scenario, const ExperimentOptions& options) {
+  const Clock::time_point from = Clock::now();
+  Experiment experiment = Lab(scenario, options).drive();
+  experiment.facts.wall_s = std::chrono::duration<double>(Clock::now() - from).count();
+  return experiment;
+}
+
+}  // namespace hlc

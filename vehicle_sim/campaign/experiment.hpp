@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hlc_bridge/core/run_record.hpp"
+#include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/tracking/follower.hpp"
+
+namespace hlc {
+
+struct ExperimentOptions {
+  std::uint64_t steps{150};
+  /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
+  std::optional<std::uint64_t> noise_seed{};
+  FollowerGains gains{};
+};
+
+/// What the processes of a run would have written into its folder.
+struct Experiment {
+  RunFacts facts;
+  std::vector<ReportRecord> reports;
+  Drives drives;
+};
+
+/// A whole run of the scenario in logical time within this process and thread: lab control
+/// (LogicalRun), middlewares (StateBuffer, check_command), controllers (HlcCore) and vehicles
+/// (SimulatedVehicle), the very step functions that the processes run. Messages are handed over in
+/// memory instead of by DDS, all at once and none lost.
+///
+/// A run with processes in logical time gives the same poses to the last bit (equal trace_sha256).
+/// Planning times are measured with the wall clock; nothing depends on them.
+///
+/// All middlewares hear the same, so one buffer stands for all of theirs.
+///
+/// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
+[[nodiscard]] Experiment drive_experiment(const Scenario& scenario,
+                                          const ExperimentOptions& options);
+
+}  // namespace hlc
