@@ -33,7 +33,7 @@ void add_route(const VehicleDescription& vehicle, std::span<const StepRecord* co
   summary.lap_s = lap_s(*vehicle.route, progress, times_s);
 }
 
-void add_search(std::span<const StepRecord* const> rows, VehicleSummary& summary) {
+void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleSummary& summary) {
   std::vector<double> generated;
   std::vector<double> expanded;
   std::vector<double> planning_s;
@@ -44,6 +44,7 @@ void add_search(std::span<const StepRecord* const> rows, VehicleSummary& summary
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
       planning_s.push_back(static_cast<double>(row->record.planning_ns) * kSecondsPerNanosecond);
+      summary.overlong_plans += planning_s.back() > step_s ? 1U : 0U;
     }
   }
   summary.generated = statistics(generated);
@@ -185,7 +186,7 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   summary.name = vehicle.name;
   summary.steps = own.size();
   add_route(vehicle, own, description.step_s, summary);
-  add_search(own, summary);
+  add_search(own, description.step_s, summary);
   if (!facts.simulated_time) {
     summary.deadline_misses += unreported_steps(own, facts, rows);
   }
@@ -198,10 +199,11 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   return summary;
 }
 
-std::size_t largest_sum(std::span<const StepRecord> rows) {
+/// Over the vehicles of a step, of one of the report's counts.
+std::size_t largest_sum(std::span<const StepRecord> rows, std::uint64_t Report::*vertices) {
   std::map<std::uint64_t, std::size_t> sums;
   for (const StepRecord& row : rows) {
-    sums[row.step] += row.record.report.generated;
+    sums[row.step] += row.record.report.*vertices;
   }
   std::size_t largest = 0;
   for (const auto& [step, sum] : sums) {
@@ -220,7 +222,8 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   for (const VehicleDescription& vehicle : description.vehicles) {
     summary.vehicles.push_back(summarize_vehicle(vehicle, description, facts, rows, drives));
   }
-  summary.generated_vertices_sum_max = largest_sum(rows);
+  summary.generated_vertices_sum_max = largest_sum(rows, &Report::generated);
+  summary.expanded_vertices_sum_max = largest_sum(rows, &Report::expanded);
   if (facts.first_step) {
     const Encounters close =
         encounters(description.vehicles, drives, *facts.first_step * facts.period,

@@ -26,6 +26,7 @@ struct VehicleSummary {
   std::optional<Statistics> generated;  ///< vertices per step in which the vehicle planned
   std::optional<Statistics> expanded;
   std::optional<Statistics> planning_s;  ///< of those steps
+  std::size_t overlong_plans{};          ///< steps whose search alone took longer than a step
   std::size_t fallback_steps{};
   std::size_t deadline_misses{};  ///< late, or (real time) without a report: list not answered
 };
@@ -41,7 +42,8 @@ struct RunSummary {
   RunDescription description;
   std::size_t steps{};                   ///< steps of the experiment that were reported by anybody
   std::vector<VehicleSummary> vehicles;  ///< in the scenario's order
-  std::size_t generated_vertices_sum_max{};        ///< largest sum over all vehicles in one step
+  std::size_t generated_vertices_sum_max{};  ///< largest sum over all vehicles in one step
+  std::size_t expanded_vertices_sum_max{};
   std::optional<double> min_footprint_distance_m;  ///< driven; none with one vehicle
   std::size_t collisions{};
   double wall_s{};

@@ -41,6 +41,7 @@ Json vehicle_json(const VehicleSummary& vehicle) {
                                       {"std", &Statistics::std},
                                       {"p99", &Statistics::p99},
                                       {"max", &Statistics::max}});
+  json["overlong_plans"] = vehicle.overlong_plans;
   json["fallback_steps"] = vehicle.fallback_steps;
   json["deadline_misses"] = vehicle.deadline_misses;
   return json;
@@ -64,6 +65,7 @@ std::string summary_json(const RunSummary& summary) {
     json["vehicles"].push_back(vehicle_json(vehicle));
   }
   json["generated_vertices_sum_max"] = summary.generated_vertices_sum_max;
+  json["expanded_vertices_sum_max"] = summary.expanded_vertices_sum_max;
   json["min_footprint_distance_m"] = or_null(summary.min_footprint_distance_m);
   json["collisions"] = summary.collisions;
   json["wall_s"] = summary.wall_s;

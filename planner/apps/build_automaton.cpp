@@ -1,6 +1,4 @@
 // Builds the universal automaton of a configuration and writes it to a file.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -17,6 +15,7 @@
 #include "planner/apps/flags.hpp"
 #include "planner/apps/maneuver_table.hpp"
 #include "planner/apps/parallel.hpp"
+#include "planner/apps/progress_line.hpp"
 #include "planner/automaton/atomic_write.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
@@ -54,29 +53,10 @@ void check_outputs(const Choices& choices) {
   check("--plot", choices.plot);
 }
 
-/// A line that is written over and over, on a terminal only.
-class ProgressLine {
- public:
-  explicit ProgressLine(std::size_t total) : total_(total), is_shown_(isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (is_shown_) std::fprintf(stderr, "\r\033[K");
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(std::size_t done) const {
-    if (is_shown_) std::fprintf(stderr, "\rmaneuver %zu of %zu", done, total_);
-  }
-
- private:
-  std::size_t total_;
-  bool is_shown_;
-};
-
 hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, std::size_t jobs) {
   const std::vector<hlc::DesignTask> tasks = hlc::design_tasks(configuration);
   std::vector<hlc::Maneuver> designed(tasks.size());
-  const ProgressLine progress(tasks.size());
+  const hlc::ProgressLine progress("maneuver", tasks.size());
   hlc::run_parallel(
       tasks.size(), jobs,
       [&](std::size_t i) { designed[i] = hlc::design(configuration, tasks[i]); },

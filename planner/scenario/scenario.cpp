@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "planner/automaton/yaml_reader.hpp"
-#include "planner/geometry/footprint.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
+#include "planner/scenario/starts.hpp"
 
 namespace hlc {
 namespace {
@@ -126,25 +126,22 @@ void check_standstill_is_near(const YamlNode& node, const Scenario& scenario) {
 }
 
 void check_vehicles(const YamlNode& node, const Scenario& scenario) {
-  const VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
-  const auto area = [&](const ScenarioVehicle& vehicle) {
-    return footprint_area(parameters.footprint, vehicle.start, parameters.safety_margin_m);
-  };
   if (scenario.vehicles.empty()) node.fail("vehicles", "at least one");
   const std::vector<YamlNode> entries = node.optional_list("vehicles");  // none on a circle
   for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const ScenarioVehicle& a = scenario.vehicles[j];
-      const ScenarioVehicle& b = scenario.vehicles[i];
-      if (a.id == b.id) entries[i].fail("id", "every id once");
-      if (intersects(area(a), area(b))) {
-        const std::string allowed =
-            "start poses whose footprints with margin do not overlap: those of vehicles " +
-            std::to_string(a.id.value) + " and " + std::to_string(b.id.value) + " do";
-        if (entries.empty()) node.fail("circle", allowed);
-        entries[i].fail("start_m", allowed);
-      }
+      if (scenario.vehicles[j].id == scenario.vehicles[i].id)
+        entries[i].fail("id", "every id once");
     }
+  }
+  if (const auto overlap = overlapping_starts(scenario)) {
+    const auto [first, second] = *overlap;
+    const std::string allowed =
+        "start poses whose footprints with margin do not overlap: those of vehicles " +
+        std::to_string(scenario.vehicles[first].id.value) + " and " +
+        std::to_string(scenario.vehicles[second].id.value) + " do";
+    if (entries.empty()) node.fail("circle", allowed);
+    entries[second].fail("start_m", allowed);
   }
 }
 

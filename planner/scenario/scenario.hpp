@@ -50,8 +50,9 @@ struct ScenarioChoices {
 };
 
 /// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
-/// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved); and checks that it can be driven: routes exist and
-/// close, start poses do not overlap, standstill is within the horizon.
+/// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved);
+/// and checks that it can be driven: routes exist and close, start poses do not overlap, standstill
+/// is within the horizon.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is
 /// allowed
 [[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices);

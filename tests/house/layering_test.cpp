@@ -57,8 +57,7 @@ const std::map<std::string, Names> kArrows{
      {"hlc_bridge/core", "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
     {"vehicle_sim/apps",
      {"vehicle_sim/campaign", "vehicle_sim/plant", "vehicle_sim/tracking", "hlc_bridge/dds",
-      "hlc_bridge/time", "hlc_bridge/core", "hlc_bridge/record", "hlc_bridge/apps",
-      "planner/geometry", "planner/vehicle"}},
+      "hlc_bridge/time", "hlc_bridge/core", "hlc_bridge/record", "hlc_bridge/apps", "planner"}},
 };
 
 /// Headers from outside that only some places may name: pattern of the header, pattern of the

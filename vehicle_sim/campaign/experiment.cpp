@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -19,8 +18,6 @@
 
 namespace hlc {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A vehicle with its controller.
 struct Member {
@@ -46,7 +43,9 @@ LabRunSettings settings_of(const Scenario& scenario, std::uint64_t steps) {
 class Lab {
  public:
   Lab(const Scenario& scenario, const ExperimentOptions& options)
-      : settings_(settings_of(scenario, options.steps)), run_(settings_) {
+      : settings_(settings_of(scenario, options.steps)),
+        run_(settings_),
+        wall_clock_(options.wall_clock ? options.wall_clock : [] { return Nanoseconds{}; }) {
     for (const ScenarioVehicle& vehicle : scenario.vehicles) {
       const std::uint8_t id = vehicle.id.value;
       SimulatedVehicleOptions simulated{
@@ -61,6 +60,7 @@ class Lab {
   }
 
   Experiment drive() {
+    const Nanoseconds from = wall_clock_();
     appear();
     while (!run_.finished()) {
       for (const Nanoseconds trigger : run_.advance(kNoWallTime).triggers) {
@@ -72,6 +72,7 @@ class Lab {
       }
     }
     write_facts();
+    experiment_.facts.wall_s = 1e-9 * static_cast<double>(wall_clock_() - from);
     return std::move(experiment_);
   }
 
@@ -151,10 +152,9 @@ class Lab {
     for (Member& member : members_) controllers.push_back(&member.hlc.controller());
     std::vector<Nanoseconds> planning_ns;
     const auto timed_plan = [&](Controller& controller, std::span<const Prediction> heard) {
-      const Clock::time_point from = Clock::now();
+      const Nanoseconds from = wall_clock_();
       Prediction prediction = controller.plan(heard);
-      planning_ns.push_back(
-          static_cast<Nanoseconds>(std::chrono::nanoseconds(Clock::now() - from).count()));
+      planning_ns.push_back(wall_clock_() - from);
       return prediction;
     };
     const std::vector<Report> reports = joint_step(controllers, observation, {.plan = timed_plan});
@@ -196,6 +196,7 @@ class Lab {
 
   LabRunSettings settings_;
   LogicalRun run_;
+  std::function<Nanoseconds()> wall_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
   StateBuffer states_;
   std::set<std::string> alive_;
@@ -206,10 +207,7 @@ class Lab {
 }  // namespace
 
 Experiment drive_experiment(const Scenario& scenario, const ExperimentOptions& options) {
-  const Clock::time_point from = Clock::now();
-  Experiment experiment = Lab(scenario, options).drive();
-  experiment.facts.wall_s = std::chrono::duration<double>(Clock::now() - from).count();
-  return experiment;
+  return Lab(scenario, options).drive();
 }
 
 }  // namespace hlc

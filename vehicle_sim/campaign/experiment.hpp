@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct ExperimentOptions {
   /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
   std::optional<std::uint64_t> noise_seed{};
   FollowerGains gains{};
+  /// Wall clock by which planning times are measured; absent: they are 0. Nothing else depends on
+  /// it.
+  std::function<Nanoseconds()> wall_clock{};
 };
 
 /// What the processes of a run would have written into its folder.
@@ -30,7 +34,6 @@ struct Experiment {
 /// memory instead of by DDS, all at once and none lost.
 ///
 /// A run with processes in logical time gives the same poses to the last bit (equal trace_sha256).
-/// Planning times are measured with the wall clock; nothing depends on them.
 ///
 /// All middlewares hear the same, so one buffer stands for all of theirs.
 ///

@@ -182,6 +182,8 @@ TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
   EXPECT_EQ(result.vehicles[0].expanded->min, 5.0);
   EXPECT_DOUBLE_EQ(result.vehicles[0].planning_s->max, 0.064);
   EXPECT_EQ(result.generated_vertices_sum_max, 641U + 642U);
+  EXPECT_EQ(result.expanded_vertices_sum_max, 2U * 64U);
+  EXPECT_EQ(result.vehicles[0].overlong_plans, 0U);
   EXPECT_EQ(result.vehicles[0].fallback_steps, 0U);
   EXPECT_EQ(result.vehicles[1].fallback_steps, 2U);
   EXPECT_EQ(result.vehicles[0].deadline_misses, 1U);

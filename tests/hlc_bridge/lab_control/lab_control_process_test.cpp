@@ -14,8 +14,8 @@
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/domain_reservation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {

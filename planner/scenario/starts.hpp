@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "planner/scenario/scenario.hpp"
+
+namespace hlc {
+
+/// Indices i < j of two vehicles whose footprints with margin overlap at the start; nothing if all
+/// are clear of each other.
+[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(
+    const Scenario& scenario);
+
+/// The scenario with vehicle i standing at arc length starts_s_m[i] of its path, heading along it.
+/// Overlaps are the caller's matter.
+/// @pre one arc length per vehicle
+[[nodiscard]] Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m);
+
+/// The scenario with every vehicle somewhere on its path, uniform in arc length, all clear of each
+/// other. The same seed gives the same starts.
+/// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
+[[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
+
+}  // namespace hlc

@@ -1,0 +1,136 @@
+// Drives a campaign of whole runs within one process and writes the evaluation's tables.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hlc_bridge/record/program.hpp"
+#include "planner/apps/flags.hpp"
+#include "planner/apps/parallel.hpp"
+#include "planner/apps/progress_line.hpp"
+#include "vehicle_sim/apps/evaluation_files.hpp"
+#include "vehicle_sim/campaign/campaign.hpp"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Choices {
+  hlc::CampaignPlan plan;
+  std::vector<std::string> scenarios{"paper_three_cars", "paper_red_alone"};
+  std::filesystem::path scenario_folder;
+  std::size_t jobs{1};
+  std::filesystem::path out;
+};
+
+/// A file, or the name of one in the folder of scenarios.
+std::filesystem::path scenario_file(const Choices& choices, const std::string& name) {
+  if (std::filesystem::exists(name) && std::filesystem::is_regular_file(name)) return name;
+  const std::filesystem::path file = choices.scenario_folder / (name + ".yaml");
+  if (std::filesystem::exists(file)) return file;
+  throw std::invalid_argument("--scenario = " + name + ", allowed a file or the name of one in " +
+                              choices.scenario_folder.string());
+}
+
+hlc::Nanoseconds wall_clock() {
+  return static_cast<hlc::Nanoseconds>(
+      std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
+}
+
+/// Drives what is missing. Returns the number of failed runs.
+std::size_t drive(const hlc::Campaign& campaign, std::size_t jobs, hlc::EvaluationFiles& files) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < campaign.runs().size(); ++i) {
+    if (!files.has(i)) missing.push_back(i);
+  }
+  if (files.size() > 0) {
+    std::cerr << "evaluate: " << files.size() << " of " << campaign.runs().size()
+              << " runs are there already\n";
+  }
+  const hlc::ProgressLine progress("run", missing.size());
+  hlc::run_parallel(
+      missing.size(), jobs,
+      [&](std::size_t i) {
+        const std::size_t run = missing[i];
+        try {
+          files.add(run, campaign.drive(run, wall_clock));
+        } catch (const std::exception& error) {
+          files.add_failure(run, error.what());
+        }
+      },
+      [&](std::size_t done) { progress.show(done); });
+  const std::vector<hlc::RunFigures> figures = files.figures();
+  return static_cast<std::size_t>(std::ranges::count_if(
+      figures, [](const hlc::RunFigures& run) { return !run.failure.empty(); }));
+}
+
+std::string command_line(int argc, char** argv) {
+  std::string line = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+int run(Choices choices, const std::string& command) {
+  for (const std::string& name : choices.scenarios) {
+    choices.plan.scenarios.push_back(scenario_file(choices, name));
+  }
+  const hlc::Campaign campaign(choices.plan);
+  hlc::EvaluationFiles files(choices.out, campaign);
+  const Clock::time_point begin = Clock::now();
+  const std::size_t failed = drive(campaign, choices.jobs, files);
+  const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  files.finish({.command = command,
+                .revision = hlc::program_revision(),
+                .compiler = "GCC " __VERSION__,
+                .processor = hlc::this_host().cpu});
+  std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,
+              (choices.out / "table.md").c_str());
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Drives many whole runs within this process and compares them with the paper's Table 2.",
+      "evaluate"};
+  Choices choices;
+  choices.plan.profiles = {"default"};
+  choices.scenario_folder = "launch_scripts/scenarios";
+  choices.jobs = std::max(1U, std::thread::hardware_concurrency());
+  app.add_option("--scenario", choices.scenarios,
+                 "scenario files, or names of files in --scenario_folder")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--scenario_folder", choices.scenario_folder)->capture_default_str();
+  app.add_option("--profile", choices.plan.profiles, "rules: default, 2022, or both")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--subgraphs", choices.plan.subgraphs,
+                 "of the automaton, as A,B,C,D; default: the scenario's own")
+      ->delimiter(',');
+  app.add_option("--starts", choices.plan.starts,
+                 "how many starts: the scenario's own, then random ones on the routes")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--seed", choices.plan.seed, "of the random starts")->capture_default_str();
+  app.add_option("--steps", choices.plan.steps, "instead of the scenarios'")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--noise_seed", choices.plan.noise_seed,
+                 "measurement noise of the simulated cars; default: none");
+  app.add_option("--jobs", choices.jobs, "runs at a time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_option("--out", choices.out,
+                 "folder for results.json, table.md, table.csv; an interrupted campaign goes on")
+      ->required();
+  app.footer("Exit codes: 0 all runs driven, 1 some failed (results.json says why), 2 bad input.");
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  int code = 0;
+  const int problem =
+      hlc::exit_code_of("evaluate", [&] { code = run(choices, command_line(argc, argv)); });
+  return problem != 0 ? problem : code;
+}

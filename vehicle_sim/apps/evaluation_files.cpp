@@ -1,0 +1,176 @@
+#include "vehicle_sim/apps/evaluation_files.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "hlc_bridge/record/program.hpp"
+#include "hlc_bridge/record/summary_file.hpp"
+#include "hlc_bridge/record/text_file.hpp"
+#include "planner/automaton/sha256.hpp"
+
+namespace hlc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json heading_of(const Campaign& campaign) {
+  const CampaignPlan& plan = campaign.plan();
+  Json json;
+  json["scenarios"] = Json::array();
+  for (const auto& file : plan.scenarios) {
+    json["scenarios"].push_back(
+        {{"file", file.filename().string()}, {"sha256", sha256_of(read_file(file))}});
+  }
+  json["profiles"] = plan.profiles;
+  json["subgraphs"] = plan.subgraphs;
+  json["starts"] = plan.starts;
+  json["seed"] = plan.seed;
+  json["steps"] = plan.steps ? Json(*plan.steps) : Json(nullptr);
+  json["noise_seed"] = plan.noise_seed ? Json(*plan.noise_seed) : Json(nullptr);
+  json["revision"] = program_revision();
+  return json;
+}
+
+std::optional<double> number_or_none(const Json& json) {
+  return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
+}
+
+double number_or_0(const Json& json) { return number_or_none(json).value_or(0.0); }
+
+/// Planning times of all vehicles together: mean and standard deviation of the joint sample.
+void add_planning(const Json& vehicles, RunFigures& figures) {
+  double mean = 0.0;
+  double square = 0.0;
+  double overlong = 0.0;
+  const auto count = static_cast<double>(vehicles.size());
+  for (const Json& vehicle : vehicles) {
+    const Json& time = vehicle.at("planning_time_ms");
+    const double own_mean = number_or_0(time.at("mean"));
+    const double own_std = number_or_0(time.at("std"));
+    mean += own_mean / count;
+    square += (own_std * own_std + own_mean * own_mean) / count;
+    figures.planning_max_ms = std::max(figures.planning_max_ms, number_or_0(time.at("max")));
+    overlong += number_or_0(vehicle.at("overlong_plans"));
+  }
+  figures.planning_mean_ms = mean;
+  figures.planning_std_ms = std::sqrt(std::max(0.0, square - mean * mean));
+  figures.overlong_share = overlong;
+}
+
+RunFigures figures_of(const Json& record) {
+  RunFigures figures{.scenario = record.at("scenario").get<std::string>(),
+                     .profile = record.at("profile").get<std::string>(),
+                     .subgraph = record.at("subgraph").get<std::string>(),
+                     .start = record.at("start").get<std::size_t>()};
+  if (!record.at("failure").is_null()) {
+    figures.failure = record.at("failure").get<std::string>();
+    return figures;
+  }
+  const Json& vehicles = record.at("vehicles");
+  const Json& first = vehicles.at(0);
+  figures.lap_s = number_or_none(first.at("lap_s"));
+  figures.error_mean_mm = number_or_none(first.at("reference_error_mm").at("mean"));
+  figures.error_std_mm = number_or_none(first.at("reference_error_mm").at("std"));
+  for (const Json& vehicle : vehicles) {
+    figures.generated_max =
+        std::max(figures.generated_max, number_or_0(vehicle.at("generated_vertices").at("max")));
+    figures.expanded_max =
+        std::max(figures.expanded_max, number_or_0(vehicle.at("expanded_vertices").at("max")));
+    figures.fallback_steps += vehicle.at("fallback_steps").get<std::size_t>();
+  }
+  figures.generated_sum_max = number_or_0(record.at("generated_vertices_sum_max"));
+  figures.expanded_sum_max = number_or_0(record.at("expanded_vertices_sum_max"));
+  figures.collisions = record.at("collisions").get<std::size_t>();
+  add_planning(vehicles, figures);
+  const double plans = number_or_0(record.at("steps")) *
+                       static_cast<double>(std::max<std::size_t>(1, vehicles.size()));
+  figures.overlong_share = plans > 0.0 ? figures.overlong_share / plans : 0.0;
+  return figures;
+}
+
+}  // namespace
+
+EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& campaign)
+    : campaign_(campaign), folder_(std::move(folder)), heading_(heading_of(campaign).dump()) {
+  const std::filesystem::path file = folder_ / "runs.jsonl";
+  const auto refuse = [&](const std::string& what) {
+    throw std::invalid_argument("--out = " + folder_.string() + ": " + what +
+                                ", allowed a new folder or that of the same campaign");
+  };
+  if (!std::filesystem::exists(folder_)) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) refuse("cannot be made, " + error.message());
+  }
+  if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
+  if (!std::filesystem::exists(file)) {
+    if (!std::filesystem::is_empty(folder_)) refuse("holds something else");
+    write_file(file, heading_ + "\n");
+    return;
+  }
+  const std::string text = read_file(file);
+  std::vector<std::string> lines = split(text, '\n');
+  if (lines.front() != heading_) refuse("holds the campaign of other choices or another program");
+  lines.pop_back();  // behind the last line break: empty, or a line that was not finished
+  std::string kept = heading_ + "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    records_[Json::parse(lines[i]).at("run").get<std::size_t>()] = lines[i];
+    kept += lines[i] + "\n";
+  }
+  if (kept != text) write_file(file, kept);
+}
+
+void EvaluationFiles::add(std::size_t run, const RunSummary& summary) {
+  Json record;
+  record["run"] = run;
+  record["start"] = campaign_.runs()[run].start;
+  record["failure"] = nullptr;
+  RunSummary complete = summary;
+  complete.revision = program_revision();
+  complete.host = this_host();
+  record.update(Json::parse(summary_json(complete)));
+  append(run, record.dump());
+}
+
+void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
+  const CampaignRun& spec = campaign_.runs()[run];
+  Json record;
+  record["run"] = run;
+  record["start"] = spec.start;
+  record["failure"] = reason;
+  record["scenario"] = spec.scenario.stem().string();
+  record["profile"] = spec.profile;
+  record["subgraph"] = spec.subgraph.value_or("");
+  append(run, record.dump());
+}
+
+void EvaluationFiles::append(std::size_t run, const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  const std::filesystem::path file = folder_ / "runs.jsonl";
+  std::ofstream stream(file, std::ios::app);
+  stream << line << '\n' << std::flush;
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  records_[run] = line;
+}
+
+std::vector<RunFigures> EvaluationFiles::figures() const {
+  std::vector<RunFigures> result;
+  for (const auto& [run, line] : records_) result.push_back(figures_of(Json::parse(line)));
+  return result;
+}
+
+void EvaluationFiles::finish(const EvaluationOrigin& origin) const {
+  Json results;
+  results["campaign"] = Json::parse(heading_);
+  results["runs"] = Json::array();
+  for (const auto& [run, line] : records_) results["runs"].push_back(Json::parse(line));
+  write_file(folder_ / "results.json", results.dump(1) + "\n");
+  const std::vector<RunFigures> runs = figures();
+  write_file(folder_ / "table.md", evaluation_markdown(runs, origin));
+  write_file(folder_ / "table.csv", evaluation_csv(runs));
+}
+
+}  // namespace hlc

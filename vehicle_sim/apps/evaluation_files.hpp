@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "vehicle_sim/campaign/campaign.hpp"
+#include "vehicle_sim/campaign/evaluation_table.hpp"
+
+namespace hlc {
+
+/// The folder of a campaign:
+///
+///     runs.jsonl     first line: what the campaign is; then a line per run, as soon as it is
+///     driven results.json   {"campaign": ..., "runs": [...]}, in the order of the campaign
+///     table.md, table.csv
+///
+/// A run's record has the keys of summary.json and "run" (its number), "start", "failure" (null, or
+/// the reason why it was not driven; then the other keys are absent but for scenario, profile and
+/// subgraph).
+///
+/// A campaign that was interrupted goes on with the runs that are missing in runs.jsonl.
+class EvaluationFiles {
+ public:
+  /// Makes the folder, or opens that of the same campaign.
+  /// @throws std::invalid_argument naming the folder if it holds anything else, or the campaign of
+  /// other choices or another program
+  EvaluationFiles(std::filesystem::path folder, const Campaign& campaign);
+
+  [[nodiscard]] bool has(std::size_t run) const { return records_.contains(run); }
+  [[nodiscard]] std::size_t size() const { return records_.size(); }
+
+  /// From any thread. @throws std::runtime_error if it cannot be written
+  void add(std::size_t run, const RunSummary& summary);
+  void add_failure(std::size_t run, const std::string& reason);
+
+  /// Writes results.json and the tables.
+  void finish(const EvaluationOrigin& origin) const;
+  [[nodiscard]] std::vector<RunFigures> figures() const;
+
+ private:
+  void append(std::size_t run, const std::string& line);
+
+  const Campaign& campaign_;
+  std::filesystem::path folder_;
+  std::string heading_;                         ///< first line of runs.jsonl
+  std::map<std::size_t, std::string> records_;  ///< one line of JSON each, by run
+  std::mutex mutex_;
+};
+
+}  // namespace hlc

@@ -1,0 +1,66 @@
+#include "vehicle_sim/campaign/campaign.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "hlc_bridge/core/run_description.hpp"
+#include "planner/scenario/starts.hpp"
+
+namespace hlc {
+namespace {
+
+std::string key_of(const CampaignRun& run) {
+  return run.scenario.string() + '\n' + run.profile + '\n' + run.subgraph.value_or("");
+}
+
+}  // namespace
+
+std::vector<CampaignRun> runs_of(const CampaignPlan& plan) {
+  std::vector<std::optional<std::string>> subgraphs(plan.subgraphs.begin(), plan.subgraphs.end());
+  if (subgraphs.empty()) subgraphs.emplace_back(std::nullopt);
+  std::vector<CampaignRun> runs;
+  for (const auto& scenario : plan.scenarios) {
+    for (const auto& profile : plan.profiles) {
+      for (const auto& subgraph : subgraphs) {
+        for (std::size_t start = 0; start < plan.starts; ++start) {
+          runs.push_back({scenario, profile, subgraph, start});
+        }
+      }
+    }
+  }
+  return runs;
+}
+
+Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(plan_)) {
+  for (const CampaignRun& run : runs_) {
+    if (!scenarios_.contains(key_of(run))) {
+      scenarios_.emplace(key_of(run), read_scenario({.file = run.scenario,
+                                                     .profile = run.profile,
+                                                     .subgraph = run.subgraph,
+                                                     .steps = plan_.steps}));
+    }
+    if (run.start > 0) {
+      static_cast<void>(with_random_starts(scenario_of(run), plan_.seed + run.start));
+    }
+  }
+}
+
+const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
+  return scenarios_.at(key_of(run));
+}
+
+RunSummary Campaign::drive(std::size_t i, const std::function<Nanoseconds()>& wall_clock) const {
+  const CampaignRun& run = runs_.at(i);
+  const Scenario& as_read = scenario_of(run);
+  const Scenario scenario =
+      run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start);
+  const Experiment experiment = drive_experiment(
+      scenario,
+      {.steps = scenario.steps, .noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
+  if (experiment.facts.exit_code != 0) throw std::runtime_error(experiment.facts.reason);
+  const std::vector<StepRecord> rows =
+      step_records(experiment.reports, experiment.drives, experiment.facts);
+  return summarize(describe(scenario, plan_.noise_seed), experiment.facts, rows, experiment.drives);
+}
+
+}  // namespace hlc

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/run_summary.hpp"
+#include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/campaign/experiment.hpp"
+
+namespace hlc {
+
+/// What a campaign drives: every combination of scenario, profile, subgraph and start.
+struct CampaignPlan {
+  std::vector<std::filesystem::path> scenarios;  ///< files
+  std::vector<std::string> profiles;
+  std::vector<std::string> subgraphs;  ///< empty: the one that each scenario names
+  std::size_t starts{1};
+  std::uint64_t seed{1};
+  std::optional<std::size_t> steps;  ///< instead of the scenarios'
+  std::optional<std::uint64_t> noise_seed;
+};
+
+/// One run of a campaign.
+struct CampaignRun {
+  std::filesystem::path scenario;
+  std::string profile;
+  std::optional<std::string> subgraph;
+  std::size_t start{};  ///< 0: where the scenario has the cars; else random, seed + start
+};
+
+/// All runs of the plan: by scenario, then profile, subgraph, start.
+[[nodiscard]] std::vector<CampaignRun> runs_of(const CampaignPlan& plan);
+
+/// Drives the runs of a plan. Automata are built or read once; `drive` may then be called by
+/// several threads.
+class Campaign {
+ public:
+  /// Reads every scenario with every profile and subgraph, so that bad input is found before
+  /// anything is driven.
+  /// @throws std::invalid_argument as read_scenario; for random starts of open paths
+  explicit Campaign(CampaignPlan plan);
+
+  [[nodiscard]] const CampaignPlan& plan() const { return plan_; }
+  [[nodiscard]] const std::vector<CampaignRun>& runs() const { return runs_; }
+
+  /// The run number i; its result in the terms of summary.json, without revision and host.
+  /// @param wall_clock  see ExperimentOptions
+  /// @throws std::runtime_error with the reason if the run was not driven to its end
+  [[nodiscard]] RunSummary drive(std::size_t i,
+                                 const std::function<Nanoseconds()>& wall_clock) const;
+
+ private:
+  [[nodiscard]] const Scenario& scenario_of(const CampaignRun& run) const;
+
+  CampaignPlan plan_;
+  std::vector<CampaignRun> runs_;
+  std::map<std::string, Scenario> scenarios_;  ///< by what distinguishes them beside the start
+};
+
+}  // namespace hlc
