@@ -48,14 +48,14 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
   }
 }
 
-SearchResult BestFirstSearch::search(const HorizonProblem& problem,
-                                     const std::function<bool()>& stop) {
+void BestFirstSearch::search(const HorizonProblem& problem, const std::function<bool()>& stop,
+                             SearchResult& result) {
   assert(is_well_formed(problem, reachable_, options_.cost_to_go));
   const std::size_t n = problem.horizon_steps();
 
-  SearchResult result;
+  result = {};
   result.generated = 1;
-  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return result;
+  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return;
 
   collision_.prepare(problem);
   const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
@@ -75,14 +75,13 @@ SearchResult BestFirstSearch::search(const HorizonProblem& problem,
     }
     const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
-      result.status = SearchStatus::kBudget;
+      result.reason = NoPath::kBudget;
       break;
     }
     expand(taken, problem, cost_to_go, open);
     ++result.expanded;
   }
   result.generated = vertices_.size();
-  return result;
 }
 
 template <typename OpenList>
@@ -113,7 +112,9 @@ void BestFirstSearch::write_path(VertexId goal, const HorizonProblem& problem,
                                  SearchResult& result) const {
   const std::size_t n = problem.horizon_steps();
   result.status = SearchStatus::kOptimal;
+  result.reason = NoPath::kNone;
   result.cost = vertices_[goal].cost_to_come;
+  result.lower_bound = result.cost;
   result.maneuvers.resize(n);
   result.poses.resize(n);
   for (VertexId id = goal; vertices_[id].depth > 0; id = vertices_[id].parent) {

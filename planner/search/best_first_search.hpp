@@ -38,12 +38,13 @@ class BestFirstSearch final : public SearchEngine {
  public:
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
   BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
+  using SearchEngine::search;
 
   /// A trim that is off may start with its exit edges (Subgraph); without any there is no path.
   /// @pre the start is finite, horizon_steps() <= reachable.max_steps(),
   ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (with `kReachable`: or 0)
-  [[nodiscard]] SearchResult search(const HorizonProblem& problem,
-                                    const std::function<bool()>& stop) override;
+  void search(const HorizonProblem& problem, const std::function<bool()>& stop,
+              SearchResult& result) override;
 
  private:
   using VertexId = std::uint32_t;
