@@ -51,7 +51,7 @@ enum class Engine {
 };
 
 struct SearchOptions {
-  Engine engine{Engine::kBestFirst};
+  Engine engine{Engine::kBranchAndBound};
   /// kStraightLine and k2022: with kBestFirst only.
   CostToGo cost_to_go{CostToGo::kReachable};
   /// Expansions after which the search gives up; a number, never a time, so that two runs agree.

@@ -31,9 +31,18 @@ class SearchEngine {
 /// For `SearchEngine::search`: only the problem and the engine's own budget end the search.
 [[nodiscard]] inline bool never_stop() { return false; }
 
+/// Empties a result, its vectors keep their capacity: no path, infeasible, nothing counted.
+void reset(SearchResult& result);
+
+/// Ends a search that gives up: with its best path so far, whose maneuvers, poses and cost are
+/// already in `result`, or without one. A path that costs no more than the bound is optimal.
+/// @param lower_bound  no path that is still open costs less [m^2]
+void give_up(bool has_path, double lower_bound, SearchResult& result);
+
 /// The engine that `options` name.
 /// @param subgraph, reachable  must outlive the engine; `reachable` belongs to `subgraph`
-/// @throws std::invalid_argument if the engine cannot search with that cost-to-go
+/// @throws std::invalid_argument if the engine cannot search with that cost-to-go: kBranchAndBound
+/// has the bound kReachable alone
 [[nodiscard]] std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
                                                                const ReachableSets& reachable,
                                                                const SearchOptions& options);

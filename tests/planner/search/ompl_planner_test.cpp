@@ -103,7 +103,7 @@ TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
 }
 
 TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
-  const auto engine = make_engine();
+  const auto engine = make_search_engine(subgraph_, reachable_, {});
   const auto planner = make_horizon_planner(subgraph_, reachable_, {});
   for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE(seed);
