@@ -1,5 +1,6 @@
 #include "planner/search/branch_and_bound.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -48,9 +49,7 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 class BranchAndBound::Core {
  public:
   Core(const Subgraph& subgraph, const ReachableSets& reachable, Instructions instructions)
-      : tables(subgraph, reachable),
-        obstacles(reachable, tables.area_radius_m()),
-        kernel(choose_kernel(instructions)) {
+      : tables(subgraph, reachable), obstacles(tables), kernel(choose_kernel(instructions)) {
     std::size_t most_corners = 0;
     for (const TrimId trim : subgraph.starts()) {
       for (const Edge& edge : subgraph.successors(trim)) {
@@ -73,10 +72,6 @@ class BranchAndBound::Core {
   /// Obstacles, references and room for a path.
   void prepare(const HorizonProblem& problem) {
     const std::size_t n = problem.horizon_steps();
-    obstacles.prepare(problem);
-    obstacles.view(plan);
-    plan.horizon_steps = n;
-
     const std::size_t stride = n + 2 * kLanes;
     if (reference_x_.size() < stride) {
       reference_x_.resize(stride);
@@ -93,9 +88,6 @@ class BranchAndBound::Core {
       reference_x_[j] = problem.reference_m[j].x();
       reference_y_[j] = problem.reference_m[j].y();
     }
-    if (corners_.size() < 2 * obstacles.most_corners()) {
-      corners_.resize(2 * obstacles.most_corners());
-    }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
 
@@ -104,8 +96,6 @@ class BranchAndBound::Core {
     search.path = path.data();
     search.projections = projections_.data();
     search.projection_stride = reference_x_.size();
-    search.corners = corners_.data();
-    search.corner_stride = corners_.size() / 2;
     search.best_cost = kNoPath;
     search.best_edges = best_edges.data();
     search.best_x = best_x.data();
@@ -122,6 +112,14 @@ class BranchAndBound::Core {
     path[0].sin_heading = start.sin_heading;
     path[0].cost_to_come = 0.0;
     path[0].trim = static_cast<std::uint32_t>(problem.start_trim.index);
+
+    obstacles.list(problem, plan);
+    if (corners_.size() < 2 * obstacles.most_corners()) {
+      corners_.resize(2 * obstacles.most_corners());
+    }
+    search.corners = corners_.data();
+    search.corner_stride = corners_.size() / 2;
+    kernel.prepare(plan, path[0]);
   }
 
   /// The test of CollisionCheck, where the kernel's is too close to call.
@@ -197,10 +195,10 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
   const bool has_path = search.best_cost < kNoPath;
   if (has_path) write_best(problem, result);
   if (search.gave_up) {
-    if (search.expanded == 0) {
-      const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, CostToGo::kReachable);
-      search.lower_bound = cost_to_go(problem.start_trim, 0, to_frame(problem.start));
-    }
+    // The start's own bound is tighter than that of some of its children, now and then.
+    const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, CostToGo::kReachable);
+    const double of_start = cost_to_go(problem.start_trim, 0, to_frame(problem.start));
+    search.lower_bound = std::max(search.lower_bound, of_start);
     give_up(has_path, search.lower_bound, result);
   } else if (has_path) {
     result.status = SearchStatus::kOptimal;

@@ -13,7 +13,7 @@
 namespace hlc::branch_and_bound {
 
 /// Entries of one vector.
-inline constexpr std::size_t kLanes = 4;
+inline constexpr std::uint32_t kLanes = 4;
 /// Axes of a bound: directions at 0, 45, 90 and 135 degrees, each with an interval.
 inline constexpr std::size_t kAxes = 4;
 /// Doubles of one bound of four edges: per axis, the four centres and the four half widths.
@@ -54,7 +54,7 @@ struct Tables {
   const std::uint32_t* first_group;  ///< per trim and one more: edges [4 first, 4 next first)
   const double* displacement_x;      ///< per edge
   const double* displacement_y;
-  /// Per group, steps after the edge (from 1) and r: kBoundSize doubles. See BranchAndBound.
+  /// Per group, r and steps after the edge (from 1): kBoundSize doubles. See BranchAndBound.
   const double* bounds;
   const double* penalty;           ///< per r and edge: 0, or kForbidden with r steps left after it
   const std::uint32_t* permitted;  ///< per r and trim: edges that are not forbidden
@@ -66,14 +66,23 @@ struct Tables {
   std::size_t num_trims;
   std::size_t num_groups;
   std::size_t max_steps_left;
-  std::size_t bound_steps;  ///< bounds per group: bound_steps (max_steps_left + 1)
+  std::size_t bound_steps;  ///< most steps after an edge that there are bounds for
+  std::size_t bound_size;   ///< doubles per group
   std::uint64_t index_mask;
 };
 
-/// One obstacle in one step: corners, normals and offsets in `Plan::obstacle_*`, as in Area.
-struct ObstacleData {
-  std::uint32_t first;
+/// An obstacle of one step, as the problem has it.
+struct PolygonData {
+  const double* corners;  ///< x, y, x, y ...
   std::uint32_t size;
+  std::uint32_t step;   ///< from 0
+  std::uint32_t first;  ///< its place in `Plan::obstacle_*`, a multiple of four
+};
+
+/// An obstacle that can be met in its step.
+struct ObstacleData {
+  std::uint32_t polygon;  ///< among those of the problem
+  bool is_ready;          ///< its `Plan::obstacle_*` are written: done when first needed
 };
 
 /// One problem, prepared. Frame: that of the problem.
@@ -81,31 +90,48 @@ struct Plan {
   std::size_t horizon_steps;
   const double* reference_x;  ///< r_1 ... r_n and four more
   const double* reference_y;
-  bool has_obstacles;
-  bool has_segments;
+
+  // What the problem has, and what can be reached.
+  const PolygonData* polygons;  ///< by step
+  std::size_t num_polygons;
+  const double* boundary;  ///< per segment x, y of both ends
+  std::size_t boundary_size;
+  /// Per step, in the start's frame: along each axis the lowest place that an area can reach in
+  /// that step, then along each axis the highest.
+  const double* const* reach;
+
+  // What is left of it, written by Kernel::prepare.
+  double scale;  ///< largest coordinate, or more [m]
   /// Obstacles [first_obstacle[j - 1], first_obstacle[j]) are those of step j; every step's begin
   /// at a multiple of four. The padding has circles that nothing meets.
-  const std::uint32_t* first_obstacle;
-  const double* circle_x;  ///< a circle that contains the obstacle
-  const double* circle_y;
-  const double* circle_radius;
-  const ObstacleData* obstacles;
-  const double* obstacle_x;
-  const double* obstacle_y;
-  const double* obstacle_normal_x;
-  const double* obstacle_normal_y;
-  const double* obstacle_offset;
-  /// Boundary segments in the order of the step in which they can first be met: step j asks the
-  /// first num_segments[j - 1] and, up to a multiple of four, some more, which it cannot meet.
-  const std::uint32_t* num_segments;
-  const double* from_x;
-  const double* from_y;
-  const double* to_x;
-  const double* to_y;
+  std::uint32_t* first_obstacle;
+  double* circle_x;  ///< a circle that contains the obstacle
+  double* circle_y;
+  double* circle_radius;
+  ObstacleData* obstacles;
+  double* obstacle_x;  ///< corners, edge normals n_i (outward), offsets n_i p_i: as in Area
+  double* obstacle_y;
+  double* obstacle_normal_x;
+  double* obstacle_normal_y;
+  double* obstacle_offset;
+  std::uint32_t num_segments;  ///< boundary segments that can be met, padded with the last one
+  std::uint32_t num_blocks;
+  std::uint32_t* segment_source;  ///< number of a segment in the problem
+  double* from_x;
+  double* from_y;
+  double* to_x;
+  double* to_y;
+  /// An oriented rectangle around each block of four segments: centre, half its length as a vector,
+  /// half its width.
+  double* block_x;
+  double* block_y;
+  double* block_half_x;
+  double* block_half_y;
+  double* block_half_width;
   /// Bound on the rounding of what the separating-axis test compares [m^2]. Where the difference is
   /// smaller, `decides` of the search says what is true.
   double tolerance;
-  double circle_slack;  ///< [m]
+  double slack;  ///< of circles and boxes [m]
 };
 
 /// A vertex on the path that is being tried.
@@ -131,7 +157,7 @@ struct Question {
 /// One search: what it works on and what comes of it.
 struct Search {
   const Tables* tables;
-  const Plan* plan;
+  Plan* plan;
   const double* penalty;           ///< those of `tables` for this problem
   const std::uint32_t* permitted;  ///< the same
   VertexData* path;                ///< n + 1 vertices; the first is the start
@@ -158,6 +184,8 @@ struct Search {
 
 /// The kernel, once per instruction set; both give the same bits.
 struct Kernel {
+  /// Leaves out of the problem's obstacles and boundary what the plan cannot meet.
+  void (*prepare)(Plan& plan, const VertexData& start);
   void (*search)(Search& search);
   /// Is the edge free in step `step`, driven from this vertex?
   bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step,

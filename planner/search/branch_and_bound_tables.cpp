@@ -27,6 +27,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable)
   add_edges(subgraph);
   list_permitted(subgraph);
   compute_bounds(reachable);
+  list_reach(subgraph, reachable);
 
   view_.edges = edges_.data();
   view_.first_group = first_group_.data();
@@ -63,7 +64,7 @@ void TableStore::add_edges(const Subgraph& subgraph) {
     most_edges_ = std::max(most_edges_, padded(successors.size()));
     first_group_.push_back(static_cast<std::uint32_t>(edges_.size() / kLanes));
   }
-  most_edges_ = std::max(most_edges_, kLanes);
+  most_edges_ = std::max<std::size_t>(most_edges_, kLanes);
   view_.num_groups = first_group_.back();
   view_.index_mask = std::bit_ceil(most_edges_) - 1;
   for (const EdgeData& edge : edges_) {
@@ -132,7 +133,8 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
 
 void TableStore::compute_bounds(const ReachableSets& reachable) {
   const std::size_t rows = view_.max_steps_left + 1;
-  bounds_.assign(view_.num_groups * view_.bound_steps * rows * kBoundSize, 0.0);
+  view_.bound_size = rows * view_.bound_steps * kBoundSize;
+  bounds_.assign(view_.num_groups * view_.bound_size, 0.0);
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
     if (maneuvers_[edge] == nullptr) continue;
     const EdgeData& data = edges_[edge];
@@ -152,7 +154,7 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
           }
         }
         const std::size_t row =
-            ((edge / kLanes * view_.bound_steps + steps - 1) * rows + left) * kBoundSize;
+            ((edge / kLanes * rows + left) * view_.bound_steps + steps - 1) * kBoundSize;
         for (std::size_t axis = 0; axis < kAxes; ++axis) {
           double* const bound = &bounds_[row + 2 * axis * kLanes + edge % kLanes];
           const auto [low, high] = intervals[axis];
@@ -162,6 +164,35 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
       }
     }
   }
+}
+
+void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reachable) {
+  constexpr double kSlackM = 1e-6;  // rounding must not leave out what only just touches
+  const double beyond_m = area_radius_m_ + kSlackM;
+  reach_steps_ = std::max<std::size_t>(reachable.max_steps(), 1);
+  const std::size_t rows = view_.max_steps_left + 1;
+  reach_.resize(view_.num_trims * rows * reach_steps_ * kReachSize);
+  for (const TrimId trim : subgraph.starts()) {
+    for (std::size_t left = 0; left < rows; ++left) {
+      for (std::size_t steps = 0; steps < reach_steps_; ++steps) {
+        const Reach& reach_m = reachable.reach(trim, steps, left);
+        double* const row = &reach_[reach_row(trim, steps, left)];
+        for (std::size_t axis = 0; axis < kAxes; ++axis) {
+          row[axis] = -reach_m.support_m[axis + kAxes] - beyond_m;
+          row[axis + kAxes] = reach_m.support_m[axis] + beyond_m;
+        }
+      }
+    }
+  }
+}
+
+const double* TableStore::reach(TrimId trim, std::size_t steps, std::size_t steps_left) const {
+  return &reach_[reach_row(trim, steps, std::min(steps_left, view_.max_steps_left))];
+}
+
+std::size_t TableStore::reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const {
+  return ((trim.index * (view_.max_steps_left + 1) + steps_left) * reach_steps_ + steps) *
+         kReachSize;
 }
 
 std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {

@@ -31,9 +31,16 @@ class TableStore {
   /// Number of the edge out of `trim` with this maneuver; kNoEdge if there is none.
   [[nodiscard]] std::uint32_t find(TrimId trim, const Maneuver* maneuver) const;
   static constexpr std::uint32_t kNoEdge = static_cast<std::uint32_t>(-1);
+  static constexpr std::size_t kReachSize = 2 * kAxes;
 
-  /// Farthest corner of any area from the start of its maneuver [m].
-  [[nodiscard]] double area_radius_m() const { return area_radius_m_; }
+  /// Where areas of the step after `steps` steps can be, as in Plan::reach: the half-planes of
+  /// ReachableSets::reach moved outwards by the farthest corner of any area from the start of its
+  /// maneuver.
+  [[nodiscard]] const double* reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;
+  /// No corner of an area of the first `steps` steps is farther from the start [m].
+  [[nodiscard]] double reach_m(std::size_t steps) const {
+    return static_cast<double>(steps) * area_radius_m_;
+  }
   /// Most edges out of one trim, padded.
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
 
@@ -42,6 +49,8 @@ class TableStore {
   [[nodiscard]] Area add_area(const ConvexPolygon& area_m);
   void list_permitted(const Subgraph& subgraph);
   void compute_bounds(const ReachableSets& reachable);
+  void list_reach(const Subgraph& subgraph, const ReachableSets& reachable);
+  [[nodiscard]] std::size_t reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const;
 
   std::vector<const Maneuver*> maneuvers_;
   std::vector<EdgeData> edges_;
@@ -56,7 +65,9 @@ class TableStore {
   std::vector<double> area_normal_x_;
   std::vector<double> area_normal_y_;
   std::vector<double> area_offset_;
-  double area_radius_m_{};
+  std::vector<double> reach_;
+  std::size_t reach_steps_{};
+  double area_radius_m_{};  ///< farthest corner of any area from the start of its maneuver
   std::size_t most_edges_{};
   Tables view_{};
 };
