@@ -71,7 +71,7 @@ int run(const hlc::ScenarioChoices& choices) {
   }
   hlc::Rollout rollout(std::move(controllers), starts);
   const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = hlc::make_best_first_planner(
+  const auto alone = hlc::make_horizon_planner(
       *scenario.subgraph, reachable,
       {.cost_to_go = scenario.profile.cost_to_go, .max_expansions = scenario.max_expansions});
   const auto begin = std::chrono::steady_clock::now();

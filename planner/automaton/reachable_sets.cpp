@@ -56,12 +56,19 @@ void drop_inner_points(std::vector<Point>& points_m) {
   });
 }
 
-double largest_norm(const std::vector<Point>& points_m) {
-  double largest = -std::numeric_limits<double>::infinity();
+Reach reach_of(const std::vector<Point>& points_m, double allowance_m) {
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  Reach reach{.max_distance_m = kNothing, .support_m = {}};
+  reach.support_m.fill(kNothing);
   for (const Point& point : points_m) {
-    largest = std::max(largest, point.norm());
+    reach.max_distance_m = std::max(reach.max_distance_m, point.norm() + allowance_m);
+    for (std::size_t i = 0; i < kReachDirections.size(); ++i) {
+      const double along_m =
+          kReachDirections[i][0] * point.x() + kReachDirections[i][1] * point.y();
+      reach.support_m[i] = std::max(reach.support_m[i], along_m + allowance_m);
+    }
   }
-  return largest;
+  return reach;
 }
 
 /// Footprint with margin at the origin, for the planned heading and for the driven yaw.
@@ -86,14 +93,9 @@ std::vector<Point> first_step_area_m(const Subgraph& subgraph, TrimId trim) {
   return hull_vertices(std::move(points_m));
 }
 
-/// What the hulls of so many steps may have left out (kHullTolerance_m each, a few at a time).
-double allowance_m(std::size_t steps) {
-  return 10.0 * kHullTolerance_m * static_cast<double>(steps);
-}
-
 ConvexPolygon containing(std::vector<Point> points_m, std::size_t steps) {
   const ConvexPolygon hull = convex_hull(std::move(points_m));
-  return simplified_outwards(inflated(hull, allowance_m(steps + 1)), kMaxVertices);
+  return simplified_outwards(inflated(hull, ReachableSets::allowance_m(steps + 1)), kMaxVertices);
 }
 
 }  // namespace
@@ -112,9 +114,10 @@ ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
     }
   }
   const std::size_t rows = (max_steps_ + 1) * (max_steps_left_ + 1);
-  max_distance_m_.assign(rows * num_trims_, -std::numeric_limits<double>::infinity());
+  reach_.assign(rows * num_trims_, reach_of({}, 0.0));
+  positions_m_.resize(reach_.size());
   for (std::size_t steps_left = 0; steps_left <= max_steps_left_; ++steps_left) {
-    compute_distances(subgraph, steps_left);
+    compute_reach(subgraph, steps_left);
   }
   compute_swept_areas(subgraph);
   shifts_.clear();
@@ -136,7 +139,7 @@ std::vector<Point> ReachableSets::hull_over_successors(TrimId trim,
   return hull_vertices(std::move(points_m));
 }
 
-void ReachableSets::compute_distances(const Subgraph& subgraph, std::size_t steps_left) {
+void ReachableSets::compute_reach(const Subgraph& subgraph, std::size_t steps_left) {
   SetPerTrim sets_m(num_trims_);
   for (std::size_t steps = 0; steps <= max_steps_; ++steps) {
     SetPerTrim next_m(num_trims_);
@@ -146,8 +149,9 @@ void ReachableSets::compute_distances(const Subgraph& subgraph, std::size_t step
       } else if (subgraph.distance_to_standstill(trim) <= steps_left) {
         next_m[trim.index] = {Point::Zero()};
       }
-      max_distance_m_[distance_index(trim, steps, steps_left)] =
-          largest_norm(next_m[trim.index]) + allowance_m(steps);
+      const std::size_t index = reach_index(trim, steps, steps_left);
+      reach_[index] = reach_of(next_m[trim.index], allowance_m(steps));
+      positions_m_[index] = next_m[trim.index];
     }
     sets_m = std::move(next_m);
   }
@@ -179,9 +183,15 @@ void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
   }
 }
 
-double ReachableSets::max_distance_m(TrimId trim, std::size_t steps, std::size_t steps_left) const {
+const Reach& ReachableSets::reach(TrimId trim, std::size_t steps, std::size_t steps_left) const {
   assert(trim.index < num_trims_ && steps <= max_steps_);
-  return max_distance_m_[distance_index(trim, steps, std::min(steps_left, max_steps_left_))];
+  return reach_[reach_index(trim, steps, std::min(steps_left, max_steps_left_))];
+}
+
+std::span<const Point> ReachableSets::positions_m(TrimId trim, std::size_t steps,
+                                                  std::size_t steps_left) const {
+  assert(trim.index < num_trims_ && steps <= max_steps_);
+  return positions_m_[reach_index(trim, steps, std::min(steps_left, max_steps_left_))];
 }
 
 const ConvexPolygon& ReachableSets::swept_area_m(TrimId trim, std::size_t step) const {
@@ -194,8 +204,8 @@ const ConvexPolygon& ReachableSets::swept_area_until_m(TrimId trim, std::size_t 
   return swept_area_until_m_[area_index(trim, steps)];
 }
 
-std::size_t ReachableSets::distance_index(TrimId trim, std::size_t steps,
-                                          std::size_t steps_left) const {
+std::size_t ReachableSets::reach_index(TrimId trim, std::size_t steps,
+                                       std::size_t steps_left) const {
   return (steps_left * (max_steps_ + 1) + steps) * num_trims_ + trim.index;
 }
 

@@ -1,11 +1,32 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <numbers>
+#include <span>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
 
 namespace hlc {
+
+/// Unit vectors n_0 ... n_7 at multiples of 45 degrees: the directions of Reach::support_m.
+inline constexpr std::array<std::array<double, 2>, 8> kReachDirections{
+    {{1.0, 0.0},
+     {std::numbers::sqrt2 / 2.0, std::numbers::sqrt2 / 2.0},
+     {0.0, 1.0},
+     {-std::numbers::sqrt2 / 2.0, std::numbers::sqrt2 / 2.0},
+     {-1.0, 0.0},
+     {-std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0},
+     {0.0, -1.0},
+     {std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0}}};
+
+/// A set of positions from outside, in the frame of the start pose: a circle around the start and
+/// eight half-planes, n_i p <= s_i, contain it. All -infinity if the set is empty.
+struct Reach {
+  double max_distance_m{};            ///< d: of a position from the start
+  std::array<double, 8> support_m{};  ///< s_i = max n_i p over the set
+};
 
 /// What a subgraph can reach, in the frame of the start pose. Tables, computed once per subgraph,
 /// for every trim that planning may start from (Subgraph::starts). For the paper's 12 trims and 9
@@ -35,7 +56,31 @@ class ReachableSets {
   /// standstill is capped.
   /// -infinity too for a trim that planning cannot start from.
   /// @pre steps <= max_steps
-  [[nodiscard]] double max_distance_m(TrimId trim, std::size_t steps, std::size_t steps_left) const;
+  [[nodiscard]] double max_distance_m(TrimId trim, std::size_t steps,
+                                      std::size_t steps_left) const {
+    return reach(trim, steps, steps_left).max_distance_m;
+  }
+
+  /// The same positions from outside: `max_distance_m` and the support in eight directions. Each
+  /// number may be too large by `allowance_m(steps)`, none is too small.
+  /// @pre steps <= max_steps
+  [[nodiscard]] const Reach& reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;
+
+  /// Vertices of the convex hull of the same positions, counter-clockwise; the hull may leave out
+  /// what stands out from it by less than `allowance_m(steps)`. Empty if no permitted path exists.
+  /// @pre steps <= max_steps
+  [[nodiscard]] std::span<const Point> positions_m(TrimId trim, std::size_t steps,
+                                                   std::size_t steps_left) const;
+
+  /// What the hulls of so many steps may have left out (kHullTolerance_m each, a few at a time),
+  /// and rounding.
+  [[nodiscard]] static constexpr double allowance_m(std::size_t steps) {
+    return 10.0 * kHullTolerance_m * static_cast<double>(steps);
+  }
+
+  /// Largest distance to standstill of a trim that planning may start from: `steps_left` is capped
+  /// to it.
+  [[nodiscard]] std::size_t max_steps_left() const { return max_steps_left_; }
 
   /// Convex area that contains every swept area of the step number `step` (1: the first) of every
   /// path from `trim`, whether it can still stop afterwards or not. step = 0: the swept area of
@@ -59,15 +104,16 @@ class ReachableSets {
 
   [[nodiscard]] std::vector<Point> hull_over_successors(TrimId trim,
                                                         const SetPerTrim& sets_m) const;
-  void compute_distances(const Subgraph& subgraph, std::size_t steps_left);
+  void compute_reach(const Subgraph& subgraph, std::size_t steps_left);
   void compute_swept_areas(const Subgraph& subgraph);
-  [[nodiscard]] std::size_t distance_index(TrimId trim, std::size_t steps,
-                                           std::size_t steps_left) const;
+  [[nodiscard]] std::size_t reach_index(TrimId trim, std::size_t steps,
+                                        std::size_t steps_left) const;
   [[nodiscard]] std::size_t area_index(TrimId trim, std::size_t step) const;
 
   std::size_t max_steps_;
   std::size_t max_steps_left_{};
-  std::vector<double> max_distance_m_;
+  std::vector<Reach> reach_;
+  SetPerTrim positions_m_;  ///< one hull for each of `reach_`
   std::vector<ConvexPolygon> swept_area_m_;
   std::vector<ConvexPolygon> swept_area_until_m_;
   std::size_t num_trims_{};

@@ -90,7 +90,7 @@ Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph
       path_(std::move(path)),
       corridor_(std::move(corridor)),
       reachable_(std::move(reachable)),
-      planner_(make_best_first_planner(*subgraph_, *reachable_, options.search)),
+      planner_(make_horizon_planner(*subgraph_, *reachable_, options.search)),
       standstill_(own_step(subgraph_->automaton(), subgraph_->standstill())),
       missing_rules_(rules_for_missing(subgraph_->automaton())) {}
 
@@ -114,7 +114,7 @@ void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
     reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
   }
   assert(reachable->max_steps() > options_.horizon_steps);
-  planner_ = make_best_first_planner(*subgraph, *reachable, options_.search);
+  planner_ = make_horizon_planner(*subgraph, *reachable, options_.search);
   subgraph_ = std::move(subgraph);
   reachable_ = std::move(reachable);
   standstill_ = own_step(subgraph_->automaton(), subgraph_->standstill());
@@ -294,9 +294,9 @@ void Controller::search_candidate(StepIndex next) {
   const SearchResult result = planner_->plan(*step_.problem);
   step_.report.generated += result.generated;
   step_.report.expanded += result.expanded;
-  if (result.status != SearchStatus::kOptimal) {
-    step_.obstacle = result.status == SearchStatus::kBudget ? FallbackReason::kBudget
-                                                            : FallbackReason::kInfeasible;
+  if (result.status == SearchStatus::kFallback) {
+    step_.obstacle =
+        result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;
     return;
   }
   step_.report.cost_m2 = result.cost;

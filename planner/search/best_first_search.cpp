@@ -16,7 +16,7 @@ constexpr std::size_t kStopInterval = 64;
                                      CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
-                            (kind == CostToGo::kReachable && problem.reference_speed_mps.empty());
+                            (kind != CostToGo::k2022 && problem.reference_speed_mps.empty());
   const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
   return n <= reachable.max_steps() && speeds_match && obstacles_match &&
          problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);
@@ -48,41 +48,88 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
   }
 }
 
-SearchResult BestFirstSearch::search(const HorizonProblem& problem,
-                                     const std::function<bool()>& stop) {
+void BestFirstSearch::search(const HorizonProblem& problem, const std::function<bool()>& stop,
+                             SearchResult& result) {
   assert(is_well_formed(problem, reachable_, options_.cost_to_go));
   const std::size_t n = problem.horizon_steps();
 
-  SearchResult result;
+  reset(result);
   result.generated = 1;
-  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return result;
+  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return;
 
   collision_.prepare(problem);
   const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
+  const bool has_incumbent = write_incumbent(problem, result);
 
   vertices_.clear();
   vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
   ompl::BinaryHeap<OpenEntry, Before> open;
-  open.insert({cost_to_go(problem.start_trim, 0, problem.start.position_m()), 0, 0});
+  open.insert({cost_to_go(problem.start_trim, 0, vertices_.front().frame), 0, 0});
 
   while (!open.empty()) {
-    const VertexId taken = open.top()->data.vertex;
+    const OpenEntry taken = open.top()->data;
     open.pop();
-    if (!incoming_edge_is_free(vertices_[taken])) continue;
-    if (vertices_[taken].depth == n) {
-      write_path(taken, problem, result);
+    if (!incoming_edge_is_free(vertices_[taken.vertex])) continue;
+    if (vertices_[taken.vertex].depth == n) {
+      if (!has_incumbent || vertices_[taken.vertex].cost_to_come < result.cost) {
+        write_path(taken.vertex, problem, result);
+      }
+      result.status = SearchStatus::kOptimal;
+      result.reason = NoPath::kNone;
+      result.lower_bound = result.cost;
       break;
     }
     const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
-      result.status = SearchStatus::kBudget;
+      // Every other entry of the open list has no smaller f.
+      const double bound = options_.cost_to_go == CostToGo::k2022 ? 0.0 : taken.cost_estimate;
+      give_up(has_incumbent, bound, result);
       break;
     }
-    expand(taken, problem, cost_to_go, open);
+    expand(taken.vertex, problem, cost_to_go, open);
     ++result.expanded;
   }
   result.generated = vertices_.size();
-  return result;
+}
+
+bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResult& result) {
+  const std::size_t n = problem.horizon_steps();
+  if (problem.incumbent.empty() || problem.incumbent.size() != n) return false;
+  Frame frame = to_frame(problem.start);
+  Pose pose = problem.start;
+  TrimId trim = problem.start_trim;
+  double cost = 0.0;
+  bool is_path = true;
+  for (std::size_t depth = 0; depth < n && is_path; ++depth) {
+    const Maneuver* const maneuver = problem.incumbent[depth];
+    const Step* const step = find_step(trim, maneuver);
+    is_path = step != nullptr && step->distance_to_standstill <= n - (depth + 1) &&
+              !(step->ends_at_limit && problem.avoids_steering_limit) &&
+              collision_.is_free(*maneuver, depth + 1, frame);
+    if (!is_path) break;
+    frame = compose(frame, step->displacement);
+    pose = {frame.origin_m.x(), frame.origin_m.y(),
+            pose.heading_rad + maneuver->displacement.heading_rad};
+    cost += (frame.origin_m - problem.reference_m[depth]).squaredNorm();
+    trim = step->to;
+    result.maneuvers.push_back(maneuver);
+    result.poses.push_back(pose);
+  }
+  if (!is_path) {
+    reset(result);
+    result.generated = 1;
+    return false;
+  }
+  result.cost = cost;
+  return true;
+}
+
+const BestFirstSearch::Step* BestFirstSearch::find_step(TrimId trim,
+                                                        const Maneuver* maneuver) const {
+  for (const Step& step : steps_[trim.index]) {
+    if (step.maneuver == maneuver) return &step;
+  }
+  return nullptr;
 }
 
 template <typename OpenList>
@@ -100,7 +147,7 @@ void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
     const double cost_to_come = parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm();
     const auto child = static_cast<VertexId>(vertices_.size());
     vertices_.push_back({frame, cost_to_come, step.maneuver, step.to, vertex, depth});
-    open.insert({cost_to_come + cost_to_go(step.to, depth, frame.origin_m), child, depth});
+    open.insert({cost_to_come + cost_to_go(step.to, depth, frame), child, depth});
   }
 }
 
@@ -112,7 +159,6 @@ bool BestFirstSearch::incoming_edge_is_free(const Vertex& vertex) {
 void BestFirstSearch::write_path(VertexId goal, const HorizonProblem& problem,
                                  SearchResult& result) const {
   const std::size_t n = problem.horizon_steps();
-  result.status = SearchStatus::kOptimal;
   result.cost = vertices_[goal].cost_to_come;
   result.maneuvers.resize(n);
   result.poses.resize(n);

@@ -29,8 +29,11 @@ namespace hlc {
 /// not checked: where the vehicle is, it is.
 ///
 /// The first vertex of depth n that is taken and free ends the search. Its path costs least if h is
-/// admissible (`CostToGo::kReachable`): every other path still has a vertex in the open list whose
-/// f, a lower bound of that path's cost, is not smaller.
+/// admissible (all but `CostToGo::k2022`): every other path still has a vertex in the open list
+/// whose f, a lower bound of that path's cost, is not smaller.
+///
+/// The incumbent changes no count. It is the answer if the search gives up; the least f in the open
+/// list then bounds the cost of every path from below (with k2022, 0 does).
 ///
 /// Counts: `generated` are all vertices made, with the root and with children never looked at
 /// again; `expanded` are those whose children were made, so neither dropped vertices nor the goal.
@@ -38,12 +41,13 @@ class BestFirstSearch final : public SearchEngine {
  public:
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
   BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
+  using SearchEngine::search;
 
   /// A trim that is off may start with its exit edges (Subgraph); without any there is no path.
   /// @pre the start is finite, horizon_steps() <= reachable.max_steps(),
-  ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (with `kReachable`: or 0)
-  [[nodiscard]] SearchResult search(const HorizonProblem& problem,
-                                    const std::function<bool()>& stop) override;
+  ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (unless `k2022`: or 0)
+  void search(const HorizonProblem& problem, const std::function<bool()>& stop,
+              SearchResult& result) override;
 
  private:
   using VertexId = std::uint32_t;
@@ -79,6 +83,9 @@ class BestFirstSearch final : public SearchEngine {
   void expand(VertexId vertex, const HorizonProblem& problem, const CostToGoFunction& cost_to_go,
               OpenList& open);
   [[nodiscard]] bool incoming_edge_is_free(const Vertex& vertex);
+  /// Writes maneuvers, poses and cost of the incumbent; nothing, and false, if it is no free path.
+  bool write_incumbent(const HorizonProblem& problem, SearchResult& result);
+  [[nodiscard]] const Step* find_step(TrimId trim, const Maneuver* maneuver) const;
   void write_path(VertexId goal, const HorizonProblem& problem, SearchResult& result) const;
 
   const Subgraph& subgraph_;

@@ -1,12 +1,33 @@
 #include "planner/search/cost_to_go.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 namespace hlc {
+namespace {
 
-double reachable_cost_to_go(const Point& position_m, std::span<const Point> reference_m,
-                            std::span<const double> reach_m) {
+double longest_displacement_m(const Subgraph& subgraph) {
+  double longest_m = 0.0;
+  for (const TrimId trim : subgraph.starts()) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      longest_m = std::max(longest_m, edge.maneuver->displacement.position_m().norm());
+    }
+  }
+  return longest_m;
+}
+
+}  // namespace
+
+double distance_beyond_m(const Point& q_m, const Reach& reach) {
+  double beyond_m = std::max(0.0, q_m.norm() - reach.max_distance_m);
+  for (std::size_t i = 0; i < kReachDirections.size(); ++i) {
+    const double along_m = kReachDirections[i][0] * q_m.x() + kReachDirections[i][1] * q_m.y();
+    beyond_m = std::max(beyond_m, along_m - reach.support_m[i]);
+  }
+  return beyond_m;
+}
+
+double straight_line_cost_to_go(const Point& position_m, std::span<const Point> reference_m,
+                                std::span<const double> reach_m) {
   assert(reference_m.size() == reach_m.size());
   double h = 0.0;
   for (std::size_t i = 0; i < reach_m.size(); ++i) {
@@ -29,28 +50,53 @@ double cost_to_go_2022(const Point& position_m, std::span<const Point> reference
 
 CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets& reachable,
                                    const HorizonProblem& problem, CostToGo kind)
-    : reference_m_(problem.reference_m), kind_(kind) {
-  const std::size_t horizon_steps = problem.horizon_steps();
-  const double step_s = subgraph.automaton().step_s;
-  assert(horizon_steps <= reachable.max_steps());
-  assert(kind != CostToGo::k2022 || problem.reference_speed_mps.size() == horizon_steps);
+    : reachable_(reachable), reference_m_(problem.reference_m), kind_(kind) {
+  const std::size_t n = problem.horizon_steps();
+  assert(n <= reachable.max_steps());
+  assert(kind != CostToGo::k2022 || problem.reference_speed_mps.size() == n);
 
-  // One row more than needed, so that the empty row of depth n has an address.
-  reach_m_.resize(subgraph.automaton().trims.size() * (horizon_steps + 1) * horizon_steps + 1);
-  for (const TrimId trim : subgraph.starts()) {
-    for (std::size_t depth = 0; depth < horizon_steps; ++depth) {
+  if (kind == CostToGo::kStraightLine) {
+    const double longest_m = longest_displacement_m(subgraph);
+    for (std::size_t i = 1; i <= n; ++i) {
+      reach_m_.push_back(static_cast<double>(i) * longest_m + ReachableSets::allowance_m(i));
+    }
+  }
+  if (kind == CostToGo::k2022) {
+    reach_m_.resize(n * n);
+    for (std::size_t depth = 0; depth < n; ++depth) {
       double marched_m = 0.0;
-      for (std::size_t i = 1; i <= horizon_steps - depth; ++i) {
-        double& reach_m = reach_m_[row(trim, depth) + i - 1];
-        if (kind == CostToGo::kReachable) {
-          reach_m = reachable.max_distance_m(trim, i, horizon_steps - depth - i);
-        } else {
-          marched_m += problem.reference_speed_mps[depth + i - 1] * step_s;
-          reach_m = marched_m;
-        }
+      for (std::size_t i = 1; i <= n - depth; ++i) {
+        marched_m += problem.reference_speed_mps[depth + i - 1] * subgraph.automaton().step_s;
+        reach_m_[depth * n + i - 1] = marched_m;
       }
     }
   }
+}
+
+double CostToGoFunction::operator()(TrimId trim, std::size_t depth, const Frame& frame) const {
+  const std::size_t n = reference_m_.size();
+  const std::size_t steps_left = n - depth;
+  const std::span<const Point> reference_m = reference_m_.subspan(depth);
+  if (steps_left == 0) return 0.0;
+  switch (kind_) {
+    case CostToGo::kStraightLine:
+      return straight_line_cost_to_go(frame.origin_m, reference_m, {&reach_m_[0], steps_left});
+    case CostToGo::k2022:
+      return cost_to_go_2022(frame.origin_m, reference_m, {&reach_m_[depth * n], steps_left});
+    case CostToGo::kReachable:
+      break;
+  }
+  double h = 0.0;
+  for (std::size_t i = 1; i <= steps_left; ++i) {
+    const Point& reference = reference_m[i - 1];
+    const double dx_m = reference.x() - frame.origin_m.x();
+    const double dy_m = reference.y() - frame.origin_m.y();
+    const Point q_m{frame.cos_heading * dx_m + frame.sin_heading * dy_m,
+                    frame.cos_heading * dy_m - frame.sin_heading * dx_m};
+    const double beyond_m = distance_beyond_m(q_m, reachable_.reach(trim, i, steps_left - i));
+    h += beyond_m * beyond_m;
+  }
+  return h;
 }
 
 }  // namespace hlc

@@ -27,35 +27,58 @@ struct HorizonProblem {
   /// No step may end in a trim near the steering limit (is_at_steering_limit), where a vehicle may
   /// drift from its plan.
   bool avoids_steering_limit{false};
+  /// A plan that is known, n maneuvers from the start: the plan in force, shifted by one step and
+  /// ended in standstill. Empty if there is none. An engine checks it like any other path and
+  /// leaves it out unless it is one; the best path is then never worse, and is found sooner.
+  std::vector<const Maneuver*> incumbent;
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
 };
 
 enum class CostToGo {
-  /// Admissible: what the automaton can reach at most (ReachableSets::max_distance_m).
+  /// Admissible and tight: what the automaton can reach at most from each trim (ReachableSets).
   kReachable,
+  /// Admissible and textbook: every step leads at most as far as the longest maneuver.
+  kStraightLine,
   /// The authors' of 2022: sum (|| p - r_j || - v_ref step_s m)^2 without a floor at 0.
   /// Inadmissible; for the comparison with the paper only.
   k2022,
 };
 
+enum class Engine {
+  kBranchAndBound,  ///< fast: depth-first (BranchAndBound)
+  kBestFirst,       ///< plain: A* (BestFirstSearch), as reference and for study
+};
+
 struct SearchOptions {
+  Engine engine{Engine::kBranchAndBound};
+  /// kStraightLine and k2022: with kBestFirst only.
   CostToGo cost_to_go{CostToGo::kReachable};
   /// Expansions after which the search gives up; a number, never a time, so that two runs agree.
+  /// The default holds every tree of the paper's automaton at horizon 8 (at most 309 029).
   std::size_t max_expansions{1'000'000};
 };
 
 enum class SearchStatus {
-  kOptimal,     ///< a path of least cost (with k2022: a path; its cost-to-go is inadmissible)
-  kInfeasible,  ///< no path exists
-  kBudget,      ///< gave up (max_expansions reached, or told to stop) before a path was found
+  kOptimal,   ///< a path of least cost (with k2022: a path; its cost-to-go is inadmissible)
+  kBudget,    ///< gave up (max_expansions reached, or told to stop) with the best path so far
+  kFallback,  ///< no path, see `reason`: the plan in force is to be driven on
+};
+
+/// Why there is no path.
+enum class NoPath {
+  kNone,        ///< there is one
+  kInfeasible,  ///< none exists
+  kBudget,      ///< gave up before one was found
 };
 
 struct SearchResult {
-  SearchStatus status{SearchStatus::kInfeasible};
-  double cost{};                           ///< [m^2]; only if kOptimal
-  std::vector<const Maneuver*> maneuvers;  ///< n of them; empty unless kOptimal
-  std::vector<Pose> poses;                 ///< pose after each, n; empty unless kOptimal
+  SearchStatus status{SearchStatus::kFallback};
+  NoPath reason{NoPath::kInfeasible};
+  double cost{};         ///< of the path [m^2]; 0 without one
+  double lower_bound{};  ///< no path costs less [m^2]; the gap is cost - lower_bound
+  std::vector<const Maneuver*> maneuvers;  ///< n of them; empty without a path
+  std::vector<Pose> poses;                 ///< pose after each, n; empty without a path
   std::size_t generated{};                 ///< vertices generated, the root included
   std::size_t expanded{};                  ///< vertices whose successors were generated
 };

@@ -5,8 +5,6 @@
 
 #include <utility>
 
-#include "planner/search/best_first_search.hpp"
-
 namespace ob = ompl::base;
 
 namespace hlc {
@@ -55,18 +53,14 @@ ob::PlannerStatus RecedingHorizonPlanner::solve(const ob::PlannerTerminationCond
   const HorizonProblem& problem = definition->problem();
   if (!starts_where_problem_starts(problem)) return ob::PlannerStatus::INVALID_START;
 
-  result_ = engine_->search(problem, ptc);
-  switch (result_.status) {
-    case SearchStatus::kOptimal:
-      add_solution(problem);
-      return ob::PlannerStatus::EXACT_SOLUTION;
-    case SearchStatus::kInfeasible:
-      pdef_->setSolutionNonExistenceProof(std::make_shared<ob::SolutionNonExistenceProof>(si_));
-      return ob::PlannerStatus::ABORT;
-    case SearchStatus::kBudget:
-      return ob::PlannerStatus::TIMEOUT;
+  engine_->search(problem, ptc, result_);
+  if (result_.status != SearchStatus::kFallback) {
+    add_solution(problem);
+    return ob::PlannerStatus::EXACT_SOLUTION;
   }
-  return ob::PlannerStatus::UNKNOWN;
+  if (result_.reason == NoPath::kBudget) return ob::PlannerStatus::TIMEOUT;
+  pdef_->setSolutionNonExistenceProof(std::make_shared<ob::SolutionNonExistenceProof>(si_));
+  return ob::PlannerStatus::ABORT;
 }
 
 bool RecedingHorizonPlanner::starts_where_problem_starts(const HorizonProblem& problem) const {
@@ -90,7 +84,8 @@ void RecedingHorizonPlanner::add_solution(const HorizonProblem& problem) {
   si_->freeState(state);
 
   ob::PlannerSolution solution(path);
-  solution.setOptimized(pdef_->getOptimizationObjective(), ob::Cost(result_.cost), true);
+  solution.setOptimized(pdef_->getOptimizationObjective(), ob::Cost(result_.cost),
+                        result_.status == SearchStatus::kOptimal);
   solution.setPlannerName(getName());
   pdef_->addSolutionPath(solution);
 }
@@ -108,11 +103,11 @@ std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(const Subgraph& subgra
   return std::make_unique<OmplHorizonPlanner>(subgraph, max_steps, std::move(engine));
 }
 
-std::unique_ptr<HorizonPlanner> make_best_first_planner(const Subgraph& subgraph,
-                                                        const ReachableSets& reachable,
-                                                        SearchOptions options) {
+std::unique_ptr<HorizonPlanner> make_horizon_planner(const Subgraph& subgraph,
+                                                     const ReachableSets& reachable,
+                                                     const SearchOptions& options) {
   return make_ompl_horizon_planner(subgraph, reachable.max_steps(),
-                                   std::make_unique<BestFirstSearch>(subgraph, reachable, options));
+                                   make_search_engine(subgraph, reachable, options));
 }
 
 }  // namespace hlc

@@ -17,10 +17,10 @@ namespace hlc {
 ///
 /// | status                 | meaning                                                      |
 /// |------------------------|--------------------------------------------------------------|
-/// | EXACT_SOLUTION         | least cost (see SearchStatus::kOptimal); the definition gets |
-/// |                        | a PathGeometric of n + 1 states with its cost                |
+/// | EXACT_SOLUTION         | a path; the definition gets a PathGeometric of n + 1 states  |
+/// |                        | with its cost, "optimized" if SearchStatus::kOptimal         |
 /// | ABORT                  | no path exists; it gets a SolutionNonExistenceProof          |
-/// | TIMEOUT                | budget used up, or terminated                                |
+/// | TIMEOUT                | budget used up, or terminated, before a path was found       |
 /// | INVALID_START          | start states are not the problem's one start                 |
 /// | UNRECOGNIZED_GOAL_TYPE | not a HorizonProblemDefinition                               |
 ///

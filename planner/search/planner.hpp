@@ -15,7 +15,9 @@ class HorizonPlanner {
 };
 
 /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon
-[[nodiscard]] std::unique_ptr<HorizonPlanner> make_best_first_planner(
-    const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
+/// @throws std::invalid_argument as make_search_engine
+[[nodiscard]] std::unique_ptr<HorizonPlanner> make_horizon_planner(const Subgraph& subgraph,
+                                                                   const ReachableSets& reachable,
+                                                                   const SearchOptions& options);
 
 }  // namespace hlc

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc {
@@ -11,13 +14,37 @@ class SearchEngine {
  public:
   virtual ~SearchEngine() = default;
 
-  /// @param stop  asked now and then, the first time before the first expansion; once it says true
-  ///              the search gives up with `kBudget`
-  [[nodiscard]] virtual SearchResult search(const HorizonProblem& problem,
-                                            const std::function<bool()>& stop) = 0;
+  /// @param stop    asked now and then, the first time before the first expansion; once it says
+  ///                true the search gives up as if its budget were used up
+  /// @param result  overwritten; its vectors keep their capacity, so that an engine which needs no
+  ///                other memory allocates nothing from the second call on
+  virtual void search(const HorizonProblem& problem, const std::function<bool()>& stop,
+                      SearchResult& result) = 0;
+  [[nodiscard]] SearchResult search(const HorizonProblem& problem,
+                                    const std::function<bool()>& stop) {
+    SearchResult result;
+    search(problem, stop, result);
+    return result;
+  }
 };
 
 /// For `SearchEngine::search`: only the problem and the engine's own budget end the search.
 [[nodiscard]] inline bool never_stop() { return false; }
+
+/// Empties a result, its vectors keep their capacity: no path, infeasible, nothing counted.
+void reset(SearchResult& result);
+
+/// Ends a search that gives up: with its best path so far, whose maneuvers, poses and cost are
+/// already in `result`, or without one. A path that costs no more than the bound is optimal.
+/// @param lower_bound  no path that is still open costs less [m^2]
+void give_up(bool has_path, double lower_bound, SearchResult& result);
+
+/// The engine that `options` name.
+/// @param subgraph, reachable  must outlive the engine; `reachable` belongs to `subgraph`
+/// @throws std::invalid_argument if the engine cannot search with that cost-to-go: kBranchAndBound
+/// has the bound kReachable alone
+[[nodiscard]] std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
+                                                               const ReachableSets& reachable,
+                                                               const SearchOptions& options);
 
 }  // namespace hlc

@@ -82,8 +82,8 @@ void place_at_random(Scenario& scenario, std::mt19937& random) {
 Course drive(const Scenario& scenario) {
   Rollout rollout = rollout_of(scenario);
   const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = make_best_first_planner(*scenario.subgraph, reachable,
-                                             {.cost_to_go = scenario.profile.cost_to_go});
+  const auto alone = make_horizon_planner(*scenario.subgraph, reachable,
+                                          {.cost_to_go = scenario.profile.cost_to_go});
   std::vector<Point> positions_m;
   std::vector<double> times_s;
   Course course;
@@ -203,8 +203,8 @@ TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
   const Scenario c = read_scenario({.file = kFolder + "paper_red_alone.yaml", .subgraph = "C"});
   const ReachableSets reachable_b(*b.subgraph, b.horizon_steps);
   const ReachableSets reachable_c(*c.subgraph, c.horizon_steps);
-  const auto planner_b = make_best_first_planner(*b.subgraph, reachable_b, {});
-  const auto planner_c = make_best_first_planner(*c.subgraph, reachable_c, {});
+  const auto planner_b = make_horizon_planner(*b.subgraph, reachable_b, {});
+  const auto planner_c = make_horizon_planner(*c.subgraph, reachable_c, {});
   constexpr double kApart_m = 2e-4;  // a sum of squares of distances moves by 2 sum d_j * this
   Rollout rollout = rollout_of(b);
   std::size_t same = 0;

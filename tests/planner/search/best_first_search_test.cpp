@@ -101,7 +101,7 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
     const SearchResult result = searcher.search(problem);
     if (!truth.feasible) {
       ++infeasible;
-      ASSERT_EQ(result.status, SearchStatus::kInfeasible) << "seed " << seed;
+      ASSERT_EQ(result.reason, NoPath::kInfeasible) << "seed " << seed;
       ASSERT_TRUE(result.maneuvers.empty() && result.poses.empty()) << "seed " << seed;
       continue;
     }
@@ -187,7 +187,7 @@ TEST(BestFirstSearch, FromATrimWithoutAWayOutThereIsNoPath) {
     if (to != 6) spec.off.push_back({{{6}, {to}}, std::nullopt});
   }
   Searcher searcher(Subgraph(automaton, spec));
-  EXPECT_EQ(searcher.search(straight_problem(8)).status, SearchStatus::kInfeasible);
+  EXPECT_EQ(searcher.search(straight_problem(8)).reason, NoPath::kInfeasible);
 }
 
 TEST(BestFirstSearch, TwoSearchesOfOneProblemAgreeInEverything) {
@@ -255,7 +255,7 @@ TEST(BestFirstSearch, CountsTheRootAndChildrenNeverExpanded) {
 
   problem.obstacles_m = {{box(0.0, 9.0, 0.0, 9.0)}};
   const SearchResult blocked = searcher.search(problem);
-  EXPECT_EQ(blocked.status, SearchStatus::kInfeasible);
+  EXPECT_EQ(blocked.reason, NoPath::kInfeasible);
   EXPECT_EQ(blocked.generated, 2);
   EXPECT_EQ(blocked.expanded, 1);
 }
@@ -268,7 +268,7 @@ TEST(BestFirstSearch, TriesTheWholeTreeBeforeItSaysInfeasible) {
   problem.obstacles_m.resize(8);
   problem.obstacles_m.back() = {box(-99.0, 99.0, -99.0, 99.0)};
   const SearchResult result = searcher.search(problem);
-  EXPECT_EQ(result.status, SearchStatus::kInfeasible);
+  EXPECT_EQ(result.reason, NoPath::kInfeasible);
   EXPECT_EQ(result.generated, 236'257);
   EXPECT_EQ(result.expanded, 130'251);
 }
@@ -288,13 +288,13 @@ TEST(BestFirstSearch, GivesUpAtItsBudget) {
   ASSERT_EQ(full.status, SearchStatus::kOptimal);
   ASSERT_GT(full.expanded, 1);
 
-  Searcher enough(subgraph, {CostToGo::kReachable, full.expanded});
+  Searcher enough(subgraph, {.max_expansions = full.expanded});
   expect_same(enough.search(problem), full);
 
   for (const std::size_t budget : {std::size_t{0}, std::size_t{1}, full.expanded - 1}) {
-    Searcher limited(subgraph, {CostToGo::kReachable, budget});
+    Searcher limited(subgraph, {.max_expansions = budget});
     const SearchResult result = limited.search(problem);
-    EXPECT_EQ(result.status, SearchStatus::kBudget);
+    EXPECT_EQ(result.reason, NoPath::kBudget);
     EXPECT_EQ(result.expanded, budget);
     EXPECT_TRUE(result.maneuvers.empty());
     EXPECT_TRUE(result.poses.empty());
@@ -308,7 +308,7 @@ TEST(BestFirstSearch, GivesUpWhenToldTo) {
   problem.obstacles_m.back() = {box(-99.0, 99.0, -99.0, 99.0)};
   int questions = 0;
   const SearchResult result = searcher.engine.search(problem, [&] { return ++questions == 3; });
-  EXPECT_EQ(result.status, SearchStatus::kBudget);
+  EXPECT_EQ(result.reason, NoPath::kBudget);
   EXPECT_EQ(questions, 3);
   EXPECT_LT(result.expanded, 1'000);
   EXPECT_EQ(searcher.engine.search(problem, [] { return true; }).expanded, 0);
@@ -362,14 +362,14 @@ TEST(BestFirstSearch, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
   EXPECT_EQ(standing.status, SearchStatus::kOptimal);
   EXPECT_EQ(standing.cost, 0.0);
   const SearchResult driving = searcher.search(straight_problem(0));
-  EXPECT_EQ(driving.status, SearchStatus::kInfeasible);
+  EXPECT_EQ(driving.reason, NoPath::kInfeasible);
   EXPECT_EQ(driving.generated, 1);
 }
 
 TEST(BestFirstSearch, The2022CostToGoFindsAValidPathThatMayCostMore) {
   const Subgraph subgraph = test::make_test_subgraph();
   Searcher exact(subgraph);
-  Searcher authors(subgraph, {CostToGo::k2022, 1'000'000});
+  Searcher authors(subgraph, {.cost_to_go = CostToGo::k2022});
   std::size_t suboptimal = 0;
   for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
     std::mt19937_64 random(seed);

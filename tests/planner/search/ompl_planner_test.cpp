@@ -103,8 +103,8 @@ TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
 }
 
 TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
-  const auto engine = make_engine();
-  const auto planner = make_best_first_planner(subgraph_, reachable_, {});
+  const auto engine = make_search_engine(subgraph_, reachable_, {});
+  const auto planner = make_horizon_planner(subgraph_, reachable_, {});
   for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
@@ -129,7 +129,7 @@ TEST_F(OmplPlannerTest, ProvesThatNoPathExists) {
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::ABORT);
   EXPECT_FALSE(definition->hasSolution());
   EXPECT_TRUE(definition->hasSolutionNonExistenceProof());
-  EXPECT_EQ(planner.result().status, SearchStatus::kInfeasible);
+  EXPECT_EQ(planner.result().reason, NoPath::kInfeasible);
 }
 
 TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
@@ -138,7 +138,7 @@ TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
   RecedingHorizonPlanner planner(si_, make_engine());
   planner.setProblemDefinition(definition);
   EXPECT_EQ(planner.solve(ob::plannerAlwaysTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
-  EXPECT_EQ(planner.result().status, SearchStatus::kBudget);
+  EXPECT_EQ(planner.result().reason, NoPath::kBudget);
   EXPECT_EQ(planner.result().expanded, 0);
   EXPECT_FALSE(definition->hasSolution());
   EXPECT_FALSE(definition->hasSolutionNonExistenceProof());
@@ -148,7 +148,7 @@ TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
 
 TEST_F(OmplPlannerTest, ReportsAUsedUpBudgetAsTimeout) {
   const HorizonProblem problem = straight_problem();
-  RecedingHorizonPlanner planner(si_, make_engine({CostToGo::kReachable, 1}));
+  RecedingHorizonPlanner planner(si_, make_engine({.max_expansions = 1}));
   planner.setProblemDefinition(define(problem));
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
 }

@@ -1,0 +1,266 @@
+#include "planner/search/branch_and_bound.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "planner/search/branch_and_bound_data.hpp"
+#include "planner/search/branch_and_bound_tables.hpp"
+#include "planner/search/cost_to_go.hpp"
+#include "planner/search/prepared_obstacles.hpp"
+
+namespace hlc {
+namespace {
+
+using branch_and_bound::kLanes;
+using branch_and_bound::kNoPath;
+using branch_and_bound::Question;
+using branch_and_bound::TableStore;
+using branch_and_bound::VertexData;
+
+branch_and_bound::Kernel choose_kernel(BranchAndBound::Instructions instructions) {
+#ifdef HLC_AVX2_KERNEL
+  if (instructions == BranchAndBound::Instructions::kBest && __builtin_cpu_supports("avx2")) {
+    return branch_and_bound::avx2_kernel();
+  }
+#endif
+  static_cast<void>(instructions);
+  return branch_and_bound::portable_kernel();
+}
+
+Frame frame_of(const VertexData& vertex) {
+  return {{vertex.x, vertex.y}, vertex.cos_heading, vertex.sin_heading};
+}
+
+/// Moves an area into `placed` and returns its box.
+Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed) {
+  placed.vertices_m.clear();
+  for (const Point& corner_m : area_m.vertices_m) {
+    placed.vertices_m.push_back(transformed(corner_m, start));
+  }
+  return bounding_box(placed);
+}
+
+}  // namespace
+
+/// Tables, memory of a search, and the kernel's view of both.
+class BranchAndBound::Core {
+ public:
+  Core(const Subgraph& subgraph, const ReachableSets& reachable, Instructions instructions)
+      : tables(subgraph, reachable), obstacles(tables), kernel(choose_kernel(instructions)) {
+    std::size_t most_corners = 0;
+    for (const TrimId trim : subgraph.starts()) {
+      for (const Edge& edge : subgraph.successors(trim)) {
+        most_corners = std::max({most_corners, edge.maneuver->swept_area_m.vertices_m.size(),
+                                 edge.maneuver->lane_area_m.vertices_m.size()});
+      }
+    }
+    placed_.vertices_m.reserve(most_corners);
+    search.tables = &tables.view();
+    search.plan = &plan;
+    search.decides = [](const void* core, const Question& question) {
+      return static_cast<const Core*>(core)->decides(question);
+    };
+    search.decides_context = this;
+    search.stop = [](const void* stop) {
+      return (*static_cast<const std::function<bool()>*>(stop))();
+    };
+  }
+
+  /// Obstacles, references and room for a path.
+  void prepare(const HorizonProblem& problem) {
+    const std::size_t n = problem.horizon_steps();
+    const std::size_t stride = n + 2 * kLanes;
+    if (reference_x_.size() < stride) {
+      reference_x_.resize(stride);
+      reference_y_.resize(stride);
+      projections_.resize(branch_and_bound::kAxes * stride);
+      path.resize(n + 1);
+      keys_.resize((n + 1) * tables.most_edges());
+      best_edges.resize(n + 1);
+      best_x.resize(n + 1);
+      best_y.resize(n + 1);
+      for (std::size_t k = 0; k <= n; ++k) path[k].keys = &keys_[k * tables.most_edges()];
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      reference_x_[j] = problem.reference_m[j].x();
+      reference_y_[j] = problem.reference_m[j].y();
+    }
+    plan.reference_x = reference_x_.data();
+    plan.reference_y = reference_y_.data();
+
+    search.penalty = tables.penalty(problem.avoids_steering_limit);
+    search.permitted = tables.permitted(problem.avoids_steering_limit);
+    search.path = path.data();
+    search.projections = projections_.data();
+    search.projection_stride = reference_x_.size();
+    search.best_cost = kNoPath;
+    search.best_edges = best_edges.data();
+    search.best_x = best_x.data();
+    search.best_y = best_y.data();
+    search.generated = 1;
+    search.expanded = 0;
+    search.gave_up = false;
+    search.lower_bound = 0.0;
+
+    const Frame start = to_frame(problem.start);
+    path[0].x = start.origin_m.x();
+    path[0].y = start.origin_m.y();
+    path[0].cos_heading = start.cos_heading;
+    path[0].sin_heading = start.sin_heading;
+    path[0].cost_to_come = 0.0;
+    path[0].trim = static_cast<std::uint32_t>(problem.start_trim.index);
+
+    obstacles.list(problem, plan);
+    if (corners_.size() < 2 * obstacles.most_corners()) {
+      corners_.resize(2 * obstacles.most_corners());
+    }
+    search.corners = corners_.data();
+    search.corner_stride = corners_.size() / 2;
+    kernel.prepare(plan, path[0]);
+  }
+
+  /// The test of CollisionCheck, where the kernel's is too close to call.
+  [[nodiscard]] bool decides(const Question& question) const {
+    const Maneuver& maneuver = *tables.maneuver(question.edge);
+    const Frame start = frame_of(*question.vertex);
+    if (question.is_segment) {
+      const Segment& segment = obstacles.segment(question.item);
+      return overlap(place(maneuver.lane_area_m, start, placed_), bounding_box(segment)) &&
+             intersects(placed_, segment);
+    }
+    const ConvexPolygon& obstacle_m = obstacles.obstacle(question.item);
+    return overlap(place(maneuver.swept_area_m, start, placed_), bounding_box(obstacle_m)) &&
+           intersects(placed_, obstacle_m);
+  }
+
+  TableStore tables;
+  branch_and_bound::PreparedObstacles obstacles;
+  branch_and_bound::Kernel kernel;
+  branch_and_bound::Plan plan{};
+  branch_and_bound::Search search{};
+  std::vector<VertexData> path;
+  std::vector<std::uint32_t> best_edges;
+  std::vector<double> best_x;
+  std::vector<double> best_y;
+
+ private:
+  std::vector<double> reference_x_;
+  std::vector<double> reference_y_;
+  std::vector<double> projections_;
+  std::vector<double> keys_;
+  std::vector<double> corners_;
+  mutable ConvexPolygon placed_;  ///< its capacity holds the largest area
+};
+
+BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable,
+                               SearchOptions options, Instructions instructions)
+    : subgraph_(subgraph), reachable_(reachable), options_(options) {
+  if (options.cost_to_go != CostToGo::kReachable) {
+    throw std::invalid_argument(
+        "search: engine branch_and_bound has the cost-to-go 'reachable' alone; "
+        "for another one choose engine best_first");
+  }
+  core_ = std::make_unique<Core>(subgraph, reachable, instructions);
+}
+
+BranchAndBound::~BranchAndBound() = default;
+
+void BranchAndBound::search(const HorizonProblem& problem, const std::function<bool()>& stop,
+                            SearchResult& result) {
+  const std::size_t n = problem.horizon_steps();
+  assert(n <= reachable_.max_steps());
+  assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == n);
+  assert(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad));
+
+  reset(result);
+  result.generated = 1;
+  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return;
+  if (n == 0) {
+    result.status = SearchStatus::kOptimal;
+    result.reason = NoPath::kNone;
+    return;
+  }
+  core_->prepare(problem);
+  branch_and_bound::Search& search = core_->search;
+  search.stop_context = &stop;
+  search.max_expansions = options_.max_expansions;
+  place_incumbent(problem);
+  core_->kernel.search(search);
+
+  result.generated = search.generated;
+  result.expanded = search.expanded;
+  const bool has_path = search.best_cost < kNoPath;
+  if (has_path) write_best(problem, result);
+  if (search.gave_up) {
+    // The start's own bound is tighter than that of some of its children, now and then.
+    const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, CostToGo::kReachable);
+    const double of_start = cost_to_go(problem.start_trim, 0, to_frame(problem.start));
+    search.lower_bound = std::max(search.lower_bound, of_start);
+    give_up(has_path, search.lower_bound, result);
+  } else if (has_path) {
+    result.status = SearchStatus::kOptimal;
+    result.reason = NoPath::kNone;
+    result.lower_bound = result.cost;
+  }
+}
+
+/// Makes the incumbent the best path so far, if it is a free path.
+void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
+  const std::size_t n = problem.horizon_steps();
+  if (problem.incumbent.size() != n) return;
+  Core& core = *core_;
+  const branch_and_bound::Tables& tables = core.tables.view();
+  VertexData vertex = core.path[0];
+  for (std::size_t depth = 0; depth < n; ++depth) {
+    const std::uint32_t edge = core.tables.find({vertex.trim}, problem.incumbent[depth]);
+    if (edge == TableStore::kNoEdge) return;
+    const std::size_t left = std::min(n - depth - 1, tables.max_steps_left);
+    if (core.search.penalty[left * tables.num_groups * kLanes + edge] != 0.0) return;
+    if (!core.kernel.is_free(core.search, edge, depth + 1, vertex)) return;
+    const branch_and_bound::EdgeData& data = tables.edges[edge];
+    const Frame next =
+        compose(frame_of(vertex), {{data.x, data.y}, data.cos_heading, data.sin_heading});
+    vertex.x = next.origin_m.x();
+    vertex.y = next.origin_m.y();
+    vertex.cos_heading = next.cos_heading;
+    vertex.sin_heading = next.sin_heading;
+    vertex.cost_to_come += (next.origin_m - problem.reference_m[depth]).squaredNorm();
+    vertex.trim = data.to;
+    core.best_edges[depth] = edge;
+    core.best_x[depth] = vertex.x;
+    core.best_y[depth] = vertex.y;
+  }
+  core.search.best_cost = vertex.cost_to_come;
+}
+
+void BranchAndBound::write_best(const HorizonProblem& problem, SearchResult& result) const {
+  const std::size_t n = problem.horizon_steps();
+  result.cost = core_->search.best_cost;
+  result.maneuvers.resize(n);
+  result.poses.resize(n);
+  double heading_rad = problem.start.heading_rad;
+  for (std::size_t j = 0; j < n; ++j) {
+    const Maneuver* const maneuver = core_->tables.maneuver(core_->best_edges[j]);
+    heading_rad += maneuver->displacement.heading_rad;
+    result.maneuvers[j] = maneuver;
+    result.poses[j] = {core_->best_x[j], core_->best_y[j], heading_rad};
+  }
+}
+
+void BranchAndBound::prepare(const HorizonProblem& problem) { core_->prepare(problem); }
+
+bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const {
+  VertexData vertex{};
+  vertex.x = start.origin_m.x();
+  vertex.y = start.origin_m.y();
+  vertex.cos_heading = start.cos_heading;
+  vertex.sin_heading = start.sin_heading;
+  const std::uint32_t edge = core_->tables.find(maneuver.from, &maneuver);
+  assert(edge != TableStore::kNoEdge);
+  return core_->kernel.is_free(core_->search, edge, step, vertex);
+}
+
+}  // namespace hlc

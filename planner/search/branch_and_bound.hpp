@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/frame.hpp"
+#include "planner/search/search_engine.hpp"
+
+namespace hlc {
+
+/// The fast engine: depth-first branch and bound over the same tree as BestFirstSearch.
+///
+/// Only the path that is being tried is kept. The children of its last vertex are tried in the
+/// order of f = g + h, those first generated first among equals; a child is left out as soon as its
+/// f is no less than the cost of the best complete path so far. The edge to a child is checked for
+/// collision only when the child is tried. When nothing is left, the best path is a path of least
+/// cost: what was left out has a path through it that costs at least f, hence no less than it.
+///
+/// **Bound.** As CostToGo::kReachable, but seen from the parent, so that what depends on the vertex
+/// alone is computed once for all its children. For the edge t -> u with displacement T, with m
+/// steps left after it,
+///
+///     h = sum_{i=1}^{m} e_i^2,   e_i = max(0, max_a (| n_a q_i - c_a | - w_a))
+///
+/// where q_i is the reference point of the i-th step after the edge, seen from the parent, n_a the
+/// axes at 0, 45, 90, 135 degrees of the parent's frame, and [c_a - w_a, c_a + w_a] the interval
+/// that T S(u, i, m - i) covers along n_a (S: ReachableSets::positions_m, with its allowance). Each
+/// e_i is the distance of q_i from a half-plane that contains the positions, so it is admissible
+/// for the same automata as CostToGo::kReachable and under the same assumption. The intervals
+/// depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made once.
+///
+/// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
+/// step is left out once per plan; of the rest, edge normals and their offsets are computed once.
+/// A separating-axis test on these decides unless two areas touch to within rounding; then the same
+/// test as in CollisionCheck does.
+///
+/// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
+/// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,
+/// no virtual call and no allocation. The inner loop (branch_and_bound_kernel.hpp) exists for any
+/// processor and for AVX2; the processor chooses, and both give the same bits.
+///
+/// Counts: `generated` are the root and all children whose f was computed; `expanded` the vertices
+/// they were computed for.
+class BranchAndBound final : public SearchEngine {
+ public:
+  enum class Instructions {
+    kBest,      ///< AVX2 where the processor has it
+    kPortable,  ///< those of any processor
+  };
+
+  /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
+  /// @throws std::invalid_argument unless options.cost_to_go is kReachable
+  BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options,
+                 Instructions instructions = Instructions::kBest);
+  ~BranchAndBound() override;
+  using SearchEngine::search;
+
+  /// A trim that is off may start with its exit edges (Subgraph); without any there is no path.
+  /// @pre as BestFirstSearch::search
+  void search(const HorizonProblem& problem, const std::function<bool()>& stop,
+              SearchResult& result) override;
+
+  /// Prepares the obstacles and the boundary of a problem, for `is_free`; `search` does it itself.
+  void prepare(const HorizonProblem& problem);
+  /// As CollisionCheck::is_free, for the problem prepared last.
+  /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`
+  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
+
+ private:
+  class Core;
+
+  void place_incumbent(const HorizonProblem& problem);
+  void write_best(const HorizonProblem& problem, SearchResult& result) const;
+
+  const Subgraph& subgraph_;
+  const ReachableSets& reachable_;
+  SearchOptions options_;
+  std::unique_ptr<Core> core_;
+};
+
+}  // namespace hlc

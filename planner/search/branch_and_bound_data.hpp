@@ -1,0 +1,199 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// What the kernel of BranchAndBound works on: plain arrays that BranchAndBound owns and fills.
+///
+/// Only aggregates stand here, no function with a body, because one of the kernel's two
+/// translation units is compiled for another instruction set: the linker may keep either copy of an
+/// inline function.
+///
+/// Everything that is handled four at a time is padded to a multiple of four.
+namespace hlc::branch_and_bound {
+
+/// Entries of one vector.
+inline constexpr std::uint32_t kLanes = 4;
+/// Axes of a bound: directions at 0, 45, 90 and 135 degrees, each with an interval.
+inline constexpr std::size_t kAxes = 4;
+/// Doubles of one bound of four edges: per axis, the four centres and the four half widths.
+inline constexpr std::size_t kBoundSize = 2 * kAxes * kLanes;
+/// Cost of the best path as long as there is none; the cost of no path comes near it.
+inline constexpr double kNoPath = 1e299;
+/// f of what must not be taken.
+inline constexpr double kForbidden = 1e300;
+
+/// An area of a maneuver in the frame of its start: corners with edge normals n_i (outward, not
+/// normalised) and offsets n_i p_i in `Tables::area_*`; `first` is a multiple of four.
+struct Area {
+  std::uint32_t first;
+  std::uint32_t size;  ///< corners, without padding
+  double centre_x;
+  double centre_y;
+  double radius;  ///< of a circle around the centre that contains the area; -1: the area is empty
+  double min_x;
+  double max_x;
+  double min_y;
+  double max_y;
+};
+
+struct EdgeData {
+  double x;  ///< displacement [m], and the direction of its heading
+  double y;
+  double cos_heading;
+  double sin_heading;
+  std::uint32_t to;  ///< trim
+  Area swept;
+  Area lane;
+};
+
+/// Of the subgraph. Edges stand trim by trim; the edges of a trim are padded, so that groups of
+/// four never mix two trims. r counts steps left and is capped at `max_steps_left`.
+struct Tables {
+  const EdgeData* edges;
+  const std::uint32_t* first_group;  ///< per trim and one more: edges [4 first, 4 next first)
+  const double* displacement_x;      ///< per edge
+  const double* displacement_y;
+  /// Per group, r and steps after the edge (from 1): kBoundSize doubles. See BranchAndBound.
+  const double* bounds;
+  const double* penalty;           ///< per r and edge: 0, or kForbidden with r steps left after it
+  const std::uint32_t* permitted;  ///< per r and trim: edges that are not forbidden
+  const double* area_x;
+  const double* area_y;
+  const double* area_normal_x;
+  const double* area_normal_y;
+  const double* area_offset;
+  std::size_t num_trims;
+  std::size_t num_groups;
+  std::size_t max_steps_left;
+  std::size_t bound_steps;  ///< most steps after an edge that there are bounds for
+  std::size_t bound_size;   ///< doubles per group
+  std::uint64_t index_mask;
+};
+
+/// An obstacle of one step, as the problem has it.
+struct PolygonData {
+  const double* corners;  ///< x, y, x, y ...
+  std::uint32_t size;
+  std::uint32_t step;   ///< from 0
+  std::uint32_t first;  ///< its place in `Plan::obstacle_*`, a multiple of four
+};
+
+/// An obstacle that can be met in its step.
+struct ObstacleData {
+  std::uint32_t polygon;  ///< among those of the problem
+  bool is_ready;          ///< its `Plan::obstacle_*` are written: done when first needed
+};
+
+/// One problem, prepared. Frame: that of the problem.
+struct Plan {
+  std::size_t horizon_steps;
+  const double* reference_x;  ///< r_1 ... r_n and four more
+  const double* reference_y;
+
+  // What the problem has, and what can be reached.
+  const PolygonData* polygons;  ///< by step
+  std::size_t num_polygons;
+  const double* boundary;  ///< per segment x, y of both ends
+  std::size_t boundary_size;
+  /// Per step, in the start's frame: along each axis the lowest place that an area can reach in
+  /// that step, then along each axis the highest.
+  const double* const* reach;
+
+  // What is left of it, written by Kernel::prepare.
+  double scale;  ///< largest coordinate, or more [m]
+  /// Obstacles [first_obstacle[j - 1], first_obstacle[j]) are those of step j; every step's begin
+  /// at a multiple of four. The padding has circles that nothing meets.
+  std::uint32_t* first_obstacle;
+  double* circle_x;  ///< a circle that contains the obstacle
+  double* circle_y;
+  double* circle_radius;
+  ObstacleData* obstacles;
+  double* obstacle_x;  ///< corners, edge normals n_i (outward), offsets n_i p_i: as in Area
+  double* obstacle_y;
+  double* obstacle_normal_x;
+  double* obstacle_normal_y;
+  double* obstacle_offset;
+  std::uint32_t num_segments;  ///< boundary segments that can be met, padded with the last one
+  std::uint32_t num_blocks;
+  std::uint32_t* segment_source;  ///< number of a segment in the problem
+  double* from_x;
+  double* from_y;
+  double* to_x;
+  double* to_y;
+  /// An oriented rectangle around each block of four segments: centre, half its length as a vector,
+  /// half its width.
+  double* block_x;
+  double* block_y;
+  double* block_half_x;
+  double* block_half_y;
+  double* block_half_width;
+  /// Bound on the rounding of what the separating-axis test compares [m^2]. Where the difference is
+  /// smaller, `decides` of the search says what is true.
+  double tolerance;
+  double slack;  ///< of circles and boxes [m]
+};
+
+/// A vertex on the path that is being tried.
+struct VertexData {
+  double x;
+  double y;
+  double cos_heading;
+  double sin_heading;
+  double cost_to_come;
+  std::uint32_t trim;
+  std::uint32_t taken;  ///< number among the trim's edges of the one that leads on
+  double* keys;         ///< f of its children, each with the child's number in the last bits
+};
+
+/// What an exact collision test is asked: does the edge's area, placed at a vertex, meet this one?
+struct Question {
+  std::uint32_t edge;
+  bool is_segment;
+  std::uint32_t item;  ///< obstacle or segment, by its number in the plan
+  const VertexData* vertex;
+};
+
+/// One search: what it works on and what comes of it.
+struct Search {
+  const Tables* tables;
+  Plan* plan;
+  const double* penalty;           ///< those of `tables` for this problem
+  const std::uint32_t* permitted;  ///< the same
+  VertexData* path;                ///< n + 1 vertices; the first is the start
+  double* projections;             ///< kAxes rows of projection_stride
+  std::size_t projection_stride;
+  double* corners;  ///< x and y of the largest obstacle's corners, padded
+  std::size_t corner_stride;
+  bool (*decides)(const void* context, const Question& question);
+  const void* decides_context;
+  bool (*stop)(const void* context);
+  const void* stop_context;
+  std::uint64_t max_expansions;
+  // In and out: the best path so far.
+  double best_cost;  ///< kNoPath: none
+  std::uint32_t* best_edges;
+  double* best_x;
+  double* best_y;
+  // Out.
+  std::uint64_t generated;
+  std::uint64_t expanded;
+  bool gave_up;
+  double lower_bound;  ///< of what is still open, if it gave up
+};
+
+/// The kernel, once per instruction set; both give the same bits.
+struct Kernel {
+  /// Leaves out of the problem's obstacles and boundary what the plan cannot meet.
+  void (*prepare)(Plan& plan, const VertexData& start);
+  void (*search)(Search& search);
+  /// Is the edge free in step `step`, driven from this vertex?
+  bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step,
+                  const VertexData& vertex);
+};
+
+[[nodiscard]] Kernel portable_kernel();
+/// @pre the processor has AVX2
+[[nodiscard]] Kernel avx2_kernel();
+
+}  // namespace hlc::branch_and_bound

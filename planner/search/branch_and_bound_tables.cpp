@@ -1,0 +1,208 @@
+#include "planner/search/branch_and_bound_tables.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "planner/search/frame.hpp"
+
+namespace hlc::branch_and_bound {
+namespace {
+
+std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
+
+/// Smallest interval that holds the points along an axis.
+struct Interval {
+  double low{std::numeric_limits<double>::infinity()};
+  double high{-std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable) {
+  view_.num_trims = subgraph.automaton().trims.size();
+  view_.max_steps_left = reachable.max_steps_left();
+  view_.bound_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
+  add_edges(subgraph);
+  list_permitted(subgraph);
+  compute_bounds(reachable);
+  list_reach(subgraph, reachable);
+
+  view_.edges = edges_.data();
+  view_.first_group = first_group_.data();
+  view_.displacement_x = displacement_x_.data();
+  view_.displacement_y = displacement_y_.data();
+  view_.bounds = bounds_.data();
+  view_.penalty = penalty_[0].data();
+  view_.permitted = permitted_[0].data();
+  view_.area_x = area_x_.data();
+  view_.area_y = area_y_.data();
+  view_.area_normal_x = area_normal_x_.data();
+  view_.area_normal_y = area_normal_y_.data();
+  view_.area_offset = area_offset_.data();
+}
+
+void TableStore::add_edges(const Subgraph& subgraph) {
+  const std::size_t num_trims = view_.num_trims;
+  first_group_.push_back(0);
+  for (std::size_t trim = 0; trim < num_trims; ++trim) {
+    const auto successors = subgraph.successors({trim});
+    for (const Edge& edge : successors) {
+      const Maneuver& maneuver = *edge.maneuver;
+      const Frame displacement = to_frame(maneuver.displacement);
+      maneuvers_.push_back(&maneuver);
+      edges_.push_back({displacement.origin_m.x(), displacement.origin_m.y(),
+                        displacement.cos_heading, displacement.sin_heading,
+                        static_cast<std::uint32_t>(edge.to.index), add_area(maneuver.swept_area_m),
+                        add_area(maneuver.lane_area_m)});
+    }
+    while (edges_.size() % kLanes != 0) {
+      maneuvers_.push_back(nullptr);
+      edges_.push_back({});
+    }
+    most_edges_ = std::max(most_edges_, padded(successors.size()));
+    first_group_.push_back(static_cast<std::uint32_t>(edges_.size() / kLanes));
+  }
+  most_edges_ = std::max<std::size_t>(most_edges_, kLanes);
+  view_.num_groups = first_group_.back();
+  view_.index_mask = std::bit_ceil(most_edges_) - 1;
+  for (const EdgeData& edge : edges_) {
+    displacement_x_.push_back(edge.x);
+    displacement_y_.push_back(edge.y);
+  }
+}
+
+Area TableStore::add_area(const ConvexPolygon& area_m) {
+  const auto& corners = area_m.vertices_m;
+  Area area{};
+  area.first = static_cast<std::uint32_t>(area_x_.size());
+  area.size = static_cast<std::uint32_t>(corners.size());
+  if (corners.empty()) return area;
+
+  const Box box = bounding_box(area_m);
+  const Point centre = 0.5 * (box.min_m + box.max_m);
+  area.centre_x = centre.x();
+  area.centre_y = centre.y();
+  area.min_x = box.min_m.x();
+  area.max_x = box.max_m.x();
+  area.min_y = box.min_m.y();
+  area.max_y = box.max_m.y();
+  for (std::size_t i = 0; i < padded(corners.size()); ++i) {
+    const std::size_t k = i < corners.size() ? i : 0;
+    const Point& from = corners[k];
+    const Point along = corners[(k + 1) % corners.size()] - from;
+    area_x_.push_back(from.x());
+    area_y_.push_back(from.y());
+    area_normal_x_.push_back(along.y());
+    area_normal_y_.push_back(-along.x());
+    area_offset_.push_back(along.y() * from.x() - along.x() * from.y());
+    area.radius = std::max(area.radius, (from - centre).norm());
+    area_radius_m_ = std::max(area_radius_m_, from.norm());
+  }
+  return area;
+}
+
+void TableStore::list_permitted(const Subgraph& subgraph) {
+  const UniversalAutomaton& automaton = subgraph.automaton();
+  const std::size_t rows = view_.max_steps_left + 1;
+  std::vector<bool> is_at_limit;
+  for (const Trim& trim : automaton.trims) {
+    is_at_limit.push_back(is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
+  }
+  for (const bool avoids_limit : {false, true}) {
+    auto& penalty = penalty_[avoids_limit ? 1 : 0];
+    auto& permitted = permitted_[avoids_limit ? 1 : 0];
+    penalty.assign(rows * edges_.size(), kForbidden);
+    permitted.assign(rows * view_.num_trims, 0);
+    for (std::size_t left = 0; left < rows; ++left) {
+      for (std::size_t trim = 0; trim < view_.num_trims; ++trim) {
+        for (std::size_t edge = kLanes * first_group_[trim]; edge < kLanes * first_group_[trim + 1];
+             ++edge) {
+          if (maneuvers_[edge] == nullptr) continue;
+          const TrimId to{edges_[edge].to};
+          if (subgraph.distance_to_standstill(to) > left) continue;
+          if (avoids_limit && is_at_limit[to.index]) continue;
+          penalty[left * edges_.size() + edge] = 0.0;
+          ++permitted[left * view_.num_trims + trim];
+        }
+      }
+    }
+  }
+}
+
+void TableStore::compute_bounds(const ReachableSets& reachable) {
+  const std::size_t rows = view_.max_steps_left + 1;
+  view_.bound_size = rows * view_.bound_steps * kBoundSize;
+  bounds_.assign(view_.num_groups * view_.bound_size, 0.0);
+  for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+    if (maneuvers_[edge] == nullptr) continue;
+    const EdgeData& data = edges_[edge];
+    const Frame frame{{data.x, data.y}, data.cos_heading, data.sin_heading};
+    for (std::size_t steps = 1; steps <= view_.bound_steps; ++steps) {
+      for (std::size_t left = 0; left < rows; ++left) {
+        std::array<Interval, kAxes> intervals;
+        const auto positions_m = reachable.positions_m({data.to}, steps, left);
+        if (positions_m.empty()) continue;  // no permitted edge asks for it
+        for (const Point& position_m : positions_m) {
+          const Point seen_m = transformed(position_m, frame);
+          for (std::size_t axis = 0; axis < kAxes; ++axis) {
+            const double along_m =
+                kReachDirections[axis][0] * seen_m.x() + kReachDirections[axis][1] * seen_m.y();
+            intervals[axis].low = std::min(intervals[axis].low, along_m);
+            intervals[axis].high = std::max(intervals[axis].high, along_m);
+          }
+        }
+        const std::size_t row =
+            ((edge / kLanes * rows + left) * view_.bound_steps + steps - 1) * kBoundSize;
+        for (std::size_t axis = 0; axis < kAxes; ++axis) {
+          double* const bound = &bounds_[row + 2 * axis * kLanes + edge % kLanes];
+          const auto [low, high] = intervals[axis];
+          bound[0] = 0.5 * (low + high);
+          bound[kLanes] = 0.5 * (high - low) + ReachableSets::allowance_m(steps + 1);
+        }
+      }
+    }
+  }
+}
+
+void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reachable) {
+  constexpr double kSlackM = 1e-6;  // rounding must not leave out what only just touches
+  const double beyond_m = area_radius_m_ + kSlackM;
+  reach_steps_ = std::max<std::size_t>(reachable.max_steps(), 1);
+  const std::size_t rows = view_.max_steps_left + 1;
+  reach_.resize(view_.num_trims * rows * reach_steps_ * kReachSize);
+  for (const TrimId trim : subgraph.starts()) {
+    for (std::size_t left = 0; left < rows; ++left) {
+      for (std::size_t steps = 0; steps < reach_steps_; ++steps) {
+        const Reach& reach_m = reachable.reach(trim, steps, left);
+        double* const row = &reach_[reach_row(trim, steps, left)];
+        for (std::size_t axis = 0; axis < kAxes; ++axis) {
+          row[axis] = -reach_m.support_m[axis + kAxes] - beyond_m;
+          row[axis + kAxes] = reach_m.support_m[axis] + beyond_m;
+        }
+      }
+    }
+  }
+}
+
+const double* TableStore::reach(TrimId trim, std::size_t steps, std::size_t steps_left) const {
+  return &reach_[reach_row(trim, steps, std::min(steps_left, view_.max_steps_left))];
+}
+
+std::size_t TableStore::reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const {
+  return ((trim.index * (view_.max_steps_left + 1) + steps_left) * reach_steps_ + steps) *
+         kReachSize;
+}
+
+std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {
+  for (std::size_t edge = kLanes * first_group_[trim.index];
+       edge < kLanes * first_group_[trim.index + 1]; ++edge) {
+    if (maneuver != nullptr && maneuvers_[edge] == maneuver) {
+      return static_cast<std::uint32_t>(edge);
+    }
+  }
+  return kNoEdge;
+}
+
+}  // namespace hlc::branch_and_bound

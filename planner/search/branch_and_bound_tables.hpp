@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/branch_and_bound_data.hpp"
+
+namespace hlc::branch_and_bound {
+
+/// Everything the kernel needs of a subgraph, computed once: edges with their areas, bounds, and
+/// what is permitted (see BranchAndBound and branch_and_bound_data.hpp).
+class TableStore {
+ public:
+  TableStore(const Subgraph& subgraph, const ReachableSets& reachable);
+
+  [[nodiscard]] const Tables& view() const { return view_; }
+  /// What is forbidden, and how many are not, if a plan may or may not end steps in trims near the
+  /// steering limit.
+  [[nodiscard]] const double* penalty(bool avoids_limit) const {
+    return penalty_[avoids_limit ? 1 : 0].data();
+  }
+  [[nodiscard]] const std::uint32_t* permitted(bool avoids_limit) const {
+    return permitted_[avoids_limit ? 1 : 0].data();
+  }
+  /// The maneuver of an edge; nullptr for padding.
+  [[nodiscard]] const Maneuver* maneuver(std::uint32_t edge) const { return maneuvers_[edge]; }
+  /// Number of the edge out of `trim` with this maneuver; kNoEdge if there is none.
+  [[nodiscard]] std::uint32_t find(TrimId trim, const Maneuver* maneuver) const;
+  static constexpr std::uint32_t kNoEdge = static_cast<std::uint32_t>(-1);
+  static constexpr std::size_t kReachSize = 2 * kAxes;
+
+  /// Where areas of the step after `steps` steps can be, as in Plan::reach: the half-planes of
+  /// ReachableSets::reach moved outwards by the farthest corner of any area from the start of its
+  /// maneuver.
+  [[nodiscard]] const double* reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;
+  /// No corner of an area of the first `steps` steps is farther from the start [m].
+  [[nodiscard]] double reach_m(std::size_t steps) const {
+    return static_cast<double>(steps) * area_radius_m_;
+  }
+  /// Most edges out of one trim, padded.
+  [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
+
+ private:
+  void add_edges(const Subgraph& subgraph);
+  [[nodiscard]] Area add_area(const ConvexPolygon& area_m);
+  void list_permitted(const Subgraph& subgraph);
+  void compute_bounds(const ReachableSets& reachable);
+  void list_reach(const Subgraph& subgraph, const ReachableSets& reachable);
+  [[nodiscard]] std::size_t reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const;
+
+  std::vector<const Maneuver*> maneuvers_;
+  std::vector<EdgeData> edges_;
+  std::vector<std::uint32_t> first_group_;
+  std::vector<double> displacement_x_;
+  std::vector<double> displacement_y_;
+  std::vector<double> bounds_;
+  std::array<std::vector<double>, 2> penalty_;
+  std::array<std::vector<std::uint32_t>, 2> permitted_;
+  std::vector<double> area_x_;
+  std::vector<double> area_y_;
+  std::vector<double> area_normal_x_;
+  std::vector<double> area_normal_y_;
+  std::vector<double> area_offset_;
+  std::vector<double> reach_;
+  std::size_t reach_steps_{};
+  double area_radius_m_{};  ///< farthest corner of any area from the start of its maneuver
+  std::size_t most_edges_{};
+  Tables view_{};
+};
+
+}  // namespace hlc::branch_and_bound

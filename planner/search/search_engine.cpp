@@ -1,0 +1,43 @@
+#include "planner/search/search_engine.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "planner/search/best_first_search.hpp"
+#include "planner/search/branch_and_bound.hpp"
+
+namespace hlc {
+
+void reset(SearchResult& result) {
+  result.status = SearchStatus::kFallback;
+  result.reason = NoPath::kInfeasible;
+  result.cost = 0.0;
+  result.lower_bound = 0.0;
+  result.maneuvers.clear();
+  result.poses.clear();
+  result.generated = 0;
+  result.expanded = 0;
+}
+
+void give_up(bool has_path, double lower_bound, SearchResult& result) {
+  if (!has_path) {
+    result.status = SearchStatus::kFallback;
+    result.reason = NoPath::kBudget;
+    result.lower_bound = lower_bound;
+    return;
+  }
+  result.status = lower_bound >= result.cost ? SearchStatus::kOptimal : SearchStatus::kBudget;
+  result.reason = NoPath::kNone;
+  result.lower_bound = std::min(lower_bound, result.cost);
+}
+
+std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
+                                                 const ReachableSets& reachable,
+                                                 const SearchOptions& options) {
+  if (options.engine == Engine::kBestFirst) {
+    return std::make_unique<BestFirstSearch>(subgraph, reachable, options);
+  }
+  return std::make_unique<BranchAndBound>(subgraph, reachable, options);
+}
+
+}  // namespace hlc

@@ -1,0 +1,408 @@
+#include "planner/search/branch_and_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "planner/search/best_first_search.hpp"
+#include "planner/search/collision.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/exhaustive_search.hpp"
+#include "tests/support/num_seeds.hpp"
+#include "tests/support/plan_check.hpp"
+#include "tests/support/random_problem.hpp"
+#include "tests/support/test_automaton.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::size_t kMaxSteps = 8;
+using Instructions = BranchAndBound::Instructions;
+
+const test::LabelledSurge kSlow{"slow", 0.0};
+const test::LabelledSurge kFast{"fast", 8.0};
+const std::vector<std::size_t> kAllTrims{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+
+ConvexPolygon box(double min_x_m, double max_x_m, double min_y_m, double max_y_m) {
+  return convex_hull(
+      {{min_x_m, min_y_m}, {max_x_m, min_y_m}, {max_x_m, max_y_m}, {min_x_m, max_y_m}});
+}
+
+void expect_same(const SearchResult& a, const SearchResult& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.cost, b.cost);
+  EXPECT_EQ(a.lower_bound, b.lower_bound);
+  EXPECT_EQ(a.maneuvers, b.maneuvers);
+  EXPECT_EQ(a.poses, b.poses);
+  EXPECT_EQ(a.generated, b.generated);
+  EXPECT_EQ(a.expanded, b.expanded);
+}
+
+struct Case {
+  const char* name;
+  std::vector<test::LabelledSurge> labels;
+  std::vector<std::size_t> trims;  ///< from 1
+  std::size_t horizon_steps;
+  std::uint64_t problems;
+  std::optional<double> max_speed_mps{};
+  std::vector<std::size_t> starts{};  ///< from 1; empty: those that are on
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+Subgraph make_subgraph(const Case& param) {
+  SubgraphSpec spec{
+      .name = param.name, .labels = {}, .trims = {}, .max_speed_mps = param.max_speed_mps};
+  for (const test::LabelledSurge& label : param.labels) spec.labels.push_back(label.label);
+  for (const std::size_t number : param.trims) spec.trims.push_back({number - 1});
+  return {test::make_test_automaton(test::paper_trims(), param.labels), std::move(spec)};
+}
+
+/// A subgraph, what it can reach, and all engines on it.
+struct Engines {
+  explicit Engines(Subgraph switched_on, SearchOptions options = {})
+      : subgraph(std::move(switched_on)),
+        reachable(subgraph, kMaxSteps),
+        fast(subgraph, reachable, options),
+        portable(subgraph, reachable, options, Instructions::kPortable),
+        plain(subgraph, reachable, options) {}
+
+  Subgraph subgraph;
+  ReachableSets reachable;
+  BranchAndBound fast;
+  BranchAndBound portable;
+  BestFirstSearch plain;
+};
+
+HorizonProblem problem_of(const Case& param, const Subgraph& subgraph, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  HorizonProblem problem = test::random_problem(subgraph, param.horizon_steps, random);
+  problem.avoids_steering_limit = seed % 4 == 0;
+  if (!param.starts.empty()) {
+    problem.start_trim = {param.starts[seed % param.starts.size()] - 1};
+  } else if (!subgraph.is_on(problem.start_trim)) {
+    problem.start_trim = subgraph.standstill();
+  }
+  return problem;
+}
+
+class BranchAndBoundOptimality : public testing::TestWithParam<Case> {};
+
+TEST_P(BranchAndBoundOptimality, AgreesWithBestFirstAndWithTryingEveryPath) {
+  const Case& param = GetParam();
+  Engines engines(make_subgraph(param));
+  std::uint64_t feasible = 0;
+  const std::uint64_t problems = test::num_seeds(param.problems);
+  for (std::uint64_t seed = 0; seed < problems; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const HorizonProblem problem = problem_of(param, engines.subgraph, seed);
+    const auto truth = test::exhaustive_search(engines.subgraph, problem);
+    const SearchResult result = engines.fast.search(problem, never_stop);
+    const SearchResult plain = engines.plain.search(problem, never_stop);
+    ASSERT_EQ(result.status, plain.status);
+    ASSERT_EQ(result.status == SearchStatus::kOptimal, truth.feasible);
+    ASSERT_EQ(result.reason, truth.feasible ? NoPath::kNone : NoPath::kInfeasible);
+    expect_same(engines.portable.search(problem, never_stop), result);
+    if (!truth.feasible) {
+      ASSERT_TRUE(result.maneuvers.empty() && result.poses.empty());
+      continue;
+    }
+    ++feasible;
+    ASSERT_EQ(test::fault_of(result, engines.subgraph, problem), "");
+    ASSERT_NEAR(result.cost, truth.cost, 1e-9);
+    ASSERT_NEAR(result.cost, plain.cost, 1e-9);
+    ASSERT_EQ(result.lower_bound, result.cost);
+  }
+  EXPECT_GE(feasible, problems / 3);
+  EXPECT_LT(feasible, problems);
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomProblems, BranchAndBoundOptimality,
+                         testing::Values(Case{"TwelveTrims1", {kSlow}, kAllTrims, 1, 60},
+                                         Case{"TwelveTrims2", {kSlow}, kAllTrims, 2, 100},
+                                         Case{"TwelveTrims3", {kSlow}, kAllTrims, 3, 200},
+                                         Case{"TwelveTrims4", {kSlow}, kAllTrims, 4, 300},
+                                         Case{"TwelveTrims5", {kSlow}, kAllTrims, 5, 100},
+                                         Case{"FastManeuvers5", {kFast}, kAllTrims, 5, 60},
+                                         Case{"FewTrims8", {kSlow}, {1, 4, 7, 10}, 8, 20},
+                                         Case{"TwoLabels4", {kSlow, kFast}, kAllTrims, 4, 60},
+                                         Case{
+                                             "SpeedLimit4", {kFast, kSlow}, kAllTrims, 4, 60, 0.75},
+                                         Case{"StartsThatAreOff5",
+                                              {kSlow, kFast},
+                                              {1, 2, 4, 6, 8, 10, 12},
+                                              5,
+                                              40,
+                                              {},
+                                              {3, 5, 7, 9, 11}}),
+                         [](const auto& instance) { return instance.param.name; });
+
+// Long horizons, where trying every path would take too long.
+TEST(BranchAndBound, AgreesWithBestFirstOnLongHorizons) {
+  Engines engines(test::make_test_subgraph());
+  std::uint64_t feasible = 0;
+  for (std::uint64_t seed = 0; seed < test::num_seeds(150); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem =
+        test::random_problem(engines.subgraph, 6 + test::pick(random, 3), random);
+    const SearchResult result = engines.fast.search(problem, never_stop);
+    const SearchResult plain = engines.plain.search(problem, never_stop);
+    ASSERT_EQ(result.status, plain.status);
+    ASSERT_NEAR(result.cost, plain.cost, 1e-9);
+    expect_same(engines.portable.search(problem, never_stop), result);
+    if (result.status != SearchStatus::kOptimal) continue;
+    ++feasible;
+    ASSERT_EQ(test::fault_of(result, engines.subgraph, problem), "");
+  }
+  EXPECT_GE(feasible, 50U);
+}
+
+/// Straight on at 0.8 m/s from the paper's pi_7.
+HorizonProblem straight_problem(std::size_t horizon_steps) {
+  HorizonProblem problem;
+  problem.start = {1.0, 2.0, 0.0};
+  problem.start_trim = TrimId{6};
+  for (std::size_t j = 1; j <= horizon_steps; ++j) {
+    problem.reference_m.emplace_back(1.0 + 0.16 * static_cast<double>(j), 2.0);
+  }
+  return problem;
+}
+
+TEST(BranchAndBound, TriesTheWholeTreeBeforeItSaysInfeasible) {
+  // The numbers of vertices of the full tree, and of those that are no leaves, were counted
+  // independently of this search.
+  Engines engines(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(8);
+  problem.obstacles_m.resize(8);
+  problem.obstacles_m.back() = {box(-99.0, 99.0, -99.0, 99.0)};
+  const SearchResult result = engines.fast.search(problem, never_stop);
+  EXPECT_EQ(result.reason, NoPath::kInfeasible);
+  EXPECT_EQ(result.generated, 236'257);
+  EXPECT_EQ(result.expanded, 130'251);
+}
+
+TEST(BranchAndBound, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
+  Engines engines(test::make_test_subgraph());
+  HorizonProblem problem = straight_problem(0);
+  EXPECT_EQ(engines.fast.search(problem, never_stop).reason, NoPath::kInfeasible);
+  problem.start_trim = engines.subgraph.standstill();
+  const SearchResult standing = engines.fast.search(problem, never_stop);
+  EXPECT_EQ(standing.status, SearchStatus::kOptimal);
+  EXPECT_EQ(standing.cost, 0.0);
+}
+
+TEST(BranchAndBound, RefusesBoundsThatItDoesNotHave) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  for (const CostToGo kind : {CostToGo::kStraightLine, CostToGo::k2022}) {
+    EXPECT_THROW(static_cast<void>(make_search_engine(subgraph, reachable, {.cost_to_go = kind})),
+                 std::invalid_argument);
+    EXPECT_NE(
+        make_search_engine(subgraph, reachable, {.engine = Engine::kBestFirst, .cost_to_go = kind}),
+        nullptr);
+  }
+}
+
+TEST(BranchAndBound, AllocatesNothingFromTheSecondSearchOn) {
+  Engines engines(test::make_test_subgraph());
+  std::vector<HorizonProblem> problems;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    std::mt19937_64 random(seed);
+    problems.push_back(test::random_problem(engines.subgraph, 8, random));
+  }
+  SearchResult result;
+  const std::function<bool()> stop = never_stop;
+  for (const HorizonProblem& problem : problems) engines.fast.search(problem, stop, result);
+  const std::size_t before = test::num_allocations();
+  std::size_t feasible = 0;
+  for (const HorizonProblem& problem : problems) {
+    engines.fast.search(problem, stop, result);
+    feasible += result.status == SearchStatus::kOptimal ? 1U : 0U;
+  }
+  EXPECT_EQ(test::num_allocations(), before);
+  EXPECT_GT(before, 0U);
+  EXPECT_GT(feasible, 20U);
+}
+
+TEST(BranchAndBound, WhatWasSearchedBeforeMakesNoDifference) {
+  Engines engines(test::make_test_subgraph());
+  for (std::uint64_t seed = 0; seed < test::num_seeds(40); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem =
+        test::random_problem(engines.subgraph, 1 + test::pick(random, 8), random);
+    const SearchResult result = engines.fast.search(problem, never_stop);
+    expect_same(engines.fast.search(problem, never_stop), result);
+    BranchAndBound fresh(engines.subgraph, engines.reachable, {});
+    expect_same(fresh.search(problem, never_stop), result);
+  }
+}
+
+// --- collision -----------------------------------------------------------------------------------
+
+class BranchAndBoundCollision : public testing::TestWithParam<Instructions> {};
+
+TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWalks) {
+  const Subgraph subgraph = test::make_test_subgraph(4.0);
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  std::size_t collisions = 0;
+  std::size_t edges = 0;
+  for (std::uint64_t seed = 0; seed < test::num_seeds(300); ++seed) {
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = test::random_problem(subgraph, kMaxSteps, random);
+    check.prepare(problem);
+    engine.prepare(problem);
+    Frame frame = to_frame(problem.start);
+    TrimId trim = problem.start_trim;
+    for (std::size_t step = 1; step <= kMaxSteps; ++step) {
+      const auto permitted = subgraph.successors(trim, kMaxSteps - step + 1);
+      for (const Edge& edge : permitted) {
+        const bool is_free = check.is_free(*edge.maneuver, step, frame);
+        ASSERT_EQ(engine.is_free(*edge.maneuver, step, frame), is_free)
+            << "seed " << seed << ", step " << step;
+        collisions += is_free ? 0U : 1U;
+        ++edges;
+      }
+      const Edge& chosen = permitted[test::pick(random, permitted.size())];
+      frame = compose(frame, to_frame(chosen.maneuver->displacement));
+      trim = chosen.to;
+    }
+  }
+  EXPECT_GT(collisions, edges / 20);
+  EXPECT_LT(collisions, edges / 2);
+}
+
+// Exactly beside the vehicle, a little in, a little out: the same answers to the last bit.
+TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckWhereAreasOnlyJustTouch) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  std::array<std::size_t, 2> answers{};
+  for (std::uint64_t seed = 0; seed < test::num_seeds(2000); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    HorizonProblem problem;
+    problem.start_trim = test::random_trim(subgraph, random);
+    problem.reference_m.assign(kMaxSteps, Point::Zero());
+    problem.obstacles_m.resize(kMaxSteps);
+    if (seed % 2 == 0) problem.start = test::random_pose(random);
+    const Frame start = to_frame(problem.start);
+    const auto edges = subgraph.successors(problem.start_trim);
+    const Maneuver& maneuver = *edges[test::pick(random, edges.size())].maneuver;
+    const bool is_lane = seed % 3 == 0;
+    const auto& corners = (is_lane ? maneuver.lane_area_m : maneuver.swept_area_m).vertices_m;
+    const std::size_t i = test::pick(random, corners.size());
+    const Point from = transformed(corners[i], start);
+    const Point to = transformed(corners[(i + 1) % corners.size()], start);
+    constexpr std::array<double, 7> kShiftsM{-1e-6, -1e-11, -1e-15, 0.0, 1e-15, 1e-11, 1e-6};
+    const double shift_m = kShiftsM[test::pick(random, kShiftsM.size())];
+    const Point along = (to - from).normalized();
+    const Point out{along.y(), -along.x()};
+    const Point a = from + shift_m * out;
+    const Point b = to + shift_m * out;
+    if (is_lane) {
+      problem.boundary_m = {{a, b}, {a, a + 0.1 * out}, {b + 0.05 * out, b}};
+    } else if (seed % 3 == 1) {  // edge to edge
+      problem.obstacles_m[0] = {convex_hull({a, b, a + 0.1 * out, b + 0.1 * out})};
+    } else {  // corner to edge
+      problem.obstacles_m[0] = {
+          convex_hull({a, a + 0.1 * out + 0.03 * along, a + 0.1 * out - 0.03 * along})};
+    }
+    check.prepare(problem);
+    engine.prepare(problem);
+    const bool is_free = check.is_free(maneuver, 1, start);
+    ASSERT_EQ(engine.is_free(maneuver, 1, start), is_free) << "shift " << shift_m;
+    ++answers[is_free ? 1 : 0];
+  }
+  EXPECT_GE(answers[0], 300U);
+  EXPECT_GE(answers[1], 300U);
+}
+
+TEST_P(BranchAndBoundCollision, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
+  // A preparation that leaves out what is farther than 0.99 of the reach would miss it.
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  for (std::size_t number = 1; number <= 12; ++number) {
+    const TrimId trim{number - 1};
+    for (const Edge& edge : subgraph.successors(trim)) {
+      // Driven along this edge and then straight on, the farthest corner in each direction.
+      const Pose start{1.0, 2.0, 0.7 * static_cast<double>(number)};
+      HorizonProblem problem;
+      problem.start = start;
+      problem.start_trim = trim;
+      problem.reference_m.assign(kMaxSteps, start.position_m());
+      problem.obstacles_m.resize(kMaxSteps);
+      Pose pose = start;
+      const Maneuver* maneuver = edge.maneuver;
+      for (std::size_t step = 1; step < kMaxSteps; ++step) {
+        for (const Point& corner_m : maneuver->swept_area_m.vertices_m) {
+          const Point inner_m = transformed(Point(0.999 * corner_m), pose);
+          problem.obstacles_m[step - 1] = {
+              box(inner_m.x() - 1e-4, inner_m.x() + 1e-4, inner_m.y() - 1e-4, inner_m.y() + 1e-4)};
+          engine.prepare(problem);
+          ASSERT_FALSE(engine.is_free(*maneuver, step, to_frame(pose)))
+              << number << " step " << step;
+        }
+        problem.obstacles_m[step - 1].clear();
+        pose = compose(pose, maneuver->displacement);
+        maneuver = subgraph.automaton().find(maneuver->to, maneuver->to, test::kTestLabel);
+      }
+    }
+  }
+}
+
+TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  std::array<std::size_t, 2> answers{};
+  for (std::size_t corners = 3; corners <= 70; ++corners) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      std::mt19937_64 random(seed);
+      HorizonProblem problem;
+      problem.start = test::random_pose(random);
+      problem.start_trim = TrimId{6};
+      problem.reference_m.assign(kMaxSteps, problem.start.position_m());
+      problem.obstacles_m.resize(kMaxSteps);
+      const Point centre_m = problem.start.position_m() + Point{test::uniform(random, -0.4, 0.4),
+                                                                test::uniform(random, -0.4, 0.4)};
+      std::vector<Point> round_m;
+      for (std::size_t i = 0; i < corners; ++i) {
+        const double angle_rad =
+            2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
+        round_m.push_back(centre_m + 0.15 * Point{std::cos(angle_rad), std::sin(angle_rad)});
+      }
+      problem.obstacles_m[0] = {convex_hull(std::move(round_m)), ConvexPolygon{}};
+      check.prepare(problem);
+      engine.prepare(problem);
+      const Frame start = to_frame(problem.start);
+      for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+        const bool is_free = check.is_free(*edge.maneuver, 1, start);
+        ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free)
+            << corners << " corners, seed " << seed;
+        ++answers[is_free ? 1 : 0];
+      }
+    }
+  }
+  EXPECT_GE(answers[0], 100U);
+  EXPECT_GE(answers[1], 100U);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothKernels, BranchAndBoundCollision,
+                         testing::Values(Instructions::kBest, Instructions::kPortable),
+                         [](const auto& instance) {
+                           return instance.param == Instructions::kBest ? "Best" : "Portable";
+                         });
+
+}  // namespace
+}  // namespace hlc
