@@ -22,6 +22,7 @@
 #include "hlc_bridge/record/text_file.hpp"
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "planner/search/search_options.hpp"
 
 namespace {
 
@@ -31,6 +32,7 @@ hlc::RunDescription description_of(const hlc::Scenario& scenario,
   hlc::RunDescription description;
   description.scenario = scenario.name;
   description.profile = scenario.profile.name;
+  description.engine = hlc::to_string(scenario.search.engine);
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
   description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;

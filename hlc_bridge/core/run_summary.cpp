@@ -37,15 +37,20 @@ void add_search(std::span<const StepRecord* const> rows, VehicleSummary& summary
   std::vector<double> generated;
   std::vector<double> expanded;
   std::vector<double> planning_s;
+  std::size_t found = 0;
+  std::size_t budget = 0;
   for (const StepRecord* row : rows) {
     summary.fallback_steps += row->record.report.status == StepStatus::kFallback ? 1U : 0U;
     summary.deadline_misses += row->record.deadline_missed ? 1U : 0U;
+    found += row->record.report.quality != PlanQuality::kNone ? 1U : 0U;
+    budget += row->record.report.quality == PlanQuality::kBudget ? 1U : 0U;
     if (has_planned(*row)) {
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
       planning_s.push_back(static_cast<double>(row->record.planning_ns) * kSecondsPerNanosecond);
     }
   }
+  if (found > 0) summary.budget_share = static_cast<double>(budget) / static_cast<double>(found);
   summary.generated = statistics(generated);
   summary.expanded = statistics(expanded);
   summary.planning_s = statistics(planning_s);

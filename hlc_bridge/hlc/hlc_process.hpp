@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -42,6 +43,9 @@ struct HlcProcessOptions {
   bool logical_time{};
   std::chrono::seconds startup_timeout{30};
   StepDeadlines deadlines;
+  /// Called with the controller after the command of a step has been sent. What it throws is logged
+  /// once, and it is not called again.
+  std::function<void(const Controller&)> after_step;
 };
 
 /// The process of one controller: takes state lists from the middleware, steps the controller,
@@ -88,6 +92,7 @@ class HlcProcess {
                 const VehicleStateList& list, double deadline_share);
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
+  void look_back();
   void send_command(const VehicleStateList& list, StepIndex step);
   [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;
 

@@ -43,6 +43,7 @@ Json vehicle_json(const VehicleSummary& vehicle) {
                                       {"max", &Statistics::max}});
   json["fallback_steps"] = vehicle.fallback_steps;
   json["deadline_misses"] = vehicle.deadline_misses;
+  json["budget_share"] = or_null(vehicle.budget_share);
   return json;
 }
 
@@ -72,6 +73,7 @@ std::string summary_json(const RunSummary& summary) {
   json["revision"] = summary.revision;
   json["host"] = {
       {"cpu", summary.host.cpu}, {"cores", summary.host.cores}, {"kernel", summary.host.kernel}};
+  json["engine"] = run.engine;
   return json.dump(2) + "\n";
 }
 

@@ -33,8 +33,8 @@ struct Scenario {
   std::size_t steps{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
-  std::size_t max_expansions{};
   Profile profile;
+  SearchOptions search;  ///< engine: the command line's, else the file's, else the profile's
   std::shared_ptr<const Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
 };
@@ -43,6 +43,7 @@ struct Scenario {
 struct ScenarioChoices {
   std::filesystem::path file;
   std::string profile{"default"};
+  std::optional<std::string> engine;  ///< see engine_from_name; default: the scenario's
   std::optional<std::string> subgraph;
   std::optional<std::filesystem::path> map_file;
   std::optional<std::size_t> steps;
@@ -50,8 +51,9 @@ struct ScenarioChoices {
 };
 
 /// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
-/// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved); and checks that it can be driven: routes exist and
-/// close, start poses do not overlap, standstill is within the horizon.
+/// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved);
+/// and checks that it can be driven: routes exist and close, start poses do not overlap, standstill
+/// is within the horizon.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is
 /// allowed
 [[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices);
