@@ -38,8 +38,9 @@ TEXT
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
-scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" map="" cars="" steps="" simulated_time=true
-noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release bin="" build=true
+scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" map="" cars="" steps=""
+simulated_time=true noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release
+bin="" build=true
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -55,8 +56,9 @@ while (($#)); do
   name=${name#--}
   [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
-    scenario | profile | engine | dump_problems | subgraph | map | cars | steps | simulated_time | noise_seed | gains_scale | \
-      transport | dds_domain | out | preset | bin | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+    scenario | profile | engine | dump_problems | subgraph | map | cars | steps | simulated_time | \
+      noise_seed | gains_scale | transport | dds_domain | out | preset | bin | \
+      startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done

@@ -33,9 +33,9 @@ TEXT
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
-id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" cars="" simulated_time=true transport=loopback
-dds_domain=1 middleware_domain="" controller_domain="" pose="" noise_seed="" gains_scale="" out=""
-bin=$root/build/release/bin startup_timeout_s=30
+id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" cars=""
+simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
+noise_seed="" gains_scale="" out="" bin=$root/build/release/bin startup_timeout_s=30
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
@@ -49,8 +49,8 @@ while (($#)); do
   name=${name#--}
   [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
-    id | scenario | profile | engine | dump_problems | subgraph | map | cars | simulated_time | transport | dds_domain | \
-      middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
+    id | scenario | profile | engine | dump_problems | subgraph | map | cars | simulated_time | transport | \
+      dds_domain | middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
       startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac

@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-#include "planner/search/best_first_search.hpp"
+#include "planner/search/search_engine.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
@@ -27,7 +27,7 @@ class OmplPlannerTest : public testing::Test {
   }
 
   [[nodiscard]] std::unique_ptr<SearchEngine> make_engine(SearchOptions options = {}) const {
-    return std::make_unique<BestFirstSearch>(subgraph_, reachable_, options);
+    return make_search_engine(subgraph_, reachable_, options);
   }
 
   /// 1.28 m straight ahead.
@@ -109,7 +109,7 @@ TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
 }
 
 TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
-  const auto engine = make_engine();
+  const auto engine = make_search_engine(subgraph_, reachable_, {});
   const auto planner = make_horizon_planner(subgraph_, reachable_, {});
   for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE(seed);
