@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Searches of fewer expansions say little about the time of one: preparing the search is most of
 /// it. They say how long that takes.
-constexpr std::size_t kTelling = 200;
+constexpr std::size_t kTelling = 1000;
 constexpr int kCalls = 3;
 /// The tree of a long horizon has no end: measuring stops here.
 constexpr std::size_t kMeasured = 300'000;
