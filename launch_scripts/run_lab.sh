@@ -12,6 +12,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
                           (default paper_three_cars; also paper_red_alone, circle)
   --profile NAME          default: every plan optimal, safe whatever message is lost
                           2022: the rules under which the paper's numbers arose
+  --engine NAME           what searches: branch_and_bound (default profile) or best_first (profile 2022)
   --subgraph NAME         of the automaton, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenario circle)
@@ -22,6 +23,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain; the vehicles take the next ones, the controllers N + 50
                           (default: a free block)
+  --dump-problems DIR     write each planning problem to a JSON file there, for plan_problem; in real time
+                          that may make steps late
   --out DIR               run folder (default: a new one in runs/)
   --preset NAME           build preset (default release)
   --startup_timeout_s N   how long to wait for processes that do not appear (default 20)
@@ -35,8 +38,9 @@ TEXT
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
-scenario=paper_three_cars profile=default subgraph="" map="" cars="" steps="" simulated_time=true
-noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release bin="" build=true
+scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" map="" cars="" steps=""
+simulated_time=true noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release
+bin="" build=true
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -50,9 +54,11 @@ while (($#)); do
   esac
   shift
   name=${name#--}
+  [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
-    scenario | profile | subgraph | map | cars | steps | simulated_time | noise_seed | gains_scale | \
-      transport | dds_domain | out | preset | bin | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+    scenario | profile | engine | dump_problems | subgraph | map | cars | steps | simulated_time | \
+      noise_seed | gains_scale | transport | dds_domain | out | preset | bin | \
+      startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
@@ -84,6 +90,7 @@ fi
 [[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build and --bin"
 
 choices=(--scenario "$scenario" --profile "$profile")
+[[ -z $engine ]] || choices+=(--engine "$engine")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
@@ -146,6 +153,7 @@ cat >"$out/configuration/flags.yaml" <<TEXT
 # Flags of run_lab.sh; null: not given. Car N measures with the noise of seed noise_seed + N.
 scenario: $(quoted "$(realpath "$scenario")")
 profile: $(quoted "$profile")
+engine: $(quoted "$engine")
 subgraph: $(quoted "$subgraph")
 map: $(quoted "$map")
 cars: ${cars:-null}
@@ -200,6 +208,7 @@ for id in "${ids[@]}"; do
     --pose "$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")")
   [[ -z $noise_seed ]] || vehicle+=(--noise_seed $((noise_seed + id)))
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
+  [[ -z $dump_problems ]] || vehicle+=(--dump-problems "$dump_problems")
   HLC_DOMAINS_ARE_RESERVED=1 with_me "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done

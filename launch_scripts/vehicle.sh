@@ -10,6 +10,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --id N                  vehicle, 1 ... 30
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
   --profile NAME          default or 2022 (default: default)
+  --engine NAME           branch_and_bound or best_first (default: the scenario's, else the profile's)
   --subgraph NAME         instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenarios on a circle)
@@ -19,6 +20,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
                           not be one that a run of run_lab.sh or a test uses at the moment
   --middleware_domain N   local domain of this vehicle (default: lab domain + id)
   --controller_domain N   domain of the controllers (default: lab domain + 50)
+  --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
   --noise_seed N          measurement noise from this seed (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
@@ -31,9 +33,9 @@ TEXT
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
-id="" scenario="" profile=default subgraph="" map="" cars="" simulated_time=true transport=loopback
-dds_domain=1 middleware_domain="" controller_domain="" pose="" noise_seed="" gains_scale="" out=""
-bin=$root/build/release/bin startup_timeout_s=30
+id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" cars=""
+simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
+noise_seed="" gains_scale="" out="" bin=$root/build/release/bin startup_timeout_s=30
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
@@ -45,9 +47,10 @@ while (($#)); do
   esac
   shift
   name=${name#--}
+  [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
-    id | scenario | profile | subgraph | map | cars | simulated_time | transport | dds_domain | \
-      middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
+    id | scenario | profile | engine | dump_problems | subgraph | map | cars | simulated_time | transport | \
+      dds_domain | middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
       startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
@@ -81,6 +84,7 @@ mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written t
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
 choices=(--scenario "$scenario" --profile "$profile")
+[[ -z $engine ]] || choices+=(--engine "$engine")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
@@ -97,6 +101,7 @@ vehicle=(--vehicle_id="$id" --pose="$pose" --record="$out/vehicle_$id.csv")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
 controller=("${choices[@]}")
 [[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
+[[ -z $dump_problems ]] || controller+=(--dump-problems="$dump_problems")
 
 declare -A names=() # of those that have not ended, by pid
 is_ending=false

@@ -2,6 +2,7 @@
 // or by launch_scripts/vehicle.sh.
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/hlc/hlc_process.hpp"
+#include "planner/scenario/problem_dump.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
@@ -22,6 +24,7 @@ struct Flags {
   std::vector<int> vehicle_ids;
   int middleware_domain{1};
   std::optional<int> controller_domain;
+  std::optional<std::filesystem::path> problem_folder;
   hlc::ScenarioChoices scenario;
 };
 
@@ -38,6 +41,11 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
+  app.add_option(
+      "--dump-problems,--dump_problems", flags.problem_folder,
+      "folder for the planning problems, one JSON file each (see plan_problem). They are "
+      "written after a step's command; what is planned stays the same, but in real time "
+      "a slow disk may make the next step late");
   flags.network.declare(app);
   app.footer(
       "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "
@@ -65,8 +73,12 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
 
 std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(flags.vehicle_ids.front())};
-  const hlc::HlcProcessOptions options = process_options(flags, id);
+  hlc::HlcProcessOptions options = process_options(flags, id);
   const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
+  if (flags.problem_folder) {
+    options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file)](
+                             const hlc::Controller& controller) { dump.write(controller); };
+  }
   return std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
 }
 

@@ -23,6 +23,7 @@
 #include "hlc_bridge/record/text_file.hpp"
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "planner/search/search_options.hpp"
 
 namespace {
 

@@ -1,5 +1,7 @@
 #include "hlc_bridge/core/run_description.hpp"
 
+#include "planner/search/search_options.hpp"
+
 namespace hlc {
 
 RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> noise_seed) {
@@ -7,6 +9,7 @@ RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> n
   RunDescription description;
   description.scenario = scenario.name;
   description.profile = scenario.profile.name;
+  description.engine = to_string(scenario.search.engine);
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
   description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;

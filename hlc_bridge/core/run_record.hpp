@@ -27,6 +27,7 @@ struct VehicleDescription {
 struct RunDescription {
   std::string scenario;
   std::string profile;
+  std::string engine;  ///< that searched
   std::string map;
   std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;

@@ -37,9 +37,13 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
   std::vector<double> generated;
   std::vector<double> expanded;
   std::vector<double> planning_s;
+  std::size_t found = 0;
+  std::size_t budget = 0;
   for (const StepRecord* row : rows) {
     summary.fallback_steps += row->record.report.status == StepStatus::kFallback ? 1U : 0U;
     summary.deadline_misses += row->record.deadline_missed ? 1U : 0U;
+    found += row->record.report.quality != PlanQuality::kNone ? 1U : 0U;
+    budget += row->record.report.quality == PlanQuality::kBudget ? 1U : 0U;
     if (has_planned(*row)) {
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
@@ -47,6 +51,7 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
       summary.overlong_plans += planning_s.back() > step_s ? 1U : 0U;
     }
   }
+  if (found > 0) summary.budget_share = static_cast<double>(budget) / static_cast<double>(found);
   summary.generated = statistics(generated);
   summary.expanded = statistics(expanded);
   summary.planning_s = statistics(planning_s);

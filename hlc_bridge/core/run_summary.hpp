@@ -27,6 +27,9 @@ struct VehicleSummary {
   std::optional<Statistics> expanded;
   std::optional<Statistics> planning_s;  ///< of those steps
   std::size_t overlong_plans{};          ///< steps whose search alone took longer than a step
+  /// Of the steps in which a plan was found, the share in which it is only the best within the
+  /// budget.
+  std::optional<double> budget_share;
   std::size_t fallback_steps{};
   std::size_t deadline_misses{};  ///< late, or (real time) without a report: list not answered
 };

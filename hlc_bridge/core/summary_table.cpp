@@ -27,14 +27,20 @@ std::string largest(const std::optional<Statistics>& value, double factor, const
   return value ? print(format, value->max * factor) : "-";
 }
 
+std::string percentile_99(const std::optional<Statistics>& value, double factor,
+                          const char* format) {
+  return value ? print(format, value->p99 * factor) : "-";
+}
+
 std::string row(const VehicleSummary& vehicle) {
-  return print("%3u  %-8s %14s %7s %9s %9s %15s %7s %12s %6zu %6zu\n", vehicle.id.value,
+  return print("%3u  %-8s %14s %6s %9s %9s %13s %6s %6s %12s %6zu %6zu\n", vehicle.id.value,
                vehicle.name.c_str(),
                mean_std(vehicle.reference_error_m, kMillimetresPerMetre, "%.1f (%.1f)").c_str(),
                vehicle.lap_s ? print("%.2f", *vehicle.lap_s).c_str() : "-",
                largest(vehicle.generated, 1.0, "%.0f").c_str(),
                largest(vehicle.expanded, 1.0, "%.0f").c_str(),
                mean_std(vehicle.planning_s, kMillisecondsPerSecond, "%.2f (%.2f)").c_str(),
+               percentile_99(vehicle.planning_s, kMillisecondsPerSecond, "%.2f").c_str(),
                largest(vehicle.planning_s, kMillisecondsPerSecond, "%.2f").c_str(),
                mean_max(vehicle.tracking_error_m, kMillimetresPerMetre, "%.1f / %.1f").c_str(),
                vehicle.fallback_steps, vehicle.deadline_misses);
@@ -49,10 +55,11 @@ std::string summary_table(const RunSummary& summary) {
       run.scenario.c_str(), summary.steps, run.step_s, run.horizon_steps, run.subgraph.c_str(),
       run.profile.c_str(), run.map.c_str(),
       run.noise_seed ? ("noise seed " + std::to_string(*run.noise_seed)).c_str() : "no noise");
-  text += print("%3s  %-8s %14s %7s %19s %23s %12s %13s\n", "", "", "reference", "lap",
+  text += print("%3s  %-8s %14s %6s %19s %27s %12s %13s\n", "", "", "reference", "lap",
                 "vertices, max", "planning time", "tracking", "steps");
-  text += print("%3s  %-8s %14s %7s %9s %9s %15s %7s %12s %6s %6s\n", "id", "vehicle", "error [mm]",
-                "[s]", "generated", "expanded", "[ms]", "max", "error [mm]", "fallb.", "late");
+  text +=
+      print("%3s  %-8s %14s %6s %9s %9s %13s %6s %6s %12s %6s %6s\n", "id", "vehicle", "error [mm]",
+            "[s]", "generated", "expanded", "[ms]", "p99", "max", "error [mm]", "fallb.", "late");
   for (const VehicleSummary& vehicle : summary.vehicles) {
     text += row(vehicle);
   }
@@ -78,6 +85,7 @@ std::string summary_table(const RunSummary& summary) {
       "or "
       "no closed route\n"
       "vertices         of the search tree, with its root and those never expanded\n"
+      "p99              99 of 100 plans took no longer\n"
       "tracking error   driven to planned position at the same instant, every 20 ms\n"
       "fallb.           steps in which the previous plan stayed in force\n"
       "late             steps in which a deadline was missed (real time)\n";

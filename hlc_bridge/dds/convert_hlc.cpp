@@ -126,6 +126,16 @@ bool is_known(FallbackReason reason) {
   return false;
 }
 
+bool is_known(PlanQuality quality) {
+  switch (quality) {
+    case PlanQuality::kNone:
+    case PlanQuality::kOptimal:
+    case PlanQuality::kBudget:
+      return true;
+  }
+  return false;
+}
+
 bool is_known(RunPhase phase) {
   switch (phase) {
     case RunPhase::kRunning:
@@ -139,9 +149,10 @@ bool is_valid(const ReportMessage& wire) {
   return is_valid(VehicleId{wire.vehicle_id()}) &&
          is_known(static_cast<StepStatus>(wire.status())) &&
          is_known(static_cast<FallbackReason>(wire.reason())) &&
+         is_known(static_cast<PlanQuality>(wire.quality())) &&
          is_finite(pose_from_wire(wire.planned_pose())) &&
-         all_finite(wire.cost_m2(), wire.deviation_m()) && is_valid(wire.coupled()) &&
-         is_valid(wire.missing());
+         all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
+         is_valid(wire.coupled()) && is_valid(wire.missing());
 }
 
 }  // namespace
@@ -214,8 +225,8 @@ Incoming<Outcome> from_wire(const OutcomeMessage& wire) {
 
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns] = message;
-  const auto& [vehicle, step, status, reason, planned_pose, planned_trim, cost_m2, generated,
-               expanded, level, coupled, missing, deviation_m] = report;
+  const auto& [vehicle, step, status, reason, planned_pose, planned_trim, cost_m2, quality, gap_m2,
+               generated, expanded, level, coupled, missing, deviation_m] = report;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.status(static_cast<std::uint8_t>(status));
@@ -223,6 +234,8 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.planned_pose(pose_to_wire(planned_pose));
   wire.planned_trim(static_cast<std::uint32_t>(planned_trim.index));
   wire.cost_m2(cost_m2);
+  wire.quality(static_cast<std::uint8_t>(quality));
+  wire.gap_m2(gap_m2);
   wire.generated(generated);
   wire.expanded(expanded);
   wire.level(level);
@@ -245,6 +258,8 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
                       .planned_pose = pose_from_wire(wire.planned_pose()),
                       .planned_trim = {wire.planned_trim()},
                       .cost_m2 = wire.cost_m2(),
+                      .quality = static_cast<PlanQuality>(wire.quality()),
+                      .gap_m2 = wire.gap_m2(),
                       .generated = wire.generated(),
                       .expanded = wire.expanded(),
                       .level = wire.level(),

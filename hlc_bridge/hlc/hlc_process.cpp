@@ -266,6 +266,17 @@ void HlcProcess::answer(const VehicleStateList& list) {
     send_answer(list);
   }
   report_writer_.write(record);
+  if (core_.has_begun()) look_back();
+}
+
+void HlcProcess::look_back() {
+  if (!options_.after_step) return;
+  try {
+    options_.after_step(core_.controller());
+  } catch (const std::exception& error) {
+    spdlog::error("{}: {}; nothing more is written", options_.node_id, error.what());
+    options_.after_step = nullptr;
+  }
 }
 
 /// The controllers' network alone may have failed: who is on the lab's still commands its vehicle.

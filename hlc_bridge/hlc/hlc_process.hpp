@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -41,6 +42,9 @@ struct HlcProcessOptions {
   bool logical_time{};
   std::chrono::seconds startup_timeout{30};
   StepDeadlines deadlines;
+  /// Called with the controller after the command of a step has been sent. What it throws is logged
+  /// once, and it is not called again.
+  std::function<void(const Controller&)> after_step;
 };
 
 /// The process of one controller: takes state lists from the middleware, steps the controller,
@@ -85,6 +89,7 @@ class HlcProcess {
                 const VehicleStateList& list, double deadline_share);
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
+  void look_back();
   void send_answer(const VehicleStateList& list);
   [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
-    "generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_missed,late_ns";
+    "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
+    "missed,late_ns";
 
 std::string line(const ReportRecord& record) {
   const Report& report = record.report;
@@ -29,6 +30,8 @@ std::string line(const ReportRecord& record) {
   add(shortest_text(report.planned_pose.heading_rad));
   add(std::to_string(report.planned_trim.index + 1));
   add(shortest_text(report.cost_m2));
+  add(to_string(report.quality));
+  add(shortest_text(report.gap_m2));
   add(std::to_string(report.generated));
   add(std::to_string(report.expanded));
   add(std::to_string(report.level));
@@ -54,6 +57,7 @@ std::optional<Enum> enum_from(const std::string& name, std::uint8_t count) {
 }
 
 constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kDriveOut) + 1;
+constexpr std::uint8_t kQualities = static_cast<std::uint8_t>(PlanQuality::kBudget) + 1;
 constexpr std::uint8_t kReasons = static_cast<std::uint8_t>(FallbackReason::kLate) + 1;
 
 /// Reads the fields of one row from left to right.
@@ -116,6 +120,8 @@ ReportRecord read_row(RowReader row) {
   report.planned_pose.heading_rad = row.number();
   report.planned_trim = TrimId{row.whole(1) - 1};
   report.cost_m2 = row.number();
+  report.quality = row.name<PlanQuality>(kQualities);
+  report.gap_m2 = row.number();
   report.generated = row.whole();
   report.expanded = row.whole();
   report.level = static_cast<std::uint32_t>(row.whole(0, ~std::uint32_t{0}));

@@ -18,7 +18,8 @@ std::string driven_fields(const std::optional<Pose>& driven) {
 std::string steps_csv(std::span<const StepRecord> rows) {
   std::string text =
       "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,driven_x_m,"
-      "driven_y_m,driven_yaw_rad,cost_m2,generated,expanded,level,coupled,missing,deviation_m\n";
+      "driven_y_m,driven_yaw_rad,cost_m2,generated,expanded,level,coupled,missing,deviation_m,"
+      "quality,gap_m2\n";
   for (const StepRecord& row : rows) {
     const Report& report = row.record.report;
     text += std::to_string(row.step) + "," + std::to_string(report.vehicle.value) + "," +
@@ -29,7 +30,8 @@ std::string steps_csv(std::span<const StepRecord> rows) {
             shortest_text(report.cost_m2) + "," + std::to_string(report.generated) + "," +
             std::to_string(report.expanded) + "," + std::to_string(report.level) + "," +
             ids_to_text(report.coupled) + "," + ids_to_text(report.missing) + "," +
-            shortest_text(report.deviation_m) + "\n";
+            shortest_text(report.deviation_m) + "," + to_string(report.quality) + "," +
+            shortest_text(report.gap_m2) + "\n";
   }
   return text;
 }

@@ -41,9 +41,10 @@ Json vehicle_json(const VehicleSummary& vehicle) {
                                       {"std", &Statistics::std},
                                       {"p99", &Statistics::p99},
                                       {"max", &Statistics::max}});
-  json["overlong_plans"] = vehicle.overlong_plans;
   json["fallback_steps"] = vehicle.fallback_steps;
   json["deadline_misses"] = vehicle.deadline_misses;
+  json["budget_share"] = or_null(vehicle.budget_share);
+  json["overlong_plans"] = vehicle.overlong_plans;
   return json;
 }
 
@@ -65,7 +66,6 @@ std::string summary_json(const RunSummary& summary) {
     json["vehicles"].push_back(vehicle_json(vehicle));
   }
   json["generated_vertices_sum_max"] = summary.generated_vertices_sum_max;
-  json["expanded_vertices_sum_max"] = summary.expanded_vertices_sum_max;
   json["min_footprint_distance_m"] = or_null(summary.min_footprint_distance_m);
   json["collisions"] = summary.collisions;
   json["wall_s"] = summary.wall_s;
@@ -74,6 +74,8 @@ std::string summary_json(const RunSummary& summary) {
   json["revision"] = summary.revision;
   json["host"] = {
       {"cpu", summary.host.cpu}, {"cores", summary.host.cores}, {"kernel", summary.host.kernel}};
+  json["engine"] = run.engine;
+  json["expanded_vertices_sum_max"] = summary.expanded_vertices_sum_max;
   return json.dump(2) + "\n";
 }
 

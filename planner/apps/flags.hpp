@@ -46,6 +46,9 @@ int exit_code_of(const char* program, Work work) {
 inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
   app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
+  app.add_option("--engine", choices.engine,
+                 "what searches: branch_and_bound or best_first (default: the scenario's, else the "
+                 "profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
   app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");

@@ -53,8 +53,8 @@ void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_
 /// True if the plan of this step would have been another one without the other vehicles.
 bool others_changed_the_plan(const hlc::Controller& controller, hlc::HorizonPlanner& alone,
                              const hlc::Report& report) {
-  if (!controller.problem() || report.status != hlc::StepStatus::kPlanned) return false;
-  hlc::HorizonProblem problem = *controller.problem();
+  if (controller.problems().empty() || report.status != hlc::StepStatus::kPlanned) return false;
+  hlc::HorizonProblem problem = controller.problems().back();
   problem.obstacles_m.clear();
   return alone.plan(problem).cost < report.cost_m2 - 1e-9;
 }
@@ -71,9 +71,7 @@ int run(const hlc::ScenarioChoices& choices) {
   }
   hlc::Rollout rollout(std::move(controllers), starts);
   const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = hlc::make_horizon_planner(
-      *scenario.subgraph, reachable,
-      {.cost_to_go = scenario.profile.cost_to_go, .max_expansions = scenario.max_expansions});
+  const auto alone = hlc::make_horizon_planner(*scenario.subgraph, reachable, scenario.search);
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     const std::vector<hlc::Report> reports = rollout.step();

@@ -286,12 +286,25 @@ HorizonProblem Controller::pose_problem() {
   add_missing_obstacles(problem);
   problem.boundary_m = corridor_.boundary_m(projection.s_m - kBoundaryReserve_m,
                                             projection.s_m + reach_m + kBoundaryReserve_m);
+  problem.incumbent = incumbent();
   return problem;
+}
+
+/// The rest of the plan in force, then standing: driven on, it is a plan too, as long as it starts
+/// where planning starts. Not with the cost-to-go of 2022, whose counts are to be the paper's.
+std::vector<const Maneuver*> Controller::incumbent() const {
+  std::vector<const Maneuver*> maneuvers;
+  if (in_force_->is_moved() || options_.search.cost_to_go == CostToGo::k2022) return maneuvers;
+  const std::uint64_t now = step_.observation.step.value;
+  for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
+    maneuvers.push_back(&plan_in_force().maneuver_during({now + j}));
+  }
+  return maneuvers;
 }
 
 /// Solves the problem; what it finds is the candidate, unless its drift leads into something.
 void Controller::search_candidate(StepIndex next) {
-  const SearchResult result = planner_->plan(*step_.problem);
+  const SearchResult result = planner_->plan(step_.problems.back());
   step_.report.generated += result.generated;
   step_.report.expanded += result.expanded;
   if (result.status == SearchStatus::kFallback) {
@@ -300,6 +313,9 @@ void Controller::search_candidate(StepIndex next) {
     return;
   }
   step_.report.cost_m2 = result.cost;
+  const bool is_optimal = result.status == SearchStatus::kOptimal;
+  step_.report.quality = is_optimal ? PlanQuality::kOptimal : PlanQuality::kBudget;
+  step_.report.gap_m2 = is_optimal ? 0.0 : result.cost - result.lower_bound;
   step_.candidate = in_force_->base().continued(
       next, result.maneuvers, *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
   step_.candidate_areas_m = in_force_->areas_of(*step_.candidate, next);
@@ -326,10 +342,12 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
         FallbackReason::kInfeasible;  // a trim that is off, with no way out or a long one
   }
   if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
-    step_.problem = pose_problem();
+    step_.problems.push_back(pose_problem());
     search_candidate(next);
     if (step_.obstacle == FallbackReason::kConflict) {  // only for its drift: try without any
-      step_.problem->avoids_steering_limit = true;
+      HorizonProblem without_drift = step_.problems.back();
+      without_drift.avoids_steering_limit = true;
+      step_.problems.push_back(std::move(without_drift));
       step_.obstacle = FallbackReason::kNone;
       search_candidate(next);
     }
@@ -355,9 +373,10 @@ bool Controller::is_candidate_free() const {
       !is_in_reach(step_.candidate_areas_m.final_area_m)) {
     return false;
   }
-  for (std::size_t j = 0; j < step_.problem->obstacles_m.size(); ++j) {
+  const auto& obstacles_m = step_.problems.back().obstacles_m;
+  for (std::size_t j = 0; j < obstacles_m.size(); ++j) {
     const ConvexPolygon& area = step_.candidate_areas_m.during({next + j});
-    if (std::ranges::any_of(step_.problem->obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
+    if (std::ranges::any_of(obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
           return intersects(area, obstacle);
         })) {
       return false;

@@ -69,6 +69,10 @@ class Controller {
 
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] const Subgraph& subgraph() const { return *subgraph_; }
+  /// The same, to be kept.
+  [[nodiscard]] const std::shared_ptr<const Subgraph>& shared_subgraph() const { return subgraph_; }
+  /// Step of the last `observe` or `stand_by`.
+  [[nodiscard]] StepIndex last_step() const { return step_.observation.step; }
 
   /// From the next step on plans on another subgraph of the same automaton. Its tables, for one
   /// step more than the horizon, are computed unless they are given: a matter of milliseconds for a
@@ -106,8 +110,9 @@ class Controller {
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
   [[nodiscard]] const std::vector<VehicleId>& coupled() const { return step_.coupled; }
   [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
-  /// The problem that `plan` gave to the search, if it came to that.
-  [[nodiscard]] const std::optional<HorizonProblem>& problem() const { return step_.problem; }
+  /// The problems that `plan` gave to the search, in order: none if it did not come to that, two if
+  /// the first plan would have drifted into something. Valid until the next step.
+  [[nodiscard]] std::span<const HorizonProblem> problems() const { return step_.problems; }
 
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
   [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
@@ -122,7 +127,7 @@ class Controller {
     std::vector<VehicleId> coupled;
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
-    std::optional<HorizonProblem> problem;
+    std::vector<HorizonProblem> problems;       ///< the last is the one to solve
     std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
     std::optional<Plan> candidate;
     OccupiedAreas candidate_areas_m;                 ///< from t(k+1) on
@@ -139,6 +144,7 @@ class Controller {
   void note_who_stands();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
   [[nodiscard]] HorizonProblem pose_problem();
+  [[nodiscard]] std::vector<const Maneuver*> incumbent() const;
   void add_coupled_obstacles(HorizonProblem& problem) const;
   void add_missing_obstacles(HorizonProblem& problem) const;
   [[nodiscard]] SettleVerdict strict_verdict(std::span<const Prediction> predictions) const;

@@ -68,6 +68,8 @@ class PlanInForce {
   /// What a new plan continues: the plan in force, moved to where the vehicle really is if rules 3
   /// or 4 say so. Valid after `watch`.
   [[nodiscard]] const Plan& base() const { return moved_ ? *moved_ : plan_; }
+  /// True if `base` is not the plan in force itself. Valid after `watch`.
+  [[nodiscard]] bool is_moved() const { return moved_.has_value(); }
 
   /// Areas of the plan in force from t(from) on, as the others must know them (rule 4). @pre from
   /// is the step of `watch` or the next

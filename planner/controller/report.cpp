@@ -38,4 +38,16 @@ const char* to_string(FallbackReason reason) {
   return "unknown";
 }
 
+const char* to_string(PlanQuality quality) {
+  switch (quality) {
+    case PlanQuality::kNone:
+      return "none";
+    case PlanQuality::kOptimal:
+      return "optimal";
+    case PlanQuality::kBudget:
+      return "budget";
+  }
+  return "unknown";
+}
+
 }  // namespace hlc

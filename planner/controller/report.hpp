@@ -25,8 +25,16 @@ enum class FallbackReason : std::uint8_t {
   kLate,        ///< a deadline of the step had passed
 };
 
+/// How good the plan is that the search found in this step, whether it came into force or not.
+enum class PlanQuality : std::uint8_t {
+  kNone,     ///< no plan was found or none was searched
+  kOptimal,  ///< none costs less (with the cost-to-go of 2022: none as far as that search can tell)
+  kBudget,   ///< the best within the budget; one that costs up to `gap_m2` less may exist
+};
+
 [[nodiscard]] const char* to_string(StepStatus status);
 [[nodiscard]] const char* to_string(FallbackReason reason);
+[[nodiscard]] const char* to_string(PlanQuality quality);
 
 /// What happened in one step of one vehicle. Nothing in it comes from a clock.
 struct Report {
@@ -36,7 +44,9 @@ struct Report {
   FallbackReason reason{FallbackReason::kNone};
   Pose planned_pose;  ///< of the plan in force at t(k)
   TrimId planned_trim;
-  double cost_m2{};           ///< of the plan found in this step; 0 if none
+  double cost_m2{};  ///< of the plan found in this step; 0 if none
+  PlanQuality quality{PlanQuality::kNone};
+  double gap_m2{};            ///< of that plan: its cost minus a lower bound of every plan's; or 0
   std::uint64_t generated{};  ///< vertices
   std::uint64_t expanded{};
   std::uint32_t level{};           ///< computation level, 0 plans first

@@ -8,12 +8,14 @@ Profile profile_from_name(const std::string& name) {
   if (name == "default") {
     return {.name = name,
             .reference_rule = ReferenceRule::kDefault,
+            .engine = Engine::kBranchAndBound,
             .cost_to_go = CostToGo::kReachable,
             .settle_rule = SettleRule::kStrict};
   }
   if (name == "2022") {
     return {.name = name,
             .reference_rule = ReferenceRule::k2022,
+            .engine = Engine::kBestFirst,
             .cost_to_go = CostToGo::k2022,
             .settle_rule = SettleRule::kAgreed};
   }

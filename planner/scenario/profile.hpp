@@ -12,6 +12,7 @@ namespace hlc {
 struct Profile {
   std::string name;
   ReferenceRule reference_rule{};
+  Engine engine{};
   CostToGo cost_to_go{};
   SettleRule settle_rule{};
 };
@@ -20,6 +21,7 @@ struct Profile {
 /// |---------------------------|---------------------------------|------------------------------|
 /// | reference points          | first step with the mean of     | last step halved, as when    |
 /// |                           | current and reference speed     | the paper's numbers arose    |
+/// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
 /// | new plans come into force | strict: safe whatever is lost   | agreed: as the authors did   |
 ///

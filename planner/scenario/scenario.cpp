@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "planner/automaton/yaml_reader.hpp"
-#include "planner/maneuver_design/automaton_builder.hpp"
-#include "planner/maneuver_design/automaton_configuration.hpp"
-#include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
+#include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/starts.hpp"
+#include "planner/search/search_options.hpp"
 
 namespace hlc {
 namespace {
@@ -149,14 +148,34 @@ const SubgraphSpec& chosen_subgraph(const YamlNode& node, const ScenarioChoices&
                                     const std::vector<SubgraphSpec>& subgraphs) {
   const auto configured = node.required<std::string>("subgraph");
   const std::string name = choices.subgraph.value_or(configured);
-  const auto spec = std::ranges::find(subgraphs, name, &SubgraphSpec::name);
-  if (spec != subgraphs.end()) return *spec;
-  std::string known;
-  for (const SubgraphSpec& one : subgraphs) known += (known.empty() ? "" : ", ") + one.name;
+  if (const SubgraphSpec* spec = find_subgraph(subgraphs, name)) return *spec;
   if (choices.subgraph) {
-    throw std::invalid_argument("--subgraph = " + name + ", allowed " + known);
+    throw std::invalid_argument("--subgraph = " + name + ", allowed " + names_of(subgraphs));
   }
-  node.fail("subgraph", known);
+  node.fail("subgraph", names_of(subgraphs));
+}
+
+/// The command line's engine, else the file's, else the profile's.
+SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
+                          const Profile& profile) {
+  SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
+  search.max_expansions =
+      node.optional<std::size_t>("max_expansions", search.max_expansions, at_least(1.0));
+  if (const auto name = node.optional<std::string>("engine", ""); node.has("engine")) {
+    try {
+      search.engine = engine_from_name(name);
+    } catch (const std::invalid_argument&) {
+      node.fail("engine", kEngineNames);
+    }
+  }
+  try {
+    if (choices.engine) search.engine = engine_from_name(*choices.engine);
+    check_search_options(search);
+  } catch (const std::invalid_argument& error) {
+    if (choices.engine) throw std::invalid_argument(std::string("--") + error.what());
+    node.fail("engine", "with profile " + profile.name + ": " + error.what());
+  }
+  return search;
 }
 
 Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
@@ -169,9 +188,8 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.steps = choices.steps.value_or(steps);
   scenario.horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0));
   scenario.reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0));
-  scenario.max_expansions =
-      node.optional<std::size_t>("max_expansions", SearchOptions{}.max_expansions, at_least(1.0));
   scenario.profile = profile_from_name(choices.profile);
+  scenario.search = read_search(node, choices, scenario.profile);
   scenario.subgraph = std::move(subgraph);
   check_standstill_is_near(node, scenario);
   if (node.has("circle")) {
@@ -190,16 +208,11 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
 Scenario read_scenario(const ScenarioChoices& choices) {
   const YamlNode node = YamlNode::read_file(choices.file);
   const std::filesystem::path path = beside(choices.file, node.required<std::string>("automaton"));
-  if (is_automaton_file(path)) {
-    const AutomatonFile file = read_current_automaton_file(path);
-    const SubgraphSpec& spec = chosen_subgraph(node, choices, file.subgraphs);
-    return read_with(node, choices, std::make_shared<Subgraph>(file.automaton, spec));
-  }
-  const AutomatonConfiguration configuration = read_automaton_configuration(path);
-  const SubgraphSpec& spec = chosen_subgraph(node, choices, configuration.subgraphs);
   return read_with(
       node, choices,
-      std::make_shared<Subgraph>(build_shared_automaton(needed_by(spec, configuration)), spec));
+      read_subgraph(path, [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
+        return chosen_subgraph(node, choices, offered);
+      }));
 }
 
 Scenario read_scenario(const ScenarioChoices& choices,
@@ -229,8 +242,7 @@ std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId 
                         .reference_speed_mps = scenario.reference_speed_mps,
                         .reference_rule = scenario.profile.reference_rule,
                         .settle_rule = scenario.profile.settle_rule,
-                        .search = {.cost_to_go = scenario.profile.cost_to_go,
-                                   .max_expansions = scenario.max_expansions}},
+                        .search = scenario.search},
       scenario.subgraph, vehicle.path, vehicle.corridor);
 }
 

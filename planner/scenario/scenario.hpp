@@ -33,8 +33,8 @@ struct Scenario {
   std::size_t steps{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
-  std::size_t max_expansions{};
   Profile profile;
+  SearchOptions search;  ///< engine: the command line's, else the file's, else the profile's
   std::shared_ptr<const Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
 };
@@ -43,6 +43,7 @@ struct Scenario {
 struct ScenarioChoices {
   std::filesystem::path file;
   std::string profile{"default"};
+  std::optional<std::string> engine;  ///< see engine_from_name; default: the scenario's
   std::optional<std::string> subgraph;
   std::optional<std::filesystem::path> map_file;
   std::optional<std::size_t> steps;

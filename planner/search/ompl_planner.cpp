@@ -1,22 +1,32 @@
 #include "planner/search/ompl_planner.hpp"
 
+#include <ompl/base/PlannerData.h>
 #include <ompl/base/SolutionNonExistenceProof.h>
+#include <ompl/control/PathControl.h>
+#include <ompl/control/PlannerData.h>
 #include <ompl/geometric/PathGeometric.h>
 
+#include <charconv>
+#include <stdexcept>
 #include <utility>
 
+#include "planner/search/ompl_control.hpp"
+#include "planner/search/search_options.hpp"
+
 namespace ob = ompl::base;
+namespace oc = ompl::control;
+namespace og = ompl::geometric;
 
 namespace hlc {
 namespace {
 
 class OmplHorizonPlanner final : public HorizonPlanner {
  public:
-  OmplHorizonPlanner(const Subgraph& subgraph, std::size_t max_steps,
-                     std::unique_ptr<SearchEngine> engine)
+  OmplHorizonPlanner(const Subgraph& subgraph, const ReachableSets& reachable,
+                     const SearchOptions& options)
       : subgraph_(subgraph),
-        si_(make_space_information(subgraph, max_steps)),
-        planner_(si_, std::move(engine)) {
+        si_(make_space_information(subgraph, reachable.max_steps())),
+        planner_(si_, subgraph, reachable, options) {
     planner_.setup();
   }
 
@@ -36,28 +46,92 @@ class OmplHorizonPlanner final : public HorizonPlanner {
   RecedingHorizonPlanner planner_;
 };
 
+/// @throws std::invalid_argument, which ParamSet turns into a refusal
+std::size_t expansions_from_text(const std::string& text) {
+  std::size_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || value == 0) {
+    throw std::invalid_argument("max_expansions = " + text + ", allowed whole numbers from 1");
+  }
+  return value;
+}
+
+ob::PathPtr make_geometric_path(const ob::SpaceInformationPtr& si, const HorizonProblem& problem,
+                                const SearchResult& plan) {
+  auto path = std::make_shared<og::PathGeometric>(si);
+  ob::State* state = si->allocState();
+  write_state({problem.start, problem.start_trim, 0}, *state);
+  path->append(state);
+  for (std::size_t j = 0; j < plan.maneuvers.size(); ++j) {
+    write_state({plan.poses[j], plan.maneuvers[j]->to, j + 1}, *state);
+    path->append(state);
+  }
+  si->freeState(state);
+  return path;
+}
+
 }  // namespace
 
 RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si,
-                                               std::unique_ptr<SearchEngine> engine)
-    : Planner(si, "RecedingHorizonPlanner"), engine_(std::move(engine)) {
+                                               const Subgraph& subgraph,
+                                               const ReachableSets& reachable,
+                                               const SearchOptions& options)
+    : Planner(si, "RecedingHorizonPlanner"),
+      subgraph_(subgraph),
+      reachable_(reachable),
+      options_(options) {
   specs_.optimizingPaths = true;
   specs_.directed = true;
   specs_.provingSolutionNonExistence = true;
+  declare_parameters();
+}
+
+/// Whoever changes a parameter has the engine made anew by the next `solve`.
+void RecedingHorizonPlanner::declare_parameters() {
+  const auto declare = [this](const std::string& name, const std::string& allowed, auto set,
+                              auto get) {
+    params_.declareParam<std::string>(
+        name,
+        [this, set](const std::string& text) {
+          set(text);
+          setup_ = false;
+        },
+        get);
+    params_[name].setRangeSuggestion(allowed);
+  };
+  declare(
+      "engine", "branch_and_bound,best_first",
+      [this](const std::string& text) { options_.engine = engine_from_name(text); },
+      [this] { return std::string(to_string(options_.engine)); });
+  declare(
+      "cost_to_go", "reachable,straight_line,2022",
+      [this](const std::string& text) { options_.cost_to_go = cost_to_go_from_name(text); },
+      [this] { return std::string(to_string(options_.cost_to_go)); });
+  declare(
+      "max_expansions", "1:10000000",
+      [this](const std::string& text) { options_.max_expansions = expansions_from_text(text); },
+      [this] { return std::to_string(options_.max_expansions); });
+}
+
+void RecedingHorizonPlanner::setup() {
+  check_search_options(options_);
+  engine_ = make_search_engine(subgraph_, reachable_, options_);
+  Planner::setup();
 }
 
 ob::PlannerStatus RecedingHorizonPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
+  if (!isSetup()) setup();
   result_ = {};
-  const auto* definition = dynamic_cast<const HorizonProblemDefinition*>(pdef_.get());
-  if (definition == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
-  const HorizonProblem& problem = definition->problem();
+  path_.reset();
+  if (!pdef_) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  const auto* goal = dynamic_cast<const StandstillGoal*>(pdef_->getGoal().get());
+  if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  const HorizonProblem& problem = goal->problem();
   if (!starts_where_problem_starts(problem)) return ob::PlannerStatus::INVALID_START;
 
   engine_->search(problem, ptc, result_);
-  if (result_.status != SearchStatus::kFallback) {
-    add_solution(problem);
-    return ob::PlannerStatus::EXACT_SOLUTION;
-  }
+  if (result_.status != SearchStatus::kFallback) return add_solution(problem);
   if (result_.reason == NoPath::kBudget) return ob::PlannerStatus::TIMEOUT;
   pdef_->setSolutionNonExistenceProof(std::make_shared<ob::SolutionNonExistenceProof>(si_));
   return ob::PlannerStatus::ABORT;
@@ -72,42 +146,80 @@ bool RecedingHorizonPlanner::starts_where_problem_starts(const HorizonProblem& p
   return same;
 }
 
-void RecedingHorizonPlanner::add_solution(const HorizonProblem& problem) {
-  const auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
-  ob::State* state = si_->allocState();
-  write_state({problem.start, problem.start_trim, 0}, *state);
-  path->append(state);
-  for (std::size_t j = 0; j < result_.maneuvers.size(); ++j) {
-    write_state({result_.poses[j], result_.maneuvers[j]->to, j + 1}, *state);
-    path->append(state);
-  }
-  si_->freeState(state);
+ob::PlannerStatus RecedingHorizonPlanner::add_solution(const HorizonProblem& problem) {
+  const auto controls = std::dynamic_pointer_cast<oc::SpaceInformation>(si_);
+  path_ = controls ? make_control_path(controls, problem, result_)
+                   : make_geometric_path(si_, problem, result_);
+  ob::State* last = si_->allocState();
+  write_state({result_.poses.back(), result_.maneuvers.back()->to, problem.horizon_steps()}, *last);
+  const bool is_exact = pdef_->getGoal()->isSatisfied(last);
+  si_->freeState(last);
 
-  ob::PlannerSolution solution(path);
+  ob::PlannerSolution solution(path_);
   solution.setOptimized(pdef_->getOptimizationObjective(), ob::Cost(result_.cost),
                         result_.status == SearchStatus::kOptimal);
+  if (!is_exact) {
+    solution.setApproximate(
+        (result_.poses.back().position_m() - problem.reference_m.back()).norm());
+  }
   solution.setPlannerName(getName());
   pdef_->addSolutionPath(solution);
+  return is_exact ? ob::PlannerStatus::EXACT_SOLUTION : ob::PlannerStatus::APPROXIMATE_SOLUTION;
 }
 
 void RecedingHorizonPlanner::clear() {
   Planner::clear();
   result_ = {};
+  path_.reset();
+}
+
+void RecedingHorizonPlanner::getPlannerData(ob::PlannerData& data) const {
+  Planner::getPlannerData(data);
+  if (!path_) return;
+  const auto* controls = dynamic_cast<const oc::PathControl*>(path_.get());
+  const auto state = [&](std::size_t i) {
+    const auto index = static_cast<unsigned>(i);
+    return controls != nullptr ? controls->getState(index)
+                               : static_cast<const og::PathGeometric&>(*path_).getState(index);
+  };
+  const auto& objective = pdef_->getOptimizationObjective();
+  const std::size_t n = controls != nullptr
+                            ? controls->getControlCount()
+                            : static_cast<const og::PathGeometric&>(*path_).getStateCount() - 1;
+  data.addStartVertex(ob::PlannerDataVertex(state(0)));
+  for (std::size_t j = 1; j <= n; ++j) {
+    const ob::PlannerDataVertex from(state(j - 1));
+    const ob::PlannerDataVertex to(state(j));
+    if (j == n) {
+      data.addGoalVertex(to);
+    } else {
+      data.addVertex(to);
+    }
+    const ob::Cost cost = objective ? objective->motionCost(state(j - 1), state(j)) : ob::Cost(1.0);
+    if (controls != nullptr && data.hasControls()) {
+      const auto index = static_cast<unsigned>(j - 1);
+      data.addEdge(from, to,
+                   oc::PlannerDataEdgeControl(controls->getControl(index),
+                                              controls->getControlDuration(index)),
+                   cost);
+    } else {
+      data.addEdge(from, to, ob::PlannerDataEdge(), cost);
+    }
+  }
 }
 
 SearchResult RecedingHorizonPlanner::take_result() { return std::exchange(result_, {}); }
 
 std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(const Subgraph& subgraph,
-                                                          std::size_t max_steps,
-                                                          std::unique_ptr<SearchEngine> engine) {
-  return std::make_unique<OmplHorizonPlanner>(subgraph, max_steps, std::move(engine));
+                                                          const ReachableSets& reachable,
+                                                          const SearchOptions& options) {
+  return std::make_unique<OmplHorizonPlanner>(subgraph, reachable, options);
 }
 
 std::unique_ptr<HorizonPlanner> make_horizon_planner(const Subgraph& subgraph,
                                                      const ReachableSets& reachable,
                                                      const SearchOptions& options) {
-  return make_ompl_horizon_planner(subgraph, reachable.max_steps(),
-                                   make_search_engine(subgraph, reachable, options));
+  return make_ompl_horizon_planner(subgraph, reachable, options);
 }
 
 }  // namespace hlc

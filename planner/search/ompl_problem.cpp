@@ -17,19 +17,19 @@ constexpr unsigned kPose = 0;
 constexpr unsigned kTrim = 1;
 constexpr unsigned kStep = 2;
 
-/// Wider than any lab; OMPL wants bounds, the search does not.
-constexpr double kLargestCoordinateM = 1e4;
-
 }  // namespace
 
-ob::SpaceInformationPtr make_space_information(const Subgraph& subgraph, std::size_t max_steps) {
+ob::StateSpacePtr make_state_space(const Subgraph& subgraph, std::size_t max_steps,
+                                   const PositionBounds& box) {
   ompl::msg::noOutputHandler();
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
 
   const auto pose = std::make_shared<ob::SE2StateSpace>();
   ob::RealVectorBounds bounds(2);
-  bounds.setLow(-kLargestCoordinateM);
-  bounds.setHigh(kLargestCoordinateM);
+  for (const unsigned axis : {0U, 1U}) {
+    bounds.setLow(axis, box.low_m[axis]);
+    bounds.setHigh(axis, box.high_m[axis]);
+  }
   pose->setBounds(bounds);
   const auto num_trims = static_cast<int>(subgraph.automaton().trims.size());
 
@@ -38,8 +38,11 @@ ob::SpaceInformationPtr make_space_information(const Subgraph& subgraph, std::si
   space->addSubspace(std::make_shared<ob::DiscreteStateSpace>(0, num_trims - 1), 0.0);
   space->addSubspace(std::make_shared<ob::DiscreteStateSpace>(0, static_cast<int>(max_steps)), 0.0);
   space->lock();
+  return space;
+}
 
-  auto si = std::make_shared<ob::SpaceInformation>(space);
+ob::SpaceInformationPtr make_space_information(const Subgraph& subgraph, std::size_t max_steps) {
+  auto si = std::make_shared<ob::SpaceInformation>(make_state_space(subgraph, max_steps));
   si->setStateValidityChecker(std::make_shared<ob::AllValidStateValidityChecker>(si));
   si->setup();
   return si;
@@ -66,13 +69,16 @@ HorizonState read_state(const ob::State& from) {
 }
 
 StandstillGoal::StandstillGoal(const ob::SpaceInformationPtr& si, const Subgraph& subgraph,
-                               std::size_t horizon_steps)
-    : Goal(si), subgraph_(subgraph), horizon_steps_(horizon_steps) {}
+                               const HorizonProblem& problem, double radius_m)
+    : Goal(si), subgraph_(subgraph), problem_(problem), radius_m_(radius_m) {}
 
 bool StandstillGoal::isSatisfied(const ob::State* state) const {
   const HorizonState reached = read_state(*state);
-  return reached.step == horizon_steps_ &&
-         subgraph_.automaton().trims[reached.trim.index].is_equilibrium();
+  if (reached.step != problem_.horizon_steps() ||
+      !subgraph_.automaton().trims[reached.trim.index].is_equilibrium()) {
+    return false;
+  }
+  return (reached.pose.position_m() - problem_.reference_m.back()).norm() <= radius_m_;
 }
 
 SquaredDistanceObjective::SquaredDistanceObjective(const ob::SpaceInformationPtr& si,
@@ -83,7 +89,7 @@ SquaredDistanceObjective::SquaredDistanceObjective(const ob::SpaceInformationPtr
 
 ob::Cost SquaredDistanceObjective::stateCost(const ob::State* state) const {
   const HorizonState reached = read_state(*state);
-  if (reached.step == 0) return identityCost();
+  if (reached.step == 0 || reached.step > reference_m_.size()) return identityCost();
   return ob::Cost((reached.pose.position_m() - reference_m_[reached.step - 1]).squaredNorm());
 }
 
@@ -95,12 +101,12 @@ ob::Cost SquaredDistanceObjective::motionCost(const ob::State* /*from*/,
 HorizonProblemDefinition::HorizonProblemDefinition(const ob::SpaceInformationPtr& si,
                                                    const Subgraph& subgraph,
                                                    const HorizonProblem& problem)
-    : ProblemDefinition(si), problem_(problem) {
+    : ProblemDefinition(si) {
   ob::State* start = si->allocState();
   write_state({problem.start, problem.start_trim, 0}, *start);
   addStartState(start);
   si->freeState(start);
-  setGoal(std::make_shared<StandstillGoal>(si, subgraph, problem.horizon_steps()));
+  setGoal(std::make_shared<StandstillGoal>(si, subgraph, problem));
   setOptimizationObjective(std::make_shared<SquaredDistanceObjective>(si, problem.reference_m));
 }
 

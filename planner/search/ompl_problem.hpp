@@ -6,6 +6,7 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
@@ -20,28 +21,45 @@ struct HorizonState {
   std::size_t step{};
 };
 
+/// A box of positions [m].
+struct PositionBounds {
+  Point low_m{Point::Constant(-1e4)};  ///< wider than any lab
+  Point high_m{Point::Constant(1e4)};
+};
+
 /// Compound of SE2StateSpace, DiscreteStateSpace (trims, from 0) and DiscreteStateSpace (0 ...
-/// max_steps). Nothing is ever sampled from it. Obstacles are a matter of maneuvers, not of states:
-/// every state is valid and `ompl::base::Path::check` says nothing about collision.
+/// max_steps), locked. Two states are as far from each other as their poses. The bounds are what
+/// planners of OMPL sample from; RecedingHorizonPlanner samples nothing.
 ///
 /// Switches OMPL's own console log off, for the whole process.
+[[nodiscard]] ompl::base::StateSpacePtr make_state_space(const Subgraph& subgraph,
+                                                         std::size_t max_steps,
+                                                         const PositionBounds& bounds = {});
+
+/// That space, set up. Obstacles are a matter of maneuvers, not of states: every state is valid and
+/// `ompl::base::Path::check` says nothing about collision (ompl_control.hpp does).
 [[nodiscard]] ompl::base::SpaceInformationPtr make_space_information(const Subgraph& subgraph,
                                                                      std::size_t max_steps);
 
 void write_state(const HorizonState& from, ompl::base::State& to);
 [[nodiscard]] HorizonState read_state(const ompl::base::State& state);
 
-/// Goal: the last step of the horizon, in an equilibrium trim.
+/// Goal: the last step of the horizon, in an equilibrium trim, not farther than `radius_m` from the
+/// last reference point. It carries the whole problem, so that a problem definition with this goal,
+/// whoever made it, is one that RecedingHorizonPlanner solves.
 class StandstillGoal final : public ompl::base::Goal {
  public:
-  /// @param subgraph  must outlive this object
+  /// @param subgraph, problem  must outlive this object, `problem` unchanged
   StandstillGoal(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
-                 std::size_t horizon_steps);
+                 const HorizonProblem& problem,
+                 double radius_m = std::numeric_limits<double>::infinity());
   bool isSatisfied(const ompl::base::State* state) const override;
+  [[nodiscard]] const HorizonProblem& problem() const { return problem_; }
 
  private:
   const Subgraph& subgraph_;
-  std::size_t horizon_steps_;
+  const HorizonProblem& problem_;
+  double radius_m_;
 };
 
 /// Cost of a path: sum of squared distances between the position after step j and r_j, j = 1 ... n
@@ -51,7 +69,7 @@ class SquaredDistanceObjective final : public ompl::base::OptimizationObjective 
   /// @param reference_m  must outlive this object
   SquaredDistanceObjective(const ompl::base::SpaceInformationPtr& si,
                            const std::vector<Point>& reference_m);
-  /// The term of the state's own step; 0 for the start.
+  /// The term of the state's own step; 0 for the start and beyond the horizon.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
   /// The term of the step that ends in `to`.
   ompl::base::Cost motionCost(const ompl::base::State* from,
@@ -61,17 +79,12 @@ class SquaredDistanceObjective final : public ompl::base::OptimizationObjective 
   const std::vector<Point>& reference_m_;
 };
 
-/// A horizon problem in OMPL's terms: start state, StandstillGoal, SquaredDistanceObjective, and
-/// the problem itself for the obstacles and the boundary.
+/// A horizon problem in OMPL's terms: start state, StandstillGoal, SquaredDistanceObjective.
 class HorizonProblemDefinition final : public ompl::base::ProblemDefinition {
  public:
   /// @param subgraph, problem  must outlive this object, `problem` unchanged
   HorizonProblemDefinition(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                            const HorizonProblem& problem);
-  [[nodiscard]] const HorizonProblem& problem() const { return problem_; }
-
- private:
-  const HorizonProblem& problem_;
 };
 
 }  // namespace hlc

@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "hlc_bridge/record/report_file.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
 
@@ -86,6 +89,60 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const auto summary = nlohmann::json::parse(read_text(out / "summary.json"), nullptr, false);
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["seed"], 10);
+}
+
+/// Vertices of a report by the begin of the names of its problem files.
+std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> searched_vertices(
+    const std::filesystem::path& reports) {
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> vertices;
+  for (const ReportRecord& record : read_reports(reports)) {
+    const Report& report = record.report;
+    if (report.expanded == 0) continue;
+    char name[64];
+    std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu", unsigned{report.vehicle.value},
+                  static_cast<unsigned long long>(report.step.value));
+    vertices[name] = {report.generated, report.expanded};
+  }
+  return vertices;
+}
+
+TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
+  const std::filesystem::path out = folder_ / "run";
+  const std::filesystem::path problems = folder_ / "problems";
+  ChildProcess run = run_lab({"--steps", "10", "--engine", "best_first", "--dump-problems",
+                              problems.string(), "--out", out.string()});
+  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  auto expected = searched_vertices(out / "reports.csv");
+  EXPECT_GE(expected.size(), 30U);
+  for (const auto& entry : std::filesystem::directory_iterator(problems)) {
+    const std::string name = entry.path().stem().string();
+    SCOPED_TRACE(name);
+    ChildProcess again({kBin + "/plan_problem", "--json", entry.path().string()},
+                       folder_ / "again");
+    ASSERT_EQ(again.wait_for(60s), 0);
+    const auto json = nlohmann::json::parse(read_text(folder_ / "again"), nullptr, false);
+    ASSERT_TRUE(json.is_object()) << read_text(folder_ / "again");
+    auto& vertices = expected.at(name.substr(0, name.find("_search")));
+    vertices.first -= json["generated"].get<std::uint64_t>();
+    vertices.second -= json["expanded"].get<std::uint64_t>();
+  }
+  for (const auto& [name, rest] : expected) {
+    EXPECT_EQ(rest.first, 0U) << name;
+    EXPECT_EQ(rest.second, 0U) << name;
+  }
+}
+
+TEST_F(Scripts, FlagsThatContradictEachOtherAreRefused) {
+  ChildProcess run = run_lab(
+      {"--profile", "2022", "--engine", "branch_and_bound", "--out", (folder_ / "run").string()});
+  EXPECT_EQ(run.wait_for(60s), 2) << output();
+  EXPECT_NE(output().find("--engine = branch_and_bound"), std::string::npos) << output();
+  ChildProcess controller(
+      {kBin + "/high_level_controller", "--vehicle_ids", "1", "--profile", "2022", "--engine",
+       "branch_and_bound", "--scenario", kScripts + "scenarios/paper_red_alone.yaml"},
+      folder_ / "output");
+  EXPECT_EQ(controller.wait_for(60s), 2) << output();
+  EXPECT_NE(output().find("--engine = branch_and_bound"), std::string::npos) << output();
 }
 
 TEST_F(Scripts, AVehicleByHandJoinsNoRunThatHasReservedTheDomain) {

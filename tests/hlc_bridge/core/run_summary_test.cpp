@@ -212,6 +212,15 @@ TEST_F(RunSummaryTest, StepsWithoutPlanningDoNotCountForPlanning) {
   EXPECT_EQ(result.vehicles[0].planning_s->count, 30U);
 }
 
+TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
+  EXPECT_FALSE(summary().vehicles[0].budget_share);  // none was found
+  for (std::uint64_t step = 30; step < 40; ++step) {
+    report(1, step).report.quality = step < 33 ? PlanQuality::kBudget : PlanQuality::kOptimal;
+  }
+  EXPECT_EQ(summary().vehicles[0].budget_share, 0.3);
+  EXPECT_FALSE(summary().vehicles[1].budget_share);
+}
+
 TEST_F(RunSummaryTest, WithoutRouteThereIsNeitherLapNorReferenceError) {
   description_.vehicles[0].route.reset();
   const RunSummary result = summary();

@@ -113,6 +113,9 @@ TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
   report.report.cost_m2 = kNan;
   EXPECT_TRUE(is_refused(report));
   report = good<ReportRecord>();
+  report.report.gap_m2 = kNan;
+  EXPECT_TRUE(is_refused(report));
+  report = good<ReportRecord>();
   report.report.deviation_m = kNan;
   EXPECT_TRUE(is_refused(report));
 }
@@ -125,6 +128,9 @@ TEST(OwnConversionRefuses, UnknownEnumerationValues) {
   EXPECT_FALSE(from_wire(report).message.has_value());
   report.status(0);
   report.reason(8);
+  EXPECT_FALSE(from_wire(report).message.has_value());
+  report.reason(0);
+  report.quality(3);
   EXPECT_FALSE(from_wire(report).message.has_value());
   RunStateMessage state;
   state.phase(2);

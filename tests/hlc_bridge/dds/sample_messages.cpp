@@ -91,8 +91,8 @@ void put_message(std::ostream& out, const Outcome& value) {
   put_all(out, a, b, c);
 }
 void put_message(std::ostream& out, const Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = value;
-  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m);
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d] = value;
@@ -295,6 +295,8 @@ ReportRecord sample(Random& random) {
                       static_cast<FallbackReason>(whole(random, 7)),
                       pose(random),
                       {whole(random, 100)},
+                      number(random),
+                      static_cast<PlanQuality>(whole(random, 2)),
                       number(random),
                       random(),
                       random(),

@@ -26,6 +26,8 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   report.planned_pose = {value(random), value(random), value(random)};
   report.planned_trim = TrimId{random() % 12};
   report.cost_m2 = value(random);
+  report.quality = static_cast<PlanQuality>(random() % 3);
+  report.gap_m2 = value(random);
   report.generated = random();
   report.expanded = random() % 1000;
   report.level = static_cast<std::uint32_t>(random());
@@ -48,6 +50,8 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.report.planned_pose, b.report.planned_pose);
   EXPECT_EQ(a.report.planned_trim, b.report.planned_trim);
   EXPECT_EQ(a.report.cost_m2, b.report.cost_m2);
+  EXPECT_EQ(a.report.quality, b.report.quality);
+  EXPECT_EQ(a.report.gap_m2, b.report.gap_m2);
   EXPECT_EQ(a.report.generated, b.report.generated);
   EXPECT_EQ(a.report.expanded, b.report.expanded);
   EXPECT_EQ(a.report.level, b.report.level);
@@ -96,6 +100,7 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
   std::mt19937_64 random{1};
   ReportRecord record = random_record(random, 1, 2);
   record.report.status = StepStatus::kPlanned;
+  record.report.quality = PlanQuality::kOptimal;
   record.report.coupled = {VehicleId{3}};
   record.report.missing = {};
   file.append(record);
@@ -109,6 +114,8 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
   EXPECT_THAT(with(",planned,", ",flying,"),
               ThrowsMessage<std::runtime_error>(
                   HasSubstr("bad.csv:2: status = \"flying\", allowed standby, planned, fallback")));
+  EXPECT_THAT(with(",optimal,", ",good,"), ThrowsMessage<std::runtime_error>(HasSubstr(
+                                            "quality = \"good\", allowed none, optimal, budget")));
   EXPECT_THAT(with("1,2,", "1,256,"),
               ThrowsMessage<std::runtime_error>(HasSubstr("id = \"256\", allowed 0 ... 255")));
   EXPECT_THAT(with(",3,,", ",3;x,,"),

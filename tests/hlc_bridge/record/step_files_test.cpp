@@ -18,6 +18,8 @@ StepRecord row() {
   report.planned_pose = {1.5, 2.5, -0.5};
   report.planned_trim = TrimId{6};
   report.cost_m2 = 0.25;
+  report.quality = PlanQuality::kBudget;
+  report.gap_m2 = 0.125;
   report.generated = 40;
   report.expanded = 4;
   report.level = 1;
@@ -34,8 +36,9 @@ StepRecord row() {
 TEST(StepFiles, RowHoldsEveryColumnOnce) {
   const std::vector<StepRecord> rows{row()};
   const std::string text = steps_csv(rows);
-  EXPECT_EQ(text.substr(text.find('\n') + 1),
-            "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001\n");
+  EXPECT_EQ(
+      text.substr(text.find('\n') + 1),
+      "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125\n");
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };

@@ -40,16 +40,16 @@ RunSummary some_summary() {
 
 TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
-  EXPECT_THAT(keys(json),
-              ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps",
-                          "step_s", "steps", "vehicles", "generated_vertices_sum_max",
-                          "expanded_vertices_sum_max", "min_footprint_distance_m", "collisions",
-                          "wall_s", "realtime_factor", "trace_sha256", "revision", "host"));
+  EXPECT_THAT(keys(json), ElementsAre("scenario", "profile", "map", "seed", "subgraph",
+                                      "horizon_steps", "step_s", "steps", "vehicles",
+                                      "generated_vertices_sum_max", "min_footprint_distance_m",
+                                      "collisions", "wall_s", "realtime_factor", "trace_sha256",
+                                      "revision", "host", "engine", "expanded_vertices_sum_max"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle),
               ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
                           "generated_vertices", "expanded_vertices", "planning_time_ms",
-                          "overlong_plans", "fallback_steps", "deadline_misses"));
+                          "fallback_steps", "deadline_misses", "budget_share", "overlong_plans"));
   EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));
   EXPECT_THAT(keys(vehicle["generated_vertices"]), ElementsAre("max", "mean"));

@@ -88,6 +88,53 @@ TEST(Controller, AloneItDrivesAlongItsPathAndEveryPlanEndsStanding) {
   EXPECT_NEAR(pose.y_m, 0.0, 1e-9);
 }
 
+TEST(Controller, TheRestOfThePlanInForceIsTheIncumbent) {
+  const auto one = controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  for (std::uint64_t k = 101; k < 111; ++k) {
+    std::vector<const Maneuver*> rest;
+    for (std::size_t j = 1; j <= one->options().horizon_steps; ++j) {
+      rest.push_back(&one->plan_in_force().maneuver_during({k + j}));
+    }
+    static_cast<void>(step(*one, at(k, {following(*one, k)})));
+    ASSERT_EQ(one->problems().size(), 1U);
+    const HorizonProblem& problem = one->problems().front();
+    EXPECT_EQ(problem.incumbent, rest) << k;
+    EXPECT_EQ(problem.incumbent.front()->from, problem.start_trim);
+    EXPECT_EQ(problem.incumbent.back()->to, one->subgraph().standstill());
+  }
+}
+
+TEST(Controller, ThereIsNoIncumbentWhereThePlanIsMovedOntoTheVehicle) {
+  const auto one = controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  static_cast<void>(step(*one, at(101, {following(*one, 101)})));
+  MeasuredVehicle beside = following(*one, 102);
+  beside.pose.y_m += 0.008;  // within the margin, farther than half of it
+  static_cast<void>(step(*one, at(102, {beside})));
+  ASSERT_FALSE(one->problems().empty());
+  EXPECT_TRUE(one->problems().front().incumbent.empty());
+}
+
+TEST(Controller, WithTheCostToGoOf2022ThereIsNoIncumbent) {
+  ControllerOptions options{.vehicle = {1}};
+  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::k2022};
+  Controller one(options, subgraph(), ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false),
+                 Corridor{});
+  static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  static_cast<void>(step(one, at(101, {following(one, 101)})));
+  ASSERT_EQ(one.problems().size(), 1U);
+  EXPECT_TRUE(one.problems().front().incumbent.empty());
+}
+
+TEST(Controller, ReportsHowGoodThePlanIs) {
+  const auto one = controller(1);
+  EXPECT_EQ(one->stand_by(at(100, {seen(1, 0.0, 0.0)})).quality, PlanQuality::kNone);
+  const Report report = step(*one, at(101, {following(*one, 101)}));
+  EXPECT_EQ(report.quality, PlanQuality::kOptimal);
+  EXPECT_EQ(report.gap_m2, 0.0);
+}
+
 TEST(Controller, TheReachableAreaHoldsThePlansOfTheStep) {
   const auto one = controller(1);
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
@@ -135,8 +182,8 @@ TEST_F(TwoCars, ASilentPredecessorIsMissingNotAbsent) {
   static_cast<void>(second_->observe(at(101, states_)));
   second_->couple(std::vector{t1});
   const Prediction prediction = second_->plan({});  // nothing heard of its predecessor's plan
-  ASSERT_TRUE(second_->problem());
-  for (const std::vector<ConvexPolygon>& areas : second_->problem()->obstacles_m) {
+  ASSERT_FALSE(second_->problems().empty());
+  for (const std::vector<ConvexPolygon>& areas : second_->problems().back().obstacles_m) {
     EXPECT_THAT(areas, testing::Contains(t1.reachable_area_m));
   }
   EXPECT_FALSE(prediction.is_new && !are_free(prediction.areas, t1.reachable_area_m, {102}, 8));
@@ -146,14 +193,14 @@ TEST_F(TwoCars, AVehicleThatSaysNothingAtAllIsListedAndKeptAwayFrom) {
   static_cast<void>(second_->observe(at(101, states_)));
   second_->couple({});
   static_cast<void>(second_->plan({}));
-  ASSERT_TRUE(second_->problem());
+  ASSERT_FALSE(second_->problems().empty());
   // Car 1 may be 0.8 m/s fast on any way; where it may be grows with time.
   for (std::size_t j = 1; j <= 8; ++j) {
     const double way_m = 0.8 * 0.2 * static_cast<double>(j + 1);
     const Point anywhere =
         states_[0].pose.position_m() + way_m * Point(std::cos(2.0), std::sin(2.0));
     EXPECT_TRUE(
-        std::ranges::any_of(second_->problem()->obstacles_m[j - 1],
+        std::ranges::any_of(second_->problems().back().obstacles_m[j - 1],
                             [&](const ConvexPolygon& area) { return contains(area, anywhere); }))
         << j;
   }

@@ -82,8 +82,7 @@ void place_at_random(Scenario& scenario, std::mt19937& random) {
 Course drive(const Scenario& scenario) {
   Rollout rollout = rollout_of(scenario);
   const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = make_horizon_planner(*scenario.subgraph, reachable,
-                                          {.cost_to_go = scenario.profile.cost_to_go});
+  const auto alone = make_horizon_planner(*scenario.subgraph, reachable, scenario.search);
   std::vector<Point> positions_m;
   std::vector<double> times_s;
   Course course;
@@ -96,7 +95,7 @@ Course drive(const Scenario& scenario) {
         continue;
       }
       if (reports[i].coupled.empty()) continue;
-      HorizonProblem problem = rollout.controllers()[i]->problem().value();
+      HorizonProblem problem = rollout.controllers()[i]->problems().back();
       problem.obstacles_m.clear();
       is_changed |= i > 0 && alone->plan(problem).cost < reports[i].cost_m2 - 1e-9;
     }
@@ -210,7 +209,7 @@ TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
   std::size_t same = 0;
   for (std::size_t step = 0; step < b.steps; ++step) {
     static_cast<void>(rollout.step());
-    const HorizonProblem& problem = rollout.controllers().front()->problem().value();
+    const HorizonProblem& problem = rollout.controllers().front()->problems().back();
     const SearchResult of_b = planner_b->plan(problem);
     const SearchResult of_c = planner_c->plan(problem);
     ASSERT_EQ(of_b.status, SearchStatus::kOptimal);

@@ -44,6 +44,12 @@ TEST_F(ScenarioErrors, AnUnknownKeyIsNamedWithItsLine) {
   EXPECT_THAT(error_of("max_exp", "mox_exp"), AllOf(HasSubstr(".yaml:9:"), HasSubstr("mox_exp")));
 }
 
+TEST_F(ScenarioErrors, AnUnknownEngineIsNamedWithThoseThereAre) {
+  EXPECT_THAT(error_of("horizon_steps: 8", "engine: fast"),
+              AllOf(HasSubstr(".yaml:7: engine = fast"),
+                    HasSubstr("allowed branch_and_bound, best_first")));
+}
+
 TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
   EXPECT_THAT(error_of("steps: 150", "steps: many"), AllOf(HasSubstr("steps"), HasSubstr("many")));
 }
@@ -115,6 +121,33 @@ TEST(Scenario, CarsOnACircleStandApartAndHeadForTheOppositePoint) {
 TEST(Scenario, CarsAreRefusedWhereVehiclesHaveNames) {
   const ScenarioChoices choices{.file = kFolder + "scenarios/paper_red_alone.yaml", .cars = 3};
   EXPECT_THROW(static_cast<void>(read_scenario(choices)), std::invalid_argument);
+}
+
+ScenarioChoices three_cars(const std::string& profile, std::optional<std::string> engine = {}) {
+  return {.file = kFolder + "scenarios/paper_three_cars.yaml",
+          .profile = profile,
+          .engine = std::move(engine)};
+}
+
+TEST(ScenarioSearch, TheProfileSaysWhatSearchesUnlessTheCommandLineDoes) {
+  EXPECT_EQ(read_scenario(three_cars("default")).search.engine, Engine::kBranchAndBound);
+  EXPECT_EQ(read_scenario(three_cars("default", "best_first")).search.engine, Engine::kBestFirst);
+  const Scenario of_2022 = read_scenario(three_cars("2022"));
+  EXPECT_EQ(of_2022.search.engine, Engine::kBestFirst);
+  EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::k2022);
+}
+
+TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
+  const auto read = [](const ScenarioChoices& choices) {
+    return [choices] { static_cast<void>(read_scenario(choices)); };
+  };
+  using testing::ThrowsMessage;
+  EXPECT_THAT(read(three_cars("2022", "branch_and_bound")),
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("--engine = branch_and_bound"), HasSubstr("2022"))));
+  EXPECT_THAT(read(three_cars("default", "fast")),
+              ThrowsMessage<std::invalid_argument>(
+                  "--engine = fast, allowed branch_and_bound, best_first"));
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "planner/search/ompl_planner.hpp"
 
 #include <gtest/gtest.h>
+#include <ompl/base/PlannerData.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
 
 #include <numbers>
 
-#include "planner/search/best_first_search.hpp"
+#include "planner/search/search_engine.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
@@ -21,8 +22,12 @@ constexpr std::size_t kMaxSteps = 8;
 
 class OmplPlannerTest : public testing::Test {
  protected:
+  [[nodiscard]] RecedingHorizonPlanner make_planner(SearchOptions options = {}) const {
+    return RecedingHorizonPlanner(si_, subgraph_, reachable_, options);
+  }
+
   [[nodiscard]] std::unique_ptr<SearchEngine> make_engine(SearchOptions options = {}) const {
-    return std::make_unique<BestFirstSearch>(subgraph_, reachable_, options);
+    return make_search_engine(subgraph_, reachable_, options);
   }
 
   /// 1.28 m straight ahead.
@@ -79,7 +84,8 @@ TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
     const HorizonProblem problem = test::random_problem(subgraph_, 6, random);
     const SearchResult plan = engine->search(problem, never_stop);
 
-    const ob::PlannerPtr planner = std::make_shared<RecedingHorizonPlanner>(si_, make_engine());
+    const ob::PlannerPtr planner =
+        std::make_shared<RecedingHorizonPlanner>(si_, subgraph_, reachable_, SearchOptions{});
     const ob::ProblemDefinitionPtr definition = define(problem);
     planner->setProblemDefinition(definition);
     planner->setup();
@@ -124,7 +130,7 @@ TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
 TEST_F(OmplPlannerTest, ProvesThatNoPathExists) {
   const HorizonProblem problem = infeasible_problem();
   const auto definition = define(problem);
-  RecedingHorizonPlanner planner(si_, make_engine());
+  RecedingHorizonPlanner planner = make_planner();
   planner.setProblemDefinition(definition);
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::ABORT);
   EXPECT_FALSE(definition->hasSolution());
@@ -135,7 +141,7 @@ TEST_F(OmplPlannerTest, ProvesThatNoPathExists) {
 TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
   const HorizonProblem problem = straight_problem();
   const auto definition = define(problem);
-  RecedingHorizonPlanner planner(si_, make_engine());
+  RecedingHorizonPlanner planner = make_planner();
   planner.setProblemDefinition(definition);
   EXPECT_EQ(planner.solve(ob::plannerAlwaysTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
   EXPECT_EQ(planner.result().reason, NoPath::kBudget);
@@ -148,13 +154,13 @@ TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
 
 TEST_F(OmplPlannerTest, ReportsAUsedUpBudgetAsTimeout) {
   const HorizonProblem problem = straight_problem();
-  RecedingHorizonPlanner planner(si_, make_engine({.max_expansions = 1}));
+  RecedingHorizonPlanner planner = make_planner({.max_expansions = 1});
   planner.setProblemDefinition(define(problem));
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
 }
 
 TEST_F(OmplPlannerTest, RefusesProblemsItDoesNotKnow) {
-  RecedingHorizonPlanner planner(si_, make_engine());
+  RecedingHorizonPlanner planner = make_planner();
   planner.setProblemDefinition(std::make_shared<ob::ProblemDefinition>(si_));
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()),
             ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE);
@@ -163,7 +169,7 @@ TEST_F(OmplPlannerTest, RefusesProblemsItDoesNotKnow) {
 TEST_F(OmplPlannerTest, RefusesAStartThatIsNotTheProblems) {
   const HorizonProblem problem = straight_problem();
   const auto definition = define(problem);
-  RecedingHorizonPlanner planner(si_, make_engine());
+  RecedingHorizonPlanner planner = make_planner();
   planner.setProblemDefinition(definition);
   write_state({{1.0, 2.1, 0.0}, TrimId{6}, 0}, *definition->getStartState(0));
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::INVALID_START);
@@ -188,7 +194,7 @@ TEST_F(OmplPlannerTest, PlansFromAHeadingOfPi) {
     problem.start.heading_rad = heading_rad;
     const auto definition = define(problem);
     EXPECT_TRUE(si_->satisfiesBounds(definition->getStartState(0)));
-    RecedingHorizonPlanner planner(si_, make_engine());
+    RecedingHorizonPlanner planner = make_planner();
     planner.setProblemDefinition(definition);
     EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()),
               ob::PlannerStatus::EXACT_SOLUTION);
@@ -196,7 +202,9 @@ TEST_F(OmplPlannerTest, PlansFromAHeadingOfPi) {
 }
 
 TEST_F(OmplPlannerTest, GoalIsTheLastStepInStandstill) {
-  const StandstillGoal goal(si_, subgraph_, 4);
+  HorizonProblem problem = straight_problem();
+  problem.reference_m.resize(4);
+  const StandstillGoal goal(si_, subgraph_, problem);
   ob::State* state = si_->allocState();
   const auto is_satisfied = [&](TrimId trim, std::size_t step) {
     write_state({{}, trim, step}, *state);
@@ -206,6 +214,92 @@ TEST_F(OmplPlannerTest, GoalIsTheLastStepInStandstill) {
   EXPECT_FALSE(is_satisfied(TrimId{0}, 3));
   EXPECT_FALSE(is_satisfied(TrimId{6}, 4));
   si_->freeState(state);
+}
+
+TEST_F(OmplPlannerTest, APlanThatEndsOutsideTheGoalsRadiusIsApproximate) {
+  const HorizonProblem problem = straight_problem();
+  const auto solve_within = [&](double radius_m) {
+    const auto definition = define(problem);
+    definition->setGoal(std::make_shared<StandstillGoal>(si_, subgraph_, problem, radius_m));
+    RecedingHorizonPlanner planner = make_planner();
+    planner.setProblemDefinition(definition);
+    const ob::PlannerStatus status = planner.solve(ob::plannerNonTerminatingCondition());
+    EXPECT_EQ(definition->hasApproximateSolution(),
+              status == ob::PlannerStatus::APPROXIMATE_SOLUTION);
+    const Point end_m = planner.result().poses.back().position_m();
+    EXPECT_EQ(status == ob::PlannerStatus::EXACT_SOLUTION,
+              (end_m - problem.reference_m.back()).norm() <= radius_m);
+    return status;
+  };
+  EXPECT_EQ(solve_within(1.0), ob::PlannerStatus::EXACT_SOLUTION);
+  EXPECT_EQ(solve_within(0.001), ob::PlannerStatus::APPROXIMATE_SOLUTION);
+}
+
+TEST_F(OmplPlannerTest, ParametersTakeEffectAtTheNextSolve) {
+  const HorizonProblem problem = straight_problem();
+  RecedingHorizonPlanner planner = make_planner();
+  const auto solve = [&] {
+    planner.clear();
+    planner.setProblemDefinition(define(problem));
+    return planner.solve(ob::plannerNonTerminatingCondition());
+  };
+  EXPECT_EQ(solve(), ob::PlannerStatus::EXACT_SOLUTION);
+  ob::ParamSet& parameters = planner.params();
+  EXPECT_TRUE(parameters.setParam("max_expansions", "1"));
+  EXPECT_EQ(solve(), ob::PlannerStatus::TIMEOUT);
+  EXPECT_EQ(planner.result().expanded, 1);
+  EXPECT_TRUE(parameters.setParam("max_expansions", "100000"));
+  EXPECT_EQ(solve(), ob::PlannerStatus::EXACT_SOLUTION);
+  for (const char* engine : {"branch_and_bound", "best_first"}) {
+    EXPECT_TRUE(parameters.setParam("engine", engine));
+    EXPECT_EQ(parameters["engine"].getValue(), engine);
+    EXPECT_EQ(solve(), ob::PlannerStatus::EXACT_SOLUTION);
+  }
+  EXPECT_EQ(planner.options().engine, Engine::kBestFirst);
+}
+
+TEST_F(OmplPlannerTest, ParametersThatAreNotAllowedAreRefused) {
+  RecedingHorizonPlanner planner = make_planner();
+  ob::ParamSet& parameters = planner.params();
+  for (const char* text : {"0", "-3", "12abc", "", "99999999999999999999999"}) {
+    EXPECT_FALSE(parameters.setParam("max_expansions", text)) << text;
+  }
+  EXPECT_FALSE(parameters.setParam("engine", "fast"));
+  EXPECT_FALSE(parameters.setParam("cost_to_go", "straight"));
+  EXPECT_EQ(planner.options().max_expansions, SearchOptions{}.max_expansions);
+  EXPECT_EQ(planner.options().engine, SearchOptions{}.engine);
+
+  const HorizonProblem problem = straight_problem();
+  planner.setProblemDefinition(define(problem));
+  EXPECT_TRUE(parameters.setParam("engine", "branch_and_bound"));
+  EXPECT_TRUE(parameters.setParam("cost_to_go", "2022"));
+  EXPECT_THROW(planner.solve(ob::plannerNonTerminatingCondition()), std::invalid_argument);
+}
+
+TEST_F(OmplPlannerTest, PlannerDataHoldsThePathOfTheLastSolve) {
+  const HorizonProblem problem = straight_problem();
+  RecedingHorizonPlanner planner = make_planner();
+  const auto definition = define(problem);
+  planner.setProblemDefinition(definition);
+  planner.solve(ob::plannerNonTerminatingCondition());
+  ob::PlannerData data(si_);
+  planner.getPlannerData(data);
+  ASSERT_EQ(data.numVertices(), kMaxSteps + 1);
+  ASSERT_EQ(data.numEdges(), kMaxSteps);
+  EXPECT_TRUE(data.isStartVertex(0));
+  EXPECT_TRUE(data.isGoalVertex(kMaxSteps));
+  double sum_m2 = 0.0;
+  for (unsigned j = 0; j < kMaxSteps; ++j) {
+    EXPECT_EQ(read_state(*data.getVertex(j).getState()).step, j);
+    ob::Cost term;
+    ASSERT_TRUE(data.getEdgeWeight(j, j + 1, &term));
+    sum_m2 += term.value();
+  }
+  EXPECT_NEAR(sum_m2, planner.result().cost, 1e-12);
+  planner.clear();
+  ob::PlannerData nothing(si_);
+  planner.getPlannerData(nothing);
+  EXPECT_EQ(nothing.numVertices(), 0U);
 }
 
 TEST_F(OmplPlannerTest, OmplIsSilent) {

@@ -1,0 +1,212 @@
+// The planner in an OMPL program, beside OMPL's own kinodynamic planners on the same problem: same
+// start, same goal, same obstacles, same motions, same cost.
+//
+// Read it as an example of how the pieces fit together: a space information with controls
+// (planner/search/ompl_control.hpp), a goal and an objective (ompl_problem.hpp), the planner
+// (ompl_planner.hpp), and OMPL's SimpleSetup and Benchmark, which know nothing of the rest.
+#include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/control/SimpleSetup.h>
+#include <ompl/control/planners/kpiece/KPIECE1.h>
+#include <ompl/control/planners/rrt/RRT.h>
+#include <ompl/control/planners/sst/SST.h>
+#include <ompl/tools/benchmark/Benchmark.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/apps/flags.hpp"
+#include "planner/automaton/yaml_text.hpp"
+#include "planner/scenario/problem_file.hpp"
+#include "planner/search/ompl_control.hpp"
+#include "planner/search/ompl_planner.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace ob = ompl::base;
+namespace oc = ompl::control;
+namespace ot = ompl::tools;
+
+namespace {
+
+constexpr char kCost[] = "path cost REAL";
+constexpr char kShipped[] = "launch_scripts/problems/parked_car.json";
+/// OMPL's Benchmark names control planners so.
+constexpr std::string_view kPrefix = "control_";
+constexpr int kBareCalls = 20;
+
+struct Flags {
+  std::filesystem::path file;
+  double seconds{0.2};
+  unsigned runs{5};
+  double radius_m{0.5};
+  unsigned seed{1};
+  std::optional<std::filesystem::path> log;
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("file", flags.file,
+                 std::string("planning problem (JSON, see plan_problem), for example ") + kShipped)
+      ->required();
+  app.add_option("--seconds", flags.seconds, "that each planner has per run")
+      ->check(CLI::Range(0.001, 3600.0))
+      ->capture_default_str();
+  app.add_option("--runs", flags.runs, "of each planner")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_option("--radius_m", flags.radius_m,
+                 "of the goal: standing after the last step, not farther than this from the last "
+                 "reference point")
+      ->check(CLI::Range(0.0, 1e4))
+      ->capture_default_str();
+  app.add_option("--seed", flags.seed, "of OMPL's random numbers")->check(CLI::Range(1, 1 << 30));
+  app.add_option("--log", flags.log,
+                 "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
+  app.footer("Exit codes: 0 good, 1 the log cannot be written, 2 bad input.");
+}
+
+/// KPIECE covers this plane with cells.
+class PositionProjection final : public ob::ProjectionEvaluator {
+ public:
+  explicit PositionProjection(const ob::StateSpacePtr& space) : ProjectionEvaluator(space) {}
+  unsigned getDimension() const override { return 2; }
+  void defaultCellSizes() override { cellSizes_ = {0.1, 0.1}; }
+  void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override {
+    projection = hlc::read_state(*state).pose.position_m();
+  }
+};
+
+/// This planner with each of its engines, then OMPL's.
+std::vector<ob::PlannerPtr> make_planners(const std::shared_ptr<oc::SpaceInformation>& si,
+                                          const hlc::ProblemFile& file,
+                                          const hlc::ReachableSets& reachable) {
+  std::vector<ob::PlannerPtr> planners;
+  for (const hlc::Engine engine : {hlc::Engine::kBranchAndBound, hlc::Engine::kBestFirst}) {
+    auto planner = std::make_shared<hlc::RecedingHorizonPlanner>(si, *file.subgraph, reachable,
+                                                                 hlc::SearchOptions{});
+    planner->params().setParam("engine", hlc::to_string(engine));
+    planner->setName(std::string("this planner, ") + hlc::to_string(engine));
+    planners.push_back(planner);
+  }
+  planners.push_back(std::make_shared<oc::RRT>(si));
+  auto sst = std::make_shared<oc::SST>(si);
+  sst->setPruningRadius(0.01);  // metres: far below the length of a step
+  sst->setSelectionRadius(0.05);
+  planners.push_back(sst);
+  planners.push_back(std::make_shared<oc::KPIECE1>(si));
+  return planners;
+}
+
+double number(const ot::Benchmark::RunProperties& run, const char* name) {
+  const auto found = run.find(name);
+  return found == run.end() ? 0.0 : std::stod(found->second);
+}
+
+void print(const ot::Benchmark::PlannerExperiment& planner) {
+  std::vector<double> times_ms;
+  std::vector<double> costs_m2;
+  for (const auto& run : planner.runs) {
+    times_ms.push_back(1e3 * number(run, "time REAL"));
+    if (run.contains(kCost)) costs_m2.push_back(number(run, kCost));
+  }
+  std::ranges::sort(times_ms);
+  std::ranges::sort(costs_m2);
+  const std::size_t prefix = planner.name.starts_with(kPrefix) ? kPrefix.size() : 0;
+  std::printf("%-32s %5zu %7zu %10.2f %10.2f", planner.name.c_str() + prefix, planner.runs.size(),
+              costs_m2.size(), times_ms[times_ms.size() / 2], times_ms.back());
+  if (costs_m2.empty()) {
+    std::printf(" %12s %12s\n", "-", "-");
+  } else {
+    std::printf(" %12.5f %12.5f\n", costs_m2.front(), costs_m2[costs_m2.size() / 2]);
+  }
+}
+
+/// Shortest time of a `solve` that nothing ends but the planner.
+double bare_solve_us(ob::Planner& planner, const ob::ProblemDefinitionPtr& definition) {
+  double shortest_us = std::numeric_limits<double>::infinity();
+  for (int call = 0; call < kBareCalls; ++call) {
+    planner.clear();
+    definition->clearSolutionPaths();
+    planner.setProblemDefinition(definition);
+    const auto begin = std::chrono::steady_clock::now();
+    planner.solve(ob::plannerNonTerminatingCondition());
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
+    shortest_us = std::min(shortest_us, took.count());
+  }
+  return shortest_us;
+}
+
+int run(const Flags& flags) {
+  const hlc::ProblemFile file = hlc::read_problem_file(flags.file);
+  const hlc::HorizonProblem& problem = file.problem;
+  const hlc::ReachableSets reachable(*file.subgraph, problem.horizon_steps());
+
+  const auto si = hlc::make_control_space_information(*file.subgraph, reachable, problem);
+  si->getStateSpace()->registerDefaultProjection(
+      std::make_shared<PositionProjection>(si->getStateSpace()));
+  oc::SimpleSetup setup(si);
+  ob::ScopedState<> start(si);
+  hlc::write_state({problem.start, problem.start_trim, 0}, *start.get());
+  setup.setStartState(start);
+  setup.setGoal(std::make_shared<hlc::StandstillGoal>(si, *file.subgraph, problem, flags.radius_m));
+  setup.setOptimizationObjective(
+      std::make_shared<hlc::SquaredDistanceObjective>(si, problem.reference_m));
+
+  ompl::RNG::setSeed(flags.seed);
+  ot::Benchmark benchmark(setup, "receding horizon");
+  const std::vector<ob::PlannerPtr> planners = make_planners(si, file, reachable);
+  for (const ob::PlannerPtr& planner : planners) benchmark.addPlanner(planner);
+  benchmark.setPostRunEvent([](const ob::PlannerPtr& planner, ot::Benchmark::RunProperties& run) {
+    const ob::ProblemDefinitionPtr& definition = planner->getProblemDefinition();
+    if (!definition->hasExactSolution()) return;
+    const auto& path = dynamic_cast<const oc::PathControl&>(*definition->getSolutionPath());
+    const ob::Cost cost = hlc::path_cost(path, *definition->getOptimizationObjective());
+    run[kCost] = hlc::shortest_text(cost.value());
+  });
+  ot::Benchmark::Request request(flags.seconds, 4096.0, flags.runs);
+  request.displayProgress = false;
+  request.saveConsoleOutput = false;
+  benchmark.benchmark(request);
+
+  std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
+              problem.horizon_steps(), flags.radius_m, flags.seconds);
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "planner", "runs", "solved", "median", "max",
+              "best", "median");
+  for (const auto& planner : benchmark.getRecordedExperimentData().planners) print(planner);
+  std::printf(
+      "\nTimes are Benchmark's, with the threads in which it runs and watches a planner.\n");
+  for (const ob::PlannerPtr& planner : planners) {
+    if (dynamic_cast<const hlc::RecedingHorizonPlanner*>(planner.get()) == nullptr) continue;
+    std::printf("%s alone: %.1f us\n", planner->getName().c_str(),
+                bare_solve_us(*planner, setup.getProblemDefinition()));
+  }
+  if (flags.log && !benchmark.saveResultsToFile(flags.log->c_str())) {
+    std::cerr << "ompl_example: --log = " << flags.log->string() << " cannot be written\n";
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"This planner beside OMPL's own kinodynamic planners on one problem.",
+               "ompl_example"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  try {
+    return run(flags);
+  } catch (const std::exception& error) {
+    std::cerr << "ompl_example: " << error.what() << '\n';
+    return 2;
+  }
+}

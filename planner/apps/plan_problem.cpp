@@ -1,0 +1,169 @@
+// Solves one planning problem from a file alone: what a controller decided in one step, or a
+// problem written by hand.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "planner/apps/flags.hpp"
+#include "planner/apps/problem_plot.hpp"
+#include "planner/automaton/atomic_write.hpp"
+#include "planner/scenario/problem_file.hpp"
+#include "planner/search/planner.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kExitFallback = 1;
+/// The shortest of several calls is told: the first one also allocates and fills caches.
+constexpr int kMaxCalls = 20;
+constexpr double kEnough_us = 2e4;
+
+struct Flags {
+  std::filesystem::path file;
+  std::optional<std::filesystem::path> automaton;
+  std::optional<std::string> engine;
+  std::optional<std::string> cost_to_go;
+  std::optional<std::size_t> max_expansions;
+  bool json{};
+  std::optional<std::filesystem::path> plot;
+};
+
+struct Solved {
+  hlc::SearchResult result;
+  double planning_us{};
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("file", flags.file,
+                 "planning problem (JSON), as high_level_controller --dump-problems writes it")
+      ->required();
+  app.add_option("--automaton", flags.automaton, "instead of the file that the problem names");
+  app.add_option("--engine", flags.engine,
+                 "branch_and_bound or best_first (default: the file's, else as the planner's)");
+  app.add_option("--cost_to_go", flags.cost_to_go,
+                 "reachable, straight_line or 2022; the last two with best_first");
+  app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1");
+  app.add_flag("--json", flags.json,
+               "print one JSON object: status (optimal, budget, fallback), reason (of a fallback: "
+               "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
+               "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
+               "planning_us");
+  app.add_option("--plot", flags.plot, "write a picture of problem and plan (SVG)");
+  app.footer("Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input.");
+}
+
+hlc::ProblemFile read(const Flags& flags) {
+  hlc::ProblemFile file = hlc::read_problem_file(flags.file, flags.automaton);
+  try {
+    if (flags.engine) file.search.engine = hlc::engine_from_name(*flags.engine);
+    if (flags.cost_to_go) file.search.cost_to_go = hlc::cost_to_go_from_name(*flags.cost_to_go);
+    if (flags.max_expansions) file.search.max_expansions = *flags.max_expansions;
+    hlc::check_can_be_searched(file);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(flags.file.string() + ": " + error.what());
+  }
+  return file;
+}
+
+Solved solve(const hlc::ProblemFile& file) {
+  const hlc::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
+  const auto planner = hlc::make_horizon_planner(*file.subgraph, reachable, file.search);
+  Solved solved;
+  double sum_us = 0.0;
+  for (int call = 0; call < kMaxCalls && sum_us < kEnough_us; ++call) {
+    const auto begin = Clock::now();
+    solved.result = planner->plan(file.problem);
+    const double us = std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+    solved.planning_us = call == 0 ? us : std::min(solved.planning_us, us);
+    sum_us += us;
+  }
+  return solved;
+}
+
+Json to_json(const Solved& solved) {
+  const hlc::SearchResult& result = solved.result;
+  const bool has_plan = result.status != hlc::SearchStatus::kFallback;
+  Json json;
+  json["status"] = hlc::to_string(result.status);
+  json["reason"] = hlc::to_string(result.reason);
+  json["cost"] = has_plan ? Json(result.cost) : Json(nullptr);
+  json["lower_bound"] = has_plan ? Json(result.lower_bound) : Json(nullptr);
+  json["gap"] = has_plan ? Json(result.cost - result.lower_bound) : Json(nullptr);
+  json["trims"] = Json::array();
+  json["poses"] = Json::array();
+  for (const hlc::Maneuver* maneuver : result.maneuvers) {
+    json["trims"].push_back(maneuver->to.index + 1);
+  }
+  for (const hlc::Pose& pose : result.poses) {
+    json["poses"].push_back({pose.x_m, pose.y_m, pose.heading_rad});
+  }
+  json["generated"] = result.generated;
+  json["expanded"] = result.expanded;
+  json["planning_us"] = solved.planning_us;
+  return json;
+}
+
+void print(const hlc::ProblemFile& file, const Solved& solved) {
+  const hlc::SearchResult& result = solved.result;
+  const hlc::HorizonProblem& problem = file.problem;
+  std::printf("engine           %s, cost-to-go %s, at most %zu expansions\n",
+              hlc::to_string(file.search.engine), hlc::to_string(file.search.cost_to_go),
+              file.search.max_expansions);
+  const bool has_plan = result.status != hlc::SearchStatus::kFallback;
+  std::printf("status           %s%s\n", hlc::to_string(result.status),
+              has_plan ? "" : (std::string(": ") + hlc::to_string(result.reason)).c_str());
+  if (has_plan) {
+    std::printf("cost             %.9g m^2, no plan costs less than %.9g m^2\n", result.cost,
+                result.lower_bound);
+  }
+  std::printf("vertices         %zu generated, %zu expanded\n", result.generated, result.expanded);
+  std::printf("planning time    %.1f us\n", solved.planning_us);
+  if (!has_plan) return;
+  std::printf("\n%4s  %4s  %-8s %9s %9s %9s  %9s %9s  %12s\n", "step", "trim", "maneuver", "x [m]",
+              "y [m]", "psi [rad]", "ref x [m]", "ref y [m]", "distance [m]");
+  std::printf("%4d  %4zu  %-8s %9.3f %9.3f %9.3f\n", 0, problem.start_trim.index + 1, "start",
+              problem.start.x_m, problem.start.y_m, problem.start.heading_rad);
+  for (std::size_t j = 0; j < result.maneuvers.size(); ++j) {
+    const hlc::Pose& pose = result.poses[j];
+    const hlc::Point& reference_m = problem.reference_m[j];
+    std::printf("%4zu  %4zu  %-8s %9.3f %9.3f %9.3f  %9.3f %9.3f  %12.3f\n", j + 1,
+                result.maneuvers[j]->to.index + 1, result.maneuvers[j]->label.c_str(), pose.x_m,
+                pose.y_m, pose.heading_rad, reference_m.x(), reference_m.y(),
+                (pose.position_m() - reference_m).norm());
+  }
+}
+
+int run(const Flags& flags) {
+  const hlc::ProblemFile file = read(flags);
+  const Solved solved = solve(file);
+  if (flags.json) {
+    std::cout << to_json(solved).dump() << '\n';
+  } else {
+    print(file, solved);
+  }
+  if (flags.plot) hlc::write_atomically(hlc::problem_plot(file, solved.result), *flags.plot);
+  return solved.result.status == hlc::SearchStatus::kFallback ? kExitFallback : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Solves one planning problem from a file.", "plan_problem"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  try {
+    return run(flags);
+  } catch (const std::exception& error) {
+    std::cerr << "plan_problem: " << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,127 @@
+#include "planner/apps/problem_plot.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "planner/apps/svg_plot.hpp"
+#include "planner/geometry/footprint.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr char kReferenceColour[] = "#2ca02c";
+constexpr char kBoundaryColour[] = "#000000";
+constexpr char kFootprintColour[] = "#9a9a9a";
+constexpr char kPlanColour[] = "#222222";
+
+PlotLine outline(const ConvexPolygon& area_m, const std::string& colour, double width_px,
+                 Stroke stroke) {
+  std::vector<Eigen::Vector2d> points(area_m.vertices_m.begin(), area_m.vertices_m.end());
+  points.push_back(points.front());
+  return {.points = std::move(points), .colour = colour, .width_px = width_px, .stroke = stroke};
+}
+
+std::string colour_of(std::size_t step, const HorizonProblem& problem) {
+  const std::size_t last = std::max<std::size_t>(problem.horizon_steps() - 1, 1);
+  return red_to_blue(static_cast<double>(step) / static_cast<double>(last));
+}
+
+void add_surroundings(const HorizonProblem& problem, PlotPanel& panel) {
+  for (const Segment& segment : problem.boundary_m) {
+    panel.lines.push_back({.points = {segment.from_m, segment.to_m}, .colour = kBoundaryColour});
+  }
+  for (std::size_t j = 0; j < problem.obstacles_m.size(); ++j) {
+    for (const ConvexPolygon& area_m : problem.obstacles_m[j]) {
+      if (area_m.empty()) continue;
+      panel.lines.push_back(outline(area_m, colour_of(j, problem), 1.0, Stroke::kDashed));
+    }
+  }
+  for (const Point& point_m : problem.reference_m) {
+    panel.marks.push_back({.at = point_m, .colour = kReferenceColour, .mark = Mark::kRing});
+  }
+}
+
+void add_plan(const ProblemFile& file, const SearchResult& result, PlotPanel& panel) {
+  const Footprint& footprint = file.subgraph->automaton().vehicle.footprint;
+  Pose from = file.problem.start;
+  panel.marks.push_back({.at = from.position_m(), .colour = kPlanColour, .mark = Mark::kCross});
+  panel.lines.push_back(
+      outline(footprint_area(footprint, from, 0.0), kFootprintColour, 1.0, Stroke::kSolid));
+  for (std::size_t j = 0; j < result.maneuvers.size(); ++j) {
+    panel.lines.push_back(outline(transformed(result.maneuvers[j]->swept_area_m, from),
+                                  colour_of(j, file.problem), 1.2, Stroke::kSolid));
+    from = result.poses[j];
+    panel.lines.push_back(
+        outline(footprint_area(footprint, from, 0.0), kFootprintColour, 1.0, Stroke::kSolid));
+    panel.marks.push_back(
+        {.at = from.position_m(), .colour = kPlanColour, .mark = Mark::kDot, .radius_px = 2.5});
+  }
+}
+
+/// The corner of the panel in which the least is drawn.
+Corner emptiest_corner(const PlotPanel& panel) {
+  std::vector<Eigen::Vector2d> points;
+  for (const PlotLine& line : panel.lines) {
+    points.insert(points.end(), line.points.begin(), line.points.end());
+  }
+  for (const PlotMark& mark : panel.marks) points.push_back(mark.at);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& point : points) box.extend(point);
+  const Eigen::Vector2d centre = box.center();
+  const auto count = [&](bool right, bool top) {
+    return std::ranges::count_if(points, [&](const Eigen::Vector2d& point) {
+      return (point.x() > centre.x()) == right && (point.y() > centre.y()) == top;
+    });
+  };
+  const std::array corners{std::pair{count(true, true), Corner::kTopRight},
+                           std::pair{count(false, true), Corner::kTopLeft},
+                           std::pair{count(true, false), Corner::kBottomRight},
+                           std::pair{count(false, false), Corner::kBottomLeft}};
+  return std::ranges::min_element(corners, {}, [](const auto& one) { return one.first; })->second;
+}
+
+std::string subtitle(const SearchResult& result) {
+  char text[96];
+  if (result.status == SearchStatus::kFallback) {
+    std::snprintf(text, sizeof(text), "no plan (%s)", to_string(result.reason));
+  } else {
+    std::snprintf(text, sizeof(text), "plan: %s, cost %.4g m²", to_string(result.status),
+                  result.cost);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string problem_plot(const ProblemFile& file, const SearchResult& result) {
+  const HorizonProblem& problem = file.problem;
+  PlotPanel panel;
+  panel.title = subtitle(result);
+  panel.x_label = "x [m]";
+  panel.y_label = "y [m]";
+  panel.equal_scale = true;
+  add_surroundings(problem, panel);
+  add_plan(file, result, panel);
+  panel.legend_corner = emptiest_corner(panel);
+  const std::string first = colour_of(0, problem);
+  const std::string last = colour_of(problem.horizon_steps() - 1, problem);
+  panel.legend = {
+      {.text = "start", .colour = kPlanColour, .mark = Mark::kCross},
+      {.text = "planned position after each step", .colour = kPlanColour, .radius_px = 2.5},
+      {.text = "reference point of each step", .colour = kReferenceColour, .mark = Mark::kRing},
+      {.text = "footprint of the vehicle", .colour = kFootprintColour, .radius_px = 0.0},
+      {.text = "swept area (dashed: obstacle), step 1", .colour = first, .radius_px = 0.0},
+      {.text = "the same, step " + std::to_string(problem.horizon_steps()),
+       .colour = last,
+       .radius_px = 0.0},
+      {.text = "boundary", .colour = kBoundaryColour, .radius_px = 0.0}};
+  const std::string title = "Planning problem: horizon " + std::to_string(problem.horizon_steps()) +
+                            ", subgraph " + file.subgraph->spec().name;
+  return svg_of(title, {panel}, 1, {.width_px = 900.0, .height_px = 700.0});
+}
+
+}  // namespace hlc

@@ -1,0 +1,221 @@
+// Proposes a budget of expansions for a deadline, from what this machine does with the problems of
+// a scenario. A run never measures: the budget stays a number in the scenario file.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/apps/flags.hpp"
+#include "planner/rollout/rollout.hpp"
+#include "planner/search/planner.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Searches of fewer expansions say little about the time of one: preparing the search is most of
+/// it. They say how long that takes.
+constexpr std::size_t kTelling = 1000;
+constexpr int kCalls = 3;
+/// The tree of a long horizon has no end: measuring stops here.
+constexpr std::size_t kMeasured = 300'000;
+
+struct Flags {
+  hlc::ScenarioChoices scenario;
+  double deadline_ms{};
+  double safety{2.0};
+};
+
+struct Measured {
+  std::string what;
+  std::size_t problems{};
+  std::size_t expansions{};  ///< of the slowest one
+  double time_s{};
+  [[nodiscard]] double rate_per_s() const { return static_cast<double>(expansions) / time_s; }
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("scenario", flags.scenario.file, "scenario file (YAML)")->required();
+  app.add_option("--deadline_ms", flags.deadline_ms, "that a plan may take")
+      ->required()
+      ->check(CLI::Range(0.001, 1e6));
+  app.add_option("--safety", flags.safety,
+                 "factor: the search is expected to need 1 / safety of the deadline")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--profile", flags.scenario.profile, "rules: default or 2022")
+      ->capture_default_str();
+  app.add_option("--engine", flags.scenario.engine, "instead of the scenario's");
+  app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
+  app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
+      ->check(CLI::Range(1, 100000));
+  app.footer("Exit codes: 0 good, 1 the deadline leaves no time to search, 2 bad input.");
+}
+
+/// All problems that the scenario's controllers pose.
+std::vector<hlc::HorizonProblem> problems_of(const hlc::Scenario& scenario) {
+  std::vector<std::unique_ptr<hlc::Controller>> controllers;
+  std::vector<hlc::Pose> starts;
+  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
+    controllers.push_back(hlc::make_controller(scenario, vehicle.id));
+    starts.push_back(vehicle.start);
+  }
+  hlc::Rollout rollout(std::move(controllers), starts);
+  std::vector<hlc::HorizonProblem> problems;
+  for (std::size_t i = 0; i < scenario.steps; ++i) {
+    rollout.step();
+    for (const auto& controller : rollout.controllers()) {
+      const auto posed = controller->problems();
+      problems.insert(problems.end(), posed.begin(), posed.end());
+    }
+  }
+  return problems;
+}
+
+/// No path has a free end, so all of the tree is searched.
+hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
+  constexpr double kFar_m = 1e3;
+  const hlc::Point at = problem.start.position_m();
+  problem.obstacles_m.resize(problem.horizon_steps());
+  problem.obstacles_m.back().push_back(
+      hlc::convex_hull({at + hlc::Point(-kFar_m, -kFar_m), at + hlc::Point(kFar_m, -kFar_m),
+                        at + hlc::Point(kFar_m, kFar_m), at + hlc::Point(-kFar_m, kFar_m)}));
+  return problem;
+}
+
+/// The shortest time of some calls: what else the machine does is not the search's.
+double time_s(hlc::HorizonPlanner& planner, const hlc::HorizonProblem& problem,
+              std::size_t& expanded) {
+  double shortest_s = std::numeric_limits<double>::infinity();
+  for (int call = 0; call < kCalls; ++call) {
+    const auto begin = Clock::now();
+    expanded = planner.plan(problem).expanded;
+    shortest_s = std::min(shortest_s, std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  return shortest_s;
+}
+
+struct Measurements {
+  double preparation_s{};         ///< longest search of few expansions
+  std::vector<Measured> slowest;  ///< of each kind, per expansion
+  [[nodiscard]] double rate_per_s() const {
+    return std::ranges::min_element(slowest, {}, &Measured::rate_per_s)->rate_per_s();
+  }
+};
+
+Measured measured(hlc::HorizonPlanner& planner, const hlc::HorizonProblem& problem,
+                  std::string what) {
+  Measured one{.what = std::move(what), .problems = 1};
+  one.time_s = time_s(planner, problem, one.expansions);
+  return one;
+}
+
+Measurements measure(const hlc::Scenario& scenario,
+                     const std::vector<hlc::HorizonProblem>& problems) {
+  const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
+  hlc::SearchOptions options = scenario.search;
+  options.max_expansions = kMeasured;
+  const auto planner = hlc::make_horizon_planner(*scenario.subgraph, reachable, options);
+  Measurements result;
+  std::optional<Measured> ordinary;
+  std::size_t telling = 0;
+  for (const hlc::HorizonProblem& problem : problems) {
+    const Measured one = measured(*planner, problem, "slowest of the scenario's");
+    if (one.expansions < kTelling) {
+      result.preparation_s = std::max(result.preparation_s, one.time_s);
+      continue;
+    }
+    ++telling;
+    if (!ordinary || one.rate_per_s() < ordinary->rate_per_s()) ordinary = one;
+  }
+  if (ordinary) {
+    ordinary->problems = telling;
+    result.slowest.push_back(*ordinary);
+  }
+
+  // The problem with the most obstacles and boundary, since each of them is looked at.
+  const auto size = [](const hlc::HorizonProblem& problem) {
+    std::size_t count = problem.boundary_m.size();
+    for (const auto& areas_m : problem.obstacles_m) count += areas_m.size();
+    return count;
+  };
+  hlc::HorizonProblem hardest = with_blocked_ends(*std::ranges::max_element(problems, {}, size));
+  hardest.incumbent.clear();
+  result.slowest.push_back(measured(*planner, hardest, "all ends blocked"));
+  hardest.boundary_m.clear();  // far more of the tree is free
+  result.slowest.push_back(measured(*planner, hardest, "the same without lanes"));
+  return result;
+}
+
+void print(const Measured& one) {
+  std::printf("%-26s %8zu %12zu %12.3f %18.0f\n", one.what.c_str(), one.problems, one.expansions,
+              1e3 * one.time_s, one.rate_per_s());
+}
+
+/// Two leading digits, rounded down.
+std::size_t rounded_down(double value) {
+  const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(value)) - 1.0));
+  return static_cast<std::size_t>(std::floor(value / unit) * unit);
+}
+
+int run(const Flags& flags) {
+  const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
+  const std::vector<hlc::HorizonProblem> problems = problems_of(scenario);
+  if (problems.empty()) {
+    throw std::invalid_argument(flags.scenario.file.string() +
+                                ": nothing is planned in its steps, allowed one that drives");
+  }
+  const Measurements found = measure(scenario, problems);
+  std::printf(
+      "%s: engine %s, cost-to-go %s, horizon %zu, subgraph %s; %zu problems of %zu steps\n\n",
+      scenario.name.c_str(), hlc::to_string(scenario.search.engine),
+      hlc::to_string(scenario.search.cost_to_go), scenario.horizon_steps,
+      scenario.subgraph->spec().name.c_str(), problems.size(), scenario.steps);
+  std::printf("%-26s %8s %12s %12s %18s\n", "measured", "problems", "expansions", "time [ms]",
+              "expansions per s");
+  for (const Measured& one : found.slowest) print(one);
+  std::printf("longest with fewer than %zu expansions: %.3f ms\n\n", kTelling,
+              1e3 * found.preparation_s);
+
+  const double rate_per_s = found.rate_per_s();
+  const double search_s = 1e-3 * flags.deadline_ms / flags.safety - found.preparation_s;
+  if (search_s * rate_per_s < 1.0) {
+    std::cerr << "propose_budget: --deadline_ms = " << flags.deadline_ms
+              << " leaves no time to search on this machine\n";
+    return 1;
+  }
+  const std::size_t proposed = rounded_down(search_s * rate_per_s);
+  std::printf("max_expansions: %zu   # (%g ms / safety %g - %.3f ms) at %.0f expansions per s\n",
+              proposed, flags.deadline_ms, flags.safety, 1e3 * found.preparation_s, rate_per_s);
+  std::printf("the scenario's %zu would take up to %.1f ms\n", scenario.search.max_expansions,
+              1e3 * (found.preparation_s +
+                     static_cast<double>(scenario.search.max_expansions) / rate_per_s));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Proposes max_expansions for a scenario: measures the expansions per second of its engine on "
+      "this machine, with the scenario's problems and with one in which all of the tree is "
+      "searched "
+      "in vain, and takes the slowest.",
+      "propose_budget"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  try {
+    return run(flags);
+  } catch (const std::exception& error) {
+    std::cerr << "propose_budget: " << error.what() << '\n';
+    return 2;
+  }
+}

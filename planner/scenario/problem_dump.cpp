@@ -1,0 +1,40 @@
+#include "planner/scenario/problem_dump.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <system_error>
+
+#include "planner/scenario/problem_file.hpp"
+
+namespace hlc {
+
+ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file)
+    : folder_(std::move(folder)),
+      automaton_file_(std::filesystem::absolute(automaton_file).lexically_normal()) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error || access(folder_.c_str(), W_OK | X_OK) != 0) {
+    throw std::invalid_argument("--dump-problems = " + folder_.string() +
+                                ", allowed a folder that can be made and written to");
+  }
+}
+
+void ProblemDump::write(const Controller& controller) const {
+  const ControllerOptions& options = controller.options();
+  std::size_t search = 0;
+  for (const HorizonProblem& problem : controller.problems()) {
+    char name[96];
+    std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu_search_%zu.json",
+                  static_cast<unsigned>(options.vehicle.value),
+                  static_cast<unsigned long long>(controller.last_step().value), ++search);
+    write_problem_file({.automaton_file = automaton_file_,
+                        .subgraph = controller.shared_subgraph(),
+                        .problem = problem,
+                        .search = options.search},
+                       folder_ / name);
+  }
+}
+
+}  // namespace hlc

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+#include "planner/controller/controller.hpp"
+
+namespace hlc {
+
+/// Writes the planning problems of a controller, one file each (problem_file.hpp), so that every
+/// decision can be solved again alone.
+///
+/// Files are named vehicle_<id>_step_<k>_search_<i>.json: k the step, with ten digits, i counts the
+/// searches of that step from 1 (there is a second one if the first plan would drift into
+/// something). Steps without a search write nothing. Replays of the files of a step take together
+/// the vertices that the step's report counts.
+class ProblemDump {
+ public:
+  /// Makes the folder if need be. @param automaton_file  for the files; written as absolute path
+  /// @throws std::invalid_argument if the folder cannot be made or not be written to
+  ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file);
+
+  /// The problems of the controller's last step. Reads the controller only.
+  /// @throws std::runtime_error naming the file if it cannot be written
+  void write(const Controller& controller) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path automaton_file_;
+};
+
+}  // namespace hlc

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+/// One decision of a controller as it lies in a file: the problem, what it is solved on and how.
+struct ProblemFile {
+  std::filesystem::path automaton_file;
+  std::shared_ptr<const Subgraph> subgraph;
+  HorizonProblem problem;
+  SearchOptions search;
+};
+
+/// Longest horizon of a file.
+inline constexpr std::size_t kMaxProblemSteps = 64;
+
+/// The file's text: a JSON object with these keys, in m, s, rad and the road's frame. Trims are
+/// numbered from 1.
+///
+///     automaton        file of an automaton or of a configuration; a relative path starts beside
+///                      the JSON file
+///     subgraph         name of a subgraph that the file holds
+///     horizon_steps    n, 1 ... 64
+///     step_s           the automaton's
+///     start            {x, y, psi, trim}: pose and trim at the begin of step 1
+///     reference        [[x, y], ...], one point per step
+///     reference_speed  one per step, >= 0; may be absent unless the cost-to-go is 2022
+///     obstacles        one list per step of convex polygons [[x, y], ...], counter-clockwise or
+///                      clockwise, first vertex not repeated, area at least 1e-12 m^2; may be
+///                      absent
+///     corridor         [[[x1, y1], [x2, y2]], ...]: segments of the boundary; may be absent
+///     avoids_steering_limit  true or false (default): see HorizonProblem
+///     incumbent        [{trim, label}, ...], n maneuvers by the trim that they lead to and their
+///                      label ("trim": a trim's own step), the first from start.trim; may be absent
+///     search           {engine, cost_to_go, max_expansions}, each may be absent: SearchOptions
+///
+/// Numbers are written so that they read back to the same bits; the order of a clockwise polygon's
+/// vertices is reversed when it is read, everything else stays as it is. Empty polygons, which
+/// hold no point, are not written.
+/// @throws std::invalid_argument if a number is not finite: JSON has no way to say so
+[[nodiscard]] std::string to_text(const ProblemFile& file);
+
+/// Writes the text beside `path` and renames it, so that there is never a half-written file.
+/// @throws std::runtime_error naming the file if it cannot be written, or as to_text
+void write_problem_file(const ProblemFile& file, const std::filesystem::path& path);
+
+/// Reads a file, its automaton (see read_subgraph) and checks it.
+/// @param automaton_file  instead of the one that the file names
+/// @throws std::invalid_argument with one line: file, place in the JSON, value, what is allowed.
+/// Unknown and repeated keys are refused.
+[[nodiscard]] ProblemFile read_problem_file(
+    const std::filesystem::path& path,
+    const std::optional<std::filesystem::path>& automaton_file = std::nullopt);
+
+/// The same with the automaton's subgraph at hand: for programs that read many files. The file's
+/// own `automaton` is not read, its `subgraph` must be this one.
+[[nodiscard]] ProblemFile read_problem_file(const std::filesystem::path& path,
+                                            std::shared_ptr<const Subgraph> subgraph);
+
+/// @throws std::invalid_argument as check_search_options, or if that search needs what the problem
+/// does not say (reference speeds)
+void check_can_be_searched(const ProblemFile& file);
+
+}  // namespace hlc

@@ -1,0 +1,87 @@
+#include "planner/search/search_options.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace hlc {
+namespace {
+
+template <class Enum, std::size_t n>
+Enum from_name(const std::string& name, const std::array<Enum, n>& all, const char* what,
+               const char* allowed) {
+  for (const Enum value : all) {
+    if (name == to_string(value)) return value;
+  }
+  throw std::invalid_argument(std::string(what) + " = " + name + ", allowed " + allowed);
+}
+
+}  // namespace
+
+const char* to_string(Engine engine) {
+  switch (engine) {
+    case Engine::kBranchAndBound:
+      return "branch_and_bound";
+    case Engine::kBestFirst:
+      return "best_first";
+  }
+  return "unknown";
+}
+
+const char* to_string(CostToGo cost_to_go) {
+  switch (cost_to_go) {
+    case CostToGo::kReachable:
+      return "reachable";
+    case CostToGo::kStraightLine:
+      return "straight_line";
+    case CostToGo::k2022:
+      return "2022";
+  }
+  return "unknown";
+}
+
+const char* to_string(SearchStatus status) {
+  switch (status) {
+    case SearchStatus::kOptimal:
+      return "optimal";
+    case SearchStatus::kBudget:
+      return "budget";
+    case SearchStatus::kFallback:
+      return "fallback";
+  }
+  return "unknown";
+}
+
+const char* to_string(NoPath reason) {
+  switch (reason) {
+    case NoPath::kNone:
+      return "none";
+    case NoPath::kInfeasible:
+      return "infeasible";
+    case NoPath::kBudget:
+      return "budget";
+  }
+  return "unknown";
+}
+
+Engine engine_from_name(const std::string& name) {
+  return from_name(name, std::array{Engine::kBranchAndBound, Engine::kBestFirst}, "engine",
+                   kEngineNames);
+}
+
+CostToGo cost_to_go_from_name(const std::string& name) {
+  return from_name(name, std::array{CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::k2022},
+                   "cost_to_go", kCostToGoNames);
+}
+
+void check_search_options(const SearchOptions& options) {
+  if (options.engine == Engine::kBranchAndBound && options.cost_to_go != CostToGo::kReachable) {
+    throw std::invalid_argument(std::string("engine = ") + to_string(options.engine) +
+                                " with cost-to-go " + to_string(options.cost_to_go) +
+                                ", allowed with cost-to-go reachable; for any other, best_first");
+  }
+  if (options.max_expansions == 0) {
+    throw std::invalid_argument("max_expansions = 0, allowed at least 1");
+  }
+}
+
+}  // namespace hlc

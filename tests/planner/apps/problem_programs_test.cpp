@@ -1,0 +1,186 @@
+// plan_problem, propose_budget and ompl_example as they are called.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "tests/support/program.hpp"
+
+namespace hlc {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::run_program;
+using testing::HasSubstr;
+
+const std::string kLaunch = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+const std::string kShipped = kLaunch + "problems/parked_car.json";
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+class ProblemPrograms : public testing::Test {
+ protected:
+  ProblemPrograms()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("problem_programs_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~ProblemPrograms() override { fs::remove_all(folder_); }
+
+  /// The shipped problem with one piece replaced, in the folder.
+  [[nodiscard]] std::string changed(const std::string& from, const std::string& to) const {
+    std::stringstream text;
+    text << std::ifstream(kShipped).rdbuf();
+    std::string problem = text.str();
+    const auto replace = [&problem](const std::string& what, const std::string& with) {
+      const std::size_t at = problem.find(what);
+      EXPECT_NE(at, std::string::npos) << what;
+      problem.replace(at, what.size(), with);
+    };
+    replace("../automata", kLaunch + "automata");
+    replace(from, to);
+    std::ofstream(folder_ / "problem.json") << problem;
+    return (folder_ / "problem.json").string();
+  }
+  /// Everything is occupied in the first step.
+  [[nodiscard]] std::string infeasible() const {
+    return changed("\"obstacles\": [\n    [",
+                   "\"obstacles\": [\n    [[[-9, -9], [9, -9], [0, 9]], ");
+  }
+
+  fs::path folder_;
+};
+
+nlohmann::json json_of(const std::string& flags) {
+  const Outcome outcome = run_program("plan_problem --json " + flags);
+  const auto json = nlohmann::json::parse(outcome.output, nullptr, false);
+  EXPECT_TRUE(json.is_object()) << outcome.output;
+  return json;
+}
+
+TEST_F(ProblemPrograms, TheJsonHoldsThePlan) {
+  const auto json = json_of(kShipped);
+  EXPECT_EQ(json["status"], "optimal");
+  EXPECT_EQ(json["reason"], "none");
+  EXPECT_EQ(json["gap"], 0.0);
+  EXPECT_GT(json["generated"], json["expanded"]);
+  EXPECT_GT(json["planning_us"], 0.0);
+  ASSERT_EQ(json["trims"].size(), 8U);
+  ASSERT_EQ(json["poses"].size(), 8U);
+  EXPECT_EQ(json["trims"].back(), 1) << "it ends standing";
+  const std::vector<double> reference_x{0.16, 0.32, 0.48, 0.64, 0.80, 0.96, 1.12, 1.28};
+  double cost_m2 = 0.0;
+  for (std::size_t j = 0; j < 8; ++j) {
+    ASSERT_EQ(json["poses"][j].size(), 3U);
+    const double dx = json["poses"][j][0].get<double>() - reference_x[j];
+    const double dy = json["poses"][j][1].get<double>();
+    cost_m2 += dx * dx + dy * dy;
+  }
+  EXPECT_NEAR(json["cost"].get<double>(), cost_m2, 1e-9);
+}
+
+TEST_F(ProblemPrograms, EveryEngineAndBoundFindsTheSameCost) {
+  const double cost_m2 = json_of(kShipped)["cost"].get<double>();
+  for (const char* flags : {"--engine branch_and_bound", "--engine best_first",
+                            "--engine best_first --cost_to_go reachable"}) {
+    const auto json = json_of(kShipped + " " + flags);
+    EXPECT_EQ(json["status"], "optimal") << flags;
+    EXPECT_NEAR(json["cost"].get<double>(), cost_m2, 1e-9) << flags;
+  }
+}
+
+TEST_F(ProblemPrograms, TheTableNamesStatusCostAndEveryStep) {
+  const Outcome outcome = run_program("plan_problem " + kShipped);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* text : {"status           optimal", "cost ", "generated", "expanded",
+                           "planning time", "\n   8     1  J2 "}) {
+    EXPECT_THAT(outcome.output, HasSubstr(text));
+  }
+}
+
+TEST_F(ProblemPrograms, WithoutAPlanTheStatusIsFallbackAndTheExitCode1) {
+  const std::string problem = infeasible();
+  const Outcome outcome = run_program("plan_problem " + problem);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("fallback: infeasible"));
+  const auto json = json_of(problem);
+  EXPECT_EQ(json["status"], "fallback");
+  EXPECT_EQ(json["reason"], "infeasible");
+  EXPECT_TRUE(json["cost"].is_null());
+  EXPECT_TRUE(json["trims"].empty());
+  EXPECT_EQ(json_of(kShipped + " --max_expansions 1")["reason"], "budget");
+}
+
+TEST_F(ProblemPrograms, BadInputIsOneLineAndExitCode2) {
+  const std::string unknown = changed("\"psi\": 0", "\"phi\": 0");
+  for (const std::string& flags :
+       {std::string("/nowhere.json"), unknown, kShipped + " --engine fast",
+        kShipped + " --engine branch_and_bound --cost_to_go 2022", kShipped + " --max_expansions 0",
+        kShipped + " --automaton /nowhere.yaml", kShipped + " --unknown", std::string()}) {
+    const Outcome outcome = run_program("plan_problem " + flags);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
+  }
+  EXPECT_THAT(run_program("plan_problem " + unknown).output,
+              HasSubstr("problem.json: unknown key start.phi, allowed x, y, psi, trim"));
+}
+
+TEST_F(ProblemPrograms, ThePlotIsAPictureThatExplainsItself) {
+  for (const std::string& problem : {kShipped, infeasible()}) {
+    const std::string plot = (folder_ / "plan.svg").string();
+    run_program("plan_problem " + problem + " --plot " + plot);
+    tinyxml2::XMLDocument document;
+    ASSERT_EQ(document.LoadFile(plot.c_str()), tinyxml2::XML_SUCCESS);
+    std::stringstream text;
+    text << std::ifstream(plot).rdbuf();
+    for (const char* word :
+         {"x [m]", "y [m]", "reference point", "boundary", "swept area", "Planning problem"}) {
+      EXPECT_THAT(text.str(), HasSubstr(word));
+    }
+  }
+}
+
+TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
+  const std::string command =
+      "propose_budget " + kLaunch + "scenarios/paper_red_alone.yaml --steps 3 --engine best_first";
+  const Outcome outcome = run_program(command + " --deadline_ms 1000");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("engine best_first"));
+  EXPECT_THAT(outcome.output, HasSubstr("all ends blocked"));
+  const std::string key = "max_expansions: ";
+  const std::size_t at = outcome.output.find(key);
+  ASSERT_NE(at, std::string::npos) << outcome.output;
+  EXPECT_GT(std::stoul(outcome.output.substr(at + key.size())), 100U);
+  EXPECT_EQ(run_program(command + " --deadline_ms 0.001 --safety 1000").exit_code, 1);
+  EXPECT_EQ(run_program(command + " --deadline_ms never").exit_code, 2);
+  EXPECT_EQ(run_program(command).exit_code, 2);
+}
+
+TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold) {
+  const std::string command = "ompl_example " + kShipped + " --seconds 0.02 --runs 2";
+  const Outcome outcome = run_program(command);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* planner :
+       {"this planner, branch_and_bound", "this planner, best_first", "RRT", "SST", "KPIECE1"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(std::string("\n") + planner));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+  const fs::path log = folder_ / "benchmark.log";
+  EXPECT_EQ(run_program(command + " --log " + log.string()).exit_code, 0);
+  EXPECT_GT(fs::file_size(log), 1000U);
+  EXPECT_EQ(run_program("ompl_example /nowhere.json").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,127 @@
+// Every decision of a run can be solved again alone, from its file.
+#include "planner/scenario/problem_dump.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "planner/rollout/rollout.hpp"
+#include "planner/scenario/problem_file.hpp"
+#include "planner/scenario/scenario.hpp"
+
+namespace hlc {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/";
+
+/// What one step of a vehicle came to.
+struct Decision {
+  Report report;
+  std::vector<TrimId> trims;  ///< after each step; empty unless the new plan is in force
+};
+
+SearchResult solved(const ProblemFile& file, const ReachableSets& reachable, Engine engine) {
+  SearchOptions options = file.search;
+  options.engine = engine;
+  return make_horizon_planner(*file.subgraph, reachable, options)->plan(file.problem);
+}
+
+std::vector<TrimId> trims_of(const SearchResult& result) {
+  std::vector<TrimId> trims;
+  for (const Maneuver* maneuver : result.maneuvers) trims.push_back(maneuver->to);
+  return trims;
+}
+
+class ProblemDumpTest : public testing::TestWithParam<std::string> {
+ protected:
+  ProblemDumpTest() : folder_(fs::path(testing::TempDir()) / ("problem_dump_" + GetParam())) {
+    fs::remove_all(folder_);
+  }
+  ~ProblemDumpTest() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
+  const Scenario scenario = read_scenario(
+      {.file = kFolder + "paper_three_cars.yaml", .profile = GetParam(), .steps = 30});
+  const ProblemDump dump(folder_ / "made" / "on_the_way", scenario.automaton_file);
+  std::vector<std::unique_ptr<Controller>> controllers;
+  std::vector<Pose> starts;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    controllers.push_back(make_controller(scenario, vehicle.id));
+    starts.push_back(vehicle.start);
+  }
+  Rollout rollout(std::move(controllers), starts);
+  std::map<std::string, Decision> decisions;  // by the begin of the file's name
+  for (std::size_t i = 0; i < scenario.steps; ++i) {
+    for (const Report& report : rollout.step()) {
+      Decision decision{.report = report, .trims = {}};
+      for (const auto& controller : rollout.controllers()) {
+        if (controller->options().vehicle != report.vehicle) continue;
+        dump.write(*controller);
+        for (std::size_t j = 0; j < scenario.horizon_steps; ++j) {
+          if (report.status != StepStatus::kPlanned) break;
+          decision.trims.push_back(
+              controller->plan_in_force().trim_at({report.step.value + 2 + j}));
+        }
+      }
+      char name[64];
+      std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu", unsigned{report.vehicle.value},
+                    static_cast<unsigned long long>(report.step.value));
+      decisions[name] = decision;
+    }
+  }
+
+  const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> counts;
+  std::size_t with_incumbent = 0;
+  const std::set<fs::path> files{fs::directory_iterator(folder_ / "made" / "on_the_way"), {}};
+  for (const fs::path& path : files) {
+    SCOPED_TRACE(path.filename());
+    const ProblemFile file = read_problem_file(path, scenario.subgraph);
+    if (!file.problem.incumbent.empty()) ++with_incumbent;
+    const std::string step = path.stem().string().substr(0, path.stem().string().find("_search"));
+    const Decision& decision = decisions.at(step);
+    const SearchResult again = solved(file, reachable, file.search.engine);
+    counts[step].first += again.generated;
+    counts[step].second += again.expanded;
+    const bool is_last = !files.contains(path.parent_path() / (step + "_search_2.json")) ||
+                         path.stem().string().ends_with("_2");
+    if (decision.report.status == StepStatus::kPlanned && is_last) {
+      EXPECT_EQ(again.cost, decision.report.cost_m2);
+      EXPECT_EQ(trims_of(again), decision.trims);
+    }
+    if (file.search.cost_to_go != CostToGo::kReachable) continue;
+    for (const Engine engine : {Engine::kBestFirst, Engine::kBranchAndBound}) {
+      const SearchResult other = solved(file, reachable, engine);
+      EXPECT_EQ(other.status, again.status);
+      EXPECT_NEAR(other.cost, again.cost, 1e-9);
+    }
+  }
+  EXPECT_EQ(counts.size(), decisions.size()) << "every step of a free drive is searched";
+  for (const auto& [step, count] : counts) {
+    EXPECT_EQ(count.first, decisions.at(step).report.generated) << step;
+    EXPECT_EQ(count.second, decisions.at(step).report.expanded) << step;
+  }
+  EXPECT_EQ(with_incumbent, GetParam() == "2022" ? 0U : files.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Profiles, ProblemDumpTest, testing::Values("default", "2022"),
+                         [](const auto& profile) { return "Profile" + profile.param; });
+
+TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
+  try {
+    const ProblemDump dump("/proc/nowhere", "paper.yaml");
+    FAIL() << "made";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "--dump-problems = /proc/nowhere, allowed a folder that can be made and written to");
+  }
+}
+
+}  // namespace
+}  // namespace hlc
