@@ -1,0 +1,120 @@
+#include "tests/benchmarks/random_traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "planner/geometry/footprint.hpp"
+#include "tests/support/random_problem.hpp"
+
+namespace hlc::test {
+namespace {
+
+constexpr double kLargestCurvature = 2.5;  // [1/m]
+
+TrimId random_trim_on(const Subgraph& subgraph, std::mt19937_64& random) {
+  return subgraph.trims()[pick(random, subgraph.trims().size())];
+}
+
+/// Swept areas of the steps of a random plan that ends in standstill.
+std::vector<ConvexPolygon> random_plan_areas_m(const Subgraph& subgraph, Pose pose, TrimId trim,
+                                               std::size_t steps, std::mt19937_64& random) {
+  std::vector<ConvexPolygon> areas_m;
+  for (std::size_t left = steps; left > 0; --left) {
+    const auto edges = subgraph.successors(trim, left);
+    const Edge& edge = edges[pick(random, edges.size())];
+    areas_m.push_back(transformed(edge.maneuver->swept_area_m, pose));
+    pose = compose(pose, edge.maneuver->displacement);
+    trim = edge.to;
+  }
+  return areas_m;
+}
+
+bool meet_in_a_step(const std::vector<ConvexPolygon>& a_m, const std::vector<ConvexPolygon>& b_m) {
+  for (std::size_t j = 0; j < a_m.size(); ++j) {
+    if (intersects(a_m[j], b_m[j])) return true;
+  }
+  return false;
+}
+
+std::vector<Point> random_arc_m(const HorizonProblem& problem, double speed_mps,
+                                const RandomTraffic& traffic, double step_s,
+                                std::mt19937_64& random) {
+  const double curvature = uniform(random, -kLargestCurvature, kLargestCurvature);  // [1/m]
+  Pose on_path = problem.start;
+  const double beside_m = uniform(random, -0.1, 0.1);
+  on_path.x_m -= beside_m * std::sin(problem.start.heading_rad);
+  on_path.y_m += beside_m * std::cos(problem.start.heading_rad);
+  on_path.heading_rad += uniform(random, -0.5, 0.5);
+  if (pick(random, 10) == 0) on_path.heading_rad += std::numbers::pi;
+  std::vector<Point> points_m;
+  double step_m = 0.5 * (speed_mps + traffic.reference_speed_mps) * step_s;
+  for (std::size_t j = 0; j < traffic.horizon_steps; ++j) {
+    // The chord of an arc points along the mean of the headings at its ends.
+    const double half_turn_rad = 0.5 * curvature * step_m;
+    const double chord_m =
+        half_turn_rad == 0.0 ? step_m : step_m * std::sin(half_turn_rad) / half_turn_rad;
+    on_path = compose(on_path, {chord_m * std::cos(half_turn_rad),
+                                chord_m * std::sin(half_turn_rad), 2.0 * half_turn_rad});
+    points_m.push_back(on_path.position_m());
+    step_m = traffic.reference_speed_mps * step_s;
+  }
+  return points_m;
+}
+
+HorizonProblem problem_without_obstacles(const Subgraph& subgraph, TrimId trim,
+                                         const RandomTraffic& traffic, std::mt19937_64& random) {
+  HorizonProblem problem{.start = random_pose(random), .start_trim = trim};
+  const UniversalAutomaton& automaton = subgraph.automaton();
+  problem.reference_m = random_arc_m(problem, automaton.trims[trim.index].speed_mps, traffic,
+                                     automaton.step_s, random);
+  problem.reference_speed_mps.assign(traffic.horizon_steps, traffic.reference_speed_mps);
+  problem.obstacles_m.resize(traffic.horizon_steps);
+  return problem;
+}
+
+}  // namespace
+
+HorizonProblem random_traffic_problem(const Subgraph& subgraph, const RandomTraffic& traffic,
+                                      std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  HorizonProblem problem =
+      problem_without_obstacles(subgraph, random_trim_on(subgraph, random), traffic, random);
+  const UniversalAutomaton& automaton = subgraph.automaton();
+  const ConvexPolygon own_m = footprint_area(automaton.vehicle.footprint, problem.start,
+                                             2.0 * automaton.vehicle.safety_margin_m);
+  const std::vector<ConvexPolygon> in_force_m = random_plan_areas_m(
+      subgraph, problem.start, problem.start_trim, traffic.horizon_steps, random);
+  for (std::size_t car = 0; car < traffic.cars;) {
+    const double distance_m = traffic.within_m * std::sqrt(uniform(random, 0.0, 1.0));
+    const double direction_rad = uniform(random, -std::numbers::pi, std::numbers::pi);
+    const Pose pose{problem.start.x_m + distance_m * std::cos(direction_rad),
+                    problem.start.y_m + distance_m * std::sin(direction_rad),
+                    uniform(random, -std::numbers::pi, std::numbers::pi)};
+    std::vector<ConvexPolygon> areas_m = random_plan_areas_m(
+        subgraph, pose, random_trim_on(subgraph, random), traffic.horizon_steps, random);
+    if (intersects(own_m, areas_m.front())) continue;
+    if (traffic.others == Others::kKeepClear && meet_in_a_step(in_force_m, areas_m)) continue;
+    for (std::size_t j = 0; j < areas_m.size(); ++j) {
+      problem.obstacles_m[j].push_back(std::move(areas_m[j]));
+    }
+    ++car;
+  }
+  return problem;
+}
+
+HorizonProblem blocked_end_problem(const Subgraph& subgraph, std::size_t horizon_steps,
+                                   std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const RandomTraffic nobody{.horizon_steps = horizon_steps};
+  HorizonProblem problem =
+      problem_without_obstacles(subgraph, subgraph.standstill(), nobody, random);
+  constexpr double kFar_m = 100.0;
+  problem.obstacles_m.back().push_back(
+      convex_hull({{-kFar_m, -kFar_m}, {kFar_m, -kFar_m}, {kFar_m, kFar_m}, {-kFar_m, kFar_m}}));
+  return problem;
+}
+
+}  // namespace hlc::test
