@@ -5,7 +5,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
@@ -19,6 +18,14 @@ struct ProblemSet {
   std::shared_ptr<const Subgraph> subgraph;
   std::size_t horizon_steps{};  ///< of every problem
   std::vector<HorizonProblem> problems;
+};
+
+/// What the sets are made on; all but kPaperA have J2 maneuvers.
+enum class Automaton {
+  kPaperB,  ///< the paper's 12 trims
+  kPaperA,  ///< the same with J1 maneuvers, which outrun their trims
+  kGrid34,  ///< `ucar_grid_34`
+  kGrid95,  ///< 95 trims, with at most nine edges out of each
 };
 
 struct ProblemSetInfo {
@@ -36,20 +43,19 @@ struct ProblemSetInfo {
 /// | `random_starts` | random_traffic.hpp: 2 other cars within 1.5 m |
 /// | `cars_5`, `cars_10`, `cars_19` | so many other cars, within 1.5, 1.9, 2.3 m |
 /// | `horizon_8`, `horizon_12`, `horizon_16` | 3 other cars, so many steps |
-/// | `trims_12`, `trims_34`, `trims_95` | 3 other cars, so many trims: the paper's, and the J2
-///   maneuvers of `ucar_grid_34` and of `ucar_grid_96` without its last trim |
-/// | `maneuvers_j1` | 2 other cars, the paper's subgraph A: every maneuver outruns its trims |
+/// | `trims_12`, `trims_34`, `trims_95` | 3 other cars, so many trims |
+/// | `maneuvers_j1` | 2 other cars, the paper's subgraph A, reference speed 1.2 m/s |
 /// | `infeasible` | from standstill, all ground occupied in the last step: the whole tree is tried
 /// | | `infeasible_random` | 19 other cars that do not keep out of the way, no plan exists |
 ///
-/// All but `maneuvers_j1` and the grids are on the paper's subgraph B (12 trims, J2 maneuvers).
+/// All but `maneuvers_j1`, `trims_34` and `trims_95` are on the paper's subgraph B.
 /// Without lanes means without any boundary. Only `three_cars_incumbent` has incumbents.
 [[nodiscard]] std::span<const ProblemSetInfo> problem_set_infos();
 
 /// Makes problem sets: the same name gives the same problems on every run (fixed seeds; controllers
 /// search best-first, so the sets do not depend on the engine that is measured). Automata are built
-/// when a set first needs them, and kept: the paper's in 0.1 s or less, the grid of 96 trims in
-/// seconds.
+/// when a set first needs them, and kept: in a second
+/// or less each.
 class ProblemSets {
  public:
   /// @param name          one of problem_set_infos()
@@ -58,13 +64,9 @@ class ProblemSets {
   [[nodiscard]] ProblemSet make(const std::string& name, std::size_t max_problems = 0);
 
  private:
-  /// @param file       of launch_scripts/automata
-  /// @param leave_out  so many of the last trims of the subgraph
-  [[nodiscard]] std::shared_ptr<const Subgraph> subgraph(const std::string& file,
-                                                         const std::string& name,
-                                                         std::size_t leave_out);
+  [[nodiscard]] std::shared_ptr<const Subgraph> subgraph(Automaton automaton);
 
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Subgraph>> subgraphs_;
+  std::map<Automaton, std::shared_ptr<const Subgraph>> subgraphs_;
 };
 
 }  // namespace hlc::test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "planner/geometry/footprint.hpp"
@@ -12,24 +13,53 @@
 namespace hlc::test {
 namespace {
 
-constexpr double kLargestCurvature = 2.5;  // [1/m]
+constexpr double kSlowestPace = 0.7;
+// Of the reference [1/m]: the lab's roads have curves of half a metre.
+constexpr double kLargestCurvature = 0.7;
+constexpr double kCurvatureOff = 0.4;  ///< at most, from the curvature that the car drives
 
 TrimId random_trim_on(const Subgraph& subgraph, std::mt19937_64& random) {
   return subgraph.trims()[pick(random, subgraph.trims().size())];
 }
 
-/// Swept areas of the steps of a random plan that ends in standstill.
-std::vector<ConvexPolygon> random_plan_areas_m(const Subgraph& subgraph, Pose pose, TrimId trim,
-                                               std::size_t steps, std::mt19937_64& random) {
+/// Swept areas of the steps of a plan that ends in standstill; `choose` takes one of the edges of a
+/// step: (edges, pose, number of the step from 0).
+template <class Choose>
+std::vector<ConvexPolygon> plan_areas_m(const Subgraph& subgraph, Pose pose, TrimId trim,
+                                        std::size_t steps, Choose choose) {
   std::vector<ConvexPolygon> areas_m;
-  for (std::size_t left = steps; left > 0; --left) {
-    const auto edges = subgraph.successors(trim, left);
-    const Edge& edge = edges[pick(random, edges.size())];
+  for (std::size_t step = 0; step < steps; ++step) {
+    const Edge& edge = choose(subgraph.successors(trim, steps - step), pose, step);
     areas_m.push_back(transformed(edge.maneuver->swept_area_m, pose));
     pose = compose(pose, edge.maneuver->displacement);
     trim = edge.to;
   }
   return areas_m;
+}
+
+/// Of a car somewhere else, by chance.
+std::vector<ConvexPolygon> random_plan_areas_m(const Subgraph& subgraph, const Pose& pose,
+                                               std::size_t steps, std::mt19937_64& random) {
+  return plan_areas_m(subgraph, pose, random_trim_on(subgraph, random), steps,
+                      [&](std::span<const Edge> edges, const Pose&, std::size_t) -> const Edge& {
+                        return edges[pick(random, edges.size())];
+                      });
+}
+
+/// Of this car: each step as near as it can to where a car is that drives the reference's way at
+/// `pace` times its speed.
+std::vector<ConvexPolygon> plan_in_force_areas_m(const Subgraph& subgraph,
+                                                 const HorizonProblem& problem, double pace) {
+  return plan_areas_m(
+      subgraph, problem.start, problem.start_trim, problem.horizon_steps(),
+      [&](std::span<const Edge> edges, const Pose& pose, std::size_t step) -> const Edge& {
+        const auto at = static_cast<std::size_t>(pace * static_cast<double>(step));
+        const auto distance = [&](const Edge& edge) {
+          const Point end_m = compose(pose, edge.maneuver->displacement).position_m();
+          return (end_m - problem.reference_m[at]).squaredNorm();
+        };
+        return *std::ranges::min_element(edges, {}, distance);
+      });
 }
 
 bool meet_in_a_step(const std::vector<ConvexPolygon>& a_m, const std::vector<ConvexPolygon>& b_m) {
@@ -40,15 +70,18 @@ bool meet_in_a_step(const std::vector<ConvexPolygon>& a_m, const std::vector<Con
 }
 
 std::vector<Point> random_arc_m(const HorizonProblem& problem, double speed_mps,
-                                const RandomTraffic& traffic, double step_s,
-                                std::mt19937_64& random) {
-  const double curvature = uniform(random, -kLargestCurvature, kLargestCurvature);  // [1/m]
+                                double driven_curvature, const RandomTraffic& traffic,
+                                double step_s, std::mt19937_64& random) {
+  const double curvature = std::clamp(driven_curvature, -kLargestCurvature, kLargestCurvature) +
+                           uniform(random, -kCurvatureOff, kCurvatureOff);
   Pose on_path = problem.start;
   const double beside_m = uniform(random, -0.1, 0.1);
   on_path.x_m -= beside_m * std::sin(problem.start.heading_rad);
   on_path.y_m += beside_m * std::cos(problem.start.heading_rad);
-  on_path.heading_rad += uniform(random, -0.5, 0.5);
-  if (pick(random, 10) == 0) on_path.heading_rad += std::numbers::pi;
+  on_path.heading_rad += uniform(random, -0.3, 0.3);
+  if (traffic.headings == Headings::kSomeReversed && pick(random, 10) == 0) {
+    on_path.heading_rad += std::numbers::pi;
+  }
   std::vector<Point> points_m;
   double step_m = 0.5 * (speed_mps + traffic.reference_speed_mps) * step_s;
   for (std::size_t j = 0; j < traffic.horizon_steps; ++j) {
@@ -68,8 +101,10 @@ HorizonProblem problem_without_obstacles(const Subgraph& subgraph, TrimId trim,
                                          const RandomTraffic& traffic, std::mt19937_64& random) {
   HorizonProblem problem{.start = random_pose(random), .start_trim = trim};
   const UniversalAutomaton& automaton = subgraph.automaton();
-  problem.reference_m = random_arc_m(problem, automaton.trims[trim.index].speed_mps, traffic,
-                                     automaton.step_s, random);
+  problem.reference_m = random_arc_m(
+      problem, automaton.trims[trim.index].speed_mps,
+      std::tan(automaton.trims[trim.index].steering_rad) / automaton.vehicle.wheelbase_m, traffic,
+      automaton.step_s, random);
   problem.reference_speed_mps.assign(traffic.horizon_steps, traffic.reference_speed_mps);
   problem.obstacles_m.resize(traffic.horizon_steps);
   return problem;
@@ -85,16 +120,16 @@ HorizonProblem random_traffic_problem(const Subgraph& subgraph, const RandomTraf
   const UniversalAutomaton& automaton = subgraph.automaton();
   const ConvexPolygon own_m = footprint_area(automaton.vehicle.footprint, problem.start,
                                              2.0 * automaton.vehicle.safety_margin_m);
-  const std::vector<ConvexPolygon> in_force_m = random_plan_areas_m(
-      subgraph, problem.start, problem.start_trim, traffic.horizon_steps, random);
+  const std::vector<ConvexPolygon> in_force_m =
+      plan_in_force_areas_m(subgraph, problem, uniform(random, kSlowestPace, 1.0));
   for (std::size_t car = 0; car < traffic.cars;) {
     const double distance_m = traffic.within_m * std::sqrt(uniform(random, 0.0, 1.0));
     const double direction_rad = uniform(random, -std::numbers::pi, std::numbers::pi);
     const Pose pose{problem.start.x_m + distance_m * std::cos(direction_rad),
                     problem.start.y_m + distance_m * std::sin(direction_rad),
                     uniform(random, -std::numbers::pi, std::numbers::pi)};
-    std::vector<ConvexPolygon> areas_m = random_plan_areas_m(
-        subgraph, pose, random_trim_on(subgraph, random), traffic.horizon_steps, random);
+    std::vector<ConvexPolygon> areas_m =
+        random_plan_areas_m(subgraph, pose, traffic.horizon_steps, random);
     if (intersects(own_m, areas_m.front())) continue;
     if (traffic.others == Others::kKeepClear && meet_in_a_step(in_force_m, areas_m)) continue;
     for (std::size_t j = 0; j < areas_m.size(); ++j) {

@@ -12,18 +12,22 @@ namespace hlc::test {
 /// always is a plan (recursive feasibility).
 enum class Others { kKeepClear, kDriveAnywhere };
 
+/// Whether one car in ten stands the wrong way round.
+enum class Headings { kAlongTheWay, kSomeReversed };
+
 struct RandomTraffic {
   std::size_t horizon_steps{8};
   std::size_t cars{};  ///< others
   double within_m{};   ///< of the start
   double reference_speed_mps{0.8};
   Others others{Others::kKeepClear};
+  Headings headings{Headings::kAlongTheWay};
 };
 
 /// A car somewhere in traffic, no boundary.
 ///
 /// It starts anywhere in a trim that is on and follows an arc of up to 2.5 / m, beside which it is
-/// by up to 0.1 m and 0.5 rad; one in ten stands the wrong way round. The first reference point
+/// by up to 0.1 m and 0.5 rad, or the wrong way round. The first reference point
 /// lies ahead by the mean of its speed and the reference speed, the others by the reference speed.
 /// Other cars drive random plans of the same subgraph, each from a random pose and trim; what they
 /// sweep are the obstacles. None starts on this car or sweeps it in the first step.

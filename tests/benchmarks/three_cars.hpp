@@ -21,7 +21,7 @@ struct ThreeCarsStart {
 /// The start used for the problem sets. Of the starts that are multiples of 0.5 m on both routes it
 /// is the one in whose 150 steps red's best plan is changed by the others most often, with lanes
 /// and without (the smaller number of the two counts), among those where red always has a plan.
-inline constexpr ThreeCarsStart kThreeCarsStart{.blue_m = 0.0, .green_m = 0.0};
+inline constexpr ThreeCarsStart kThreeCarsStart{.blue_m = 6.5, .green_m = 4.5};
 
 /// Red's planning problems, step by step, in scenario `paper_three_cars` (map, routes, reference
 /// speed, horizon, profile `default`) with vehicles that follow perfectly. Red is the vehicle that
