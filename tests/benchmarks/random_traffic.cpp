@@ -13,7 +13,7 @@
 namespace hlc::test {
 namespace {
 
-constexpr double kSlowestPace = 0.7;
+constexpr double kSlowestPace = 0.4;
 // Of the reference [1/m]: the lab's roads have curves of half a metre.
 constexpr double kLargestCurvature = 0.7;
 constexpr double kCurvatureOff = 0.4;  ///< at most, from the curvature that the car drives
