@@ -125,11 +125,12 @@ std::vector<HorizonProblem> three_cars(const std::shared_ptr<const Subgraph>& su
 
 /// Of the problems with seeds 0, 1, ... the first without a plan.
 std::vector<HorizonProblem> problems_without_plan(const Subgraph& subgraph,
+                                                  std::span<const ReferencePath> routes,
                                                   const RandomTraffic& traffic, std::size_t count) {
   const PlainSearch search(subgraph);
   std::vector<HorizonProblem> problems;
   for (std::uint64_t seed = 0; problems.size() < count; ++seed) {
-    HorizonProblem problem = random_traffic_problem(subgraph, traffic, seed);
+    HorizonProblem problem = random_traffic_problem(subgraph, routes, traffic, seed);
     if (!search.search(problem).feasible) problems.push_back(std::move(problem));
   }
   return problems;
@@ -145,6 +146,8 @@ std::span<const ProblemSetInfo> problem_set_infos() {
   }();
   return infos;
 }
+
+ProblemSets::ProblemSets() : routes_(three_cars_routes()) {}
 
 std::shared_ptr<const Subgraph> ProblemSets::subgraph(Automaton automaton) {
   std::shared_ptr<const Subgraph>& known = subgraphs_[automaton];
@@ -167,17 +170,17 @@ ProblemSet ProblemSets::make(const std::string& name, std::size_t max_problems) 
       break;
     case Kind::kRandom:
       for (std::uint64_t seed = 0; seed < count; ++seed) {
-        set.problems.push_back(random_traffic_problem(*set.subgraph, from.traffic, seed));
+        set.problems.push_back(random_traffic_problem(*set.subgraph, routes_, from.traffic, seed));
       }
       break;
     case Kind::kBlocked:
       for (std::uint64_t seed = 0; seed < count; ++seed) {
         set.problems.push_back(
-            blocked_end_problem(*set.subgraph, from.traffic.horizon_steps, seed));
+            blocked_end_problem(*set.subgraph, routes_, from.traffic.horizon_steps, seed));
       }
       break;
     case Kind::kNoPlan:
-      set.problems = problems_without_plan(*set.subgraph, from.traffic, count);
+      set.problems = problems_without_plan(*set.subgraph, routes_, from.traffic, count);
       break;
   }
   return set;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
+#include "planner/road/reference_path.hpp"
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc::test {
@@ -58,6 +59,8 @@ struct ProblemSetInfo {
 /// or less each.
 class ProblemSets {
  public:
+  ProblemSets();
+
   /// @param name          one of problem_set_infos()
   /// @param max_problems  only the first so many; 0: all
   /// @throws std::invalid_argument with one line for any other name
@@ -66,6 +69,7 @@ class ProblemSets {
  private:
   [[nodiscard]] std::shared_ptr<const Subgraph> subgraph(Automaton automaton);
 
+  std::vector<ReferencePath> routes_;  ///< of random traffic: the three cars'
   std::map<Automaton, std::shared_ptr<const Subgraph>> subgraphs_;
 };
 

@@ -5,18 +5,19 @@
 #include <numbers>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/geometry/footprint.hpp"
+#include "planner/road/reference_points.hpp"
 #include "tests/support/random_problem.hpp"
 
 namespace hlc::test {
 namespace {
 
 constexpr double kSlowestPace = 0.4;
-// Of the reference [1/m]: the lab's roads have curves of half a metre.
-constexpr double kLargestCurvature = 0.7;
-constexpr double kCurvatureOff = 0.4;  ///< at most, from the curvature that the car drives
+constexpr double kBeside_m = 0.1;
+constexpr double kTurned_rad = 0.5;
 
 TrimId random_trim_on(const Subgraph& subgraph, std::mt19937_64& random) {
   return subgraph.trims()[pick(random, subgraph.trims().size())];
@@ -69,54 +70,40 @@ bool meet_in_a_step(const std::vector<ConvexPolygon>& a_m, const std::vector<Con
   return false;
 }
 
-std::vector<Point> random_arc_m(const HorizonProblem& problem, double speed_mps,
-                                double driven_curvature, const RandomTraffic& traffic,
-                                double step_s, std::mt19937_64& random) {
-  const double curvature = std::clamp(driven_curvature, -kLargestCurvature, kLargestCurvature) +
-                           uniform(random, -kCurvatureOff, kCurvatureOff);
-  Pose on_path = problem.start;
-  const double beside_m = uniform(random, -0.1, 0.1);
-  on_path.x_m -= beside_m * std::sin(problem.start.heading_rad);
-  on_path.y_m += beside_m * std::cos(problem.start.heading_rad);
-  on_path.heading_rad += uniform(random, -0.3, 0.3);
-  if (traffic.headings == Headings::kSomeReversed && pick(random, 10) == 0) {
-    on_path.heading_rad += std::numbers::pi;
-  }
-  std::vector<Point> points_m;
-  double step_m = 0.5 * (speed_mps + traffic.reference_speed_mps) * step_s;
-  for (std::size_t j = 0; j < traffic.horizon_steps; ++j) {
-    // The chord of an arc points along the mean of the headings at its ends.
-    const double half_turn_rad = 0.5 * curvature * step_m;
-    const double chord_m =
-        half_turn_rad == 0.0 ? step_m : step_m * std::sin(half_turn_rad) / half_turn_rad;
-    on_path = compose(on_path, {chord_m * std::cos(half_turn_rad),
-                                chord_m * std::sin(half_turn_rad), 2.0 * half_turn_rad});
-    points_m.push_back(on_path.position_m());
-    step_m = traffic.reference_speed_mps * step_s;
-  }
-  return points_m;
-}
-
 HorizonProblem problem_without_obstacles(const Subgraph& subgraph, TrimId trim,
+                                         std::span<const ReferencePath> routes,
                                          const RandomTraffic& traffic, std::mt19937_64& random) {
-  HorizonProblem problem{.start = random_pose(random), .start_trim = trim};
   const UniversalAutomaton& automaton = subgraph.automaton();
-  problem.reference_m = random_arc_m(
-      problem, automaton.trims[trim.index].speed_mps,
-      std::tan(automaton.trims[trim.index].steering_rad) / automaton.vehicle.wheelbase_m, traffic,
-      automaton.step_s, random);
-  problem.reference_speed_mps.assign(traffic.horizon_steps, traffic.reference_speed_mps);
+  const ReferencePath& route = routes[pick(random, routes.size())];
+  const double s_m = uniform(random, 0.0, route.length_m());
+  const double along_rad = route.heading_rad_at(s_m);
+  const double beside_m = uniform(random, -kBeside_m, kBeside_m);
+  const Point position_m =
+      route.at(s_m) + beside_m * Point(-std::sin(along_rad), std::cos(along_rad));
+  HorizonProblem problem{.start = {position_m.x(), position_m.y(),
+                                   along_rad + uniform(random, -kTurned_rad, kTurned_rad)},
+                         .start_trim = trim};
+  if (traffic.headings == Headings::kSomeReversed && pick(random, 10) == 0) {
+    problem.start.heading_rad += std::numbers::pi;
+  }
+  Reference reference = reference_points(
+      route, route.project_within(position_m, s_m - 2.0 * kBeside_m, s_m + 2.0 * kBeside_m).s_m,
+      automaton.trims[trim.index].speed_mps, traffic.reference_speed_mps, traffic.horizon_steps,
+      automaton.step_s, ReferenceRule::kDefault);
+  problem.reference_m = std::move(reference.points_m);
+  problem.reference_speed_mps = std::move(reference.speeds_mps);
   problem.obstacles_m.resize(traffic.horizon_steps);
   return problem;
 }
 
 }  // namespace
 
-HorizonProblem random_traffic_problem(const Subgraph& subgraph, const RandomTraffic& traffic,
-                                      std::uint64_t seed) {
+HorizonProblem random_traffic_problem(const Subgraph& subgraph,
+                                      std::span<const ReferencePath> routes,
+                                      const RandomTraffic& traffic, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  HorizonProblem problem =
-      problem_without_obstacles(subgraph, random_trim_on(subgraph, random), traffic, random);
+  HorizonProblem problem = problem_without_obstacles(subgraph, random_trim_on(subgraph, random),
+                                                     routes, traffic, random);
   const UniversalAutomaton& automaton = subgraph.automaton();
   const ConvexPolygon own_m = footprint_area(automaton.vehicle.footprint, problem.start,
                                              2.0 * automaton.vehicle.safety_margin_m);
@@ -140,12 +127,12 @@ HorizonProblem random_traffic_problem(const Subgraph& subgraph, const RandomTraf
   return problem;
 }
 
-HorizonProblem blocked_end_problem(const Subgraph& subgraph, std::size_t horizon_steps,
-                                   std::uint64_t seed) {
+HorizonProblem blocked_end_problem(const Subgraph& subgraph, std::span<const ReferencePath> routes,
+                                   std::size_t horizon_steps, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const RandomTraffic nobody{.horizon_steps = horizon_steps};
   HorizonProblem problem =
-      problem_without_obstacles(subgraph, subgraph.standstill(), nobody, random);
+      problem_without_obstacles(subgraph, subgraph.standstill(), routes, nobody, random);
   constexpr double kFar_m = 100.0;
   problem.obstacles_m.back().push_back(
       convex_hull({{-kFar_m, -kFar_m}, {kFar_m, -kFar_m}, {kFar_m, kFar_m}, {-kFar_m, kFar_m}}));

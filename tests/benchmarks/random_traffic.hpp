@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "planner/automaton/subgraph.hpp"
+#include "planner/road/reference_path.hpp"
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc::test {
@@ -24,24 +26,28 @@ struct RandomTraffic {
   Headings headings{Headings::kAlongTheWay};
 };
 
-/// A car somewhere in traffic, no boundary.
+/// A car on one of the routes in random traffic, no boundary.
 ///
-/// It starts anywhere in a trim that is on and follows an arc of up to 2.5 / m, beside which it is
-/// by up to 0.1 m and 0.5 rad, or the wrong way round. The first reference point
-/// lies ahead by the mean of its speed and the reference speed, the others by the reference speed.
-/// Other cars drive random plans of the same subgraph, each from a random pose and trim; what they
-/// sweep are the obstacles. None starts on this car or sweeps it in the first step.
-/// With kKeepClear none meets a random plan of this car either, so that the problem has a solution.
+/// It is in a trim that is on, up to 0.1 m beside the route and turned by up to 0.5 rad, or the
+/// wrong way round; its reference are the points of profile `default`. Other cars drive random
+/// plans of the same subgraph, each from a random pose and trim; what they sweep are the obstacles.
+/// None sweeps the place where this car starts in the first step. With kKeepClear none meets this
+/// car's plan in force either, so that the problem has a solution: in each step as near as it can
+/// to where a car is that drives the reference's way at 0.4 to 1 times its speed, and standing at
+/// the end.
 ///
+/// @param routes  closed
 /// @param seed  the same gives the same problem
 /// @pre every trim that is on can stand within `horizon_steps`
 [[nodiscard]] HorizonProblem random_traffic_problem(const Subgraph& subgraph,
+                                                    std::span<const ReferencePath> routes,
                                                     const RandomTraffic& traffic,
                                                     std::uint64_t seed);
 
-/// From standstill at a random pose, random reference, all ground occupied during the last step:
+/// From standstill anywhere on the routes as above, all ground occupied during the last step:
 /// every path up to it is free and none ends.
 [[nodiscard]] HorizonProblem blocked_end_problem(const Subgraph& subgraph,
+                                                 std::span<const ReferencePath> routes,
                                                  std::size_t horizon_steps, std::uint64_t seed);
 
 }  // namespace hlc::test

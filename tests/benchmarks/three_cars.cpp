@@ -16,6 +16,8 @@ constexpr VehicleId kBlue{1};
 constexpr VehicleId kGreen{2};
 constexpr VehicleId kRed{3};
 
+const std::string kScenarioFile = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_three_cars.yaml";
+
 void move_to(ScenarioVehicle& vehicle, VehicleId id, double start_s_m) {
   const Point position_m = vehicle.path.at(start_s_m);
   vehicle.id = id;
@@ -39,12 +41,19 @@ std::unique_ptr<Controller> controller_of(const ScenarioVehicle& vehicle, const 
 
 }  // namespace
 
+std::vector<ReferencePath> three_cars_routes() {
+  std::vector<ReferencePath> routes;
+  for (const ScenarioVehicle& vehicle : read_scenario({.file = kScenarioFile}).vehicles) {
+    routes.push_back(vehicle.path);
+  }
+  return routes;
+}
+
 std::vector<HorizonProblem> three_cars_problems(const std::shared_ptr<const Subgraph>& subgraph,
                                                 Lanes lanes, std::size_t steps,
                                                 const ThreeCarsStart& start) {
   Scenario scenario =
-      read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_three_cars.yaml"},
-                    subgraph->shared_automaton(), {subgraph->spec()});
+      read_scenario({.file = kScenarioFile}, subgraph->shared_automaton(), {subgraph->spec()});
   for (ScenarioVehicle& vehicle : scenario.vehicles) {
     if (vehicle.name == "red") move_to(vehicle, kRed, 0.0);
     if (vehicle.name == "blue") move_to(vehicle, kBlue, start.blue_m);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
+#include "planner/road/reference_path.hpp"
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc::test {
@@ -22,6 +23,9 @@ struct ThreeCarsStart {
 /// is the one in whose 150 steps red's best plan is changed by the others most often, with lanes
 /// and without (the smaller number of the two counts), among those where red always has a plan.
 inline constexpr ThreeCarsStart kThreeCarsStart{.blue_m = 6.5, .green_m = 4.5};
+
+/// The closed routes of red, blue and green.
+[[nodiscard]] std::vector<ReferencePath> three_cars_routes();
 
 /// Red's planning problems, step by step, in scenario `paper_three_cars` (map, routes, reference
 /// speed, horizon, profile `default`) with vehicles that follow perfectly. Red is the vehicle that
