@@ -83,9 +83,7 @@ HorizonProblem problem_without_obstacles(const Subgraph& subgraph, TrimId trim,
   HorizonProblem problem{.start = {position_m.x(), position_m.y(),
                                    along_rad + uniform(random, -kTurned_rad, kTurned_rad)},
                          .start_trim = trim};
-  if (traffic.headings == Headings::kSomeReversed && pick(random, 10) == 0) {
-    problem.start.heading_rad += std::numbers::pi;
-  }
+  if (pick(random, 10) == 0) problem.start.heading_rad += std::numbers::pi;
   Reference reference = reference_points(
       route, route.project_within(position_m, s_m - 2.0 * kBeside_m, s_m + 2.0 * kBeside_m).s_m,
       automaton.trims[trim.index].speed_mps, traffic.reference_speed_mps, traffic.horizon_steps,

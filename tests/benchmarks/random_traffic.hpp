@@ -14,27 +14,23 @@ namespace hlc::test {
 /// always is a plan (recursive feasibility).
 enum class Others { kKeepClear, kDriveAnywhere };
 
-/// Whether one car in ten stands the wrong way round.
-enum class Headings { kAlongTheWay, kSomeReversed };
-
 struct RandomTraffic {
   std::size_t horizon_steps{8};
   std::size_t cars{};  ///< others
   double within_m{};   ///< of the start
   double reference_speed_mps{0.8};
   Others others{Others::kKeepClear};
-  Headings headings{Headings::kAlongTheWay};
 };
 
 /// A car on one of the routes in random traffic, no boundary.
 ///
-/// It is in a trim that is on, up to 0.1 m beside the route and turned by up to 0.5 rad, or the
-/// wrong way round; its reference are the points of profile `default`. Other cars drive random
-/// plans of the same subgraph, each from a random pose and trim; what they sweep are the obstacles.
-/// None sweeps the place where this car starts in the first step. With kKeepClear none meets this
-/// car's plan in force either, so that the problem has a solution: in each step as near as it can
-/// to where a car is that drives the reference's way at 0.4 to 1 times its speed, and standing at
-/// the end.
+/// It is in a trim that is on, up to 0.1 m beside the route and turned by up to 0.5 rad, one in
+/// ten the wrong way round; its reference are the points of profile `default`. Other cars drive
+/// random plans of the same subgraph, each from a random pose and trim; what they sweep are the
+/// obstacles. None sweeps the place where this car starts in the first step. With kKeepClear none
+/// meets this car's plan in force either, so that the problem has a solution: in each step as near
+/// as it can to where a car is that drives the reference's way at 0.4 to 1 times its speed, and
+/// standing at the end.
 ///
 /// @param routes  closed
 /// @param seed  the same gives the same problem
