@@ -39,7 +39,7 @@ const std::vector<Recipe>& recipes() {
       {{"horizon_12", "12 steps, 3 other cars"}, Kind::kRandom, 200, {12, 3, 1.5}},
       {{"horizon_16", "16 steps, 3 other cars"}, Kind::kRandom, 200, {16, 3, 1.5}},
       {{"trims_12", "12 trims, 3 other cars"}, Kind::kRandom, 200, {8, 3, 1.5}},
-      {{"trims_34", "34 trims, 3 other cars"}, Kind::kRandom, 200, {8, 3, 1.5}, Automaton::kGrid34},
+      {{"trims_34", "34 trims, 3 other cars"}, Kind::kRandom, 100, {8, 3, 1.5}, Automaton::kGrid34},
       {{"trims_95", "95 trims, 3 other cars"}, Kind::kRandom, 100, {8, 3, 1.5}, Automaton::kGrid95},
       {{"maneuvers_j1", "maneuvers that outrun their trims, 2 other cars"},
        Kind::kRandom,
