@@ -47,7 +47,8 @@ TEST(ThreeCars, OnlyTheCorridorHasABoundary) {
 
 TEST(ProblemSets, OnlyOneSetHasIncumbents) {
   for (const char* name : {"three_cars", "three_cars_corridor", "random_starts"}) {
-    for (const HorizonProblem& problem : make(name, 5).problems) {
+    const ProblemSet set = make(name, 5);
+    for (const HorizonProblem& problem : set.problems) {
       EXPECT_TRUE(problem.incumbent.empty());
     }
   }
@@ -61,7 +62,8 @@ TEST(ProblemSets, InRandomTrafficOthersLeaveAPlanAndChangeSome) {
 
 TEST(ProblemSets, SetsHaveTheCarsTheStepsAndTheTrimsOfTheirNames) {
   for (const auto& [name, cars] : {std::pair{"cars_5", 5U}, {"cars_10", 10U}, {"cars_19", 19U}}) {
-    for (const auto& areas_m : make(name, 1).problems.front().obstacles_m) {
+    const ProblemSet set = make(name, 1);
+    for (const auto& areas_m : set.problems.front().obstacles_m) {
       EXPECT_EQ(areas_m.size(), cars) << name;
     }
   }
