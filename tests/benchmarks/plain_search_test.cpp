@@ -56,6 +56,28 @@ TEST(PlainSearch, AgreesWithTryingEveryPathOfManeuversThatOutrunTheirTrims) {
   expect_agreement_with_trying_every_path(8.0, 5, 60);
 }
 
+// A reference that runs ahead as fast as the car can drive makes the cost-to-go tight, but for the
+// last point, which is put where the car may come to stand: a bound that is 1 % too large finds
+// plans that cost more.
+TEST(PlainSearch, AgreesWithTryingEveryPathWhereTheCostToGoIsTight) {
+  const Subgraph subgraph = make_test_subgraph();
+  const PlainSearch search(subgraph);
+  for (std::uint64_t seed = 0; seed < num_seeds(300); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    HorizonProblem problem{.start_trim = TrimId{6}};
+    const double ahead_m = uniform(random, 0.0, 1.0);
+    const double beside_m = uniform(random, -0.5, 0.5);
+    for (int step = 1; step < 4; ++step) {
+      problem.reference_m.emplace_back(0.16 * step + ahead_m, beside_m);
+    }
+    problem.reference_m.emplace_back(uniform(random, 0.3, 0.6), uniform(random, -0.2, 0.2));
+    const PlainResult plan = search.search(problem);
+    ASSERT_TRUE(plan.feasible);
+    ASSERT_NEAR(plan.cost, exhaustive_search(subgraph, problem).cost, 1e-9);
+  }
+}
+
 TEST(PlainSearch, TheSameProblemGivesTheSamePlanAndCounts) {
   const Subgraph subgraph = make_test_subgraph();
   const PlainSearch search(subgraph);
