@@ -1,0 +1,99 @@
+#include "tests/benchmarks/contestants.hpp"
+
+#include <cassert>
+#include <functional>
+#include <utility>
+
+#include "planner/search/planner.hpp"
+#include "planner/search/search_engine.hpp"
+#include "tests/benchmarks/plain_search.hpp"
+
+namespace hlc::test {
+namespace {
+
+constexpr std::size_t kNoBudget = 1'000'000'000;
+
+const std::vector<std::pair<std::string, SearchOptions>>& engines() {
+  static const std::vector<std::pair<std::string, SearchOptions>> all{
+      {"best_first_straight_line", {Engine::kBestFirst, CostToGo::kStraightLine, kNoBudget}},
+      {"best_first", {Engine::kBestFirst, CostToGo::kReachable, kNoBudget}},
+      {"branch_and_bound", {Engine::kBranchAndBound, CostToGo::kReachable, kNoBudget}},
+  };
+  return all;
+}
+
+constexpr char kThroughOmpl[] = "branch_and_bound_ompl";
+
+Solved solved_by(const SearchResult& result) {
+  return {.has_plan = result.status == SearchStatus::kOptimal,
+          .gave_up = result.status == SearchStatus::kBudget || result.reason == NoPath::kBudget,
+          .cost = result.cost,
+          .generated = result.generated,
+          .expanded = result.expanded};
+}
+
+class PlainContestant final : public Contestant {
+ public:
+  explicit PlainContestant(const Subgraph& subgraph) : search_(subgraph) {}
+  void solve(const HorizonProblem& problem) override { result_ = search_.search(problem); }
+  [[nodiscard]] Solved solved() const override {
+    return {.has_plan = result_.feasible,
+            .cost = result_.cost,
+            .generated = result_.generated,
+            .expanded = result_.expanded};
+  }
+
+ private:
+  PlainSearch search_;
+  PlainResult result_;
+};
+
+class EngineContestant final : public Contestant {
+ public:
+  explicit EngineContestant(std::unique_ptr<SearchEngine> engine) : engine_(std::move(engine)) {}
+  void solve(const HorizonProblem& problem) override { engine_->search(problem, stop_, result_); }
+  [[nodiscard]] Solved solved() const override { return solved_by(result_); }
+
+ private:
+  std::unique_ptr<SearchEngine> engine_;
+  std::function<bool()> stop_{never_stop};
+  SearchResult result_;
+};
+
+class PlannerContestant final : public Contestant {
+ public:
+  explicit PlannerContestant(std::unique_ptr<HorizonPlanner> planner)
+      : planner_(std::move(planner)) {}
+  void solve(const HorizonProblem& problem) override { result_ = planner_->plan(problem); }
+  [[nodiscard]] Solved solved() const override { return solved_by(result_); }
+
+ private:
+  std::unique_ptr<HorizonPlanner> planner_;
+  SearchResult result_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& contestant_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result{kPlain};
+    for (const auto& [name, options] : engines()) result.push_back(name);
+    result.emplace_back(kThroughOmpl);
+    return result;
+  }();
+  return names;
+}
+
+std::unique_ptr<Contestant> make_contestant(const std::string& name, const Subgraph& subgraph,
+                                            const ReachableSets& reachable) {
+  if (name == kPlain) return std::make_unique<PlainContestant>(subgraph);
+  for (const auto& [engine, options] : engines()) {
+    if (name != engine) continue;
+    return std::make_unique<EngineContestant>(make_search_engine(subgraph, reachable, options));
+  }
+  assert(name == kThroughOmpl);
+  return std::make_unique<PlannerContestant>(make_horizon_planner(
+      subgraph, reachable, {.engine = Engine::kBranchAndBound, .max_expansions = kNoBudget}));
+}
+
+}  // namespace hlc::test
