@@ -114,8 +114,9 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
   EXPECT_THAT(with(",planned,", ",flying,"),
               ThrowsMessage<std::runtime_error>(
                   HasSubstr("bad.csv:2: status = \"flying\", allowed standby, planned, fallback")));
-  EXPECT_THAT(with(",optimal,", ",good,"), ThrowsMessage<std::runtime_error>(HasSubstr(
-                                            "quality = \"good\", allowed none, optimal, budget")));
+  EXPECT_THAT(with(",optimal,", ",good,"),
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("quality = \"good\", allowed none, optimal, budget")));
   EXPECT_THAT(with("1,2,", "1,256,"),
               ThrowsMessage<std::runtime_error>(HasSubstr("id = \"256\", allowed 0 ... 255")));
   EXPECT_THAT(with(",3,,", ",3;x,,"),
