@@ -1,0 +1,113 @@
+// The evaluation program: files, resumption, bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kScenarios =
+    std::string(" --scenario_folder ") + HLC_SOURCE_DIR + "/launch_scripts/scenarios";
+
+std::string text_of(const std::filesystem::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class Evaluate : public testing::Test {
+ protected:
+  [[nodiscard]] Outcome evaluate(const std::string& flags) const {
+    return run_program("evaluate --scenario paper_red_alone --subgraphs B,D --starts 2 --steps 20" +
+                       kScenarios + " --out " + out_.string() + " " + flags);
+  }
+  [[nodiscard]] nlohmann::json results() const {
+    return nlohmann::json::parse(text_of(out_ / "results.json"));
+  }
+  /// Without what a clock measured.
+  static nlohmann::json timeless(nlohmann::json results) {
+    for (auto& run : results["runs"]) {
+      run.erase("wall_s");
+      run.erase("realtime_factor");
+      for (auto& vehicle : run["vehicles"]) vehicle.erase("planning_time_ms");
+    }
+    return results;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path out_{folder_ / "campaign"};
+};
+
+TEST_F(Evaluate, WritesOneRecordPerRunAndTablesBesideThePapersColumns) {
+  const Outcome done = evaluate("--jobs 2");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const nlohmann::json runs = results()["runs"];
+  ASSERT_EQ(runs.size(), 4U);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_EQ(runs[i]["run"], i);
+    EXPECT_EQ(runs[i]["start"], i % 2);
+    EXPECT_EQ(runs[i]["subgraph"], i < 2 ? "B" : "D");
+    EXPECT_EQ(runs[i]["steps"], 20);
+    EXPECT_TRUE(runs[i]["failure"].is_null());
+  }
+  EXPECT_THAT(text_of(out_ / "table.md"), HasSubstr("| | B | paper | D | paper |"));
+  EXPECT_THAT(text_of(out_ / "table.csv"), HasSubstr("paper_red_alone,default,D,generated_max,2,"));
+}
+
+TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
+  ASSERT_EQ(evaluate("").exit_code, 0);
+  const nlohmann::json whole = timeless(results());
+  const std::string lines = text_of(out_ / "runs.jsonl");
+  // Killed while it wrote the third run.
+  std::size_t cut = 0;
+  for (int line = 0; line < 3; ++line) cut = lines.find('\n', cut) + 1;
+  put(out_ / "runs.jsonl", lines.substr(0, cut + 40));
+  std::filesystem::remove(out_ / "results.json");
+  const Outcome again = evaluate("");
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs are there already"));
+  EXPECT_EQ(timeless(results()), whole);
+}
+
+TEST_F(Evaluate, RefusesAFolderThatHoldsSomethingElseAndLeavesItAlone) {
+  std::filesystem::create_directory(out_);
+  put(out_ / "thesis.tex", "text");
+  const Outcome outcome = evaluate("");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("holds something else"));
+  EXPECT_EQ(text_of(out_ / "thesis.tex"), "text");
+  EXPECT_FALSE(std::filesystem::exists(out_ / "runs.jsonl"));
+}
+
+TEST_F(Evaluate, RefusesTheFolderOfAnotherCampaign) {
+  ASSERT_EQ(evaluate("").exit_code, 0);
+  const std::string before = text_of(out_ / "runs.jsonl");
+  const Outcome outcome = evaluate("--seed 2");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("other choices"));
+  EXPECT_EQ(text_of(out_ / "runs.jsonl"), before);
+}
+
+TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
+  for (const auto& [flags, message] : {std::pair{"--profile 2021", "2021"},
+                                       {"--scenario nowhere", "--scenario = nowhere"},
+                                       {"--subgraphs Z", "Z"},
+                                       {"--starts 0", "--starts"},
+                                       {"--unheard_of", "unheard_of"}}) {
+    const Outcome outcome =
+        run_program(std::string("evaluate --out ") + out_.string() + kScenarios + " " + flags);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(out_)) << flags;
+  }
+}
+
+}  // namespace
+}  // namespace hlc::test
