@@ -389,28 +389,23 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
     for (; next < plan.num_polygons && plan.polygons[next].step == step; ++next) {
       const PolygonData& polygon = plan.polygons[next];
       const double* const corners = polygon.corners;
-      double min_x = corners[0];
-      double max_x = min_x;
-      double min_y = corners[1];
-      double max_y = min_y;
-      for (std::uint32_t i = 1; i < polygon.size; ++i) {
-        const double x = corners[2 * i];
-        const double y = corners[2 * i + 1];
-        min_x = x < min_x ? x : min_x;
-        max_x = x > max_x ? x : max_x;
-        min_y = y < min_y ? y : min_y;
-        max_y = y > max_y ? y : max_y;
+      // Two corners at a time; the last two may come twice.
+      const std::uint32_t last_pair = 2 * polygon.size - 4;
+      Vector lowest = load(corners + last_pair);
+      Vector highest = lowest;
+      for (std::uint32_t i = 0; i < last_pair; i += 4) {
+        const Vector pair = load(corners + i);
+        lowest = smaller(pair, lowest);
+        highest = larger(pair, highest);
       }
+      const double min_x = lowest[0] < lowest[2] ? lowest[0] : lowest[2];
+      const double min_y = lowest[1] < lowest[3] ? lowest[1] : lowest[3];
+      const double max_x = highest[0] > highest[2] ? highest[0] : highest[2];
+      const double max_y = highest[1] > highest[3] ? highest[1] : highest[3];
       const double centre_x = 0.5 * (min_x + max_x);
       const double centre_y = 0.5 * (min_y + max_y);
-      double radius2 = 0.0;
-      for (std::uint32_t i = 0; i < polygon.size; ++i) {
-        const double dx = corners[2 * i] - centre_x;
-        const double dy = corners[2 * i + 1] - centre_y;
-        const double distance2 = dx * dx + dy * dy;
-        radius2 = distance2 > radius2 ? distance2 : radius2;
-      }
-      const double radius = __builtin_sqrt(radius2);
+      const double radius = 0.5 * __builtin_sqrt((max_x - min_x) * (max_x - min_x) +
+                                                 (max_y - min_y) * (max_y - min_y));
       const Vector centre = along_axes(axes, centre_x, centre_y);
       if (beside(centre, centre, reach_low, reach_high) > radius) continue;
       plan.circle_x[count] = centre_x;
