@@ -583,9 +583,16 @@ HLC_INLINE void expand(Search& search, const VertexData& vertex, std::size_t dep
 /// The least key of a vertex' children.
 HLC_INLINE double least_key(const Tables& tables, const VertexData& vertex) {
   const std::size_t groups = tables.first_group[vertex.trim + 1] - tables.first_group[vertex.trim];
-  Vector lowest = load(vertex.keys);
+  const double* const keys = vertex.keys;
+  if (groups == 1) {
+    // One by one: a key that has just been written cannot be read as part of a vector at once.
+    const double low = keys[0] < keys[1] ? keys[0] : keys[1];
+    const double high = keys[2] < keys[3] ? keys[2] : keys[3];
+    return low < high ? low : high;
+  }
+  Vector lowest = load(keys);
   for (std::size_t group = 1; group < groups; ++group) {
-    lowest = smaller(load(vertex.keys + group * kLanes), lowest);
+    lowest = smaller(load(keys + group * kLanes), lowest);
   }
   return least(lowest);
 }
