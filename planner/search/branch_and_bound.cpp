@@ -91,8 +91,11 @@ class BranchAndBound::Core {
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
 
-    search.penalty = tables.penalty(problem.avoids_steering_limit);
-    search.permitted = tables.permitted(problem.avoids_steering_limit);
+    if (levels_.size() < n) levels_.resize(n);
+    for (std::size_t depth = 0; depth < n; ++depth) {
+      levels_[depth] = tables.level(n - depth - 1, problem.avoids_steering_limit);
+    }
+    search.levels = levels_.data();
     search.path = path.data();
     search.projections = projections_.data();
     search.projection_stride = reference_x_.size();
@@ -151,6 +154,7 @@ class BranchAndBound::Core {
   std::vector<double> reference_y_;
   std::vector<double> projections_;
   std::vector<double> keys_;
+  std::vector<branch_and_bound::Level> levels_;
   std::vector<double> corners_;
   mutable ConvexPolygon placed_;  ///< its capacity holds the largest area
 };
@@ -217,8 +221,7 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
   for (std::size_t depth = 0; depth < n; ++depth) {
     const std::uint32_t edge = core.tables.find({vertex.trim}, problem.incumbent[depth]);
     if (edge == TableStore::kNoEdge) return;
-    const std::size_t left = std::min(n - depth - 1, tables.max_steps_left);
-    if (core.search.penalty[left * tables.num_groups * kLanes + edge] != 0.0) return;
+    if (core.search.levels[depth].penalty[edge] != 0.0) return;
     if (!core.kernel.is_free(core.search, edge, depth + 1, vertex)) return;
     const branch_and_bound::EdgeData& data = tables.edges[edge];
     const Frame next =

@@ -56,8 +56,6 @@ struct Tables {
   const double* displacement_y;
   /// Per group, r and steps after the edge (from 1): kBoundSize doubles. See BranchAndBound.
   const double* bounds;
-  const double* penalty;           ///< per r and edge: 0, or kForbidden with r steps left after it
-  const std::uint32_t* permitted;  ///< per r and trim: edges that are not forbidden
   const double* area_x;
   const double* area_y;
   const double* area_normal_x;
@@ -68,6 +66,8 @@ struct Tables {
   std::size_t max_steps_left;
   std::size_t bound_steps;  ///< most steps after an edge that there are bounds for
   std::size_t bound_size;   ///< doubles per group
+  std::size_t near_stride;
+  const double* numbers;  ///< 0, 1, 2, ... as bits
   std::uint64_t index_mask;
 };
 
@@ -146,6 +146,19 @@ struct VertexData {
   double* keys;         ///< f of its children, each with the child's number in the last bits
 };
 
+/// What is the same for all vertices of one depth.
+struct Level {
+  std::size_t steps_left;  ///< after an edge from here
+  const double* penalty;   ///< `Tables::penalty` of these steps
+  const std::uint32_t* permitted;
+  /// Bounds of a group: `num_far` in a row from `far`, for the first steps after the edge, then
+  /// `num_near` from `near`, each `Tables::near_stride` before the one before.
+  std::size_t far;
+  std::size_t num_far;
+  std::size_t near;
+  std::size_t num_near;
+};
+
 /// What an exact collision test is asked: does the edge's area, placed at a vertex, meet this one?
 struct Question {
   std::uint32_t edge;
@@ -158,10 +171,9 @@ struct Question {
 struct Search {
   const Tables* tables;
   Plan* plan;
-  const double* penalty;           ///< those of `tables` for this problem
-  const std::uint32_t* permitted;  ///< the same
-  VertexData* path;                ///< n + 1 vertices; the first is the start
-  double* projections;             ///< kAxes rows of projection_stride
+  const Level* levels;  ///< n
+  VertexData* path;     ///< n + 1 vertices; the first is the start
+  double* projections;  ///< kAxes rows of projection_stride
   std::size_t projection_stride;
   double* corners;  ///< x and y of the largest obstacle's corners, padded
   std::size_t corner_stride;

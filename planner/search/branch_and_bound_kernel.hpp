@@ -34,11 +34,11 @@ HLC_INLINE Vector absolute(const Vector& a) {
   return reinterpret_cast<Vector>(reinterpret_cast<Bits>(a) &
                                   Bits{kNoSign, kNoSign, kNoSign, kNoSign});
 }
-/// Replaces the last bits, those of `mask`, by `number`, `number` + 1, ...
-HLC_INLINE Vector numbered(const Vector& a, long long mask, long long number) {
-  const Bits numbers{number, number + 1, number + 2, number + 3};
-  return reinterpret_cast<Vector>((reinterpret_cast<Bits>(a) & Bits{~mask, ~mask, ~mask, ~mask}) |
-                                  numbers);
+/// Replaces the last bits, those of `mask`, by those of `number`.
+HLC_INLINE Vector numbered(const Vector& a, std::uint64_t mask, const Vector& number) {
+  const auto kept = static_cast<long long>(~mask);
+  return reinterpret_cast<Vector>((reinterpret_cast<Bits>(a) & Bits{kept, kept, kept, kept}) |
+                                  reinterpret_cast<Bits>(number));
 }
 #else
 /// Two halves: the compiler makes poor code of longer vectors than the processor has.
@@ -76,16 +76,19 @@ HLC_INLINE Vector smaller(const Vector& a, const Vector& b) {
 HLC_INLINE Vector larger(const Vector& a, const Vector& b) {
   return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
 }
-HLC_INLINE Half masked(const Half& a, long long mask, const HalfBits& added) {
-  return reinterpret_cast<Half>((reinterpret_cast<HalfBits>(a) & HalfBits{mask, mask}) | added);
+HLC_INLINE Half masked(const Half& a, std::uint64_t mask) {
+  const auto kept = static_cast<long long>(mask);
+  return reinterpret_cast<Half>(reinterpret_cast<HalfBits>(a) & HalfBits{kept, kept});
+}
+HLC_INLINE Half joined(const Half& a, const Half& b) {
+  return reinterpret_cast<Half>(reinterpret_cast<HalfBits>(a) | reinterpret_cast<HalfBits>(b));
 }
 HLC_INLINE Vector absolute(const Vector& a) {
-  constexpr long long kNoSign = 0x7fff'ffff'ffff'ffff;
-  return {masked(a.low, kNoSign, HalfBits{0, 0}), masked(a.high, kNoSign, HalfBits{0, 0})};
+  constexpr std::uint64_t kNoSign = 0x7fff'ffff'ffff'ffff;
+  return {masked(a.low, kNoSign), masked(a.high, kNoSign)};
 }
-HLC_INLINE Vector numbered(const Vector& a, long long mask, long long number) {
-  return {masked(a.low, ~mask, HalfBits{number, number + 1}),
-          masked(a.high, ~mask, HalfBits{number + 2, number + 3})};
+HLC_INLINE Vector numbered(const Vector& a, std::uint64_t mask, const Vector& number) {
+  return {joined(masked(a.low, ~mask), number.low), joined(masked(a.high, ~mask), number.high)};
 }
 #endif
 
@@ -144,9 +147,8 @@ HLC_INLINE double outside(const double* normal_x, const double* normal_y, const 
   return largest(most);
 }
 
-/// Do an area and an obstacle meet? `x`, `y`: centre of the placed area, `centre_x`, `centre_y`: of
-/// the obstacle. First whether the centre of one lies in the other, which is so for most that meet;
-/// then the separating-axis test in the area's frame.
+/// Do an area and an obstacle meet? `x`, `y`: centre of the placed area. A separating-axis test in
+/// the area's frame.
 HLC_INLINE Answer compare(const Search& search, const Area& area, std::uint32_t item,
                           const VertexData& vertex, double x, double y) {
   const Tables& tables = *search.tables;
@@ -160,19 +162,14 @@ HLC_INLINE Answer compare(const Search& search, const Area& area, std::uint32_t 
   const std::uint32_t first = polygon.first;
   const std::uint32_t size = polygon.size;
   const double tolerance = plan.tolerance;
-  if (outside(plan.obstacle_normal_x + first, plan.obstacle_normal_y + first,
+  // In a large obstacle the centre tells at once; of areas alike it hardly ever does.
+  if (plan.circle_radius[item] > 2.0 * area.radius &&
+      outside(plan.obstacle_normal_x + first, plan.obstacle_normal_y + first,
               plan.obstacle_offset + first, size, x, y) < -tolerance) {
     return Answer::kMeet;
   }
   const double c = vertex.cos_heading;
   const double s = vertex.sin_heading;
-  const double centre_dx = plan.circle_x[item] - vertex.x;
-  const double centre_dy = plan.circle_y[item] - vertex.y;
-  if (outside(tables.area_normal_x + area.first, tables.area_normal_y + area.first,
-              tables.area_offset + area.first, area.size, centre_dx * c + centre_dy * s,
-              centre_dy * c - centre_dx * s) < -tolerance) {
-    return Answer::kMeet;
-  }
 
   // The obstacle's normals, four at a time, against the corners of the area.
   const double* const area_x = tables.area_x + area.first;
@@ -386,28 +383,23 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
     for (; next < plan.num_polygons && plan.polygons[next].step == step; ++next) {
       const PolygonData& polygon = plan.polygons[next];
       const double* const corners = polygon.corners;
-      double min_x = corners[0];
-      double max_x = min_x;
-      double min_y = corners[1];
-      double max_y = min_y;
-      for (std::uint32_t i = 1; i < polygon.size; ++i) {
-        const double x = corners[2 * i];
-        const double y = corners[2 * i + 1];
-        min_x = x < min_x ? x : min_x;
-        max_x = x > max_x ? x : max_x;
-        min_y = y < min_y ? y : min_y;
-        max_y = y > max_y ? y : max_y;
+      // Two corners at a time; the last two may come twice.
+      const std::uint32_t last_pair = 2 * polygon.size - 4;
+      Vector lowest = load(corners + last_pair);
+      Vector highest = lowest;
+      for (std::uint32_t i = 0; i < last_pair; i += 4) {
+        const Vector pair = load(corners + i);
+        lowest = smaller(pair, lowest);
+        highest = larger(pair, highest);
       }
+      const double min_x = lowest[0] < lowest[2] ? lowest[0] : lowest[2];
+      const double min_y = lowest[1] < lowest[3] ? lowest[1] : lowest[3];
+      const double max_x = highest[0] > highest[2] ? highest[0] : highest[2];
+      const double max_y = highest[1] > highest[3] ? highest[1] : highest[3];
       const double centre_x = 0.5 * (min_x + max_x);
       const double centre_y = 0.5 * (min_y + max_y);
-      double radius2 = 0.0;
-      for (std::uint32_t i = 0; i < polygon.size; ++i) {
-        const double dx = corners[2 * i] - centre_x;
-        const double dy = corners[2 * i + 1] - centre_y;
-        const double distance2 = dx * dx + dy * dy;
-        radius2 = distance2 > radius2 ? distance2 : radius2;
-      }
-      const double radius = __builtin_sqrt(radius2);
+      const double radius = 0.5 * __builtin_sqrt((max_x - min_x) * (max_x - min_x) +
+                                                 (max_y - min_y) * (max_y - min_y));
       const Vector centre = along_axes(axes, centre_x, centre_y);
       if (beside(centre, centre, reach_low, reach_high) > radius) continue;
       plan.circle_x[count] = centre_x;
@@ -527,7 +519,7 @@ HLC_INLINE Vector distance_beyond(const double* along, std::size_t stride,
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     const Vector from_centre =
         absolute(all(along[axis * stride]) - load(intervals + 2 * axis * kLanes));
-    beyond = larger(beyond, from_centre - load(intervals + (2 * axis + 1) * kLanes));
+    beyond = larger(from_centre - load(intervals + (2 * axis + 1) * kLanes), beyond);
   }
   return beyond;
 }
@@ -536,18 +528,18 @@ HLC_INLINE Vector distance_beyond(const double* along, std::size_t stride,
 HLC_INLINE void expand(Search& search, const VertexData& vertex, std::size_t depth) {
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
-  const std::size_t steps_left = plan.horizon_steps - depth - 1;  // after the edge
-  const std::size_t cap = tables.max_steps_left;
-  const std::size_t left = steps_left < cap ? steps_left : cap;
+  const Level& level = search.levels[depth];
   const std::size_t stride = search.projection_stride;
   double* const along = search.projections;
 
   // The reference points seen from the vertex, along each axis.
   const Vector c = all(vertex.cos_heading);
   const Vector s = all(vertex.sin_heading);
-  for (std::size_t j = 0; j <= steps_left; j += kLanes) {
-    const Vector dx = load(plan.reference_x + depth + j) - all(vertex.x);
-    const Vector dy = load(plan.reference_y + depth + j) - all(vertex.y);
+  const Vector x = all(vertex.x);
+  const Vector y = all(vertex.y);
+  for (std::size_t j = 0; j <= level.steps_left; j += kLanes) {
+    const Vector dx = load(plan.reference_x + depth + j) - x;
+    const Vector dy = load(plan.reference_y + depth + j) - y;
     const Vector ahead = dx * c + dy * s;
     const Vector aside = dy * c - dx * s;
     store(along + j, ahead);
@@ -556,44 +548,51 @@ HLC_INLINE void expand(Search& search, const VertexData& vertex, std::size_t dep
     store(along + 3 * stride + j, (aside - ahead) * all(kDiagonal));
   }
 
-  const std::uint32_t first_group = tables.first_group[vertex.trim];
-  const std::uint32_t end_group = tables.first_group[vertex.trim + 1];
-  const double* const penalty = search.penalty + left * tables.num_groups * kLanes;
-  const std::size_t row = tables.bound_steps * kBoundSize;
-  const long long mask = static_cast<long long>(tables.index_mask);
-  long long number = 0;
-  double* keys = vertex.keys;
-  for (std::uint32_t group = first_group; group < end_group; ++group) {
-    const std::size_t edge = group * kLanes;
-    const Vector dx = all(along[0]) - load(tables.displacement_x + edge);
-    const Vector dy = all(along[2 * stride]) - load(tables.displacement_y + edge);
-    Vector f = load(penalty + edge) + all(vertex.cost_to_come) + (dx * dx + dy * dy);
-    // First the steps with at least `cap` steps after them, then one row less for each.
-    const double* intervals = tables.bounds + group * tables.bound_size + cap * row;
-    std::size_t j = 1;
-    for (; j + cap <= steps_left; ++j, intervals += kBoundSize) {
-      const Vector beyond = distance_beyond(along + j, stride, intervals);
+  const Vector ahead = all(along[0]);
+  const Vector aside = all(along[2 * stride]);
+  const Vector cost_to_come = all(vertex.cost_to_come);
+  const std::size_t first_edge = std::size_t{kLanes} * tables.first_group[vertex.trim];
+  const std::size_t end_edge = std::size_t{kLanes} * tables.first_group[vertex.trim + 1];
+  const double* bounds = tables.bounds + first_edge / kLanes * tables.bound_size;
+  double* const keys = vertex.keys;
+  for (std::size_t edge = first_edge; edge < end_edge; edge += kLanes) {
+    const Vector dx = ahead - load(tables.displacement_x + edge);
+    const Vector dy = aside - load(tables.displacement_y + edge);
+    Vector f = load(level.penalty + edge) + cost_to_come + (dx * dx + dy * dy);
+    const double* reference = along + 1;
+    const double* intervals = bounds + level.far;
+    for (std::size_t i = 0; i < level.num_far; ++i) {
+      const Vector beyond = distance_beyond(reference++, stride, intervals);
       f += beyond * beyond;
+      intervals += kBoundSize;
     }
-    if (j <= steps_left) intervals -= (cap - (steps_left - j)) * row;
-    for (; j <= steps_left; ++j, intervals -= row - kBoundSize) {
-      const Vector beyond = distance_beyond(along + j, stride, intervals);
+    intervals = bounds + level.near;
+    for (std::size_t i = 0; i < level.num_near; ++i) {
+      const Vector beyond = distance_beyond(reference++, stride, intervals);
       f += beyond * beyond;
+      intervals -= tables.near_stride;
     }
-    store(keys, numbered(f, mask, number));
-    keys += kLanes;
-    number += static_cast<long long>(kLanes);
+    store(keys + (edge - first_edge),
+          numbered(f, tables.index_mask, load(tables.numbers + (edge - first_edge))));
+    bounds += tables.bound_size;
   }
-  search.generated += search.permitted[left * tables.num_trims + vertex.trim];
+  search.generated += level.permitted[vertex.trim];
   ++search.expanded;
 }
 
 /// The least key of a vertex' children.
 HLC_INLINE double least_key(const Tables& tables, const VertexData& vertex) {
   const std::size_t groups = tables.first_group[vertex.trim + 1] - tables.first_group[vertex.trim];
-  Vector lowest = load(vertex.keys);
+  const double* const keys = vertex.keys;
+  if (groups == 1) {
+    // One by one: a key that has just been written cannot be read as part of a vector at once.
+    const double low = keys[0] < keys[1] ? keys[0] : keys[1];
+    const double high = keys[2] < keys[3] ? keys[2] : keys[3];
+    return low < high ? low : high;
+  }
+  Vector lowest = load(keys);
   for (std::size_t group = 1; group < groups; ++group) {
-    lowest = smaller(load(vertex.keys + group * kLanes), lowest);
+    lowest = smaller(load(keys + group * kLanes), lowest);
   }
   return least(lowest);
 }

@@ -34,8 +34,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable)
   view_.displacement_x = displacement_x_.data();
   view_.displacement_y = displacement_y_.data();
   view_.bounds = bounds_.data();
-  view_.penalty = penalty_[0].data();
-  view_.permitted = permitted_[0].data();
+  view_.numbers = numbers_.data();
   view_.area_x = area_x_.data();
   view_.area_y = area_y_.data();
   view_.area_normal_x = area_normal_x_.data();
@@ -67,6 +66,9 @@ void TableStore::add_edges(const Subgraph& subgraph) {
   most_edges_ = std::max<std::size_t>(most_edges_, kLanes);
   view_.num_groups = first_group_.back();
   view_.index_mask = std::bit_ceil(most_edges_) - 1;
+  for (std::uint64_t number = 0; number < most_edges_; ++number) {
+    numbers_.push_back(std::bit_cast<double>(number));
+  }
   for (const EdgeData& edge : edges_) {
     displacement_x_.push_back(edge.x);
     displacement_y_.push_back(edge.y);
@@ -133,6 +135,7 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
 
 void TableStore::compute_bounds(const ReachableSets& reachable) {
   const std::size_t rows = view_.max_steps_left + 1;
+  view_.near_stride = (std::max<std::size_t>(view_.bound_steps, 1) - 1) * kBoundSize;
   view_.bound_size = rows * view_.bound_steps * kBoundSize;
   bounds_.assign(view_.num_groups * view_.bound_size, 0.0);
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
@@ -193,6 +196,22 @@ const double* TableStore::reach(TrimId trim, std::size_t steps, std::size_t step
 std::size_t TableStore::reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const {
   return ((trim.index * (view_.max_steps_left + 1) + steps_left) * reach_steps_ + steps) *
          kReachSize;
+}
+
+Level TableStore::level(std::size_t steps_left, bool avoids_limit) const {
+  const std::size_t left = std::min(steps_left, view_.max_steps_left);
+  const std::size_t row = view_.bound_steps * kBoundSize;
+  Level level{};
+  level.steps_left = steps_left;
+  level.penalty = &penalty_[avoids_limit ? 1 : 0][left * edges_.size()];
+  level.permitted = &permitted_[avoids_limit ? 1 : 0][left * view_.num_trims];
+  // The i-th step after the edge has steps_left - i steps after it: a full row as long as that is
+  // not below the cap, then one row less for each step.
+  level.far = view_.max_steps_left * row;
+  level.num_far = steps_left - left;
+  level.num_near = left;
+  if (left > 0) level.near = (left - 1) * row + level.num_far * kBoundSize;
+  return level;
 }
 
 std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {

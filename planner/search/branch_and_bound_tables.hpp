@@ -18,14 +18,9 @@ class TableStore {
   TableStore(const Subgraph& subgraph, const ReachableSets& reachable);
 
   [[nodiscard]] const Tables& view() const { return view_; }
-  /// What is forbidden, and how many are not, if a plan may or may not end steps in trims near the
-  /// steering limit.
-  [[nodiscard]] const double* penalty(bool avoids_limit) const {
-    return penalty_[avoids_limit ? 1 : 0].data();
-  }
-  [[nodiscard]] const std::uint32_t* permitted(bool avoids_limit) const {
-    return permitted_[avoids_limit ? 1 : 0].data();
-  }
+  /// A depth with `steps_left` steps after an edge from it, if a plan may or may not end steps in
+  /// trims near the steering limit.
+  [[nodiscard]] Level level(std::size_t steps_left, bool avoids_limit) const;
   /// The maneuver of an edge; nullptr for padding.
   [[nodiscard]] const Maneuver* maneuver(std::uint32_t edge) const { return maneuvers_[edge]; }
   /// Number of the edge out of `trim` with this maneuver; kNoEdge if there is none.
@@ -67,6 +62,7 @@ class TableStore {
   std::vector<double> area_offset_;
   std::vector<double> reach_;
   std::size_t reach_steps_{};
+  std::vector<double> numbers_;
   double area_radius_m_{};  ///< farthest corner of any area from the start of its maneuver
   std::size_t most_edges_{};
   Tables view_{};
