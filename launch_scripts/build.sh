@@ -7,7 +7,7 @@ usage() {
   cat <<'TEXT'
 usage: build.sh [--preset release|debug|asan|tsan] [--programs | --unit_tests | --thread_tests]
   --preset NAME   what to build (default release), into build/NAME
-  --programs      only the programs of a run, no tests
+  --programs      only the programs, no tests
   --unit_tests    only the tests that need no other process
   --thread_tests  of these only the ones outside the planner, which has no threads
 Exit codes: 0 good, 1 the build failed, 2 bad input
@@ -24,10 +24,7 @@ while (($#)); do
       shift
       ;;
     --preset=*) preset=${1#*=} ;;
-    --programs)
-      targets=(--target vehicle_sim middleware high_level_controller lab_control summarize show_scenario rollout)
-      ;;
-    --unit_tests | --thread_tests) targets=(--target "${1#--}") ;;
+    --programs | --unit_tests | --thread_tests) targets=(--target "${1#--}") ;;
     -h | --help) usage; exit 0 ;;
     *) echo "build.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
   esac

@@ -14,6 +14,7 @@
 #include "planner/apps/automaton_plot.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/maneuver_table.hpp"
+#include "planner/apps/output_files.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/automaton/atomic_write.hpp"
@@ -26,42 +27,74 @@ namespace fs = std::filesystem;
 
 struct Choices {
   fs::path configuration;
-  fs::path out;
-  std::optional<fs::path> table;
-  std::optional<fs::path> plot;
+  hlc::OutputFile out{"--out", {}};
+  hlc::OutputFile table{"--table", {}};
+  hlc::OutputFile plot{"--plot", {}};
   std::optional<std::size_t> intervals;
   std::size_t jobs{};
 };
 
-/// Nothing is computed for a file that cannot be written.
-void check_outputs(const Choices& choices) {
-  const auto check = [&](const char* flag, const std::optional<fs::path>& file) {
-    if (!file) return;
-    const fs::path folder = file->has_parent_path() ? file->parent_path() : fs::path(".");
-    if (!fs::is_directory(folder)) {
-      throw std::invalid_argument(std::string(flag) + " = " + file->string() +
-                                  ", allowed a file in a folder that exists");
+[[noreturn]] void fail(const std::string& place, const std::string& allowed,
+                       const std::string& reason) {
+  throw std::invalid_argument(place + ", allowed " + allowed + "; " + reason);
+}
+
+/// The place of the trims of the first subgraph that needs this edge; empty if none does.
+std::string place_of(const hlc::TrimPair& edge, const hlc::AutomatonConfiguration& c) {
+  for (std::size_t i = 0; i < c.subgraphs.size(); ++i) {
+    const hlc::SubgraphSpec& subgraph = c.subgraphs[i];
+    const std::vector<hlc::TrimPair> pairs =
+        hlc::rule_edges(subgraph.rule, c.trims, subgraph.trims, c.vehicle, c.limits, c.step_s);
+    if (std::ranges::binary_search(pairs, edge) && !hlc::labels_of(subgraph, edge).empty()) {
+      return c.places.subgraphs[i].trims;
     }
-    std::error_code error;
-    if (fs::is_directory(*file) || fs::equivalent(*file, choices.configuration, error)) {
-      throw std::invalid_argument(std::string(flag) + " = " + file->string() +
-                                  ", allowed a file other than the configuration");
+  }
+  return "";
+}
+
+/// Designs a maneuver; an error names the key that is to blame.
+hlc::Maneuver designed(const hlc::AutomatonConfiguration& configuration,
+                       const hlc::DesignTask& task) {
+  try {
+    return hlc::design(configuration, task);
+  } catch (const std::invalid_argument& error) {
+    std::string reason = error.what();
+    const std::string file = configuration.source + ": ";
+    if (reason.starts_with(file)) reason.erase(0, file.size());
+    const std::string coarse =
+        "; allowed more than " + std::to_string(configuration.intervals) + " intervals";
+    if (reason.ends_with(coarse)) {
+      reason.resize(reason.size() - coarse.size());
+      fail(configuration.places.intervals, "more", reason);
     }
-  };
-  check("--out", choices.out);
-  check("--table", choices.table);
-  check("--plot", choices.plot);
+    const std::string place = place_of(task.edge, configuration);
+    if (place.empty()) throw;
+    fail(place, "trims with a maneuver wherever the rule connects two", reason);
+  }
 }
 
 hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, std::size_t jobs) {
   const std::vector<hlc::DesignTask> tasks = hlc::design_tasks(configuration);
-  std::vector<hlc::Maneuver> designed(tasks.size());
+  std::vector<hlc::Maneuver> maneuvers(tasks.size());
   const hlc::ProgressLine progress("maneuver", tasks.size());
   hlc::run_parallel(
-      tasks.size(), jobs,
-      [&](std::size_t i) { designed[i] = hlc::design(configuration, tasks[i]); },
+      tasks.size(), jobs, [&](std::size_t i) { maneuvers[i] = designed(configuration, tasks[i]); },
       [&](std::size_t done) { progress.show(done); });
-  return hlc::assembled(configuration, std::move(designed));
+  return hlc::assembled(configuration, std::move(maneuvers));
+}
+
+/// A speed limit may have taken maneuvers away.
+void check_subgraphs(const hlc::AutomatonFile& file, const hlc::ConfigurationPlaces& places) {
+  for (std::size_t i = 0; i < file.subgraphs.size(); ++i) {
+    try {
+      hlc::check_driving(hlc::Subgraph(file.automaton, file.subgraphs[i]), file.horizon_steps);
+    } catch (const std::invalid_argument& error) {
+      const hlc::ConfigurationPlaces::Subgraph& place = places.subgraphs[i];
+      if (place.max_speed_mps.empty()) fail(place.trims, "what the maneuvers allow", error.what());
+      fail(place.max_speed_mps, "a limit that leaves every trim a way from and to standstill",
+           error.what());
+    }
+  }
 }
 
 void run(const Choices& choices) {
@@ -71,25 +104,26 @@ void run(const Choices& choices) {
   }
   const hlc::AutomatonConfiguration configuration =
       hlc::read_automaton_configuration(choices.configuration);
-  check_outputs(choices);
+  hlc::check_output_files({choices.out, choices.table, choices.plot}, {choices.configuration});
   hlc::AutomatonConfiguration to_build = configuration;
-  to_build.intervals = choices.intervals.value_or(configuration.intervals);
+  if (choices.intervals) {
+    to_build.intervals = *choices.intervals;
+    to_build.places.intervals = "--intervals = " + std::to_string(*choices.intervals);
+  }
   const auto begin = std::chrono::steady_clock::now();
   const hlc::AutomatonFile file =
       hlc::file_of(configuration, built(to_build, choices.jobs), choices.intervals);
-  for (const hlc::SubgraphSpec& subgraph : file.subgraphs) {
-    try {  // a speed limit may have taken maneuvers away
-      hlc::check_driving(hlc::Subgraph(file.automaton, subgraph), file.horizon_steps);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(choices.configuration.string() + ": " + error.what());
-    }
-  }
+  check_subgraphs(file, configuration.places);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  hlc::write_automaton_file(file, choices.out);
-  if (choices.table) hlc::write_atomically(hlc::maneuver_table(*file.automaton), *choices.table);
-  if (choices.plot) hlc::write_atomically(hlc::automaton_plot(file), *choices.plot);
-  std::printf("%s: %zu trims, %zu maneuvers, labels", choices.out.c_str(),
+  hlc::write_automaton_file(file, *choices.out.file);
+  if (const auto& table = choices.table.file) {
+    hlc::write_atomically(hlc::maneuver_table(*file.automaton), *table);
+  }
+  if (const auto& plot = choices.plot.file) {
+    hlc::write_atomically(hlc::automaton_plot(file), *plot);
+  }
+  std::printf("%s: %zu trims, %zu maneuvers, labels", choices.out.file->c_str(),
               configuration.trims.size(),
               file.automaton->maneuvers.size() - configuration.trims.size());
   for (const std::string& label : file.labels) std::printf(" %s", label.c_str());
@@ -104,9 +138,9 @@ int main(int argc, char** argv) {
   Choices choices;
   choices.jobs = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("CONFIG", choices.configuration, "configuration (YAML)")->required();
-  app.add_option("--out", choices.out, "automaton file to write (YAML)")->required();
-  app.add_option("--table", choices.table, "write a table of all maneuvers (CSV)");
-  app.add_option("--plot", choices.plot, "draw trims and maneuvers (SVG)");
+  hlc::declare_output(app, choices.out, "automaton file to write (YAML)")->required();
+  hlc::declare_output(app, choices.table, "write a table of all maneuvers (CSV)");
+  hlc::declare_output(app, choices.plot, "draw trims and maneuvers (SVG)");
   app.add_option("--intervals", choices.intervals,
                  "intervals of constant input, instead of the configuration's")
       ->check(CLI::Range(10, 1000));

@@ -2,18 +2,23 @@
 // configuration.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "planner/apps/flags.hpp"
-#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/automaton/vehicle_yaml.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/maneuver_design/trim_choice.hpp"
 
 namespace {
@@ -35,7 +40,9 @@ std::vector<std::string> cells_of(const std::string& line) {
 /// A table of numbers with a line of column names.
 class NumberTable {
  public:
-  explicit NumberTable(const std::filesystem::path& path) : path_(path), file_(path) {
+  explicit NumberTable(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) file_.open(path);
     std::string line;
     if (!std::getline(file_, line)) {
       throw std::invalid_argument(path.string() + ": cannot be read, allowed a CSV file");
@@ -61,7 +68,7 @@ class NumberTable {
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || rest != text.data() + text.size() || !std::isfinite(value)) {
       throw std::invalid_argument(path_.string() + ":" + std::to_string(row_) + ": " + column +
-                                  " = " + text + ", allowed a number");
+                                  " = " + hlc::one_line(text) + ", allowed a number");
     }
     return value;
   }
@@ -89,7 +96,7 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
   const std::string heading = table.has("yaw_rad") ? "yaw_rad" : "heading_rad";
   for (const std::string& column : {time, std::string("x_m"), std::string("y_m"), heading}) {
     if (table.has(column)) continue;
-    throw std::invalid_argument(path.string() + ":1: columns = " + table.names() +
+    throw std::invalid_argument(path.string() + ":1: columns = " + hlc::one_line(table.names()) +
                                 ", allowed speed_mps and steering_rad, or t_ns or t_s, x_m, y_m "
                                 "and yaw_rad or heading_rad");
   }
@@ -105,7 +112,32 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
   return hlc::drive_samples(points, kWindow_s, vehicle);
 }
 
-void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::path& drive) {
+/// Vehicle and limits of a configuration, of which nothing else need be there.
+struct Car {
+  std::string name{"the uCar"};
+  hlc::VehicleParameters vehicle;
+  hlc::VehicleLimits limits;
+};
+
+Car read_car(const std::filesystem::path& configuration) {
+  const hlc::YamlNode file = hlc::YamlNode::read_file(configuration);
+  const hlc::YamlNode vehicle = file.map("vehicle");
+  Car car;
+  car.name = configuration.filename().string();
+  car.vehicle = hlc::read_vehicle(vehicle);
+  car.limits = hlc::read_limits(file.map("limits"));
+  static_cast<void>(hlc::read_identified(vehicle, car.vehicle, car.limits));
+  vehicle.check_no_unknown_keys();
+  return car;
+}
+
+void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::path& drive,
+           const Car& car) {
+  const hlc::VehicleLimits& limits = car.limits;
+  std::printf("# limits of %s: %g ... %g m/s, +-%g rad", car.name.c_str(), limits.speed_min_mps,
+              limits.speed_max_mps, limits.steering_max_rad);
+  if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
+  std::printf("; wheelbase %g m\n", car.vehicle.wheelbase_m);
   std::printf("# Trims that stand for %s; the share of the drive that each stands for.\ntrims:\n",
               drive.filename().c_str());
   for (std::size_t i = 0; i < trims.size(); ++i) {
@@ -113,6 +145,70 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
     std::printf("  - {speed_mps: %.3f, steering_rad: %.3f}%s# %zu, %.1f %%\n", trim.speed_mps,
                 trim.steering_rad, trim.steering_rad < 0.0 ? "   " : "    ", i + 1,
                 100.0 * trims[i].share);
+  }
+}
+
+/// What is said of samples that do not count as they are.
+struct Notes {
+  std::size_t outside{};
+  std::size_t reversing{};
+  double fastest_mps{};
+  double slowest_mps{std::numeric_limits<double>::infinity()};
+  double sharpest_rad{};
+  double fastest_reverse_mps{};
+};
+
+Notes notes_on(const std::vector<hlc::DriveSample>& samples, const hlc::VehicleLimits& limits) {
+  Notes notes;
+  for (const hlc::DriveSample& sample : samples) {
+    if (hlc::is_reversing(sample)) {
+      ++notes.reversing;
+      notes.fastest_reverse_mps = std::max(notes.fastest_reverse_mps, -sample.speed_mps);
+    }
+    if (sample.speed_mps < hlc::kSlowestDrive_mps) continue;
+    const double sharpness_rad = std::abs(sample.steering_rad);
+    notes.fastest_mps = std::max(notes.fastest_mps, sample.speed_mps);
+    notes.slowest_mps = std::min(notes.slowest_mps, sample.speed_mps);
+    notes.sharpest_rad = std::max(notes.sharpest_rad, sharpness_rad);
+    if (sample.speed_mps > limits.speed_max_mps || sample.speed_mps < limits.speed_min_mps ||
+        sharpness_rad > limits.steering_max_rad) {
+      ++notes.outside;
+    }
+  }
+  return notes;
+}
+
+std::string excess(const Notes& notes, const hlc::VehicleLimits& limits) {
+  std::string text;
+  const auto add = [&text](const char* what, double value, const char* unit, double allowed) {
+    std::ostringstream part;
+    part << (text.empty() ? "" : "; ") << what << ' ' << value << unit << ", allowed " << allowed;
+    text += part.str();
+  };
+  if (notes.fastest_mps > limits.speed_max_mps) {
+    add("speed up to", notes.fastest_mps, " m/s", limits.speed_max_mps);
+  }
+  if (notes.slowest_mps < limits.speed_min_mps) {
+    add("speed down to", notes.slowest_mps, " m/s", limits.speed_min_mps);
+  }
+  if (notes.sharpest_rad > limits.steering_max_rad) {
+    add("steering up to", notes.sharpest_rad, " rad", limits.steering_max_rad);
+  }
+  return text;
+}
+
+/// A line per kind of samples that do not count as they are.
+void tell(const Notes& notes, const std::string& drive, std::size_t samples,
+          const hlc::VehicleLimits& limits) {
+  if (notes.outside > 0) {
+    std::cerr << "choose_trims: " << drive << ": " << notes.outside << " of " << samples
+              << " samples are outside the limits (" << excess(notes, limits)
+              << ") and count as at the limit\n";
+  }
+  if (notes.reversing > 0) {
+    std::cerr << "choose_trims: " << drive << ": " << notes.reversing << " of " << samples
+              << " samples are reversing (up to " << notes.fastest_reverse_mps
+              << " m/s) and are left out\n";
   }
 }
 
@@ -133,16 +229,20 @@ int main(int argc, char** argv) {
   app.add_option("--count", count, "number of trims, standstill included")
       ->capture_default_str()
       ->check(CLI::Range(2, 200));
-  app.add_option("--config", configuration,
-                 "automaton configuration with the vehicle and its limits; default: the uCar");
+  app.add_option(
+      "--config", configuration,
+      "file with the keys `vehicle` and `limits` of an automaton configuration; default: the "
+      "uCar");
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("choose_trims", [&] {
-    hlc::AutomatonConfiguration automaton;
-    if (!configuration.empty()) automaton = hlc::read_automaton_configuration(configuration);
-    const std::vector<hlc::DriveSample> samples = read_drive(drive, automaton.vehicle);
+    const Car car = configuration.empty() ? Car{} : read_car(configuration);
+    const std::vector<hlc::DriveSample> samples = read_drive(drive, car.vehicle);
     try {
-      print(hlc::choose_trims(samples, count, automaton.vehicle, automaton.limits), drive);
+      const std::vector<hlc::ChosenTrim> trims =
+          hlc::choose_trims(samples, count, car.vehicle, car.limits);
+      tell(notes_on(samples, car.limits), drive.filename().string(), samples.size(), car.limits);
+      print(trims, drive, car);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(drive.string() + ": " + error.what());
     }

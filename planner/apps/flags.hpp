@@ -1,11 +1,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
 
 /// What the command lines of all programs have in common: `--name=value` and `--name value`,
@@ -40,6 +44,28 @@ int exit_code_of(const char* program, Work work) {
     std::cerr << program << ": " << error.what() << '\n';
     return 1;
   }
+}
+
+/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range lets
+/// pass.
+inline CLI::Validator within(double min, double max) {
+  const std::string allowed = std::isfinite(min) && std::isfinite(max)
+                                  ? shortest_text(min) + " ... " + shortest_text(max)
+                                  : "a finite number";
+  return CLI::Validator(
+      [min, max, allowed](std::string& text) {
+        double value{};
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        if (is_number && std::isfinite(value) && value >= min && value <= max) return std::string{};
+        return one_line(text) + ", allowed " + allowed;
+      },
+      allowed);
+}
+
+/// The same for every finite number.
+inline CLI::Validator finite() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return within(-kInfinity, kInfinity);
 }
 
 /// The flags that choose a scenario.

@@ -6,14 +6,18 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
 #include "planner/apps/pareto_output.hpp"
 #include "planner/automaton/atomic_write.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/criteria.hpp"
@@ -26,27 +30,40 @@ struct Flags {
   std::vector<double> to;
   std::vector<std::string> criteria{"J1", "J2"};
   std::size_t points{31};
-  double duration_s{};      ///< 0: the configuration's
-  std::size_t intervals{};  ///< 0: the configuration's
+  double duration_s{};                  ///< 0: the configuration's
+  std::vector<double> free_duration_s;  ///< empty: the duration is fixed
+  std::size_t intervals{};              ///< 0: the configuration's
   std::string spacing{"front"};
-  std::string table;
-  std::string plot;
+  hlc::OutputFile table{"--out", {}};
+  hlc::OutputFile plot{"--plot", {}};
 };
+
+constexpr double kShortest_s = 1e-3;
+constexpr double kLongest_s = 100.0;
 
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("configuration", flags.configuration, "automaton configuration (YAML)")
       ->required();
   app.add_option("--from", flags.from, "speed [m/s] and steering [rad] at the start")
       ->expected(2)
+      ->check(hlc::finite())
       ->required();
   app.add_option("--to", flags.to, "speed [m/s] and steering [rad] at the end")
       ->expected(2)
+      ->check(hlc::finite())
       ->required();
   app.add_option("--points", flags.points, "of the front")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
-  app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
-      ->check(CLI::Range(1e-3, 100.0));
+  CLI::Option* const duration =
+      app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
+          ->check(hlc::within(kShortest_s, kLongest_s));
+  app.add_option("--free_duration", flags.free_duration_s,
+                 "MIN MAX [s]: each maneuver lasts what is best for it within these bounds, for "
+                 "criteria such as travel_time; the table has a column `duration` then")
+      ->expected(2)
+      ->check(hlc::within(kShortest_s, kLongest_s))
+      ->excludes(duration);
   app.add_option("--intervals", flags.intervals,
                  "of constant input, instead of the configuration's")
       ->check(CLI::Range(2, 1000));
@@ -60,9 +77,35 @@ void declare(CLI::App& app, Flags& flags) {
                  "front: equal distances along it; second: equal steps of the second criterion")
       ->check(CLI::IsMember({"front", "second"}))
       ->capture_default_str();
-  app.add_option("--out", flags.table, "table to write (CSV)")->required();
-  app.add_option("--plot", flags.plot, "plot to write (SVG)");
+  hlc::declare_output(app, flags.table, "table to write (CSV)")->required();
+  hlc::declare_output(app, flags.plot, "plot to write (SVG)");
   app.footer("Exit codes: 0 good, 1 a point was not found, 2 bad input.");
+}
+
+std::string printed(const std::vector<double>& numbers) {
+  return hlc::shortest_text(numbers[0]) + " " + hlc::shortest_text(numbers[1]);
+}
+
+void check_trim(const char* flag, const std::vector<double>& trim,
+                const hlc::VehicleLimits& limits) {
+  if (trim[0] >= limits.speed_min_mps && trim[0] <= limits.speed_max_mps &&
+      std::abs(trim[1]) <= limits.steering_max_rad) {
+    return;
+  }
+  const std::string steering = hlc::shortest_text(limits.steering_max_rad);
+  throw std::invalid_argument(std::string(flag) + " = " + printed(trim) + ", allowed " +
+                              hlc::shortest_text(limits.speed_min_mps) + " ... " +
+                              hlc::shortest_text(limits.speed_max_mps) + " m/s and -" + steering +
+                              " ... " + steering + " rad");
+}
+
+/// Durations are free within the bounds; the search starts as near to step_s as they let it.
+void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& problem) {
+  if (bounds_s[0] > bounds_s[1]) {
+    throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", allowed MIN <= MAX");
+  }
+  problem.free_duration = {bounds_s[0], bounds_s[1]};
+  problem.duration_s = std::clamp(problem.duration_s, bounds_s[0], bounds_s[1]);
 }
 
 hlc::ParetoProblem problem_of(const Flags& flags) {
@@ -71,10 +114,13 @@ hlc::ParetoProblem problem_of(const Flags& flags) {
                                 ", allowed two that differ");
   }
   const hlc::AutomatonConfiguration c = hlc::read_automaton_configuration(flags.configuration);
+  check_trim("--from", flags.from, c.limits);
+  check_trim("--to", flags.to, c.limits);
   hlc::ParetoProblem problem;
   problem.maneuver =
       hlc::problem_between({flags.from[0], flags.from[1]}, {flags.to[0], flags.to[1]}, c);
   if (flags.duration_s > 0.0) problem.maneuver.duration_s = flags.duration_s;
+  if (!flags.free_duration_s.empty()) free_duration(flags.free_duration_s, problem.maneuver);
   if (flags.intervals > 0) problem.maneuver.intervals = flags.intervals;
   for (const std::string& name : flags.criteria) {
     problem.criteria.push_back(hlc::make_criterion(name, c.vehicle));
@@ -112,6 +158,7 @@ void print_summary(const Flags& flags, const hlc::ParetoFront& front,
 
 void run(const Flags& flags) {
   const hlc::ParetoProblem problem = problem_of(flags);
+  hlc::check_output_files({flags.table, flags.plot}, {flags.configuration});
   hlc::ParetoOptions options;
   options.points = flags.points;
   options.spacing =
@@ -132,10 +179,11 @@ void run(const Flags& flags) {
     throw std::runtime_error(flags.configuration + ": " + front.reason);
   }
   const hlc::ParetoDescription description{problem.maneuver.from, problem.maneuver.to,
-                                           problem.maneuver.duration_s, flags.criteria};
-  hlc::write_atomically(hlc::csv_of(front, description), flags.table);
-  if (!flags.plot.empty()) {
-    hlc::write_atomically(hlc::svg_of(front, weighted_sums, description), flags.plot);
+                                           problem.maneuver.duration_s, flags.criteria,
+                                           problem.maneuver.free_duration};
+  hlc::write_atomically(hlc::csv_of(front, description), *flags.table.file);
+  if (const auto& plot = flags.plot.file) {
+    hlc::write_atomically(hlc::svg_of(front, weighted_sums, description), *plot);
   }
   print_summary(flags, front, weighted_sums);
 }

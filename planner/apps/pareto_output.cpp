@@ -110,7 +110,9 @@ PlotPanel front_panel(const ParetoFront& front, const ParetoFront& weighted_sums
 std::string csv_of(const ParetoFront& front, const ParetoDescription& description) {
   std::string out;
   for (const std::string& criterion : description.criteria) out += criterion + ",";
-  out += "dx,dy,dpsi,status,v_max,dominated,knee,first_order_residual\n";
+  out += "dx,dy,dpsi,status,";
+  if (description.free_duration) out += "duration,";
+  out += "v_max,dominated,knee,first_order_residual\n";
   const std::size_t knee = front.points.empty() ? 0 : knee_point(front.objectives());
   for (std::size_t i = 0; i < front.points.size(); ++i) {
     const ParetoPoint& point = front.points[i];
@@ -119,6 +121,7 @@ std::string csv_of(const ParetoFront& front, const ParetoDescription& descriptio
     out += shortest_text(end.x_m) + "," + shortest_text(end.y_m) + "," +
            shortest_text(end.heading_rad) + ",";
     out += point.solution.status == ManeuverStatus::kOptimal ? "optimal," : "not_converged,";
+    if (description.free_duration) out += shortest_text(point.solution.duration_s) + ",";
     out += shortest_text(highest_speed_mps(point.solution)) + "," +
            (point.is_dominated ? "1," : "0,") + (i == knee ? "1," : "0,") +
            shortest_text(point.solution.first_order_residual) + "\n";
@@ -137,11 +140,13 @@ std::string svg_of(const ParetoFront& front, const ParetoFront& weighted_sums,
   positions.x_label = "s_x [m]";
   positions.y_label = "s_y [m]";
   positions.equal_scale = true;
+  const auto& range = description.free_duration;
+  const std::string duration = range ? rounded(range->min_s) + " ... " + rounded(range->max_s)
+                                     : rounded(description.duration_s);
   const std::string title =
       "Pareto-optimal maneuvers from (" + rounded(description.from.speed_mps) + " m/s, " +
       rounded(description.from.steering_rad) + " rad) to (" + rounded(description.to.speed_mps) +
-      " m/s, " + rounded(description.to.steering_rad) + " rad) in " +
-      rounded(description.duration_s) + " s";
+      " m/s, " + rounded(description.to.steering_rad) + " rad) in " + duration + " s";
   return svg_of(
       title,
       {front_panel(front, weighted_sums, description), positions,

@@ -101,9 +101,11 @@ std::string text_without_hash(const AutomatonFile& file) {
 // --- reading ------------------------------------------------------------------------------------
 
 std::string read_text(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
+  std::error_code error;
+  std::ifstream stream;
+  if (std::filesystem::is_regular_file(path, error)) stream.open(path, std::ios::binary);
   std::stringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
+  if (!stream.is_open() || !(text << stream.rdbuf())) {
     throw std::invalid_argument(path.string() + ": cannot be read, allowed an automaton file");
   }
   return text.str();
@@ -215,6 +217,18 @@ void check_subgraphs(const YamlNode& node, const AutomatonFile& file) {
   }
 }
 
+/// The path as a shell takes it, in quotes if it needs them.
+std::string shell_word(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  const bool is_plain = text.find_first_not_of(
+                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                            "0123456789_-+./:@%,") == std::string::npos;
+  if (is_plain && !text.empty()) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 /// Before anything else is read: another version may have other keys.
 void check_version(const YamlNode& node, const std::filesystem::path& path) {
   if (!node.has("automaton_schema")) {
@@ -224,7 +238,7 @@ void check_version(const YamlNode& node, const std::filesystem::path& path) {
   if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
   node.fail("automaton_schema", std::to_string(kAutomatonSchema) +
                                     "; build the file anew from its configuration: " +
-                                    "build_automaton CONFIG.yaml --out " + path.string());
+                                    "build_automaton CONFIG.yaml --out " + shell_word(path));
 }
 
 void check_hash(const YamlNode& node, const std::string& text, const std::string& command) {
@@ -247,6 +261,8 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
 }
 
 bool is_automaton_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   // The first line is enough: large files are read once.
   std::ifstream stream(path, std::ios::binary);
   std::string line;
@@ -292,7 +308,7 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
 
 std::string rebuild_command(const AutomatonFile& file, const std::filesystem::path& path,
                             const std::filesystem::path& configuration_path) {
-  return "build_automaton " + configuration_path.string() + " --out " + path.string() +
+  return "build_automaton " + shell_word(configuration_path) + " --out " + shell_word(path) +
          (file.chosen_intervals ? " --intervals " + std::to_string(*file.chosen_intervals) : "");
 }
 

@@ -62,22 +62,6 @@ TrimPair read_pair(const YamlNode& entry, const SubgraphContext& context) {
   return {as_trim(from), as_trim(to)};
 }
 
-void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
-  for (const YamlNode& one : entry.optional_list("off")) {
-    EdgesOff off{read_pair(one, context), std::nullopt};
-    if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
-    one.check_no_unknown_keys();
-    if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
-      one.fail("to", "an edge other than standing, which must be possible");
-    }
-    if (off.edge.from == off.edge.to && off.label) {
-      one.fail("label", "none for a trim's own step, which is the same for all labels");
-    }
-    if (holds(spec.off, off)) one.fail("each edge once");
-    spec.off.push_back(std::move(off));
-  }
-}
-
 /// The pairs that the rule gives among the declared trims.
 std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& context) {
   return rule_edges(spec.rule, context.trims, spec.trims, context.vehicle, context.limits,
@@ -97,6 +81,39 @@ void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, Sub
     }
     spec.edges.push_back({pair, read_label_list(one, context)});
     one.check_no_unknown_keys();
+  }
+}
+
+/// Checks an entry of `off` between other trims. Edges out of trims that are on are those of the
+/// subgraph; any other edge of the automaton may lead out of a trim that is off (see Subgraph).
+void check_off(const YamlNode& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
+               const SubgraphContext& context, const SubgraphSpec& spec) {
+  const bool is_left_from =
+      !holds(spec.trims, off.edge.from) ||
+      (spec.max_speed_mps && context.trims[off.edge.from.index].speed_mps > *spec.max_speed_mps);
+  if (is_left_from) return;
+  if (!holds(pairs, off.edge)) one.fail("to", "a trim that the rule connects with `from`");
+  if (!off.label) return;
+  const auto listed = std::ranges::find(spec.edges, off.edge, &EdgeLabels::edge);
+  const auto& labels = listed == spec.edges.end() ? spec.labels : listed->labels;
+  static_cast<void>(one.required<std::string>("label", one_of(labels)));
+}
+
+void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+  const std::vector<TrimPair> pairs = pairs_of(spec, context);
+  for (const YamlNode& one : entry.optional_list("off")) {
+    EdgesOff off{read_pair(one, context), std::nullopt};
+    if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
+    one.check_no_unknown_keys();
+    if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
+      one.fail("to", "an edge other than standing, which must be possible");
+    }
+    if (off.edge.from == off.edge.to && off.label) {
+      one.fail("label", "none for a trim's own step, which is the same for all labels");
+    }
+    if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
+    if (holds(spec.off, off)) one.fail("each edge once");
+    spec.off.push_back(std::move(off));
   }
 }
 
@@ -156,6 +173,9 @@ void check_connected(const YamlNode& entry, const SubgraphContext& context,
 SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context) {
   SubgraphSpec spec;
   spec.name = entry.required<std::string>("name");
+  if (spec.name.empty() || has_control_characters(spec.name)) {
+    entry.fail("name", "one line of text, not empty");
+  }
   spec.labels = read_labels(entry, context);
   spec.trims = read_trims(entry, context);
   const auto rule = entry.optional<std::string>("rule", "chain", one_of({"chain", "reachable"}));
@@ -163,8 +183,8 @@ SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context
   if (entry.has("max_speed_mps")) {
     spec.max_speed_mps = entry.required<double>("max_speed_mps", at_least(0.0));
   }
-  read_off(entry, context, spec);
   read_edge_labels(entry, context, spec);
+  read_off(entry, context, spec);
   entry.check_no_unknown_keys();
   check_connected(entry, context, spec);
   return spec;

@@ -20,13 +20,15 @@ struct SubgraphContext {
 
 /// Reads the list `subgraphs` of a configuration or automaton file. Each entry:
 ///
-///     name
+///     name                   not empty
 ///     label: J2              one label for all edges, or
 ///     labels: [J1, J2]       several: between two trims there is one edge for each
 ///     trims: all, or a list of numbers from 1
 ///     rule: chain (default) | reachable            (EdgeRule)
 ///     max_speed_mps          speed limit along maneuvers, optional
 ///     off: list of {from, to, label (default: every label)}
+///                            an edge out of a trim that is on must be one that the rule gives,
+///                            with a label that it has
 ///     edges: list of {from, to, labels: [...]}     labels of single edges, instead of the above
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...": also if the

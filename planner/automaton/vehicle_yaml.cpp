@@ -11,6 +11,11 @@ namespace {
 
 using Field = std::pair<const char*, double>;
 
+// Beyond these no wheeled vehicle is meant, but another unit.
+constexpr double kLongest_m = 100.0;
+constexpr double kFastest_mps = 1000.0;
+constexpr double kStrongest = 1e4;  // m/s^2, rad/s
+
 std::string fields(std::initializer_list<Field> list) {
   std::string text;
   for (const auto& [key, value] : list) {
@@ -23,11 +28,12 @@ std::string fields(std::initializer_list<Field> list) {
 
 VehicleParameters read_vehicle(const YamlNode& vehicle) {
   VehicleParameters v;
-  v.wheelbase_m = vehicle.required<double>("wheelbase_m", above(0.0));
+  v.wheelbase_m = vehicle.required<double>("wheelbase_m", above(0.0, kLongest_m));
   v.rear_axle_to_cg_m = vehicle.required<double>("rear_axle_to_cg_m", between(0.0, v.wheelbase_m));
-  v.footprint.length_m = vehicle.required<double>("length_m", above(0.0));
-  v.footprint.width_m = vehicle.required<double>("width_m", above(0.0));
-  v.safety_margin_m = vehicle.optional("safety_margin_m", v.safety_margin_m, at_least(0.0));
+  v.footprint.length_m = vehicle.required<double>("length_m", above(0.0, kLongest_m));
+  v.footprint.width_m = vehicle.required<double>("width_m", above(0.0, kLongest_m));
+  v.safety_margin_m =
+      vehicle.optional("safety_margin_m", v.safety_margin_m, between(0.0, kLongest_m));
   return v;
 }
 
@@ -57,15 +63,14 @@ IdentifiedVehicle read_identified(const YamlNode& vehicle, const VehicleParamete
 
 VehicleLimits read_limits(const YamlNode& limits) {
   VehicleLimits l;
-  l.acceleration_mps2 = limits.required<double>("acceleration_mps2", above(0.0));
-  l.steering_rate_radps = limits.required<double>("steering_rate_radps", above(0.0));
-  l.speed_min_mps = limits.required<double>("speed_min_mps", at_least(0.0));
-  l.speed_max_mps = limits.required<double>("speed_max_mps", above(l.speed_min_mps));
-  Allowed steering = above(0.0);
-  steering.max = 1.5;  // the model has no curvature at pi / 2
-  l.steering_max_rad = limits.required<double>("steering_max_rad", steering);
+  l.acceleration_mps2 = limits.required<double>("acceleration_mps2", above(0.0, kStrongest));
+  l.steering_rate_radps = limits.required<double>("steering_rate_radps", above(0.0, kStrongest));
+  l.speed_min_mps = limits.required<double>("speed_min_mps", between(0.0, kFastest_mps));
+  l.speed_max_mps = limits.required<double>("speed_max_mps", above(l.speed_min_mps, kFastest_mps));
+  constexpr double kSharpest_rad = 1.5;  // the model has no curvature at pi / 2
+  l.steering_max_rad = limits.required<double>("steering_max_rad", above(0.0, kSharpest_rad));
   if (limits.has("friction_mps2")) {
-    l.friction_mps2 = limits.required<double>("friction_mps2", above(0.0));
+    l.friction_mps2 = limits.required<double>("friction_mps2", above(0.0, kStrongest));
   }
   limits.check_no_unknown_keys();
   return l;

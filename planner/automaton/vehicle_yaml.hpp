@@ -7,8 +7,8 @@
 
 namespace hlc {
 
-/// Keys wheelbase_m, rear_axle_to_cg_m, length_m, width_m, safety_margin_m (default 0.010). Others
-/// are not checked.
+/// Keys wheelbase_m, rear_axle_to_cg_m, length_m, width_m, safety_margin_m (default 0.010), each
+/// at most 100 m. Others are not checked.
 [[nodiscard]] VehicleParameters read_vehicle(const YamlNode& vehicle);
 
 /// Key `identified` of the vehicle: a map with the members of IdentifiedVehicle, all optional, or
@@ -17,7 +17,8 @@ namespace hlc {
                                                 const VehicleParameters& parameters,
                                                 const VehicleLimits& limits);
 
-/// Keys as the members of VehicleLimits, all required but friction_mps2.
+/// Keys as the members of VehicleLimits, all required but friction_mps2. At most 1000 m/s, 1e4
+/// m/s², 1e4 rad/s, 1.5 rad.
 [[nodiscard]] VehicleLimits read_limits(const YamlNode& limits);
 
 /// Keys speed_mps, steering_rad, within the limits. Others are not checked.

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "planner/automaton/yaml_text.hpp"
+
 namespace hlc {
 namespace {
 
@@ -20,15 +22,19 @@ std::string printed(double value) {
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
+    text += (text.empty() ? "" : ", ") + one_line(word);
   }
   return text;
 }
 
+/// A key as it stands in the file.
+std::string key_of(const YAML::Node& node) { return node.IsScalar() ? node.Scalar() : "(no text)"; }
+
+/// A value as messages show it.
 std::string printed(const YAML::Node& node) {
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
-      return node.Scalar();
+      return one_line(node.Scalar());
     case YAML::NodeType::Sequence:
       return "(a list)";
     case YAML::NodeType::Map:
@@ -109,9 +115,10 @@ bool is_allowed(const T& value, const Allowed& allowed) {
 
 }  // namespace
 
-Allowed above(double min) {
+Allowed above(double min, double max) {
   Allowed allowed;
   allowed.min = min;
+  allowed.max = max;
   allowed.min_excluded = true;
   return allowed;
 }
@@ -147,7 +154,7 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path, i
   // YAML libraries let a repeated key pass; only one of the two would count.
   std::vector<std::string> keys;
   for (const auto& entry : node_) {
-    const std::string key = printed(entry.first);
+    const std::string key = key_of(entry.first);
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
       fail_at(entry.first.Mark().line + 1, path_of(key) + " = " + printed(entry.second) +
                                                ", allowed once; the key is there twice");
@@ -157,10 +164,13 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path, i
 }
 
 YamlNode YamlNode::read_file(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  // A device may have no end.
+  std::error_code error;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, error)) file.open(path);
   std::stringstream text;
   text << file.rdbuf();
-  if (!file || std::filesystem::is_directory(path)) {
+  if (!file.is_open() || file.bad()) {
     throw std::invalid_argument(path.string() + ": cannot be read, allowed a YAML file");
   }
   return parse(text.str(), path.string());
@@ -247,18 +257,24 @@ std::vector<YamlNode> YamlNode::entries() const {
 
 std::vector<std::string> YamlNode::keys() const {
   std::vector<std::string> result;
-  for (const auto& entry : node_) result.push_back(printed(entry.first));
+  for (const auto& entry : node_) result.push_back(key_of(entry.first));
   return result;
 }
 
 void YamlNode::check_no_unknown_keys() const {
   for (const auto& entry : node_) {
-    const std::string key = printed(entry.first);
+    const std::string key = key_of(entry.first);
     if (std::find(asked_->begin(), asked_->end(), key) == asked_->end()) {
       fail_at(entry.first.Mark().line + 1, path_of(key) + " = " + printed(entry.second) +
                                                ", unknown key, allowed keys " + joined(*asked_));
     }
   }
+}
+
+std::string YamlNode::place(const std::string& key) const {
+  const std::optional<YamlNode> found = find(key);
+  return file_ + ":" + std::to_string(found ? found->line_ : line_) + ": " + path_of(key) +
+         (found ? " = " + printed(found->node_) : "");
 }
 
 void YamlNode::fail(const std::string& key, const std::string& allowed) const {
@@ -279,7 +295,7 @@ std::optional<YamlNode> YamlNode::find(const std::string& key) const {
     asked_->push_back(key);
   }
   for (const auto& entry : node_) {
-    if (printed(entry.first) == key) {
+    if (key_of(entry.first) == key) {
       // The key's line: a value that is left out has no place of its own.
       return YamlNode(entry.second, file_, path_of(key), entry.first.Mark().line + 1);
     }
@@ -300,7 +316,7 @@ void YamlNode::fail_at(int line, const std::string& text) const {
 }
 
 std::string YamlNode::path_of(const std::string& key) const {
-  return path_.empty() ? key : path_ + "." + key;
+  return (path_.empty() ? "" : path_ + ".") + one_line(key);
 }
 
 #define HLC_YAML_TYPE(T)                                                         \

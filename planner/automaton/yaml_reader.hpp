@@ -19,7 +19,8 @@ struct Allowed {
   std::vector<std::string> words;  ///< empty: any
 };
 
-[[nodiscard]] Allowed above(double min);                ///< x > min
+/// min < x <= max
+[[nodiscard]] Allowed above(double min, double max = std::numeric_limits<double>::infinity());
 [[nodiscard]] Allowed at_least(double min);             ///< x >= min
 [[nodiscard]] Allowed between(double min, double max);  ///< min <= x <= max
 [[nodiscard]] Allowed one_of(std::vector<std::string> words);
@@ -37,10 +38,12 @@ struct Allowed {
 ///     file.check_no_unknown_keys();  // for every map, after its last field
 ///
 /// All errors are std::invalid_argument with one line, "file:line: key = value, allowed ...". Keys
-/// are printed with the way to them, list entries counted from 1: `trims[3].speed_mps`.
+/// are printed with the way to them, list entries counted from 1: `trims[3].speed_mps`. Long values
+/// are cut.
 class YamlNode {
  public:
-  /// @throws std::invalid_argument if the file cannot be read, is not YAML, or does not hold a map
+  /// @throws std::invalid_argument if the file is no regular file, cannot be read, is not YAML, or
+  /// does not hold a map
   [[nodiscard]] static YamlNode read_file(const std::filesystem::path& path);
   /// The same for text in memory; `name` stands for the file in messages.
   [[nodiscard]] static YamlNode parse(const std::string& text, const std::string& name);
@@ -83,6 +86,10 @@ class YamlNode {
 
   /// Throws if this map holds a key that none of the functions above was asked for.
   void check_no_unknown_keys() const;
+
+  /// "file:line: key = value" for messages, or "file:line: key" with this map's line if the key is
+  /// absent.
+  [[nodiscard]] std::string place(const std::string& key) const;
 
   /// For rules that need more than one field: throws "file:line: key = value, allowed `allowed`".
   [[noreturn]] void fail(const std::string& key, const std::string& allowed) const;

@@ -11,4 +11,10 @@ namespace hlc {
 /// The text in double quotes, so that any text without control characters reads back from YAML.
 [[nodiscard]] std::string quoted_yaml(const std::string& text);
 
+[[nodiscard]] bool has_control_characters(const std::string& text);
+
+/// The text as a message shows it: one line, line breaks and other control characters escaped as in
+/// C, and cut after 60 bytes (no character in two) with `...`.
+[[nodiscard]] std::string one_line(const std::string& text);
+
 }  // namespace hlc

@@ -5,6 +5,7 @@
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
 #include "planner/automaton/yaml_reader.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
 
@@ -46,9 +47,8 @@ std::vector<double> increasing_numbers(const YamlNode& map, const std::string& k
 std::vector<Trim> grid_trims(const YamlNode& file, const VehicleParameters& vehicle,
                              const VehicleLimits& limits) {
   const YamlNode grid = file.map("trims");
-  Allowed moving = above(0.0);
-  moving.max = limits.speed_max_mps;
-  const std::vector<double> speeds = increasing_numbers(grid, "speeds_mps", moving);
+  const std::vector<double> speeds =
+      increasing_numbers(grid, "speeds_mps", above(0.0, limits.speed_max_mps));
   const std::vector<double> steering = increasing_numbers(
       grid, "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
   grid.check_no_unknown_keys();
@@ -96,26 +96,27 @@ LabelledCriterion read_criterion(const YamlNode& entry) {
   criterion.label = entry.required<std::string>("name");
   const std::vector<std::string> names = criterion_names();
   if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
+      has_control_characters(criterion.label) ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
-    entry.fail("name",
-               "a name of its own: neither empty, nor '" + kOwnStepLabel + "', nor a criterion's");
+    entry.fail("name", "one line of text, a name of its own: neither empty, nor '" + kOwnStepLabel +
+                           "', nor a criterion's");
   }
   if (entry.has("minimise")) {
     read_front_point(entry, criterion);
     return criterion;
   }
   const YamlNode weights = entry.map("weights");
-  bool is_positive = false;
+  std::size_t positive = 0;
   for (const std::string& name : names) {
     if (!weights.has(name)) continue;
     criterion.weights.push_back({name, weights.required<double>(name, at_least(0.0))});
-    is_positive = is_positive || criterion.weights.back().weight > 0.0;
+    if (criterion.weights.back().weight > 0.0) ++positive;
   }
   weights.check_no_unknown_keys();
-  if (!is_positive) entry.fail("weights", "at least one weight > 0");
+  if (positive == 0) entry.fail("weights", "at least one weight > 0");
   criterion.normalised = entry.optional("normalised", false);
-  if (criterion.normalised && criterion.weights.size() < 2) {
-    entry.fail("normalised", "false with a single criterion");
+  if (criterion.normalised && positive < 2) {
+    entry.fail("normalised", "false with a single weight > 0");
   }
   entry.check_no_unknown_keys();
   return criterion;
@@ -144,6 +145,18 @@ std::vector<std::string> labels_of(const std::vector<LabelledCriterion>& criteri
   return labels;
 }
 
+ConfigurationPlaces places_of(const YamlNode& file, const AutomatonConfiguration& configuration) {
+  ConfigurationPlaces places;
+  places.intervals = file.has("intervals") ? file.place("intervals")
+                                           : file.place("intervals") + " = " +
+                                                 std::to_string(configuration.intervals);
+  for (const YamlNode& entry : file.list("subgraphs")) {
+    places.subgraphs.push_back(
+        {entry.place("trims"), entry.has("max_speed_mps") ? entry.place("max_speed_mps") : ""});
+  }
+  return places;
+}
+
 bool uses(const SubgraphSpec& subgraph, const std::string& label) {
   const auto holds = [&label](const std::vector<std::string>& labels) {
     return std::find(labels.begin(), labels.end(), label) != labels.end();
@@ -165,7 +178,7 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   configuration.identified = read_identified(vehicle, configuration.vehicle, configuration.limits);
   vehicle.check_no_unknown_keys();
   configuration.trims = read_trims(file, configuration.vehicle, configuration.limits);
-  configuration.step_s = file.required<double>("step_s", above(0.0));
+  configuration.step_s = file.required<double>("step_s", above(0.0, 100.0));
   configuration.intervals =
       file.optional("intervals", configuration.intervals, between(10.0, 1000.0));
   configuration.horizon_steps =
@@ -178,6 +191,7 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   configuration.subgraphs = read_subgraphs(
       file, {configuration.trims, configuration.vehicle, configuration.limits, configuration.step_s,
              configuration.horizon_steps, labels_of(configuration.criteria)});
+  configuration.places = places_of(file, configuration);
   file.check_no_unknown_keys();
   return configuration;
 }
@@ -188,6 +202,12 @@ AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
   std::erase_if(configuration.criteria, [&](const LabelledCriterion& criterion) {
     return !uses(subgraph, criterion.label);
   });
+  for (std::size_t i = 0; i < configuration.places.subgraphs.size(); ++i) {
+    if (configuration.subgraphs[i].name != subgraph.name) continue;
+    configuration.places.subgraphs = {
+        ConfigurationPlaces::Subgraph(configuration.places.subgraphs[i])};
+    break;
+  }
   configuration.subgraphs = {subgraph};
   return configuration;
 }

@@ -41,6 +41,16 @@ enum class EdgeChoice {
   kAll,        ///< all pairs of trims that the bounds on acceleration and steering rate allow
 };
 
+/// Where keys stand, "file:line: key = value", for messages about what only the maneuvers show.
+struct ConfigurationPlaces {
+  struct Subgraph {
+    std::string trims;
+    std::string max_speed_mps;  ///< empty: it has none
+  };
+  std::string intervals;  ///< with the default's value and the file's first line if absent
+  std::vector<Subgraph> subgraphs;
+};
+
 /// What a universal automaton is built from. File: see launch_scripts/automata/paper.yaml.
 struct AutomatonConfiguration {
   std::string source;  ///< file it was read from, for messages
@@ -55,6 +65,7 @@ struct AutomatonConfiguration {
   EdgeChoice edges{EdgeChoice::kSubgraphs};
   std::vector<LabelledCriterion> criteria;
   std::vector<SubgraphSpec> subgraphs;
+  ConfigurationPlaces places;  ///< empty unless it was read from a file
 };
 
 /// Reads a configuration. Keys:
@@ -67,14 +78,14 @@ struct AutomatonConfiguration {
 ///     trims:      list of {speed_mps, steering_rad}, or a grid {speeds_mps: [...], steering_rad:
 ///                  [...]}: standstill, then every speed > 0 with every angle, without what the
 ///                  friction circle forbids. Numbers count from 1 in this order
-///     step_s
+///     step_s      at most 100
 ///     horizon_steps  (default 8)
 ///     intervals   (default 20)
 ///     edges:      subgraphs (default) | all
 ///     criteria:   list of names (see criteria.hpp), or of
-///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)}, or of
-///                 {name, minimise: J1, bound: J2, share: 0.5} (a point of their front, 0 < share <
-///                 1)
+///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)} (true
+///                 needs two weights > 0), or of {name, minimise: J1, bound: J2, share: 0.5} (a
+///                 point of their front, 0 < share < 1)
 ///     subgraphs:  list of subgraphs, see read_subgraphs (planner/automaton/subgraph_yaml.hpp);
 ///                 their labels are names of `criteria`
 ///

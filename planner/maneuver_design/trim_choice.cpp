@@ -52,6 +52,8 @@ double rounded(double value) {
 
 }  // namespace
 
+bool is_reversing(const DriveSample& sample) { return sample.speed_mps <= -kSlowestDrive_mps; }
+
 std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, double window_s,
                                        const VehicleParameters& vehicle) {
   std::vector<DriveSample> samples;
@@ -60,7 +62,8 @@ std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, do
     while (end < points.size() && points[end].time_s < begin.time_s + window_s) ++end;
     if (end == points.size()) break;
     const double turn_rad = wrap_angle(points[end].pose.heading_rad - begin.pose.heading_rad);
-    const double chord_m = (points[end].pose.position_m() - begin.pose.position_m()).norm();
+    const Point chord = points[end].pose.position_m() - begin.pose.position_m();
+    const double chord_m = chord.norm();
     if (std::abs(turn_rad) > 0.5 * std::numbers::pi) continue;
     const double half = 0.5 * std::abs(turn_rad);
     const double arc_m = half > 0.0 ? chord_m * half / std::sin(half) : chord_m;
@@ -70,7 +73,11 @@ std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, do
       continue;
     }
     if (std::abs(turn_rad / arc_m) * vehicle.rear_axle_to_cg_m >= 1.0) continue;
-    samples.push_back({speed_mps, steering_for_curvature_rad(turn_rad / arc_m, vehicle)});
+    const double middle_rad = begin.pose.heading_rad + 0.5 * turn_rad;
+    const double ahead_m = chord.dot(Point(std::cos(middle_rad), std::sin(middle_rad)));
+    const double sign = ahead_m < 0.0 ? -1.0 : 1.0;
+    samples.push_back(
+        {sign * speed_mps, steering_for_curvature_rad(sign * turn_rad / arc_m, vehicle)});
   }
   return samples;
 }
@@ -81,14 +88,19 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   assert(count >= 2);
   const Point unit{limits.speed_max_mps, limits.steering_max_rad};
   std::vector<Point> points;
+  std::size_t reversing = 0;
   for (const DriveSample& sample : drive) {
+    if (is_reversing(sample)) ++reversing;
     if (sample.speed_mps < kSlowestDrive_mps) continue;
     points.emplace_back(
         std::clamp(sample.speed_mps, limits.speed_min_mps, limits.speed_max_mps) / unit.x(),
         std::clamp(sample.steering_rad, -limits.steering_max_rad, limits.steering_max_rad) /
             unit.y());
   }
-  if (points.empty()) throw std::invalid_argument("the vehicle stood for the whole drive");
+  if (points.empty()) {
+    throw std::invalid_argument(reversing > 0 ? "the vehicle never drove forwards"
+                                              : "the vehicle stood for the whole drive");
+  }
 
   std::vector<Point> centres = scattered(points, count - 1);
   std::vector<std::size_t> sizes;
@@ -109,7 +121,8 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   }
 
   std::vector<ChosenTrim> moving;
-  const auto total = static_cast<double>(drive.size());
+  const std::size_t counted = drive.size() - reversing;
+  const auto total = static_cast<double>(counted);
   for (std::size_t cluster = 0; cluster < centres.size(); ++cluster) {
     const Point& centre = centres[cluster];
     moving.push_back({{rounded(centre.x() * unit.x()), rounded(centre.y() * unit.y())},
@@ -129,7 +142,7 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   if (same != moving.end()) {
     throw std::invalid_argument("two of the chosen trims are the same to 0.001; choose fewer");
   }
-  std::vector<ChosenTrim> chosen{{{}, static_cast<double>(drive.size() - points.size()) / total}};
+  std::vector<ChosenTrim> chosen{{{}, static_cast<double>(counted - points.size()) / total}};
   chosen.insert(chosen.end(), moving.begin(), moving.end());
   return chosen;
 }

@@ -15,14 +15,20 @@ struct DrivePoint {
 
 /// How a vehicle drove at a moment.
 struct DriveSample {
-  double speed_mps{};
+  double speed_mps{};  ///< negative in reverse
   double steering_rad{};
 };
 
+/// Slower than this counts as standing [m/s].
+inline constexpr double kSlowestDrive_mps = 0.05;
+
+[[nodiscard]] bool is_reversing(const DriveSample& sample);
+
 /// Speed and steering of a drive that is known by its poses: of each window of `window_s` the
 /// circular arc from its first to its last point, and the steering with which the single-track
-/// model drives that arc. Windows in which the vehicle turned by more than a quarter turn, or on a
-/// smaller circle than the model can drive, say nothing and are left out.
+/// model drives that arc; in reverse if the arc leads against the heading. Windows in which the
+/// vehicle turned by more than a quarter turn, or on a smaller circle than the model can drive, say
+/// nothing and are left out.
 /// @pre times increase, window_s > 0
 [[nodiscard]] std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points,
                                                      double window_s,
@@ -34,9 +40,6 @@ struct ChosenTrim {
   double share{};
 };
 
-/// Slower than this counts as standing [m/s].
-inline constexpr double kSlowestDrive_mps = 0.05;
-
 /// `count` trims that stand for a drive: standstill, and one per cluster of the samples in which
 /// the vehicle moved.
 ///
@@ -44,8 +47,9 @@ inline constexpr double kSlowestDrive_mps = 0.05;
 /// samples and each sample belongs to the nearest trim, in the plane of speed / largest speed and
 /// steering / largest steering of the limits. The iteration starts from samples that are far from
 /// each other (each next one the farthest from all before), so the same drive gives the same trims.
-/// Samples outside the limits are moved to their border. The trims are rounded to 0.001, towards 0,
-/// and ordered as the paper's: standstill first, then by steering, then by speed.
+/// Samples outside the limits are moved to their border, reversing samples are left out. The trims
+/// are rounded to 0.001, towards 0, and ordered as the paper's: standstill first, then by steering,
+/// then by speed.
 ///
 /// @throws std::invalid_argument if the drive has fewer than count - 1 different ways of moving, or
 /// if a trim exceeds the friction circle of the limits

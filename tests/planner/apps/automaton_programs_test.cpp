@@ -160,17 +160,53 @@ TEST_F(AutomatonPrograms, BadInputIsOneLineWithExitCode2AndLeavesTheOldFileAlone
       run_program("build_automaton " + path("automaton.yaml") + " --out " + path("x.yaml")),
       "allowed a configuration");
   expect_refused(run_program("build_automaton " + path("car.yaml") + " --out " + path("car.yaml")),
-                 "other than the configuration");
+                 "other than the input");
+  expect_refused(build("--table " + path("automaton.yaml")), "--table = ");
+  expect_refused(build("--table " + path("x.csv") + " --plot " + path("./x.csv")), "--plot = ");
+  expect_refused(build("--table \"\""), "--table = , allowed");
+  expect_refused(build("--plot /dev/null"), "--plot = /dev/null, allowed");
+  expect_refused(run_program("build_automaton /dev/zero --out " + path("x.yaml")),
+                 "/dev/zero: cannot be read");
 
   std::string weak = configuration_;
   weak.replace(weak.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 2");
   write("car.yaml", weak);
+  expect_refused(build(), "car.yaml:11: subgraphs[1].trims = (a list), allowed");
   expect_refused(build(), "needs acceleration");
   std::string typing_error = configuration_;
   typing_error.replace(typing_error.find("criteria:"), 9, "criterias:");
   write("car.yaml", typing_error);
   expect_refused(build(), "car.yaml:1: criteria is missing");
   EXPECT_EQ(names(), (std::vector<std::string>{"automaton.yaml", "car.yaml"}));
+}
+
+TEST_F(AutomatonPrograms, WhatOnlyTheManeuversShowIsRefusedWithTheKeyThatIsToBlame) {
+  const auto refusal = [this](const std::string& piece, const std::string& replacement,
+                              const std::string& flags = "") {
+    std::string text = configuration_;
+    text.replace(text.find(piece), piece.size(), replacement);
+    write("car.yaml", text);
+    const Outcome outcome = build(flags);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    return outcome.output;
+  };
+  const std::string begin = "build_automaton: " + path("car.yaml");
+  // J1 is faster on its way than at its ends: the limit leaves the trims, but takes their edges.
+  EXPECT_EQ(refusal("criteria: [J2, J3]\nsubgraphs:\n",
+                    "criteria: [J2, J3, J1]\nsubgraphs:\n"
+                    "  - {name: A, label: J1, trims: [1, 3, 4], max_speed_mps: 0.61}\n"),
+            begin +
+                ":11: subgraphs[1].max_speed_mps = 0.61, allowed a limit that leaves every trim a "
+                "way from and to standstill; subgraph 'A': no way from trim 3 to a trim of speed "
+                "0\n");
+  const std::string coarse = "intervals = 20, allowed more; maneuver 1 -> 3 (J2): integrated again";
+  EXPECT_TRUE(
+      refusal("step_s: 0.2", "step_s: 10", "--jobs 1").starts_with(begin + ":1: " + coarse));
+  EXPECT_TRUE(refusal("step_s: 0.2", "step_s: 10\nintervals: 20", "--jobs 1")
+                  .starts_with(begin + ":9: " + coarse));
+  EXPECT_TRUE(refusal("step_s: 0.2", "step_s: 10\nintervals: 90", "--jobs 1 --intervals 20")
+                  .starts_with("build_automaton: --" + coarse));
 }
 
 TEST_F(AutomatonPrograms, ShowPrintsTrimsLabelsAndSubgraphs) {
@@ -194,6 +230,7 @@ TEST_F(AutomatonPrograms, ShowRefusesWhatIsStaleEditedOrNoAutomaton) {
     EXPECT_NE(outcome.output.find(named), std::string::npos) << outcome.output;
   };
   expect_refused(path("car.yaml"), "no built automaton");
+  expect_refused("/dev/zero", "/dev/zero: cannot be read");
   expect_refused("", "AUTOMATON");
   std::string other = configuration_;
   other.replace(other.find("width_m: 0.107"), 14, "width_m: 0.100");
@@ -229,6 +266,18 @@ TEST_F(AutomatonPrograms, AScenarioDrivesWithABuiltFileAsWithItsConfiguration) {
   const Outcome stale = run_program("rollout --scenario " + path("from_file.yaml"));
   EXPECT_EQ(stale.exit_code, 2);
   EXPECT_NE(stale.output.find("stale"), std::string::npos) << stale.output;
+}
+
+TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
+  const fs::path map = fs::path(testing::TempDir()) / "generate_map_test.xml";
+  EXPECT_EQ(run_program("generate_map --out " + map.string()).exit_code, 0);
+  EXPECT_GT(fs::file_size(map), 1000U);
+  fs::remove(map);
+  for (const std::string& bad : std::vector<std::string>{"/dev/stdout", testing::TempDir()}) {
+    const Outcome outcome = run_program("generate_map --out " + bad);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(outcome.output.starts_with("generate_map: --out = ")) << outcome.output;
+  }
 }
 
 }  // namespace

@@ -57,6 +57,47 @@ TEST_F(ChooseTrimsProgram, PrintsTrimsThatAConfigurationTakes) {
   EXPECT_NEAR(configuration.trims[3].speed_mps, 0.5, 0.02);
 }
 
+TEST_F(ChooseTrimsProgram, TakesVehicleAndLimitsOfAFileAndSaysWhichLimitsItTook) {
+  write("drive.csv", "speed_mps,steering_rad\n5,0.1\n2,-0.2\n");
+  write("car.yaml",
+        "vehicle: {wheelbase_m: 2.5, rear_axle_to_cg_m: 1.2, length_m: 4, width_m: 1.6, "
+        "identified: kinematic}\n"
+        "limits: {acceleration_mps2: 8, steering_rate_radps: 0.4, speed_min_mps: 0, "
+        "speed_max_mps: 50, steering_max_rad: 1}\n"
+        "notes: of no concern here\n");
+  const Outcome own =
+      run_program("choose_trims " + path("drive.csv") + " --count 3 --config " + path("car.yaml"));
+  EXPECT_EQ(own.exit_code, 0) << own.output;
+  EXPECT_TRUE(
+      own.output.starts_with("# limits of car.yaml: 0 ... 50 m/s, +-1 rad; wheelbase 2.5 m\n"))
+      << own.output;
+  EXPECT_NE(own.output.find("{speed_mps: 5.000, steering_rad: 0.100}"), std::string::npos)
+      << own.output;
+  const Outcome shipped = run_program("choose_trims " + path("drive.csv") + " --count 3");
+  EXPECT_EQ(shipped.exit_code, 0) << shipped.output;
+  EXPECT_NE(shipped.output.find("# limits of the uCar: 0 ... 3.7 m/s, +-0.62 rad"),
+            std::string::npos)
+      << shipped.output;
+}
+
+TEST_F(ChooseTrimsProgram, TellsOfSamplesOutsideTheLimitsAndOfReversing) {
+  write("drive.csv",
+        "speed_mps,steering_rad\n0.5,0.1\n90,0.1\n0.8,-0.9\n0.7,-0.2\n-1,0.1\n-0.5,0\n-0.01,0\n");
+  const Outcome outcome = run_program("choose_trims " + path("drive.csv") + " --count 3");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_NE(outcome.output.find(
+                "choose_trims: drive.csv: 2 of 7 samples are outside the limits (speed up to 90 "
+                "m/s, allowed 3.7; steering up to 0.9 rad, allowed 0.62) and count as at the "
+                "limit\n"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("choose_trims: drive.csv: 2 of 7 samples are reversing (up to 1 "
+                                "m/s) and are left out\n"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("# 1, 20.0 %"), std::string::npos) << outcome.output;
+}
+
 TEST_F(ChooseTrimsProgram, BadInputIsOneLineAndCode2) {
   write("letters.csv", "speed_mps,steering_rad\n0.5,left\n");
   write("columns.csv", "a,b\n1,2\n");
@@ -72,6 +113,12 @@ TEST_F(ChooseTrimsProgram, BadInputIsOneLineAndCode2) {
   refused(path("stands.csv"), "stood for the whole drive");
   refused(path("nowhere.csv"), "nowhere.csv: cannot be read");
   refused(path("stands.csv") + " --count 1", "--count");
+  refused("/dev/zero", "/dev/zero: cannot be read");
+  write("reverse.csv", "speed_mps,steering_rad\n-1,0\n");
+  refused(path("reverse.csv"), "never drove forwards");
+  write("no_limits.yaml",
+        "vehicle: {wheelbase_m: 2.5, rear_axle_to_cg_m: 1.2, length_m: 4, width_m: 1.6}\n");
+  refused(path("stands.csv") + " --config " + path("no_limits.yaml"), "limits is missing");
 }
 
 }  // namespace

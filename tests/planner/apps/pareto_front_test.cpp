@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <sstream>
 #include <vector>
@@ -89,6 +90,7 @@ TEST_F(ParetoFrontProgram, TheSameInputGivesTheSameBytes) {
 
 TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileThatWasThere) {
   std::ofstream(path("front.csv")) << "old";
+  fs::copy_file(HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml", path("copy.yaml"));
   std::ofstream(path("broken.yaml")) << "limits: {acceleration_mps2: -1}\n";
   const std::string out = " --out " + path("front.csv");
   struct Bad {
@@ -97,7 +99,9 @@ TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileTh
   };
   const std::string file = HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml";
   for (const Bad& bad :
-       {Bad{"", "configuration"}, Bad{file + " --from 0 0" + out, "--to"}, Bad{kExample, "--out"},
+       {Bad{"", "configuration"},
+        Bad{file + " --from 0 0" + out, "--to"},
+        Bad{kExample, "--out"},
         Bad{kExample + out + " --colour red", "--colour"},
         Bad{kExample + out + " --points 1", "--points"},
         Bad{kExample + out + " --points many", "--points"},
@@ -105,7 +109,22 @@ TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileTh
         Bad{kExample + out + " --criteria J1 J9", "J9"},
         Bad{kExample + out + " --criteria J1 J1", "--criteria = J1 J1"},
         Bad{kExample + out + " --duration 0.1", "needs acceleration 23 m/s^2, allowed 20 m/s^2"},
-        Bad{file + " --from 0 0 --to 9 0" + out, "speed of a trim = 9 m/s, allowed 0 ... 3.7"},
+        Bad{file + " --from 0 0 --to 9 0" + out,
+            "--to = 9 0, allowed 0 ... 3.7 m/s and -0.62 ... 0.62 rad"},
+        Bad{file + " --from 0 0.7 --to 1 0" + out, "--from = 0 0.7, allowed"},
+        Bad{file + " --from 0 nan --to 1 0" + out, "--from: nan, allowed a finite number"},
+        Bad{file + " --from 0 0 --to nan 0.62" + out, "--to: nan, allowed a finite number"},
+        Bad{file + " --from 0 0 --to 1 inf" + out, "--to: inf, allowed a finite number"},
+        Bad{kExample + out + " --duration nan", "--duration: nan, allowed 0.001 ... 100"},
+        Bad{kExample + out + " --free_duration 0.2 nan", "--free_duration: nan, allowed"},
+        Bad{kExample + out + " --free_duration 0.3 0.2", "--free_duration = 0.3 0.2, allowed MIN"},
+        Bad{kExample + out + " --free_duration 0.1 0.2 --duration 0.2", "--free_duration"},
+        Bad{kExample + out + " --plot " + path("front.csv"), "--plot = "},
+        Bad{kExample + out + " --plot \"\"", "--plot = , allowed"},
+        Bad{kExample + " --out /dev/stdout", "--out = /dev/stdout, allowed"},
+        Bad{kExample + " --out " + path("no/front.csv"), "--out = "},
+        Bad{path("copy.yaml") + " --from 0 0 --to 2.3 0.62 --out " + path("copy.yaml"),
+            "allowed a file other than the input"},
         Bad{path("none.yaml") + " --from 0 0 --to 1 0" + out, "none.yaml"},
         Bad{path("broken.yaml") + " --from 0 0 --to 1 0" + out, "broken.yaml"}}) {
     const auto [code, output] = run_program("pareto_front " + bad.flags);
@@ -114,6 +133,35 @@ TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileTh
     EXPECT_EQ(std::ranges::count(output, '\n'), 1) << output;
   }
   EXPECT_EQ(text_of(path("front.csv")), "old");
+  EXPECT_EQ(text_of(path("copy.yaml")), text_of(file));
+}
+
+TEST_F(ParetoFrontProgram, AFreeDurationIsChosenWithinItsBoundsAndTold) {
+  const auto [code, output] =
+      run_program("pareto_front " + kExample +
+                  " --intervals 10 --points 4 --criteria travel_time J2 --free_duration 0.15 0.4 "
+                  "--out " +
+                  path("front.csv") + " --plot " + path("front.svg"));
+  ASSERT_EQ(code, 0) << output;
+  std::istringstream table(text_of(path("front.csv")));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_TRUE(line.starts_with("travel_time,J2,dx,dy,dpsi,status,duration,v_max,")) << line;
+  std::vector<double> durations_s;
+  while (std::getline(table, line)) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 11U) << line;
+    EXPECT_EQ(cells[5], "optimal");
+    durations_s.push_back(std::stod(cells[6]));
+    EXPECT_NEAR(durations_s.back(), std::stod(cells[0]), 1e-9);
+  }
+  ASSERT_EQ(durations_s.size(), 4U);
+  EXPECT_NEAR(durations_s.front(), 0.4, 1e-9);  // soft inputs take all the time that there is
+  EXPECT_NEAR(durations_s.back(), 0.15, 1e-9);
+  EXPECT_TRUE(std::ranges::is_sorted(durations_s, std::greater{}));
+  EXPECT_NE(text_of(path("front.svg")).find("in 0.15 ... 0.4 s"), std::string::npos);
 }
 
 TEST_F(ParetoFrontProgram, TakesNegativeSteeringAndOtherCriteria) {

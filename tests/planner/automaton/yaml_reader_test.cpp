@@ -121,8 +121,32 @@ TEST(YamlNode, RefusesWhatIsNotAReadableMap) {
             "no/such/file.yaml: cannot be read, allowed a YAML file");
   EXPECT_EQ(message([] { (void)YamlNode::read_file("/"); }),
             "/: cannot be read, allowed a YAML file");
-  EXPECT_EQ(message([] { (void)YamlNode::read_file("/dev/null"); }),
-            "/dev/null:1: (nothing), allowed a map (key: value)");
+  for (const std::string device : {"/dev/null", "/dev/zero"}) {
+    EXPECT_EQ(message([&device] { (void)YamlNode::read_file(device); }),
+              device + ": cannot be read, allowed a YAML file");
+  }
+}
+
+TEST(YamlNode, PrintsEveryValueAndKeyInOneShortLine) {
+  const std::string longest(60, 'x');
+  const YamlNode node = YamlNode::parse(
+      "a: |\n  two\n  lines\nb: " + longest + "y\n\"k\\ney\": 1\n" + longest + "y: 2\n", "f.yaml");
+  EXPECT_EQ(message([&] { (void)node.required<int>("a"); }),
+            "f.yaml:1: a = two\\nlines\\n, allowed a whole number");
+  EXPECT_EQ(message([&] { (void)node.required<int>("b"); }),
+            "f.yaml:4: b = " + longest + "..., allowed a whole number");
+  EXPECT_EQ(message([&] { node.check_no_unknown_keys(); }),
+            "f.yaml:5: k\\ney = 1, unknown key, allowed keys a, b");
+  EXPECT_EQ(node.required<int>("k\ney"), 1);
+  EXPECT_EQ(node.required<int>(longest + "y"), 2) << "keys are compared whole";
+}
+
+TEST(YamlNode, TellsThePlaceOfAKey) {
+  const YamlNode vehicle = file().map("vehicle");
+  EXPECT_EQ(vehicle.map("limits").place("speed_mps"),
+            "car.yaml:6: vehicle.limits.speed_mps = -1.0");
+  EXPECT_EQ(vehicle.place("limits"), "car.yaml:6: vehicle.limits = (a map)");
+  EXPECT_EQ(vehicle.place("mass_kg"), "car.yaml:5: vehicle.mass_kg");
 }
 
 }  // namespace

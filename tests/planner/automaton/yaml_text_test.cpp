@@ -36,5 +36,13 @@ TEST(QuotedYaml, ReadsBack) {
   }
 }
 
+TEST(OneLine, IsOneShortLine) {
+  EXPECT_EQ(one_line("0.22 µm"), "0.22 µm");
+  EXPECT_EQ(one_line("a\nb\tc"), "a\\nb\\x09c");
+  EXPECT_EQ(one_line(std::string(60, 'x')), std::string(60, 'x'));
+  EXPECT_EQ(one_line(std::string(61, 'x')), std::string(60, 'x') + "...");
+  EXPECT_EQ(one_line(std::string(59, 'x') + "µm"), std::string(59, 'x') + "µ...");
+}
+
 }  // namespace
 }  // namespace hlc

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -201,6 +202,42 @@ TEST(AutomatonConfiguration, TheFrictionCircleLimitsTheTrims) {
             "circle is exceeded");
 }
 
+TEST(AutomatonConfiguration, RefusesNumbersThatNoVehicleHas) {
+  for (const auto& [key, value, allowed] :
+       std::vector<std::array<std::string, 3>>{{"wheelbase_m", "0.15", "100"},
+                                               {"length_m", "0.22", "100"},
+                                               {"acceleration_mps2", "12", "10000"},
+                                               {"steering_rate_radps", "6.2", "10000"},
+                                               {"speed_max_mps", "3.7", "1000"},
+                                               {"step_s", "0.2", "100"}}) {
+    const std::string said = message(key + ": " + value, key + ": 1e5");
+    EXPECT_NE(said.find(key + " = 1e5, allowed a number > 0 and <= " + allowed), std::string::npos)
+        << said;
+  }
+}
+
+TEST(AutomatonConfiguration, KnowsWhereItsKeysStand) {
+  std::string text = kGood + "  - {name: C, label: J2, trims: all, max_speed_mps: 1}\n";
+  const auto without_folder = [](const std::string& place) {
+    return place.substr(place.rfind('/') + 1);
+  };
+  const std::string file = "KnowsWhereItsKeysStand.yaml";
+  const ConfigurationPlaces places = read(text).places;
+  EXPECT_EQ(without_folder(places.intervals), file + ":1: intervals = 20");
+  ASSERT_EQ(places.subgraphs.size(), 2U);
+  EXPECT_EQ(without_folder(places.subgraphs[0].trims), file + ":14: subgraphs[1].trims = all");
+  EXPECT_EQ(places.subgraphs[0].max_speed_mps, "");
+  EXPECT_EQ(without_folder(places.subgraphs[1].max_speed_mps),
+            file + ":15: subgraphs[2].max_speed_mps = 1");
+  text.insert(text.find("criteria"), "intervals: 30\n");
+  const AutomatonConfiguration c = read(text);
+  EXPECT_EQ(without_folder(c.places.intervals), file + ":12: intervals = 30");
+  const AutomatonConfiguration needed = needed_by(c.subgraphs[1], c);
+  ASSERT_EQ(needed.places.subgraphs.size(), 1U);
+  EXPECT_EQ(without_folder(needed.places.subgraphs[0].trims),
+            file + ":16: subgraphs[2].trims = all");
+}
+
 TEST(AutomatonConfiguration, RefusesAGridThatIsNone) {
   const std::string allowed =
       "allowed a list of {speed_mps, steering_rad}, one of speed 0 among them, or, with "
@@ -217,27 +254,29 @@ TEST(AutomatonConfiguration, RefusesAGridThatIsNone) {
 
 TEST(AutomatonConfiguration, RefusesWhatIsWrongNamingLineKeyValueAndRule) {
   EXPECT_EQ(message("acceleration_mps2: 12", "acceleration_mps2: -12"),
-            "FILE:3: limits.acceleration_mps2 = -12, allowed a number > 0");
+            "FILE:3: limits.acceleration_mps2 = -12, allowed a number > 0 and <= 10000");
   EXPECT_EQ(message("acceleration_mps2: 12", "acceleration_mps2: fast"),
-            "FILE:3: limits.acceleration_mps2 = fast, allowed a number > 0");
+            "FILE:3: limits.acceleration_mps2 = fast, allowed a number > 0 and <= 10000");
   EXPECT_EQ(message("speed_max_mps: 3.7", "speed_max_mps: 0"),
-            "FILE:6: limits.speed_max_mps = 0, allowed a number > 0");
+            "FILE:6: limits.speed_max_mps = 0, allowed a number > 0 and <= 1000");
   EXPECT_EQ(message("speed_min_mps: 0", "speed_min_mps: -1"),
-            "FILE:5: limits.speed_min_mps = -1, allowed a number >= 0");
+            "FILE:5: limits.speed_min_mps = -1, allowed a number >= 0 and <= 1000");
   EXPECT_EQ(message("steering_max_rad: 0.62", "steering_max_rad: 1.6"),
             "FILE:7: limits.steering_max_rad = 1.6, allowed a number > 0 and <= 1.5");
   EXPECT_EQ(
       message("steering_max_rad: 0.62", "steering_max_rad: 0.62\n  jerk: 1"),
       "FILE:8: limits.jerk = 1, unknown key, allowed keys acceleration_mps2, steering_rate_radps, "
       "speed_min_mps, speed_max_mps, steering_max_rad, friction_mps2");
-  EXPECT_EQ(message("step_s: 0.2", "step_s: 0"), "FILE:11: step_s = 0, allowed a number > 0");
-  EXPECT_EQ(message("step_s: 0.2\n", ""), "FILE:1: step_s is missing, allowed a number > 0");
+  EXPECT_EQ(message("step_s: 0.2", "step_s: 0"),
+            "FILE:11: step_s = 0, allowed a number > 0 and <= 100");
+  EXPECT_EQ(message("step_s: 0.2\n", ""),
+            "FILE:1: step_s is missing, allowed a number > 0 and <= 100");
   EXPECT_EQ(message("step_s: 0.2", "step_s: 0.2\nintervals: 5"),
             "FILE:12: intervals = 5, allowed a whole number >= 10 and <= 1000");
   EXPECT_EQ(message("rear_axle_to_cg_m: 0.075", "rear_axle_to_cg_m: 0.2"),
             "FILE:1: vehicle.rear_axle_to_cg_m = 0.2, allowed a number >= 0 and <= 0.15");
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, safety_margin_m: -0.1"),
-            "FILE:1: vehicle.safety_margin_m = -0.1, allowed a number >= 0");
+            "FILE:1: vehicle.safety_margin_m = -0.1, allowed a number >= 0 and <= 100");
 }
 
 TEST(AutomatonConfiguration, RefusesTrimsOutsideTheLimitsTwiceOrWithoutStandstill) {
@@ -272,7 +311,8 @@ TEST(AutomatonConfiguration, RefusesBadWeightedSums) {
     return message("[J2]", "[J2, " + sum + "]").substr(0, 90);
   };
   EXPECT_EQ(refusal("{name: J1, weights: {J1: 1}}"),
-            std::string("FILE:12: criteria[2].name = J1, allowed a name of its own: neither empty, "
+            std::string("FILE:12: criteria[2].name = J1, allowed one line of text, a name of its "
+                        "own: neither empty, "
                         "nor 'trim', nor a criterion's")
                 .substr(0, 90));
   EXPECT_EQ(refusal("{name: x, weights: {J1: -1}}"),
@@ -282,7 +322,11 @@ TEST(AutomatonConfiguration, RefusesBadWeightedSums) {
   EXPECT_EQ(refusal("{name: x, weights: {J7: 1}}").substr(0, 54),
             "FILE:12: criteria[2].weights.J7 = 1, unknown key, allo");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 1}, normalised: true}"),
-            "FILE:12: criteria[2].normalised = true, allowed false with a single criterion");
+            "FILE:12: criteria[2].normalised = true, allowed false with a single weight > 0");
+  EXPECT_EQ(refusal("{name: x, weights: {J1: 1, J2: 0}, normalised: true}"),
+            "FILE:12: criteria[2].normalised = true, allowed false with a single weight > 0");
+  EXPECT_EQ(refusal("{name: \"x\\ny\", weights: {J1: 1}}").substr(0, 69),
+            "FILE:12: criteria[2].name = x\\ny, allowed one line of text, a name of");
 }
 
 TEST(AutomatonConfiguration, ReadsAllThatASubgraphCanSay) {
@@ -365,6 +409,36 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
             "be possible");
   EXPECT_EQ(refusal("off: [{from: 1, to: 2, label: J1}]"),
             "FILE:14: subgraphs[1].off[1].label = J1, allowed J2");
+  // Out of a trim that is on, only what the rule gives can be off ...
+  std::string text = kGood;
+  text.replace(text.find("[J2]"), 4, "[J2, J3]");
+  text.replace(text.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 4");
+  text.replace(text.find("  - {speed_mps: 0.8, steering_rad: 0}"), 37,
+               "  - {speed_mps: 0.8, steering_rad: 0}\n  - {speed_mps: 1.6, steering_rad: 0}");
+  const auto message_of = [&text](const std::string& subgraph) -> std::string {
+    try {
+      (void)read(text.substr(0, text.find("  - {name: B")) + "  - {name: B, label: J2, " +
+                 subgraph + "}\n");
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::string all = "rule: reachable, trims: all, ";
+  EXPECT_EQ(message_of(all + "off: [{from: 1, to: 3}]"),
+            "FILE:15: subgraphs[1].off[1].to = 3, allowed a trim that the rule connects with "
+            "`from`");
+  EXPECT_EQ(message_of("trims: [1, 2], off: [{from: 2, to: 3}]"),
+            "FILE:15: subgraphs[1].off[1].to = 3, allowed a trim that the rule connects with "
+            "`from`");
+  EXPECT_EQ(message_of("trims: all, off: [{from: 1, to: 2, label: J3}]"),
+            "FILE:15: subgraphs[1].off[1].label = J3, allowed J2");
+  EXPECT_EQ(message_of("trims: all, off: [{from: 1, to: 2, label: J3}], edges: [{from: 1, to: 2, "
+                       "labels: [J2, J3]}]"),
+            "no error");
+  // ... but any edge out of one that is off, which may be left by it.
+  EXPECT_EQ(message_of("trims: [1, 2], off: [{from: 3, to: 1, label: J3}]"), "no error");
+  EXPECT_EQ(message_of(all + "max_speed_mps: 1, off: [{from: 3, to: 1, label: J3}]"), "no error");
   EXPECT_EQ(refusal("edges: [{from: 2, to: 2, labels: [J2]}]"),
             "FILE:14: subgraphs[1].edges[1].to = 2, allowed a trim that the rule connects with "
             "`from`");
@@ -389,6 +463,9 @@ TEST(AutomatonConfiguration, RefusesUnknownCriteriaAndBadSubgraphs) {
   EXPECT_EQ(message("criteria: [J2]", "criteria: [J2, J2]"),
             "FILE:12: criteria[2] = J2, allowed each criterion once");
   EXPECT_EQ(message("label: J2", "label: J1"), "FILE:14: subgraphs[1].label = J1, allowed J2");
+  for (const std::string name : {"\"\"", "\"two\\nlines\""}) {
+    EXPECT_EQ(message("name: B", "name: " + name).substr(0, 24), "FILE:14: subgraphs[1].na");
+  }
   EXPECT_EQ(message("trims: all", "trims: some"),
             "FILE:14: subgraphs[1].trims = some, allowed all");
   EXPECT_EQ(message("trims: all", "trims: [1, 3]"),

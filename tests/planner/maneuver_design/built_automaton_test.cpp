@@ -164,6 +164,13 @@ TEST_F(BuiltAutomaton, AFileThatBearsTheNameOfItsConfigurationIsNotTakenForIt) {
   EXPECT_NO_THROW(static_cast<void>(read_current_automaton_file(elsewhere / "car.yaml")));
 }
 
+TEST_F(BuiltAutomaton, TheCommandQuotesPathsThatAShellWouldTakeApart) {
+  EXPECT_EQ(rebuild_command(file_, "my car/a.yaml", "it's $HOME.yaml"),
+            "build_automaton 'it'\\''s $HOME.yaml' --out 'my car/a.yaml'");
+  EXPECT_EQ(rebuild_command(file_, "a-b/c_1.yaml", "./d.yaml"),
+            "build_automaton ./d.yaml --out a-b/c_1.yaml");
+}
+
 TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
   const std::vector<std::pair<std::string, std::string>> changes{
       {"width_m: 0.107", "width_m: 0.108"},

@@ -97,6 +97,19 @@ TEST(ChooseTrims, StaysWithinTheLimits) {
   EXPECT_THROW((void)choose_trims(drive, 3, {}, limits), std::invalid_argument);
 }
 
+TEST(ChooseTrims, ReversingSamplesAreLeftOut) {
+  std::vector<DriveSample> drive{{0.5, 0.1}, {0.8, -0.2}, {0.01, 0.3}, {-0.02, 0.0}};
+  const std::vector<ChosenTrim> without = choose_trims(drive, 3, {}, kLimits);
+  drive.insert(drive.end(), 20, {-1.0, 0.4});
+  const std::vector<ChosenTrim> with = choose_trims(drive, 3, {}, kLimits);
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    EXPECT_EQ(with[i].trim, without[i].trim);
+    EXPECT_EQ(with[i].share, without[i].share);
+  }
+  EXPECT_EQ(with[0].share, 0.5) << "noise about 0 is standing";
+}
+
 TEST(ChooseTrims, ADriveWithTooFewWaysOfMovingIsRefused) {
   EXPECT_THROW((void)choose_trims({{0.0, 0.0}}, 2, {}, kLimits), std::invalid_argument);
   EXPECT_THROW((void)choose_trims({{0.5, 0.1}, {0.5, 0.1}}, 3, {}, kLimits), std::invalid_argument);
@@ -106,7 +119,8 @@ TEST(ChooseTrims, ADriveWithTooFewWaysOfMovingIsRefused) {
 
 TEST(DriveSamples, AreTheSpeedAndTheSteeringOfATrim) {
   const VehicleParameters vehicle;
-  for (const Trim& trim : {Trim{0.8, 0.0}, Trim{0.4, 0.6}, Trim{0.5, -0.48}, Trim{}}) {
+  for (const Trim& trim :
+       {Trim{0.8, 0.0}, Trim{0.4, 0.6}, Trim{0.5, -0.48}, Trim{}, Trim{-0.3, 0.2}}) {
     std::vector<DrivePoint> points;
     for (int i = 0; i <= 50; ++i) {
       const double time_s = 0.02 * i;

@@ -1,0 +1,84 @@
+#include "planner/apps/output_files.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputFiles : public testing::Test {
+ protected:
+  OutputFiles() {
+    put(folder_ / "car.yaml", "");
+    put(folder_ / "old.csv", "");
+    fs::current_path(folder_.path());
+  }
+  ~OutputFiles() override { fs::current_path(before_); }
+
+  /// The message, or "good".
+  static std::string said(const std::vector<OutputFile>& outputs) {
+    try {
+      check_output_files(outputs, {"car.yaml"});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "good";
+  }
+
+  fs::path before_{fs::current_path()};
+  TemporaryFolder folder_;
+};
+
+TEST_F(OutputFiles, NewAndRegularFilesAndNoneAreGood) {
+  EXPECT_EQ(said({{"--out", "new.csv"}, {"--plot", folder_ / "old.csv"}, {"--table", {}}}), "good");
+}
+
+TEST_F(OutputFiles, WhatCannotBeAFileIsRefused) {
+  fs::create_directory("folder");
+  fs::create_symlink("old.csv", "link.csv");
+  EXPECT_EQ(said({{"--out", ""}}), "--out = , allowed the name of a file");
+  EXPECT_EQ(said({{"--out", "no/new.csv"}}),
+            "--out = no/new.csv, allowed a file in a folder that exists");
+  EXPECT_EQ(said({{"--out", "old.csv/new.csv"}}),
+            "--out = old.csv/new.csv, allowed a file in a folder that exists");
+  for (const char* const other :
+       {"folder", "folder/", ".", "link.csv", "/dev/stdout", "/dev/null"}) {
+    EXPECT_EQ(said({{"--out", other}}),
+              "--out = " + std::string(other) + ", allowed a new or a regular file");
+  }
+}
+
+TEST_F(OutputFiles, AFolderThatMayNotBeWrittenToIsRefused) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  fs::create_directory("folder");
+  fs::permissions("folder", fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(said({{"--out", "folder/new.csv"}}),
+            "--out = folder/new.csv, allowed a file in a folder that may be written to");
+}
+
+TEST_F(OutputFiles, AnInputIsRefusedUnderAnyName) {
+  fs::create_hard_link("car.yaml", "hard.yaml");
+  for (const std::string& name : std::vector<std::string>{"car.yaml", "./car.yaml", "hard.yaml",
+                                                          (folder_ / "car.yaml").string()}) {
+    EXPECT_EQ(said({{"--out", "new.csv"}, {"--plot", name}}),
+              "--plot = " + name + ", allowed a file other than the input");
+  }
+}
+
+TEST_F(OutputFiles, TwoOutputsInOneFileAreRefusedAlsoIfItIsNew) {
+  for (const std::string& name :
+       std::vector<std::string>{"new.csv", "./new.csv", (folder_ / "new.csv").string()}) {
+    EXPECT_EQ(said({{"--out", "new.csv"}, {"--table", {}}, {"--plot", name}}),
+              "--plot = " + name + ", allowed a file other than that of --out");
+  }
+}
+
+}  // namespace
+}  // namespace hlc
