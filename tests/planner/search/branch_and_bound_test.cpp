@@ -162,6 +162,73 @@ TEST(BranchAndBound, AgreesWithBestFirstOnLongHorizons) {
   EXPECT_GE(feasible, 50U);
 }
 
+// Also where a search ends early: its lower bound shows every bit of the children's bounds.
+TEST(BranchAndBound, BothKernelsGiveTheSameBits) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  std::size_t cut = 0;
+  for (const std::size_t budget : {1U, 5U, 20U}) {
+    BranchAndBound best(subgraph, reachable, {.max_expansions = budget});
+    BranchAndBound portable(subgraph, reachable, {.max_expansions = budget},
+                            Instructions::kPortable);
+    for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      std::mt19937_64 random(seed);
+      const HorizonProblem problem =
+          test::random_problem(subgraph, 2 + test::pick(random, 7), random);
+      const SearchResult result = best.search(problem, never_stop);
+      expect_same(portable.search(problem, never_stop), result);
+      cut += result.status != SearchStatus::kOptimal ? 1U : 0U;
+    }
+  }
+  EXPECT_GE(cut, 100U);
+}
+
+/// A problem whose reference is far away in a direction of the start frame, and what is known of
+/// its cost after the start has been expanded.
+struct FarProblem {
+  double lower_bound{};
+  double optimum{};
+};
+
+FarProblem far_problem(const Case& param, std::uint64_t seed) {
+  Engines engines(make_subgraph(param), {.max_expansions = 1});
+  std::mt19937_64 random(seed);
+  HorizonProblem problem;
+  problem.start = test::random_pose(random);
+  const std::size_t steps = 2 + test::pick(random, 2);
+  problem.start_trim = {param.trims[test::pick(random, param.trims.size())] - 1};
+  if (!engines.subgraph.is_on(problem.start_trim)) {
+    problem.start_trim = engines.subgraph.standstill();
+  }
+  const double angle_rad = std::numbers::pi / 4.0 * static_cast<double>(test::pick(random, 8));
+  const double distance_m = test::uniform(random, 200.0, 400.0);
+  const Pose far = compose(
+      problem.start, {distance_m * std::cos(angle_rad), distance_m * std::sin(angle_rad), 0.0});
+  problem.reference_m.assign(steps, far.position_m());
+  BranchAndBound unlimited(engines.subgraph, engines.reachable, {});
+  return {engines.fast.search(problem, never_stop).lower_bound,
+          unlimited.search(problem, never_stop).cost};
+}
+
+// The bound of the children, which no result shows but this one.
+TEST(BranchAndBound, TheBoundOfTheChildrenIsAdmissibleAndTight) {
+  const std::array<Case, 4> cases{Case{"Slow", {kSlow}, kAllTrims, 0, 0},
+                                  Case{"Fast", {kFast}, kAllTrims, 0, 0},
+                                  Case{"Mixed", {kSlow, kFast}, {1, 2, 4, 7, 10}, 0, 0},
+                                  Case{"SpeedLimit", {kFast, kSlow}, kAllTrims, 0, 0, 0.75}};
+  for (const Case& param : cases) {
+    std::size_t tight = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      const FarProblem known = far_problem(param, seed);
+      ASSERT_LE(known.lower_bound, known.optimum * (1.0 + 1e-12)) << param << ", seed " << seed;
+      // One millimetre more in each step would be too much.
+      tight += known.lower_bound > known.optimum * (1.0 - 2.0 * 1e-3 / 400.0) ? 1U : 0U;
+    }
+    EXPECT_GE(tight, 20U) << param;
+  }
+}
+
 /// Straight on at 0.8 m/s from the paper's pi_7.
 HorizonProblem straight_problem(std::size_t horizon_steps) {
   HorizonProblem problem;

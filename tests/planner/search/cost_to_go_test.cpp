@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -238,6 +239,25 @@ TEST(CostToGo, IsTheTrueCostAtFullSpeedTowardsAFarReference) {
                 true_cost_to_go(subgraph, vertex), kRoundingM2)
         << "seed " << seed;
   }
+}
+
+TEST(StraightLineCostToGo, GoesAsFarAsTheLongestManeuverInEveryStep) {
+  const Subgraph subgraph = make_subgraph({"Mixed", {kSlow, kFast}, {1, 2, 6, 7}});
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  double longest_m = 0.0;
+  for (const Maneuver& maneuver : subgraph.automaton().maneuvers) {
+    const auto edges = subgraph.successors(maneuver.from);
+    if (std::any_of(edges.begin(), edges.end(),
+                    [&](const Edge& edge) { return edge.maneuver == &maneuver; })) {
+      longest_m = std::max(longest_m, maneuver.displacement.position_m().norm());
+    }
+  }
+  ASSERT_GT(longest_m, 0.16 + 0.05);  // farther than 0.8 m/s
+  HorizonProblem problem;
+  problem.reference_m = {{7.0, 7.0}, {1.0, 0.0}, {0.0, 2.0}, {0.0, 0.0}};
+  const CostToGoFunction function(subgraph, reachable, problem, CostToGo::kStraightLine);
+  EXPECT_NEAR(function({6}, 1, Frame{}),
+              std::pow(1.0 - longest_m, 2) + std::pow(2.0 - 2.0 * longest_m, 2), 1e-9);
 }
 
 TEST(DistanceBeyond, IsThatOfTheNearestHalfPlaneOrCircle) {
