@@ -39,46 +39,13 @@ struct Choices {
   throw std::invalid_argument(place + ", allowed " + allowed + "; " + reason);
 }
 
-/// The place of the trims of the first subgraph that needs this edge; empty if none does.
-std::string place_of(const hlc::TrimPair& edge, const hlc::AutomatonConfiguration& c) {
-  for (std::size_t i = 0; i < c.subgraphs.size(); ++i) {
-    const hlc::SubgraphSpec& subgraph = c.subgraphs[i];
-    const std::vector<hlc::TrimPair> pairs =
-        hlc::rule_edges(subgraph.rule, c.trims, subgraph.trims, c.vehicle, c.limits, c.step_s);
-    if (std::ranges::binary_search(pairs, edge) && !hlc::labels_of(subgraph, edge).empty()) {
-      return c.places.subgraphs[i].trims;
-    }
-  }
-  return "";
-}
-
-/// Designs a maneuver; an error names the key that is to blame.
-hlc::Maneuver designed(const hlc::AutomatonConfiguration& configuration,
-                       const hlc::DesignTask& task) {
-  try {
-    return hlc::design(configuration, task);
-  } catch (const std::invalid_argument& error) {
-    std::string reason = error.what();
-    const std::string file = configuration.source + ": ";
-    if (reason.starts_with(file)) reason.erase(0, file.size());
-    const std::string coarse =
-        "; allowed more than " + std::to_string(configuration.intervals) + " intervals";
-    if (reason.ends_with(coarse)) {
-      reason.resize(reason.size() - coarse.size());
-      fail(configuration.places.intervals, "more", reason);
-    }
-    const std::string place = place_of(task.edge, configuration);
-    if (place.empty()) throw;
-    fail(place, "trims with a maneuver wherever the rule connects two", reason);
-  }
-}
-
 hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, std::size_t jobs) {
   const std::vector<hlc::DesignTask> tasks = hlc::design_tasks(configuration);
   std::vector<hlc::Maneuver> maneuvers(tasks.size());
   const hlc::ProgressLine progress("maneuver", tasks.size());
   hlc::run_parallel(
-      tasks.size(), jobs, [&](std::size_t i) { maneuvers[i] = designed(configuration, tasks[i]); },
+      tasks.size(), jobs,
+      [&](std::size_t i) { maneuvers[i] = hlc::design(configuration, tasks[i]); },
       [&](std::size_t done) { progress.show(done); });
   return hlc::assembled(configuration, std::move(maneuvers));
 }

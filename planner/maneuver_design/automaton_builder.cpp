@@ -61,11 +61,29 @@ std::vector<CriterionValue> unit_costs(const Trim& trim,
   return costs;
 }
 
-/// How messages about a maneuver begin.
-std::string name_of(const DesignTask& task, const AutomatonConfiguration& configuration) {
-  return configuration.source + ": maneuver " + std::to_string(task.edge.from.index + 1) + " -> " +
-         std::to_string(task.edge.to.index + 1) + " (" +
-         configuration.criteria[task.criterion].label + "): ";
+/// The place of the trims of the first subgraph that needs this edge; empty if none does.
+std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
+  for (std::size_t i = 0; i < c.places.subgraphs.size(); ++i) {
+    const SubgraphSpec& subgraph = c.subgraphs[i];
+    const std::vector<TrimPair> pairs =
+        rule_edges(subgraph.rule, c.trims, subgraph.trims, c.vehicle, c.limits, c.step_s);
+    if (std::ranges::binary_search(pairs, edge) && !labels_of(subgraph, edge).empty()) {
+      return c.places.subgraphs[i].trims;
+    }
+  }
+  return "";
+}
+
+/// Throws: the key that is to blame if the configuration was read from a file, the maneuver, and
+/// what is wrong with it.
+[[noreturn]] void fail(const DesignTask& task, const AutomatonConfiguration& configuration,
+                       const std::string& key, const std::string& allowed,
+                       const std::string& reason) {
+  throw std::invalid_argument((key.empty() ? configuration.source : key + ", allowed " + allowed) +
+                              (key.empty() ? ": " : "; ") + "maneuver " +
+                              std::to_string(task.edge.from.index + 1) + " -> " +
+                              std::to_string(task.edge.to.index + 1) + " (" +
+                              configuration.criteria[task.criterion].label + "): " + reason);
 }
 
 UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration) {
@@ -112,7 +130,8 @@ ManeuverSolution solved(const ManeuverProblem& problem, const RunningCost& cost,
   ManeuverSolution solution =
       leans_right(problem) ? mirrored(solve(mirrored(problem), cost)) : solve(problem, cost);
   if (solution.status != ManeuverStatus::kOptimal) {
-    throw std::invalid_argument(name_of(task, configuration) + solution.reason);
+    fail(task, configuration, place_of(task.edge, configuration),
+         "trims with a maneuver wherever the rule connects two", solution.reason);
   }
   return solution;
 }
@@ -250,8 +269,8 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   complete(maneuver, configuration);
   if (const std::string fault = fault_of(maneuver, without_maneuvers(configuration));
       !fault.empty()) {
-    throw std::invalid_argument(name_of(task, configuration) + fault + "; allowed more than " +
-                                std::to_string(configuration.intervals) + " intervals");
+    fail(task, configuration, configuration.places.intervals, "more",
+         fault + " with " + std::to_string(configuration.intervals) + " intervals");
   }
   return maneuver;
 }

@@ -208,6 +208,14 @@ AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
         ConfigurationPlaces::Subgraph(configuration.places.subgraphs[i])};
     break;
   }
+  const auto same = std::ranges::find(configuration.subgraphs, subgraph);
+  if (same != configuration.subgraphs.end() && !configuration.places.subgraphs.empty()) {
+    const auto index = same - configuration.subgraphs.begin();
+    configuration.places.subgraphs = {
+        configuration.places.subgraphs[static_cast<std::size_t>(index)]};
+  } else {
+    configuration.places.subgraphs.clear();
+  }
   configuration.subgraphs = {subgraph};
   return configuration;
 }

@@ -48,7 +48,7 @@ struct ConfigurationPlaces {
     std::string max_speed_mps;  ///< empty: it has none
   };
   std::string intervals;  ///< with the default's value and the file's first line if absent
-  std::vector<Subgraph> subgraphs;
+  std::vector<Subgraph> subgraphs;  ///< as many as the configuration has, or none at all
 };
 
 /// What a universal automaton is built from. File: see launch_scripts/automata/paper.yaml.

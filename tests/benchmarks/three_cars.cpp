@@ -71,7 +71,7 @@ std::vector<HorizonProblem> three_cars_problems(const std::shared_ptr<const Subg
   std::vector<HorizonProblem> problems;
   for (std::size_t step = 0; step < steps; ++step) {
     static_cast<void>(rollout.step());
-    if (red.problem()) problems.push_back(*red.problem());
+    if (!red.problems().empty()) problems.push_back(red.problems().front());
   }
   return problems;
 }
