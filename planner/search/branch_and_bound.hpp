@@ -17,7 +17,7 @@ namespace hlc {
 /// order of f = g + h, those first generated first among equals; a child is left out as soon as its
 /// f is no less than the cost of the best complete path so far. The edge to a child is checked for
 /// collision only when the child is tried. When nothing is left, the best path is a path of least
-/// cost: what was left out has a path through it that costs at least f, hence no less than it.
+/// cost: every path through a child that was left out costs at least its f, hence no less.
 ///
 /// **Bound.** As CostToGo::kReachable, but seen from the parent, so that what depends on the vertex
 /// alone is computed once for all its children. For the edge t -> u with displacement T, with m
@@ -33,9 +33,9 @@ namespace hlc {
 /// depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made once.
 ///
 /// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
-/// step is left out once per plan; of the rest, edge normals and their offsets are computed once.
-/// A separating-axis test on these decides unless two areas touch to within rounding; then the same
-/// test as in CollisionCheck does.
+/// step is left out once per plan (PreparedObstacles). Of the rest, circles around obstacles and
+/// rectangles around four boundary segments in a row leave out most; then a separating-axis test
+/// decides, unless two areas touch to within rounding: there the very test of CollisionCheck does.
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
 /// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,

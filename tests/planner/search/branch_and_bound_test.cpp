@@ -191,25 +191,33 @@ struct FarProblem {
   double optimum{};
 };
 
-FarProblem far_problem(const Case& param, std::uint64_t seed) {
-  Engines engines(make_subgraph(param), {.max_expansions = 1});
-  std::mt19937_64 random(seed);
-  HorizonProblem problem;
-  problem.start = test::random_pose(random);
-  const std::size_t steps = 2 + test::pick(random, 2);
-  problem.start_trim = {param.trims[test::pick(random, param.trims.size())] - 1};
-  if (!engines.subgraph.is_on(problem.start_trim)) {
-    problem.start_trim = engines.subgraph.standstill();
+class FarProblems {
+ public:
+  explicit FarProblems(const Case& param) : trims_(param.trims), engines_(make_subgraph(param)) {}
+
+  [[nodiscard]] FarProblem at(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    HorizonProblem problem;
+    problem.start = test::random_pose(random);
+    const std::size_t steps = 2 + test::pick(random, 2);
+    problem.start_trim = {trims_[test::pick(random, trims_.size())] - 1};
+    if (!engines_.subgraph.is_on(problem.start_trim)) {
+      problem.start_trim = engines_.subgraph.standstill();
+    }
+    const double angle_rad = std::numbers::pi / 4.0 * static_cast<double>(test::pick(random, 8));
+    const double distance_m = test::uniform(random, 200.0, 400.0);
+    const Pose far = compose(
+        problem.start, {distance_m * std::cos(angle_rad), distance_m * std::sin(angle_rad), 0.0});
+    problem.reference_m.assign(steps, far.position_m());
+    return {once_.search(problem, never_stop).lower_bound,
+            engines_.fast.search(problem, never_stop).cost};
   }
-  const double angle_rad = std::numbers::pi / 4.0 * static_cast<double>(test::pick(random, 8));
-  const double distance_m = test::uniform(random, 200.0, 400.0);
-  const Pose far = compose(
-      problem.start, {distance_m * std::cos(angle_rad), distance_m * std::sin(angle_rad), 0.0});
-  problem.reference_m.assign(steps, far.position_m());
-  BranchAndBound unlimited(engines.subgraph, engines.reachable, {});
-  return {engines.fast.search(problem, never_stop).lower_bound,
-          unlimited.search(problem, never_stop).cost};
-}
+
+ private:
+  std::vector<std::size_t> trims_;
+  Engines engines_;
+  BranchAndBound once_{engines_.subgraph, engines_.reachable, {.max_expansions = 1}};
+};
 
 // The bound of the children, which no result shows but this one.
 TEST(BranchAndBound, TheBoundOfTheChildrenIsAdmissibleAndTight) {
@@ -218,9 +226,10 @@ TEST(BranchAndBound, TheBoundOfTheChildrenIsAdmissibleAndTight) {
                                   Case{"Mixed", {kSlow, kFast}, {1, 2, 4, 7, 10}, 0, 0},
                                   Case{"SpeedLimit", {kFast, kSlow}, kAllTrims, 0, 0, 0.75}};
   for (const Case& param : cases) {
+    FarProblems problems(param);
     std::size_t tight = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-      const FarProblem known = far_problem(param, seed);
+      const FarProblem known = problems.at(seed);
       ASSERT_LE(known.lower_bound, known.optimum * (1.0 + 1e-12)) << param << ", seed " << seed;
       // One millimetre more in each step would be too much.
       tight += known.lower_bound > known.optimum * (1.0 - 2.0 * 1e-3 / 400.0) ? 1U : 0U;
