@@ -202,20 +202,12 @@ AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
   std::erase_if(configuration.criteria, [&](const LabelledCriterion& criterion) {
     return !uses(subgraph, criterion.label);
   });
+  std::vector<ConfigurationPlaces::Subgraph> places;
   for (std::size_t i = 0; i < configuration.places.subgraphs.size(); ++i) {
-    if (configuration.subgraphs[i].name != subgraph.name) continue;
-    configuration.places.subgraphs = {
-        ConfigurationPlaces::Subgraph(configuration.places.subgraphs[i])};
-    break;
+    const bool is_it = configuration.subgraphs[i].name == subgraph.name;
+    if (is_it) places.push_back(configuration.places.subgraphs[i]);
   }
-  const auto same = std::ranges::find(configuration.subgraphs, subgraph);
-  if (same != configuration.subgraphs.end() && !configuration.places.subgraphs.empty()) {
-    const auto index = same - configuration.subgraphs.begin();
-    configuration.places.subgraphs = {
-        configuration.places.subgraphs[static_cast<std::size_t>(index)]};
-  } else {
-    configuration.places.subgraphs.clear();
-  }
+  configuration.places.subgraphs = std::move(places);
   configuration.subgraphs = {subgraph};
   return configuration;
 }

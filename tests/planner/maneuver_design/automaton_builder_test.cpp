@@ -307,6 +307,7 @@ TEST(AutomatonBuilder, CriteriaThatDoNotContradictEachOtherAreNotNormalised) {
 TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {
   AutomatonConfiguration configuration = paper_configuration();
   configuration.source = "slow.yaml";
+  configuration.places = {};  // as if it had not been read from a file
   configuration.limits.acceleration_mps2 = 3.0;
   try {
     (void)build_automaton(configuration);
