@@ -10,6 +10,7 @@
 #include <string>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
 #include "planner/apps/problem_plot.hpp"
 #include "planner/automaton/atomic_write.hpp"
 #include "planner/scenario/problem_file.hpp"
@@ -33,7 +34,7 @@ struct Flags {
   std::optional<std::string> cost_to_go;
   std::optional<std::size_t> max_expansions;
   bool json{};
-  std::optional<std::filesystem::path> plot;
+  hlc::OutputFile plot{"--plot", {}};
 };
 
 struct Solved {
@@ -56,7 +57,7 @@ void declare(CLI::App& app, Flags& flags) {
                "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
                "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
                "planning_us");
-  app.add_option("--plot", flags.plot, "write a picture of problem and plan (SVG)");
+  hlc::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
   app.footer("Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input.");
 }
 
@@ -149,7 +150,9 @@ int run(const Flags& flags) {
   } else {
     print(file, solved);
   }
-  if (flags.plot) hlc::write_atomically(hlc::problem_plot(file, solved.result), *flags.plot);
+  if (flags.plot.file) {
+    hlc::write_atomically(hlc::problem_plot(file, solved.result), *flags.plot.file);
+  }
   return solved.result.status == hlc::SearchStatus::kFallback ? kExitFallback : 0;
 }
 
