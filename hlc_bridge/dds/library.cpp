@@ -4,6 +4,8 @@
 #include <mutex>
 
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
+#include <fastrtps/types/DynamicDataFactory.h>
+#include <fastrtps/types/DynamicTypeBuilderFactory.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
@@ -30,6 +32,10 @@ void set_up_library() {
     frtps::LibrarySettingsAttributes settings;
     settings.intraprocess_delivery = frtps::INTRAPROCESS_OFF;
     frtps::xmlparser::XMLProfileManager::library_settings(settings);
+    // Made here, by one thread: discovery threads of two participants would make them at the same
+    // time, and one of each would be lost.
+    static_cast<void>(frtps::types::DynamicTypeBuilderFactory::get_instance());
+    static_cast<void>(frtps::types::DynamicDataFactory::get_instance());
     register_lab_types();
   });
 }

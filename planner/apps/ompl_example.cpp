@@ -34,6 +34,19 @@ namespace ob = ompl::base;
 namespace oc = ompl::control;
 namespace ot = ompl::tools;
 
+#if defined(__SANITIZE_ADDRESS__)
+// OMPL 1.5's SST never frees the motions of witnesses that it has looked for; the leak sanitizer
+// asks these functions what not to report, and needs whole stacks to know SST in them.
+extern "C" const char* __asan_default_options();
+extern "C" const char* __asan_default_options() { return "fast_unwind_on_malloc=0"; }
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:ompl::control::SST::findClosestWitness\n";
+}
+#endif
+
 namespace {
 
 constexpr char kCost[] = "path cost REAL";
