@@ -143,6 +143,7 @@ void print(const hlc::ProblemFile& file, const Solved& solved) {
 }
 
 int run(const Flags& flags) {
+  hlc::check_output_files({flags.plot}, {flags.file});
   const hlc::ProblemFile file = read(flags);
   const Solved solved = solve(file);
   if (flags.json) {

@@ -151,6 +151,15 @@ TEST_F(ProblemPrograms, ThePlotIsAPictureThatExplainsItself) {
   }
 }
 
+TEST_F(ProblemPrograms, APictureNeverTakesThePlaceOfItsProblem) {
+  const std::string problem = infeasible();
+  const auto size = fs::file_size(problem);
+  const Outcome outcome = run_program("plan_problem " + problem + " --plot " + problem);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("allowed a file other than the input"));
+  EXPECT_EQ(fs::file_size(problem), size);
+}
+
 TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
   const std::string command =
       "propose_budget " + kLaunch + "scenarios/paper_red_alone.yaml --steps 3 --engine best_first";
