@@ -1,7 +1,6 @@
 // Reads a run folder, writes steps.csv, timing.csv, summary.json and what was configured, prints
 // the table.
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -27,33 +26,12 @@
 
 namespace {
 
-/// @throws std::runtime_error if the run is not one of this scenario
-void check_scenario(const hlc::RunFacts& facts, const hlc::RunDescription& description) {
-  const double period_s = 1e-9 * static_cast<double>(facts.period);
-  if (std::abs(period_s - description.step_s) > 1e-9) {
-    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
-                             ", must be the step of scenario " + description.scenario + ", " +
-                             hlc::shortest_text(description.step_s) + " s");
-  }
+hlc::Drives drives_of(const std::filesystem::path& run, const hlc::RunFacts& facts) {
+  const hlc::Drives drives = hlc::read_drives(run, facts.vehicle_ids);
   for (const std::uint8_t id : facts.vehicle_ids) {
-    if (std::none_of(description.vehicles.begin(), description.vehicles.end(),
-                     [id](const auto& vehicle) { return vehicle.id.value == id; })) {
-      throw std::runtime_error("run.json: vehicle_ids has " + std::to_string(id) +
-                               ", which is not in scenario " + description.scenario);
-    }
-  }
-}
-
-hlc::Drives read_drives(const std::filesystem::path& run, const hlc::RunFacts& facts) {
-  hlc::Drives drives;
-  for (const std::uint8_t id : facts.vehicle_ids) {
-    const std::filesystem::path file = hlc::drive_file(run, id);
-    if (std::filesystem::exists(file)) {
-      drives[id] = hlc::read_drive(file);
-    } else {
-      std::cerr << "summarize: " << file.string() << " is not there; nothing is said about what "
-                << "vehicle " << id + 0 << " drove\n";
-    }
+    if (drives.contains(id)) continue;
+    std::cerr << "summarize: " << hlc::drive_file(run, id).string()
+              << " is not there; nothing is said about what vehicle " << id + 0 << " drove\n";
   }
   return drives;
 }
@@ -79,8 +57,8 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
   }
   const hlc::Scenario scenario = hlc::read_scenario(choices);
   const hlc::RunDescription description = hlc::describe(scenario, noise_seed);
-  check_scenario(facts, description);
-  const hlc::Drives drives = read_drives(run, facts);
+  hlc::check_run(facts, description);
+  const hlc::Drives drives = drives_of(run, facts);
   const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
 
   hlc::RunSummary summary = hlc::summarize(description, facts, rows, drives);

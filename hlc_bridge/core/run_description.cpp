@@ -1,5 +1,10 @@
 #include "hlc_bridge/core/run_description.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -21,6 +26,22 @@ RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> n
         {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
   }
   return description;
+}
+
+void check_run(const RunFacts& facts, const RunDescription& description) {
+  const double period_s = 1e-9 * static_cast<double>(facts.period);
+  if (std::abs(period_s - description.step_s) > 1e-9) {
+    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
+                             ", must be the step of scenario " + description.scenario + ", " +
+                             shortest_text(description.step_s) + " s");
+  }
+  for (const std::uint8_t id : facts.vehicle_ids) {
+    if (std::none_of(description.vehicles.begin(), description.vehicles.end(),
+                     [id](const auto& vehicle) { return vehicle.id.value == id; })) {
+      throw std::runtime_error("run.json: vehicle_ids has " + std::to_string(id) +
+                               ", which is not in scenario " + description.scenario);
+    }
+  }
 }
 
 }  // namespace hlc

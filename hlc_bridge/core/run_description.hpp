@@ -12,4 +12,7 @@ namespace hlc {
 [[nodiscard]] RunDescription describe(const Scenario& scenario,
                                       std::optional<std::uint64_t> noise_seed);
 
+/// @throws std::runtime_error naming the key of run.json if the run is not one of this scenario
+void check_run(const RunFacts& facts, const RunDescription& description);
+
 }  // namespace hlc

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hlc_bridge/core/encounters.hpp"
+#include "hlc_bridge/core/planned_motion.hpp"
 #include "hlc_bridge/core/trace_hash.hpp"
 #include "planner/automaton/deviation.hpp"
 #include "planner/road/lap.hpp"
@@ -55,29 +56,6 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
   summary.generated = statistics(generated);
   summary.expanded = statistics(expanded);
   summary.planning_s = statistics(planning_s);
-}
-
-/// The maneuver planned for the step of `row`: of the edges between the two trims, the one that
-/// leads nearest to the next planned pose. nullptr if the reports do not say.
-const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
-                                const Subgraph& automaton) {
-  const Report& report = row.record.report;
-  if (next == nullptr || next->step != row.step + 1 ||
-      report.planned_trim.index >= automaton.automaton().trims.size()) {
-    return nullptr;
-  }
-  const Maneuver* nearest = nullptr;
-  double nearest_m = 0.0;
-  for (const Edge& edge : automaton.successors(report.planned_trim)) {
-    if (edge.to != next->record.report.planned_trim) continue;
-    const Pose end = compose(report.planned_pose, edge.maneuver->displacement);
-    const double distance_m =
-        (end.position_m() - next->record.report.planned_pose.position_m()).norm();
-    if (nearest != nullptr && distance_m >= nearest_m) continue;
-    nearest = edge.maneuver;
-    nearest_m = distance_m;
-  }
-  return nearest;
 }
 
 /// Compares what was driven with what was planned, tick by tick. A step that begins or ends near

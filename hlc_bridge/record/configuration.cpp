@@ -1,25 +1,68 @@
 #include "hlc_bridge/record/configuration.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
 #include "hlc_bridge/record/text_file.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+#include "planner/automaton/yaml_text.hpp"
 
 namespace hlc {
+namespace {
 
-void keep_configuration(const std::filesystem::path& run_folder,
-                        const std::vector<std::filesystem::path>& files) {
-  for (const std::filesystem::path& file : files) {
-    const std::filesystem::path full = std::filesystem::absolute(file).lexically_normal();
-    const std::filesystem::path folder =
-        run_folder / "configuration" / full.parent_path().filename();
+namespace fs = std::filesystem;
+
+/// Where the copy of a file lies.
+fs::path copy_of(const fs::path& run_folder, const fs::path& file) {
+  const fs::path full = fs::absolute(file).lexically_normal();
+  return run_folder / "configuration" / full.parent_path().filename() / full.filename();
+}
+
+/// For YAML: null for none.
+std::string text_of(const std::optional<std::string>& value) {
+  return value ? quoted_yaml(*value) : "null";
+}
+
+std::optional<std::string> text_or_null(const YamlNode& flags, const std::string& key) {
+  return flags.is_value(key) ? std::optional(flags.required<std::string>(key)) : std::nullopt;
+}
+
+}  // namespace
+
+void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    const fs::path copy = copy_of(run_folder, file);
+    const fs::path folder = copy.parent_path();
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
+    fs::create_directories(folder, error);
     if (error) {
       throw std::runtime_error(folder.string() + ": cannot be made");
     }
-    write_file(folder / full.filename(), read_file(full));
+    write_file(copy, read_file(file));
   }
+}
+
+std::string flags_yaml(const ScenarioChoices& choices) {
+  const auto path = [](const fs::path& file) { return fs::absolute(file).string(); };
+  const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
+  return "scenario: " + text_of(path(choices.file)) + "\nprofile: " + text_of(choices.profile) +
+         "\nengine: " + text_of(choices.engine) + "\nsubgraph: " + text_of(choices.subgraph) +
+         "\nmap: " + text_of(map) +
+         "\ncars: " + (choices.cars ? std::to_string(*choices.cars) : "null") +
+         "\nsteps: " + (choices.steps ? std::to_string(*choices.steps) : "null") + "\n";
+}
+
+ScenarioChoices kept_choices(const fs::path& run_folder) {
+  const YamlNode flags = YamlNode::read_file(run_folder / "configuration" / "flags.yaml");
+  ScenarioChoices choices;
+  choices.file = copy_of(run_folder, flags.required<std::string>("scenario"));
+  choices.profile = flags.required<std::string>("profile");
+  choices.engine = text_or_null(flags, "engine");
+  choices.subgraph = text_or_null(flags, "subgraph");
+  if (const auto map = text_or_null(flags, "map")) choices.map_file = copy_of(run_folder, *map);
+  if (flags.is_value("cars")) choices.cars = flags.required<std::size_t>("cars");
+  return choices;
 }
 
 }  // namespace hlc

@@ -28,4 +28,14 @@ Drive read_drive(const std::filesystem::path& file) {
   return drive;
 }
 
+Drives read_drives(const std::filesystem::path& run_folder,
+                   const std::vector<std::uint8_t>& vehicle_ids) {
+  Drives drives;
+  for (const std::uint8_t id : vehicle_ids) {
+    const std::filesystem::path file = drive_file(run_folder, id);
+    if (std::filesystem::exists(file)) drives[id] = read_drive(file);
+  }
+  return drives;
+}
+
 }  // namespace hlc

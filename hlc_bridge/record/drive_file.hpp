@@ -20,4 +20,8 @@ inline constexpr std::string_view kDriveHeading =
 /// increase
 [[nodiscard]] Drive read_drive(const std::filesystem::path& file);
 
+/// The drives of these vehicles; one whose file is not there is left out. @throws as read_drive
+[[nodiscard]] Drives read_drives(const std::filesystem::path& run_folder,
+                                 const std::vector<std::uint8_t>& vehicle_ids);
+
 }  // namespace hlc

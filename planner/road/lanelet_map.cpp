@@ -256,22 +256,25 @@ LaneletMap read_lanelet_map(const std::filesystem::path& file) {
   return parse_lanelet_map(xml, file.string());
 }
 
-std::string to_commonroad_xml(const LaneletMap& map) {
-  std::ostringstream xml;
-  xml.imbue(std::locale::classic());
-  xml << std::fixed << std::setprecision(9)
-      << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\""
-      << escaped(map.benchmark_id)
-      << "\" "
-         "date=\"2025-01-01\" author=\"generate_map\" affiliation=\"none\" source=\"generated\" "
-         "timeStepSize=\"0.2\">\n"
+std::string commonroad_head(const CommonRoadHead& head) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\"" +
+         escaped(head.benchmark_id) + "\" date=\"2025-01-01\" author=\"" + escaped(head.author) +
+         "\" affiliation=\"none\" source=\"" + escaped(head.source) + "\" timeStepSize=\"" +
+         escaped(head.time_step) +
+         "\">\n"
          "  <location>\n"
          "    <geoNameId>-999</geoNameId>\n"
          "    <gpsLatitude>999</gpsLatitude>\n"
          "    <gpsLongitude>999</gpsLongitude>\n"
          "  </location>\n"
          "  <scenarioTags><urban/><intersection/></scenarioTags>\n";
+}
+
+std::string lanelets_to_xml(const LaneletMap& map) {
+  std::ostringstream xml;
+  xml.imbue(std::locale::classic());
+  xml << std::fixed << std::setprecision(9);
   for (const auto& [id, lanelet] : map.lanelets) {
     xml << "  <lanelet id=\"" << id << "\">\n";
     write_bound(xml, "leftBound", lanelet.left_m);
@@ -282,8 +285,15 @@ std::string to_commonroad_xml(const LaneletMap& map) {
     write_adjacent(xml, "adjacentRight", lanelet.adjacent_right);
     xml << "    <laneletType>urban</laneletType>\n  </lanelet>\n";
   }
-  xml << "</commonRoad>\n";
   return xml.str();
+}
+
+std::string to_commonroad_xml(const LaneletMap& map) {
+  return commonroad_head({.benchmark_id = map.benchmark_id,
+                          .author = "generate_map",
+                          .source = "generated",
+                          .time_step = "0.2"}) +
+         lanelets_to_xml(map) + "</commonRoad>\n";
 }
 
 void write_lanelet_map(const LaneletMap& map, const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -12,6 +13,7 @@
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
+#include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
 namespace {
@@ -23,6 +25,7 @@ struct Choices {
   std::vector<std::string> scenarios{"paper_three_cars", "paper_red_alone"};
   std::filesystem::path scenario_folder;
   std::size_t jobs{1};
+  bool keep_runs{false};
   std::filesystem::path out;
 };
 
@@ -40,8 +43,19 @@ hlc::Nanoseconds wall_clock() {
       std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
 }
 
+/// What is done with the records of a run.
+std::function<void(const hlc::Scenario&, const hlc::Experiment&)> keeper(const Choices& choices,
+                                                                         std::size_t run) {
+  if (!choices.keep_runs) return {};
+  return [folder = choices.out / "runs" / std::to_string(run)](const hlc::Scenario& scenario,
+                                                               const hlc::Experiment& experiment) {
+    hlc::write_run_folder(folder, scenario, experiment);
+  };
+}
+
 /// Drives what is missing. Returns the number of failed runs.
-std::size_t drive(const hlc::Campaign& campaign, std::size_t jobs, hlc::EvaluationFiles& files) {
+std::size_t drive(const hlc::Campaign& campaign, const Choices& choices,
+                  hlc::EvaluationFiles& files) {
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < campaign.runs().size(); ++i) {
     if (!files.has(i)) missing.push_back(i);
@@ -52,11 +66,11 @@ std::size_t drive(const hlc::Campaign& campaign, std::size_t jobs, hlc::Evaluati
   }
   const hlc::ProgressLine progress("run", missing.size());
   hlc::run_parallel(
-      missing.size(), jobs,
+      missing.size(), choices.jobs,
       [&](std::size_t i) {
         const std::size_t run = missing[i];
         try {
-          files.add(run, campaign.drive(run, wall_clock));
+          files.add(run, campaign.drive(run, wall_clock, keeper(choices, run)));
         } catch (const std::exception& error) {
           files.add_failure(run, error.what());
         }
@@ -80,7 +94,7 @@ int run(Choices choices, const std::string& command) {
   const hlc::Campaign campaign(choices.plan);
   hlc::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed = drive(campaign, choices.jobs, files);
+  const std::size_t failed = drive(campaign, choices, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish({.command = command,
                 .revision = hlc::program_revision(),
@@ -124,6 +138,9 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", choices.jobs, "runs at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  app.add_flag("--keep_runs", choices.keep_runs,
+               "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
+               "for export_commonroad and summarize");
   app.add_option("--out", choices.out,
                  "folder for results.json, table.md, table.csv; an interrupted campaign goes on")
       ->required();

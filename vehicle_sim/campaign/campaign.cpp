@@ -49,7 +49,9 @@ const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
   return scenarios_.at(key_of(run));
 }
 
-RunSummary Campaign::drive(std::size_t i, const std::function<Nanoseconds()>& wall_clock) const {
+RunSummary Campaign::drive(
+    std::size_t i, const std::function<Nanoseconds()>& wall_clock,
+    const std::function<void(const Scenario&, const Experiment&)>& keep) const {
   const CampaignRun& run = runs_.at(i);
   const Scenario& as_read = scenario_of(run);
   const Scenario scenario =
@@ -57,6 +59,7 @@ RunSummary Campaign::drive(std::size_t i, const std::function<Nanoseconds()>& wa
   const Experiment experiment = drive_experiment(
       scenario,
       {.steps = scenario.steps, .noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
+  if (keep) keep(scenario, experiment);
   if (experiment.facts.exit_code != 0) throw std::runtime_error(experiment.facts.reason);
   const std::vector<StepRecord> rows =
       step_records(experiment.reports, experiment.drives, experiment.facts);

@@ -50,9 +50,11 @@ class Campaign {
 
   /// The run number i; its result in the terms of summary.json, without revision and host.
   /// @param wall_clock  see ExperimentOptions
+  /// @param keep  absent, or what is done with the records of the run, however it ended
   /// @throws std::runtime_error with the reason if the run was not driven to its end
-  [[nodiscard]] RunSummary drive(std::size_t i,
-                                 const std::function<Nanoseconds()>& wall_clock) const;
+  [[nodiscard]] RunSummary drive(
+      std::size_t i, const std::function<Nanoseconds()>& wall_clock,
+      const std::function<void(const Scenario&, const Experiment&)>& keep = {}) const;
 
  private:
   [[nodiscard]] const Scenario& scenario_of(const CampaignRun& run) const;

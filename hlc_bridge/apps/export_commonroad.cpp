@@ -1,0 +1,95 @@
+// Writes a run folder as a CommonRoad 2020a file: map, planning problems, planned and driven
+// motion every 10 ms.
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/planned_motion.hpp"
+#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/record/commonroad_file.hpp"
+#include "hlc_bridge/record/configuration.hpp"
+#include "hlc_bridge/record/drive_file.hpp"
+#include "hlc_bridge/record/facts_file.hpp"
+#include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/record/text_file.hpp"
+#include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
+#include "planner/road/lanelet_map.hpp"
+
+namespace {
+
+/// Time between two states; the maneuvers' inputs are constant in between.
+constexpr hlc::Nanoseconds kInterval = 10'000'000;
+
+hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord> rows,
+                              const hlc::Drives& drives, const hlc::RunFacts& facts,
+                              const hlc::Subgraph& automaton) {
+  std::vector<const hlc::StepRecord*> own;
+  for (const hlc::StepRecord& row : rows) {
+    if (row.record.report.vehicle == id) own.push_back(&row);
+  }
+  const std::string name = "vehicle " + std::to_string(id.value);
+  if (own.size() < 2) throw std::runtime_error(name + ": fewer than two steps were reported");
+  hlc::ExportedVehicle vehicle{
+      .id = id,
+      .planned = hlc::planned_motion(own, facts.period, kInterval, automaton),
+      .driven = {}};
+  const auto drive = drives.find(id.value);
+  if (drive == drives.end()) throw std::runtime_error(name + ": no record of what it drove");
+  vehicle.driven = hlc::driven_motion(drive->second, *facts.first_step * facts.period, kInterval,
+                                      vehicle.planned.size());
+  if (vehicle.driven.size() < 2) throw std::runtime_error(name + ": drove less than a step");
+  return vehicle;
+}
+
+std::string export_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
+  const hlc::RunFacts facts = hlc::read_facts(run / "run.json");
+  const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
+  if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: nobody drove");
+  if (facts.period == 0 || facts.period % kInterval != 0) {
+    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
+                             ", allowed multiples of " + std::to_string(kInterval));
+  }
+  const hlc::Scenario scenario =
+      hlc::read_scenario(choices.file.empty() ? hlc::kept_choices(run) : choices);
+  hlc::check_run(facts, hlc::describe(scenario, std::nullopt));
+  const hlc::Drives drives = hlc::read_drives(run, facts.vehicle_ids);
+  const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
+  std::vector<hlc::ExportedVehicle> vehicles;
+  for (const std::uint8_t id : facts.vehicle_ids) {
+    vehicles.push_back(exported(hlc::VehicleId{id}, rows, drives, facts, *scenario.subgraph));
+  }
+  const hlc::LaneletMap map =
+      scenario.map_file ? hlc::read_lanelet_map(*scenario.map_file) : hlc::open_ground(vehicles);
+  return hlc::commonroad_xml(map, scenario.subgraph->automaton().vehicle, vehicles,
+                             1e-9 * static_cast<double>(kInterval));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Writes a run as a CommonRoad 2020a file: the map, a planning problem per vehicle, planned "
+      "and driven motion every 10 ms.",
+      "export_commonroad"};
+  std::filesystem::path run;
+  hlc::ScenarioChoices choices;
+  hlc::OutputFile out{.flag = "--out", .file = {}};
+  app.add_option("--run", run, "run folder")->required();
+  hlc::declare_output(app, out, "CommonRoad file (XML)")->required();
+  hlc::declare_scenario_flags(app, choices);
+  app.get_option("--scenario")
+      ->required(false)
+      ->description("scenario file (YAML); default: this and the following from the run folder");
+  app.footer("Exit codes: 0 good, 2 bad input.");
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  try {
+    hlc::check_output_files({out}, {run / "run.json", run / "reports.csv"});
+    hlc::write_file(*out.file, export_run(run, choices));
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "export_commonroad: " << error.what() << '\n';
+    return 2;
+  }
+}

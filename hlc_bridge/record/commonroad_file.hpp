@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/coordination/messages.hpp"
+#include "planner/road/lanelet_map.hpp"
+#include "planner/vehicle/single_track.hpp"
+
+namespace hlc {
+
+/// One vehicle of a run as the file holds it: states at 0, 1, 2 ... time steps.
+struct ExportedVehicle {
+  VehicleId id;
+  std::vector<State> planned;  ///< heading of the single-track model, speed, steering
+  std::vector<State> driven;   ///< yaw, speed; steering is not written
+};
+
+/// Ids of a vehicle's elements; those of lanelets stay below.
+inline constexpr int kProblemIds = 1'000'000;  ///< + vehicle id: planning problem
+inline constexpr int kPlannedIds = 2'000'000;  ///< + vehicle id: what was planned
+inline constexpr int kDrivenIds = 3'000'000;   ///< + vehicle id: what was driven
+
+/// A run as CommonRoad 2020a: the map; per vehicle its planned and its driven motion, a dynamic
+/// obstacle each, with the vehicle's own rectangle; per vehicle a planning problem, from where its
+/// plan begins, whose goal is any state at the end. Numbers with 9 decimals, angles in (-pi, pi].
+///
+/// The reference point is the centre of gravity. Equal runs give equal bytes.
+///
+/// @param time_step_s  between two states
+/// @pre both motions of every vehicle have two states at least
+/// @throws std::runtime_error for a lanelet id that is not below those of vehicles
+[[nodiscard]] std::string commonroad_xml(const LaneletMap& map, const VehicleParameters& vehicle,
+                                         const std::vector<ExportedVehicle>& vehicles,
+                                         double time_step_s);
+
+/// For a run without lanes, since the format asks for one: a single lane, 0.5 m wider on all sides
+/// than the place where the vehicles' reference points have been.
+[[nodiscard]] LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles);
+
+}  // namespace hlc

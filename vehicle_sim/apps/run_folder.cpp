@@ -1,0 +1,50 @@
+#include "vehicle_sim/apps/run_folder.hpp"
+
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "hlc_bridge/record/configuration.hpp"
+#include "hlc_bridge/record/drive_file.hpp"
+#include "hlc_bridge/record/facts_file.hpp"
+#include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/record/text_file.hpp"
+#include "planner/search/search_options.hpp"
+#include "vehicle_sim/apps/drive_recorder.hpp"
+
+namespace hlc {
+namespace {
+
+void write_configuration(const std::filesystem::path& folder, const Scenario& scenario) {
+  std::vector<std::filesystem::path> files{scenario.file, scenario.automaton_file};
+  if (scenario.map_file) files.push_back(*scenario.map_file);
+  keep_configuration(folder, files);
+  const ScenarioChoices choices{.file = scenario.file,
+                                .profile = scenario.profile.name,
+                                .engine = to_string(scenario.search.engine),
+                                .subgraph = scenario.subgraph->spec().name,
+                                .map_file = scenario.map_file,
+                                .steps = scenario.steps,
+                                .cars = {}};
+  write_file(folder / "configuration" / "flags.yaml", flags_yaml(choices));
+}
+
+}  // namespace
+
+void write_run_folder(const std::filesystem::path& folder, const Scenario& scenario,
+                      const Experiment& experiment) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": cannot be made");
+  write_configuration(folder, scenario);
+  for (const auto& [id, drive] : experiment.drives) {
+    DriveRecorder file(drive_file(folder, id).string());
+    for (const DrivenSample& sample : drive) file.write(sample);
+  }
+  ReportFile reports(folder / "reports.csv");
+  for (const ReportRecord& record : experiment.reports) reports.append(record);
+  reports.finish();
+  write_file(folder / "run.json", facts_json(experiment.facts));
+}
+
+}  // namespace hlc
