@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Checks runs of this project with CommonRoad's packages. verify.sh calls it."""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from collisions import check_collisions, check_size
+from dynamics import check_dynamics
+from lanes import check_lanes
+from run import BadInput, Finding, read_run
+from schema import check_schema
+
+EXPORT_TIMEOUT_S = 60
+
+
+def export(program: Path, folder: Path, xml: Path) -> None:
+    """Writes the run as CommonRoad file. Raises BadInput with what the program says."""
+    done = subprocess.run(
+        [program, "--run", folder, "--out", xml],
+        capture_output=True,
+        text=True,
+        timeout=EXPORT_TIMEOUT_S,
+        check=False,
+    )
+    if done.returncode != 0:
+        raise BadInput(done.stderr.strip() or f"{program}: failed with {done.returncode}")
+
+
+def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
+    """All reasons to reject the file, and what the checks have seen."""
+    findings, text = check_schema(xml)
+    if findings:
+        return findings, []  # nothing else could be read with certainty
+    lines = [f"schema      {text}"]
+    try:
+        run = read_run(xml, folder)
+    except BadInput:
+        raise
+    except Exception as error:  # whatever CommonRoad's reader has against it
+        return [Finding("reader", f"CommonRoad's reader: {error!r}")], lines
+    findings += check_size(run)
+    for name, check in (
+        ("dynamics", check_dynamics),
+        ("collisions", check_collisions),
+        ("lanes", check_lanes),
+    ):
+        found, text = check(run)
+        findings += found
+        lines.append(f"{name:11} {'rejected' if found else text}")
+    return findings, lines
+
+
+def name_of(folder: Path) -> str:
+    """Scenario and choices, as far as the run folder says."""
+    flags = folder / "configuration" / "flags.yaml"
+    wanted = {}
+    for line in flags.read_text(encoding="utf-8").splitlines() if flags.exists() else []:
+        key, _, value = line.partition(": ")
+        wanted[key] = value.strip("'\"")
+    if "scenario" not in wanted:
+        return str(folder)
+    choices = [f"{k} {wanted[k]}" for k in ("subgraph", "profile") if wanted.get(k) != "null"]
+    return ", ".join([Path(wanted["scenario"]).stem, *choices]) + f" ({folder})"
+
+
+def verify(program: Path, folder: Path) -> bool:
+    with tempfile.TemporaryDirectory() as place:
+        xml = Path(place) / "run.xml"
+        export(program, folder, xml)
+        findings, lines = check_file(xml, folder)
+    print(f"{'REJECTED' if findings else 'accepted'}  {name_of(folder)}")
+    for line in lines:
+        print(f"    {line}")
+    for finding in findings:
+        print(f"    {finding.check}: {finding.text}")
+    sys.stdout.flush()
+    return not findings
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, epilog="Exit: 0 accepted, 1 rejected, 2 bad input.")
+    parser.add_argument("--export", type=Path, required=True, help="the program export_commonroad")
+    parser.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="run folder")
+    arguments = parser.parse_args()
+    try:
+        accepted = [verify(arguments.export, folder) for folder in arguments.runs]
+    except (BadInput, subprocess.TimeoutExpired, OSError) as error:
+        print(f"verify: {error}", file=sys.stderr)
+        return 2
+    return 0 if all(accepted) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
