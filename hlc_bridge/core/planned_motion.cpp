@@ -47,21 +47,18 @@ std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanos
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k]->step != k) refuse(*rows[k], "the step before was not reported");
     const Report& report = rows[k]->record.report;
-    if (k + 1 == rows.size()) {
-      if (report.planned_trim.index >= automaton.automaton().trims.size()) {
-        refuse(*rows[k], "planned_trim is none of the automaton");
-      }
-      const Trim& trim = automaton.automaton().trims[report.planned_trim.index];
-      states.push_back({.pose = report.planned_pose,
-                        .speed_mps = trim.speed_mps,
-                        .steering_rad = trim.steering_rad});
-      break;
+    if (report.planned_trim.index >= automaton.automaton().trims.size()) {
+      refuse(*rows[k], "planned_trim is none of the automaton");
     }
-    if (rows[k + 1]->step != k + 1) continue;  // refused in the next round
+    const Trim& trim = automaton.automaton().trims[report.planned_trim.index];
+    states.push_back({.pose = report.planned_pose,
+                      .speed_mps = trim.speed_mps,
+                      .steering_rad = trim.steering_rad});
+    if (k + 1 == rows.size() || rows[k + 1]->step != k + 1) continue;
     const Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
     if (maneuver == nullptr) refuse(*rows[k], "no maneuver leads to the next planned trim");
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
-    for (Nanoseconds t = 0; t < period; t += interval) {
+    for (Nanoseconds t = interval; t < period; t += interval) {
       State state = state_at(*maneuver, 1e-9 * static_cast<double>(t), vehicle);
       state.pose = compose(begin, state.pose);
       states.push_back(state);

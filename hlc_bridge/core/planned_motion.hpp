@@ -16,9 +16,10 @@ namespace hlc {
                                               const Subgraph& automaton);
 
 /// The planned states of one vehicle every `interval`, from t(0) of the run to the time of its last
-/// row. During step k they are those of the plan that was in force at t(k + 1): a plan that its
-/// controller has set down where the car really is (planner/controller/plan_in_force.hpp) begins
-/// at t(k), with a jump.
+/// row. At t(k) that is what was reported; in between, the motion that ends where the plan is at
+/// t(k + 1). So a plan that its controller sets down anew in step k, where the car really is
+/// (planner/controller/plan_in_force.hpp), shows as a jump just after t(k), when it comes into
+/// force.
 ///
 /// @param rows  of that vehicle, by step
 /// @pre `interval` divides `period`

@@ -54,7 +54,11 @@ std::string flags_yaml(const ScenarioChoices& choices) {
 }
 
 ScenarioChoices kept_choices(const fs::path& run_folder) {
-  const YamlNode flags = YamlNode::read_file(run_folder / "configuration" / "flags.yaml");
+  const fs::path file = run_folder / "configuration" / "flags.yaml";
+  if (!fs::exists(file)) {
+    throw std::invalid_argument(file.string() + ": is not there, so the scenario must be given");
+  }
+  const YamlNode flags = YamlNode::read_file(file);
   ScenarioChoices choices;
   choices.file = copy_of(run_folder, flags.required<std::string>("scenario"));
   choices.profile = flags.required<std::string>("profile");

@@ -112,12 +112,13 @@ def is_set_anew(
 ) -> bool:
     """Is sample i, where the plan before leads to `old`, the begin of a plan set down anew?
 
-    So it is at the begin of a control step, if the car was off the old plan by more than a
+    So it is just after the begin of a control step, if the car was off the old plan by more than a
     controller suffers when it was measured, and if the motion of the plan takes the planned
     position of that time to where the car was. Speed and steering go on.
     """
-    measured = i - round(MEASUREMENT_AGE_S / time_step_s)
-    if i % configuration.samples_per_step != 0 or measured < 0 or measured >= len(driven):
+    begin = i - 1
+    measured = begin - round(MEASUREMENT_AGE_S / time_step_s)
+    if begin % configuration.samples_per_step != 0 or not 0 <= measured < len(driven):
         return False
     error = error_of(old, planned[i])
     error.position_m = error.heading_rad = 0.0
@@ -171,15 +172,16 @@ def check_vehicle(run: Run, vehicle: int) -> Course:
         model = integrated(planned[i - 1], u, h, p)
         window = integrated(window, u, h, p)
         error = error_of(model, planned[i])
-        anew = bool(error.beyond(h)) and is_set_anew(planned, driven, i, model, h, run.configuration)
-        course.set_anew += anew
-        if error.beyond(h) and not anew:
-            reject(1, i, error)
-        elif not anew:
+        if not error.beyond(h):
             course.largest.add(error)
+        elif is_set_anew(planned, driven, i, model, h, run.configuration):
+            course.set_anew += 1
+            window = planned[i]
+        else:
+            reject(1, i, error)
         if i % per_step == 0:
             error = error_of(window, planned[i])
-            if error.beyond(per_step * h) and not anew:
+            if error.beyond(per_step * h):
                 reject(per_step, i, error)
             window = planned[i]
     for length, count in broken.items():

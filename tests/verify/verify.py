@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 from collisions import check_collisions, check_size
+from controls import run_controls
 from dynamics import check_dynamics
 from lanes import check_lanes
 from run import BadInput, Finding, read_run
@@ -80,13 +81,32 @@ def verify(program: Path, folder: Path) -> bool:
     return not findings
 
 
+def verify_controls(program: Path, folder: Path) -> bool:
+    print(f"negative controls, from {name_of(folder)}", flush=True)
+    with tempfile.TemporaryDirectory() as place:
+        xml = Path(place) / "run.xml"
+        export(program, folder, xml)
+        return run_controls(xml, folder, check_file)
+
+
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, epilog="Exit: 0 accepted, 1 rejected, 2 bad input.")
+    parser = argparse.ArgumentParser(
+        description=__doc__,
+        epilog="Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input.",
+    )
     parser.add_argument("--export", type=Path, required=True, help="the program export_commonroad")
-    parser.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="run folder")
+    parser.add_argument(
+        "--controls",
+        type=Path,
+        metavar="RUN",
+        help="a run of paper_three_cars that is accepted: must be rejected when it is spoilt",
+    )
+    parser.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="run folder")
     arguments = parser.parse_args()
     try:
         accepted = [verify(arguments.export, folder) for folder in arguments.runs]
+        if arguments.controls:
+            accepted.append(verify_controls(arguments.export, arguments.controls))
     except (BadInput, subprocess.TimeoutExpired, OSError) as error:
         print(f"verify: {error}", file=sys.stderr)
         return 2

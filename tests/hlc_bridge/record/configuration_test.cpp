@@ -34,5 +34,44 @@ TEST(Configuration, MissingFileIsNamed) {
               ThrowsMessage<std::runtime_error>(HasSubstr("nothing.yaml: cannot be read")));
 }
 
+TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "configuration");
+  const ScenarioChoices choices{.file = "/home/anna's/scenarios/s.yaml",
+                                .profile = "2022",
+                                .engine = {},
+                                .subgraph = "D",
+                                .map_file = "/elsewhere/maps/m.xml",
+                                .steps = 20,
+                                .cars = {}};
+  put(folder / "configuration" / "flags.yaml", flags_yaml(choices));
+  const ScenarioChoices kept = kept_choices(folder.path());
+  EXPECT_EQ(kept.file, folder / "configuration" / "scenarios" / "s.yaml");
+  EXPECT_EQ(kept.profile, "2022");
+  EXPECT_EQ(kept.engine, std::nullopt);
+  EXPECT_EQ(kept.subgraph, "D");
+  EXPECT_EQ(kept.map_file, folder / "configuration" / "maps" / "m.xml");
+  EXPECT_EQ(kept.cars, std::nullopt);
+}
+
+TEST(Configuration, ReadsWhatTheScriptWrites) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "configuration");
+  put(folder / "configuration" / "flags.yaml",
+      "scenario: '/a/scenarios/circle.yaml'\nprofile: 'default'\nengine: null\nsubgraph: null\n"
+      "map: null\ncars: 6\nsteps: 60\nsimulated_time: true\n");
+  const ScenarioChoices kept = kept_choices(folder.path());
+  EXPECT_EQ(kept.file, folder / "configuration" / "scenarios" / "circle.yaml");
+  EXPECT_EQ(kept.subgraph, std::nullopt);
+  EXPECT_EQ(kept.map_file, std::nullopt);
+  EXPECT_EQ(kept.cars, 6U);
+}
+
+TEST(Configuration, FolderWithoutFlagsIsNamed) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { static_cast<void>(kept_choices(folder.path())); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("flags.yaml: is not there")));
+}
+
 }  // namespace
 }  // namespace hlc

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -107,6 +108,45 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
     EXPECT_THAT(outcome.output, HasSubstr(message));
     EXPECT_FALSE(std::filesystem::exists(out_)) << flags;
   }
+}
+
+TEST_F(Evaluate, KeepsRunFoldersThatTheExportAndTheSummaryRead) {
+  ASSERT_EQ(evaluate("--keep_runs").exit_code, 0);
+  const std::filesystem::path run = out_ / "runs" / "2";  // subgraph D, where the scenario starts
+  const std::string out = (folder_ / "run.xml").string();
+  const Outcome exported = run_program("export_commonroad --run " + run.string() + " --out " + out);
+  EXPECT_EQ(exported.exit_code, 0) << exported.output;
+  EXPECT_THAT(text_of(out), HasSubstr("<planningProblem id=\"1000001\">"));
+  const Outcome summary =
+      run_program("summarize --subgraph D --run " + run.string() + " --scenario " + run.string() +
+                  "/configuration/scenarios/paper_red_alone.yaml");
+  EXPECT_EQ(summary.exit_code, 0) << summary.output;
+  const auto json = nlohmann::json::parse(text_of(run / "summary.json"));
+  EXPECT_EQ(json["trace_sha256"], results()["runs"][2]["trace_sha256"]);
+}
+
+TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {
+  ASSERT_EQ(evaluate("--keep_runs").exit_code, 0);
+  const std::filesystem::path run = out_ / "runs" / "0";
+  const std::filesystem::path out = folder_ / "run.xml";
+  const auto refused = [&](const std::filesystem::path& folder, const std::string& message) {
+    const Outcome outcome =
+        run_program("export_commonroad --run " + folder.string() + " --out " + out.string());
+    EXPECT_EQ(outcome.exit_code, 2) << message;
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(out)) << message;
+  };
+  refused(folder_ / "nowhere", "nowhere/run.json: cannot be read");
+  refused(out_, "run.json: cannot be read");
+  const std::string reports = text_of(run / "reports.csv");
+  put(run / "reports.csv", "step,id\n");
+  refused(run, "reports.csv:1: the heading must be");
+  put(run / "reports.csv", reports);
+  std::filesystem::remove(run / "vehicle_1.csv");
+  refused(run, "vehicle 1: no record of what it drove");
+  std::filesystem::remove_all(run / "configuration");
+  refused(run, "flags.yaml: is not there");
 }
 
 }  // namespace

@@ -1,0 +1,153 @@
+"""Negative controls: a good run, spoilt in one way each, must be rejected for that reason.
+
+The file is spoilt, not the checks: each control goes through all that a run goes through.
+"""
+
+import copy
+import math
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from lxml import etree
+from run import DRIVEN_IDS, PLANNED_IDS, Finding, read_configuration
+
+Element = etree._Element
+
+
+def motion(root: Element, ids: int, vehicle: int) -> list[Element]:
+    obstacle = root.find(f"dynamicObstacle[@id='{ids + vehicle}']")
+    return [obstacle.find("initialState"), *obstacle.iterfind("trajectory/state")]
+
+
+def get(state: Element, path: str) -> float:
+    return float(state.findtext(path))
+
+
+def put(state: Element, path: str, value: float) -> None:
+    state.find(path).text = f"{value:.9f}"
+
+
+def scale(states: list[Element], path: str, factor: float) -> None:
+    for state in states:
+        if state.find(path) is not None:
+            put(state, path, factor * get(state, path))
+
+
+X, Y = "position/point/x", "position/point/y"
+
+
+def shift(states: list[Element], dx_m: float, dy_m: float) -> None:
+    for state in states:
+        put(state, X, get(state, X) + dx_m)
+        put(state, Y, get(state, Y) + dy_m)
+
+
+def jump(root: Element, length_m: float, sample: int) -> None:
+    """The first vehicle's plan goes on that far ahead of itself."""
+    states = motion(root, PLANNED_IDS, 1)[sample:]
+    heading = get(states[0], "orientation/exact")
+    shift(states, length_m * math.cos(heading), length_m * math.sin(heading))
+
+
+def to_rear_axle(root: Element, rear_axle_to_cg_m: float) -> None:
+    for state in motion(root, PLANNED_IDS, 1):
+        heading = get(state, "orientation/exact")
+        dx, dy = -rear_axle_to_cg_m * math.cos(heading), -rear_axle_to_cg_m * math.sin(heading)
+        shift([state], dx, dy)
+
+
+def into_another(root: Element, ids: int) -> None:
+    """The second vehicle's whole motion moved so that in mid-run it is beside the first one by half
+    a width."""
+    first, second = motion(root, ids, 1), motion(root, ids, 2)
+    middle = len(first) // 2
+    dx = get(first[middle], X) - get(second[middle], X)
+    dy = get(first[middle], Y) - get(second[middle], Y)
+    shift(second, dx, dy + 0.05)
+
+
+def repeat_id(root: Element) -> None:
+    problems = root.findall("planningProblem")
+    problems[1].set("id", problems[0].get("id"))
+
+
+def without_orientation(root: Element) -> None:
+    state = motion(root, DRIVEN_IDS, 1)[7]
+    state.remove(state.find("orientation"))
+
+
+def round_to_millimetres(root: Element) -> None:
+    for state in motion(root, PLANNED_IDS, 1):
+        state.find(X).text = f"{get(state, X):.3f}"
+
+
+def make_narrower(root: Element) -> None:
+    root.find(f"dynamicObstacle[@id='{PLANNED_IDS + 1}']/shape/rectangle/width").text = "0.100000000"
+
+
+class Control(NamedTuple):
+    name: str
+    reason: str  # the check that must reject it
+    mentions: tuple[str, ...]  # what its findings must name
+    spoil: Callable[[Element], None]
+
+
+BOTH_STEPS = ("step of 0.01 s", "step of 0.20 s")
+
+
+def controls(rear_axle_to_cg_m: float) -> list[Control]:
+    def planned(root: Element) -> list[Element]:
+        return motion(root, PLANNED_IDS, 1)
+
+    # 1301 is just after the begin of a control step, where a plan may be set down anew.
+    return [
+        Control("3 mm jump", "dynamics", ("position",), lambda r: jump(r, 0.003, 1310)),
+        Control("3 mm jump at a control step", "dynamics", ("position",), lambda r: jump(r, 0.003, 1301)),
+        Control("12 mm jump at a control step", "dynamics", ("position",), lambda r: jump(r, 0.012, 1301)),
+        Control("steering x 1.2", "dynamics", ("heading", *BOTH_STEPS),
+                lambda r: scale(planned(r), "steeringAngle/exact", 1.2)),
+        Control("speed x 1.05", "dynamics", ("position", *BOTH_STEPS),
+                lambda r: scale(planned(r), "velocity/exact", 1.05)),
+        Control("rear axle instead of centre of gravity", "dynamics", ("position", *BOTH_STEPS),
+                lambda r: to_rear_axle(r, rear_axle_to_cg_m)),
+        Control("a plan moved into another", "collision", ("planned",),
+                lambda r: into_another(r, PLANNED_IDS)),
+        Control("a driven car moved into another", "collision", ("driven",),
+                lambda r: into_another(r, DRIVEN_IDS)),
+        Control("a plan moved 0.2 m aside", "lanes", ("vehicle 1",),
+                lambda r: shift(planned(r), 0.2, 0.0)),
+        Control("a narrower car", "size", ("element",), make_narrower),
+        Control("an id twice", "schema", ("Duplicate",), repeat_id),
+        Control("a state without orientation", "schema", ("orientation",), without_orientation),
+        Control("positions in whole millimetres", "decimals", ("9 decimals",), round_to_millimetres),
+    ]
+
+
+def holds(control: Control, findings: list[Finding]) -> bool:
+    """Rejected for the right reason, and the findings name what they should."""
+    texts = [f.text for f in findings if f.check == control.reason]
+    return bool(texts) and all(any(word in text for text in texts) for word in control.mentions)
+
+
+def run_controls(
+    xml: Path, folder: Path, check_file: Callable[[Path, Path], tuple[list[Finding], list[str]]]
+) -> bool:
+    """Prints each control with the reasons for which it was rejected. True if all were, rightly."""
+    good = etree.parse(xml).getroot()
+    p = read_configuration(folder, 0.01).vehicle
+    all_hold = True
+    for control in controls(p.b):
+        root = copy.deepcopy(good)
+        control.spoil(root)
+        with tempfile.TemporaryDirectory() as place:
+            spoilt = Path(place) / "spoilt.xml"
+            etree.ElementTree(root).write(spoilt, xml_declaration=True, encoding="UTF-8")
+            findings, _ = check_file(spoilt, folder)
+        right = holds(control, findings)
+        all_hold = all_hold and right
+        print(f"{'rejected' if right else 'NOT REJECTED for ' + control.reason}  {control.name}")
+        for finding in findings:
+            print(f"    {finding.check}: {finding.text}", flush=True)
+    return all_hold

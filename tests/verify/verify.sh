@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Checks runs with CommonRoad's packages, in a virtual environment of its own.
+set -uo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: verify.sh [--bin DIR] [--environment DIR] [RUN_FOLDER...]
+Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
+paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
+with real processes over DDS, checks all of them, and the negative controls.
+  --bin DIR           the programs (default build/release/bin)
+  --environment DIR   where the packages are, or are installed (default build/release/verify_environment)
+Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input,
+            3 skipped: the packages are not there and PyPI is out of reach
+TEXT
+}
+
+fail() { echo "verify.sh: $1" >&2; exit 2; }
+
+bin=$root/build/release/bin
+environment=$root/build/release/verify_environment
+runs=()
+while (($#)); do
+  case "$1" in
+    -h | --help) usage; exit 0 ;;
+    --bin=*) bin=${1#*=} ;;
+    --environment=*) environment=${1#*=} ;;
+    --bin | --environment)
+      (($# >= 2)) || fail "$1 needs a value"
+      printf -v "${1#--}" '%s' "$2"
+      shift ;;
+    -*) fail "unknown flag $1 (see --help)" ;;
+    *)
+      [[ -d $1 ]] || fail "$1 is no folder, allowed run folders"
+      runs+=("$1") ;;
+  esac
+  shift
+done
+[[ -x $bin/export_commonroad ]] || fail "no export_commonroad in $bin; build first, or give --bin"
+
+"$here/environment.sh" "$environment" || exit
+verify=(timeout 600 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/verify.py"
+  --export "$bin/export_commonroad")
+
+if ((${#runs[@]} > 0)); then
+  "${verify[@]}" "${runs[@]}"
+  exit
+fi
+
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+drive() { # what, command ...
+  local what=$1
+  shift
+  "$@" >"$out/log" 2>&1 && return
+  cat "$out/log" >&2
+  echo "verify.sh: $what failed" >&2
+  exit 1
+}
+echo "Driving"
+drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle --subgraphs A,B,C,D \
+  --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
+drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
+for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
+# Run 1 is paper_three_cars with subgraph B and the default profile.
+"${verify[@]}" --controls "$out/campaign/runs/1" "${runs[@]}" "$out/processes"
