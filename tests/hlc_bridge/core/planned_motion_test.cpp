@@ -78,7 +78,7 @@ TEST_F(PlannedMotionTest, OfAPlanSetDownAnewJumpsJustAfterTheStep) {
 
 TEST_F(PlannedMotionTest, IsNotKnownWhereARowIsMissing) {
   rows_.erase(rows_.begin() + 2);
-  EXPECT_THAT([this] { motion(); },
+  EXPECT_THAT([this] { static_cast<void>(motion()); },
               ThrowsMessage<std::runtime_error>(HasSubstr("vehicle 4, step 3: the step before")));
 }
 
@@ -86,7 +86,7 @@ TEST_F(PlannedMotionTest, IsNotKnownBetweenTrimsThatNoManeuverJoins) {
   rows_[2].record.report.planned_trim = TrimId{1};
   rows_[3].record.report.planned_trim = TrimId{11};
   automaton_ = test::make_test_subgraph(test::make_test_automaton(), {1, 2, 7, 8, 9});
-  EXPECT_THAT([this] { motion(); },
+  EXPECT_THAT([this] { static_cast<void>(motion()); },
               ThrowsMessage<std::runtime_error>(HasSubstr("vehicle 4, step 2: no maneuver")));
 }
 
