@@ -29,7 +29,7 @@ python3 -c 'import venv, ensurepip' 2>/dev/null || {
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 fail() { # exit code, message
-  tail -n 5 "$log" >&2
+  [[ $1 == 3 ]] || tail -n 5 "$log" >&2
   echo "environment.sh: $2" >&2
   exit "$1"
 }
