@@ -53,7 +53,7 @@ def check_size(run: Run) -> list[Finding]:
     """The file's rectangles are those of the configuration."""
     p = run.configuration.vehicle
     return [
-        Finding("size", f"element {o.obstacle_id}: {s.length} m x {s.width} m, must be {p.l} x {p.w}")
+        Finding("size", f"element {o.obstacle_id}: {s.length} x {s.width} m, must be {p.l} x {p.w}")
         for o in [*run.planned.values(), *run.driven.values()]
         if (s := o.obstacle_shape).length != p.l or s.width != p.w
     ]

@@ -84,7 +84,8 @@ def round_to_millimetres(root: Element) -> None:
 
 
 def make_narrower(root: Element) -> None:
-    root.find(f"dynamicObstacle[@id='{PLANNED_IDS + 1}']/shape/rectangle/width").text = "0.100000000"
+    obstacle = root.find(f"dynamicObstacle[@id='{PLANNED_IDS + 1}']")
+    put(obstacle, "shape/rectangle/width", 0.1)
 
 
 class Control(NamedTuple):
@@ -102,26 +103,53 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
         return motion(root, PLANNED_IDS, 1)
 
     # 1301 is just after the begin of a control step, where a plan may be set down anew.
+    def with_planned(path: str, factor: float) -> Callable[[Element], None]:
+        return lambda root: scale(planned(root), path, factor)
+
     return [
         Control("3 mm jump", "dynamics", ("position",), lambda r: jump(r, 0.003, 1310)),
-        Control("3 mm jump at a control step", "dynamics", ("position",), lambda r: jump(r, 0.003, 1301)),
-        Control("12 mm jump at a control step", "dynamics", ("position",), lambda r: jump(r, 0.012, 1301)),
-        Control("steering x 1.2", "dynamics", ("heading", *BOTH_STEPS),
-                lambda r: scale(planned(r), "steeringAngle/exact", 1.2)),
-        Control("speed x 1.05", "dynamics", ("position", *BOTH_STEPS),
-                lambda r: scale(planned(r), "velocity/exact", 1.05)),
-        Control("rear axle instead of centre of gravity", "dynamics", ("position", *BOTH_STEPS),
-                lambda r: to_rear_axle(r, rear_axle_to_cg_m)),
-        Control("a plan moved into another", "collision", ("planned",),
-                lambda r: into_another(r, PLANNED_IDS)),
-        Control("a driven car moved into another", "collision", ("driven",),
-                lambda r: into_another(r, DRIVEN_IDS)),
-        Control("a plan moved 0.2 m aside", "lanes", ("vehicle 1",),
-                lambda r: shift(planned(r), 0.2, 0.0)),
+        Control("3 mm jump at a step", "dynamics", ("position",), lambda r: jump(r, 0.003, 1301)),
+        Control("12 mm jump at a step", "dynamics", ("position",), lambda r: jump(r, 0.012, 1301)),
+        Control(
+            "steering x 1.2",
+            "dynamics",
+            ("heading", *BOTH_STEPS),
+            with_planned("steeringAngle/exact", 1.2),
+        ),
+        Control(
+            "speed x 1.05",
+            "dynamics",
+            ("position", *BOTH_STEPS),
+            with_planned("velocity/exact", 1.05),
+        ),
+        Control(
+            "rear axle instead of centre of gravity",
+            "dynamics",
+            ("position", *BOTH_STEPS),
+            lambda r: to_rear_axle(r, rear_axle_to_cg_m),
+        ),
+        Control(
+            "a plan moved into another",
+            "collision",
+            ("planned",),
+            lambda r: into_another(r, PLANNED_IDS),
+        ),
+        Control(
+            "a driven car moved into another",
+            "collision",
+            ("driven",),
+            lambda r: into_another(r, DRIVEN_IDS),
+        ),
+        Control(
+            "a plan moved 0.2 m aside",
+            "lanes",
+            ("vehicle 1",),
+            lambda r: shift(planned(r), 0.2, 0.0),
+        ),
         Control("a narrower car", "size", ("element",), make_narrower),
         Control("an id twice", "schema", ("Duplicate",), repeat_id),
         Control("a state without orientation", "schema", ("orientation",), without_orientation),
-        Control("positions in whole millimetres", "decimals", ("9 decimals",), round_to_millimetres),
+        Control("positions in millimetres", "decimals", ("9 decimals",), round_to_millimetres),
     ]
 
 

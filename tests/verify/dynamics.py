@@ -201,4 +201,6 @@ def check_dynamics(run: Run) -> tuple[list[Finding], str]:
         largest.add(course.largest)
         set_anew += course.set_anew
     text = f"largest error of a step of 10 ms {largest}"
-    return findings, text + (f"; {set_anew} plans set down anew, all where the car was" * bool(set_anew))
+    if set_anew > 0:
+        text += f"; plans set down anew where the car was: {set_anew}"
+    return findings, text
