@@ -60,6 +60,8 @@ class BranchAndBound::Core {
     placed_.vertices_m.reserve(most_corners);
     search.tables = &tables.view();
     search.plan = &plan;
+    area_.resize(tables.most_blocks());
+    search.placed = area_.data();
     search.decides = [](const void* core, const Question& question) {
       return static_cast<const Core*>(core)->decides(question);
     };
@@ -117,11 +119,6 @@ class BranchAndBound::Core {
     path[0].trim = static_cast<std::uint32_t>(problem.start_trim.index);
 
     obstacles.list(problem, plan);
-    if (corners_.size() < 2 * obstacles.most_corners()) {
-      corners_.resize(2 * obstacles.most_corners());
-    }
-    search.corners = corners_.data();
-    search.corner_stride = corners_.size() / 2;
     kernel.prepare(plan, path[0]);
   }
 
@@ -155,8 +152,8 @@ class BranchAndBound::Core {
   std::vector<double> projections_;
   std::vector<double> keys_;
   std::vector<branch_and_bound::Level> levels_;
-  std::vector<double> corners_;
-  mutable ConvexPolygon placed_;  ///< its capacity holds the largest area
+  std::vector<branch_and_bound::PolygonBlock> area_;  ///< room for a placed area
+  mutable ConvexPolygon placed_;                      ///< its capacity holds the largest area
 };
 
 BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable,

@@ -9,11 +9,17 @@
 /// translation units is compiled for another instruction set: the linker may keep either copy of an
 /// inline function.
 ///
-/// Everything that is handled four at a time is padded to a multiple of four.
+/// Everything that is handled four (in single precision eight) at a time is padded to a multiple
+/// of that.
+///
+/// Costs and bounds are doubles. Collision tests compute in single precision, relative to the
+/// plan's start, with a tolerance above its rounding; where that leaves a doubt, `Search::decides`
+/// says what is true.
 namespace hlc::branch_and_bound {
 
-/// Entries of one vector.
+/// Doubles, and floats, of one vector.
 inline constexpr std::uint32_t kLanes = 4;
+inline constexpr std::uint32_t kFloatLanes = 8;
 /// Axes of a bound: directions at 0, 45, 90 and 135 degrees, each with an interval.
 inline constexpr std::size_t kAxes = 4;
 /// Doubles of one bound of four edges: per axis, the four centres and the four half widths.
@@ -23,18 +29,29 @@ inline constexpr double kNoPath = 1e299;
 /// f of what must not be taken.
 inline constexpr double kForbidden = 1e300;
 
-/// An area of a maneuver in the frame of its start: corners with edge normals n_i (outward, not
-/// normalised) and offsets n_i p_i in `Tables::area_*`; `first` is a multiple of four.
+/// Offset of an edge that everything is inside of.
+inline constexpr float kSeparatesNothing = 1e30F;
+
+/// Eight corners p_i of a convex polygon with the normals n_i (outward, larger component 1) and
+/// offsets n_i p_i of the edges that begin there [m]. What is missing to eight repeats the first
+/// corner, with the offset kSeparatesNothing.
+struct PolygonBlock {
+  float x[kFloatLanes];
+  float y[kFloatLanes];
+  float normal_x[kFloatLanes];
+  float normal_y[kFloatLanes];
+  float offset[kFloatLanes];
+};
+
+/// An area of a maneuver in the frame of its start.
 struct Area {
-  std::uint32_t first;
-  std::uint32_t size;  ///< corners, without padding
-  double centre_x;
-  double centre_y;
-  double radius;  ///< of a circle around the centre that contains the area; -1: the area is empty
-  double min_x;
-  double max_x;
-  double min_y;
-  double max_y;
+  std::uint32_t first_block;  ///< of `Tables::area_blocks`
+  std::uint32_t num_blocks;   ///< 0: the area is empty
+  float centre_x;             ///< of the box
+  float centre_y;
+  float half_x;
+  float half_y;
+  float radius;  ///< of a circle around the centre that contains the area
 };
 
 struct EdgeData {
@@ -56,11 +73,7 @@ struct Tables {
   const double* displacement_y;
   /// Per group, r and steps after the edge (from 1): kBoundSize doubles. See BranchAndBound.
   const double* bounds;
-  const double* area_x;
-  const double* area_y;
-  const double* area_normal_x;
-  const double* area_normal_y;
-  const double* area_offset;
+  const PolygonBlock* area_blocks;
   std::size_t num_trims;
   std::size_t num_groups;
   std::size_t max_steps_left;
@@ -75,17 +88,40 @@ struct Tables {
 struct PolygonData {
   const double* corners;  ///< x, y, x, y ...
   std::uint32_t size;
-  std::uint32_t step;   ///< from 0
-  std::uint32_t first;  ///< its place in `Plan::obstacle_*`, a multiple of four
+  std::uint32_t step;         ///< from 0
+  std::uint32_t first_block;  ///< of `Plan::obstacle_blocks`
+  std::uint32_t num_blocks;
 };
 
 /// An obstacle that can be met in its step.
 struct ObstacleData {
   std::uint32_t polygon;  ///< among those of the problem
-  bool is_ready;          ///< its `Plan::obstacle_*` are written: done when first needed
+  bool is_ready;          ///< its blocks are written: done when first needed
 };
 
-/// One problem, prepared. Frame: that of the problem.
+/// Eight boundary segments in a row, with their directions (larger component 1; a segment without
+/// length has 0). What is missing to eight repeats the last.
+struct SegmentBlock {
+  float from_x[kFloatLanes];
+  float from_y[kFloatLanes];
+  float to_x[kFloatLanes];
+  float to_y[kFloatLanes];
+  float along_x[kFloatLanes];
+  float along_y[kFloatLanes];
+};
+
+/// Oriented rectangles around eight blocks of segments: centre, half the length as a vector, half
+/// the width.
+struct RectangleBlock {
+  float x[kFloatLanes];
+  float y[kFloatLanes];
+  float half_x[kFloatLanes];
+  float half_y[kFloatLanes];
+  float half_width[kFloatLanes];
+};
+
+/// One problem, prepared. Reference, obstacles and boundary as the problem has them are in its
+/// frame, all floats relative to the start, along the same axes.
 struct Plan {
   std::size_t horizon_steps;
   const double* reference_x;  ///< r_1 ... r_n and four more
@@ -101,37 +137,25 @@ struct Plan {
   const double* const* reach;
 
   // What is left of it, written by Kernel::prepare.
-  double scale;  ///< largest coordinate, or more [m]
+  double origin_x;  ///< the start
+  double origin_y;
+  double scale;  ///< largest coordinate of a float, or more [m]
   /// Obstacles [first_obstacle[j - 1], first_obstacle[j]) are those of step j; every step's begin
-  /// at a multiple of four. The padding has circles that nothing meets.
+  /// at a multiple of eight. The padding has circles that nothing meets.
   std::uint32_t* first_obstacle;
-  double* circle_x;  ///< a circle that contains the obstacle
-  double* circle_y;
-  double* circle_radius;
+  float* circle_x;  ///< a circle that contains the obstacle
+  float* circle_y;
+  float* circle_radius;
   ObstacleData* obstacles;
-  double* obstacle_x;  ///< corners, edge normals n_i (outward), offsets n_i p_i: as in Area
-  double* obstacle_y;
-  double* obstacle_normal_x;
-  double* obstacle_normal_y;
-  double* obstacle_offset;
-  std::uint32_t num_segments;  ///< boundary segments that can be met, padded with the last one
-  std::uint32_t num_blocks;
+  PolygonBlock* obstacle_blocks;
+  double* corners;  ///< scratch: x and y of the largest obstacle's corners, one more
+  std::size_t corner_stride;
+  std::uint32_t num_blocks;       ///< of boundary segments that can be met
   std::uint32_t* segment_source;  ///< number of a segment in the problem
-  double* from_x;
-  double* from_y;
-  double* to_x;
-  double* to_y;
-  /// An oriented rectangle around each block of four segments: centre, half its length as a vector,
-  /// half its width.
-  double* block_x;
-  double* block_y;
-  double* block_half_x;
-  double* block_half_y;
-  double* block_half_width;
-  /// Bound on the rounding of what the separating-axis test compares [m^2]. Where the difference is
-  /// smaller, `decides` of the search says what is true.
-  double tolerance;
-  double slack;  ///< of circles and boxes [m]
+  SegmentBlock* segment_blocks;
+  RectangleBlock* rectangles;
+  /// Bound on the rounding of a distance in single precision [m].
+  float tolerance;
 };
 
 /// A vertex on the path that is being tried.
@@ -175,8 +199,7 @@ struct Search {
   VertexData* path;     ///< n + 1 vertices; the first is the start
   double* projections;  ///< kAxes rows of projection_stride
   std::size_t projection_stride;
-  double* corners;  ///< x and y of the largest obstacle's corners, padded
-  std::size_t corner_stride;
+  PolygonBlock* placed;  ///< room for the largest area
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;
   bool (*stop)(const void* context);

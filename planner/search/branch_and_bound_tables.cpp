@@ -12,6 +12,14 @@ namespace {
 
 std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
 
+std::size_t blocks_of(std::size_t corners) { return (corners + kFloatLanes - 1) / kFloatLanes; }
+
+/// A little more than a circle, above the rounding of squares in single precision.
+constexpr double kMore = 1.0 + 0x1p-20;
+
+/// A shorter edge has no direction.
+constexpr double kLeastEdge_m = 1e-7;
+
 /// Smallest interval that holds the points along an axis.
 struct Interval {
   double low{std::numeric_limits<double>::infinity()};
@@ -35,11 +43,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable)
   view_.displacement_y = displacement_y_.data();
   view_.bounds = bounds_.data();
   view_.numbers = numbers_.data();
-  view_.area_x = area_x_.data();
-  view_.area_y = area_y_.data();
-  view_.area_normal_x = area_normal_x_.data();
-  view_.area_normal_y = area_normal_y_.data();
-  view_.area_offset = area_offset_.data();
+  view_.area_blocks = area_blocks_.data();
 }
 
 void TableStore::add_edges(const Subgraph& subgraph) {
@@ -78,28 +82,34 @@ void TableStore::add_edges(const Subgraph& subgraph) {
 Area TableStore::add_area(const ConvexPolygon& area_m) {
   const auto& corners = area_m.vertices_m;
   Area area{};
-  area.first = static_cast<std::uint32_t>(area_x_.size());
-  area.size = static_cast<std::uint32_t>(corners.size());
+  area.first_block = static_cast<std::uint32_t>(area_blocks_.size());
+  area.num_blocks = static_cast<std::uint32_t>(blocks_of(corners.size()));
+  area_blocks_.resize(area_blocks_.size() + area.num_blocks);
+  most_blocks_ = std::max<std::size_t>(most_blocks_, area.num_blocks);
   if (corners.empty()) return area;
 
   const Box box = bounding_box(area_m);
   const Point centre = 0.5 * (box.min_m + box.max_m);
-  area.centre_x = centre.x();
-  area.centre_y = centre.y();
-  area.min_x = box.min_m.x();
-  area.max_x = box.max_m.x();
-  area.min_y = box.min_m.y();
-  area.max_y = box.max_m.y();
-  for (std::size_t i = 0; i < padded(corners.size()); ++i) {
-    const std::size_t k = i < corners.size() ? i : 0;
-    const Point& from = corners[k];
-    const Point along = corners[(k + 1) % corners.size()] - from;
-    area_x_.push_back(from.x());
-    area_y_.push_back(from.y());
-    area_normal_x_.push_back(along.y());
-    area_normal_y_.push_back(-along.x());
-    area_offset_.push_back(along.y() * from.x() - along.x() * from.y());
-    area.radius = std::max(area.radius, (from - centre).norm());
+  area.centre_x = static_cast<float>(centre.x());
+  area.centre_y = static_cast<float>(centre.y());
+  area.half_x = static_cast<float>(0.5 * (box.max_m.x() - box.min_m.x()));
+  area.half_y = static_cast<float>(0.5 * (box.max_m.y() - box.min_m.y()));
+  for (std::size_t i = 0; i < area.num_blocks * kFloatLanes; ++i) {
+    const bool is_padding = i >= corners.size();
+    const Point& from = corners[is_padding ? 0 : i];
+    const Point along =
+        is_padding ? Point::Zero() : Point(corners[(i + 1) % corners.size()] - from);
+    const double length = along.cwiseAbs().maxCoeff();
+    const Point normal =
+        length > kLeastEdge_m ? Point(along.y() / length, -along.x() / length) : Point::Zero();
+    PolygonBlock& block = area_blocks_[area.first_block + i / kFloatLanes];
+    const std::size_t lane = i % kFloatLanes;
+    block.x[lane] = static_cast<float>(from.x());
+    block.y[lane] = static_cast<float>(from.y());
+    block.normal_x[lane] = static_cast<float>(normal.x());
+    block.normal_y[lane] = static_cast<float>(normal.y());
+    block.offset[lane] = is_padding ? kSeparatesNothing : static_cast<float>(normal.dot(from));
+    area.radius = std::max(area.radius, static_cast<float>(kMore * (from - centre).norm()));
     area_radius_m_ = std::max(area_radius_m_, from.norm());
   }
   return area;

@@ -36,6 +36,8 @@ class TableStore {
   [[nodiscard]] double reach_m(std::size_t steps) const {
     return static_cast<double>(steps) * area_radius_m_;
   }
+  /// Blocks of the largest area.
+  [[nodiscard]] std::size_t most_blocks() const { return most_blocks_; }
   /// Most edges out of one trim, padded.
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
 
@@ -55,16 +57,13 @@ class TableStore {
   std::vector<double> bounds_;
   std::array<std::vector<double>, 2> penalty_;
   std::array<std::vector<std::uint32_t>, 2> permitted_;
-  std::vector<double> area_x_;
-  std::vector<double> area_y_;
-  std::vector<double> area_normal_x_;
-  std::vector<double> area_normal_y_;
-  std::vector<double> area_offset_;
+  std::vector<PolygonBlock> area_blocks_;
   std::vector<double> reach_;
   std::size_t reach_steps_{};
   std::vector<double> numbers_;
   double area_radius_m_{};  ///< farthest corner of any area from the start of its maneuver
   std::size_t most_edges_{};
+  std::size_t most_blocks_{};
   Tables view_{};
 };
 

@@ -1,7 +1,7 @@
 #include "planner/search/prepared_obstacles.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <type_traits>
 
 namespace hlc::branch_and_bound {
@@ -11,7 +11,13 @@ namespace {
 static_assert(sizeof(Point) == 2 * sizeof(double));
 static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v<Segment>);
 
-std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
+std::size_t blocks_of(std::size_t size) { return (size + kFloatLanes - 1) / kFloatLanes; }
+
+bool is_same(const ConvexPolygon& a, const ConvexPolygon& b) {
+  const std::size_t size = a.vertices_m.size();
+  return size == b.vertices_m.size() &&
+         std::memcmp(a.vertices_m.data(), b.vertices_m.data(), size * sizeof(Point)) == 0;
+}
 
 template <class T>
 void grow(std::vector<T>& values, std::size_t size) {
@@ -31,61 +37,62 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   }
   grow(first_obstacle_, n + 1);
   // Every step's obstacles are padded.
-  const std::size_t num_obstacles = polygons_.size() + n * (kLanes - 1);
+  const std::size_t num_obstacles = num_polygons_ + n * (kFloatLanes - 1);
   grow(obstacles_, num_obstacles);
   grow(circles_, 3 * num_obstacles);
-  const std::size_t corners =
-      polygons_.empty() ? 0 : padded(polygons_.back().first + polygons_.back().size);
-  grow(corners_, 5 * corners);
-  const std::size_t segments = padded(problem.boundary_m.size());
-  grow(segment_source_, segments);
-  grow(segments_, 4 * segments);
-  const std::size_t blocks = padded(segments / kLanes);
-  grow(blocks_, 5 * blocks);
+  grow(obstacle_blocks_, num_blocks_);
+  const std::size_t corner_stride = most_blocks_ * kFloatLanes + 1;
+  grow(corners_, 2 * corner_stride);
+  const std::size_t segment_blocks = blocks_of(problem.boundary_m.size());
+  grow(segment_source_, segment_blocks * kFloatLanes);
+  grow(segment_blocks_, segment_blocks);
+  grow(rectangles_, blocks_of(segment_blocks));
 
   plan.horizon_steps = n;
   plan.polygons = polygons_.data();
-  plan.num_polygons = polygons_.size();
+  plan.num_polygons = num_polygons_;
   plan.boundary = problem.boundary_m.empty() ? nullptr : problem.boundary_m.front().from_m.data();
   plan.boundary_size = problem.boundary_m.size();
   plan.reach = reach_.data();
-  plan.scale = std::abs(problem.start.x_m) + std::abs(problem.start.y_m) + tables_.reach_m(n);
+  plan.scale = tables_.reach_m(n);
   plan.first_obstacle = first_obstacle_.data();
   plan.obstacles = obstacles_.data();
   plan.circle_x = circles_.data();
   plan.circle_y = plan.circle_x + num_obstacles;
   plan.circle_radius = plan.circle_y + num_obstacles;
-  plan.obstacle_x = corners_.data();
-  plan.obstacle_y = plan.obstacle_x + corners;
-  plan.obstacle_normal_x = plan.obstacle_y + corners;
-  plan.obstacle_normal_y = plan.obstacle_normal_x + corners;
-  plan.obstacle_offset = plan.obstacle_normal_y + corners;
+  plan.obstacle_blocks = obstacle_blocks_.data();
+  plan.corners = corners_.data();
+  plan.corner_stride = corner_stride;
   plan.segment_source = segment_source_.data();
-  plan.from_x = segments_.data();
-  plan.from_y = plan.from_x + segments;
-  plan.to_x = plan.from_y + segments;
-  plan.to_y = plan.to_x + segments;
-  plan.block_x = blocks_.data();
-  plan.block_y = plan.block_x + blocks;
-  plan.block_half_x = plan.block_y + blocks;
-  plan.block_half_y = plan.block_half_x + blocks;
-  plan.block_half_width = plan.block_half_y + blocks;
+  plan.segment_blocks = segment_blocks_.data();
+  plan.rectangles = rectangles_.data();
 }
 
 void PreparedObstacles::list_polygons() {
-  polygons_.clear();
-  sources_.clear();
-  most_corners_ = 0;
-  std::size_t first = 0;
+  std::size_t most = 0;
+  for (const auto& areas_m : problem_->obstacles_m) most += areas_m.size();
+  grow(polygons_, most);
+  grow(sources_, most);
+  num_polygons_ = 0;
+  num_blocks_ = 0;
+  most_blocks_ = 0;
   for (std::size_t step = 0; step < problem_->obstacles_m.size(); ++step) {
+    const ConvexPolygon* before = nullptr;
     for (const ConvexPolygon& polygon_m : problem_->obstacles_m[step]) {
       const std::size_t size = polygon_m.vertices_m.size();
       if (size == 0) continue;
-      polygons_.push_back({polygon_m.vertices_m.front().data(), static_cast<std::uint32_t>(size),
-                           static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(first)});
-      sources_.push_back(&polygon_m);
-      first += padded(size);
-      most_corners_ = std::max(most_corners_, padded(size));
+      // A vehicle that keeps to its former plan is where both of its plans say, to the last bit.
+      if (before != nullptr && is_same(*before, polygon_m)) continue;
+      before = &polygon_m;
+      const std::size_t blocks = blocks_of(size);
+      polygons_[num_polygons_] = {
+          polygon_m.vertices_m.front().data(), static_cast<std::uint32_t>(size),
+          static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(num_blocks_),
+          static_cast<std::uint32_t>(blocks)};
+      sources_[num_polygons_] = &polygon_m;
+      ++num_polygons_;
+      num_blocks_ += blocks;
+      most_blocks_ = std::max(most_blocks_, blocks);
     }
   }
 }

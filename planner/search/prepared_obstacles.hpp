@@ -14,7 +14,7 @@ namespace hlc::branch_and_bound {
 ///
 /// The kernel leaves out what lies beyond one of the half-planes of TableStore::reach for the step:
 /// no edge of a plan can meet it in that step. Boundary segments are left out if this is so for
-/// every step.
+/// every step. Equal obstacles of a step, one after the other, are one.
 class PreparedObstacles {
  public:
   explicit PreparedObstacles(const TableStore& tables) : tables_(tables) {}
@@ -24,8 +24,6 @@ class PreparedObstacles {
   /// @param problem  must stay unchanged as long as the plan is used
   void list(const HorizonProblem& problem, Plan& plan);
 
-  /// Corners of the largest obstacle, padded.
-  [[nodiscard]] std::size_t most_corners() const { return most_corners_; }
   /// What an obstacle or a segment of the plan is in the problem.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
     return *sources_[obstacles_[item].polygon];
@@ -39,17 +37,20 @@ class PreparedObstacles {
 
   const TableStore& tables_;
   const HorizonProblem* problem_{};
-  std::size_t most_corners_{};
+  std::size_t num_polygons_{};
+  std::size_t num_blocks_{};   ///< of all obstacles
+  std::size_t most_blocks_{};  ///< of the largest
   std::vector<PolygonData> polygons_;
   std::vector<const ConvexPolygon*> sources_;  ///< of `polygons_`
   std::vector<const double*> reach_;
   std::vector<std::uint32_t> first_obstacle_;
   std::vector<ObstacleData> obstacles_;
-  std::vector<double> circles_;  ///< x, y, radius
-  std::vector<double> corners_;  ///< x, y, normal x, normal y, offset
+  std::vector<float> circles_;  ///< x, y, radius
+  std::vector<PolygonBlock> obstacle_blocks_;
+  std::vector<double> corners_;
   std::vector<std::uint32_t> segment_source_;
-  std::vector<double> segments_;  ///< from x, from y, to x, to y
-  std::vector<double> blocks_;    ///< x, y, half length x, y, half width
+  std::vector<SegmentBlock> segment_blocks_;
+  std::vector<RectangleBlock> rectangles_;
 };
 
 }  // namespace hlc::branch_and_bound

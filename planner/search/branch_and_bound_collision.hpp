@@ -1,0 +1,454 @@
+// The collision test of BranchAndBound's inner loop: separating axes in single precision, eight
+// edges, corners or boundary segments at a time. Long-winded for speed; compiled twice, as
+// branch_and_bound_kernel.hpp, and for the same reason self-contained.
+//
+// Distances are computed relative to the plan's start, where coordinates are small. Each step of
+// the computation rounds by half a unit in the last place, 2^-24 of the largest coordinate S, or
+// twice that after a rotation; from corners, normals and placements to a distance they add up to
+// less than 64 of them. The tolerance is 2^-18 S. What is apart or overlaps by more is certain;
+// what is between is asked of Search::decides.
+#pragma once
+
+#include "planner/search/branch_and_bound_data.hpp"
+#include "planner/search/branch_and_bound_vectors.hpp"
+
+namespace hlc::branch_and_bound {
+namespace {
+
+constexpr float kFarAway = 1e15F;  // coordinate of padding; its square is still a number
+constexpr double kDiagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
+constexpr std::uint32_t kEveryLane = 0xff;
+
+/// A vertex in single precision, relative to the plan's start.
+struct Placement {
+  Floats x;
+  Floats y;
+  Floats cos_heading;
+  Floats sin_heading;
+};
+
+HLC_INLINE Placement placement_of(const Plan& plan, const VertexData& vertex) {
+  return {all(static_cast<float>(vertex.x - plan.origin_x)),
+          all(static_cast<float>(vertex.y - plan.origin_y)),
+          all(static_cast<float>(vertex.cos_heading)), all(static_cast<float>(vertex.sin_heading))};
+}
+
+/// Corners, normals and offsets of an obstacle.
+void make_ready(const Plan& plan, const PolygonData& polygon) {
+  double* const x = plan.corners;
+  double* const y = plan.corners + plan.corner_stride;
+  const std::uint32_t padded = polygon.num_blocks * kFloatLanes;
+  for (std::uint32_t i = 0; i < polygon.size; ++i) {
+    x[i] = polygon.corners[2 * i] - plan.origin_x;
+    y[i] = polygon.corners[2 * i + 1] - plan.origin_y;
+  }
+  for (std::uint32_t i = polygon.size; i <= padded; ++i) {
+    x[i] = x[0];
+    y[i] = y[0];
+  }
+  const double least_length = 1e-6 * plan.scale;
+  for (std::uint32_t i = 0; i < padded; i += kLanes) {
+    PolygonBlock& block = plan.obstacle_blocks[polygon.first_block + i / kFloatLanes];
+    const std::uint32_t lane = i % kFloatLanes;
+    const Doubles from_x = load(x + i);
+    const Doubles from_y = load(y + i);
+    const Doubles along_x = load(x + i + 1) - from_x;
+    const Doubles along_y = load(y + i + 1) - from_y;
+    // An edge too short to have a direction gets no normal: it separates by 0, which is too close
+    // to call whatever lies beside it.
+    const Doubles length = larger(absolute(along_x), absolute(along_y));
+    const Doubles scale = if_less(all(least_length), length, all(1.0) / length, all(0.0));
+    const Doubles normal_x = along_y * scale;
+    const Doubles normal_y = all(0.0) - along_x * scale;
+    store(block.x + lane, from_x);
+    store(block.y + lane, from_y);
+    store(block.normal_x + lane, normal_x);
+    store(block.normal_y + lane, normal_y);
+    store(block.offset + lane, normal_x * from_x + normal_y * from_y);
+  }
+  PolygonBlock& last = plan.obstacle_blocks[polygon.first_block + polygon.num_blocks - 1];
+  for (std::uint32_t i = polygon.size; i < padded; ++i)
+    last.offset[i % kFloatLanes] = kSeparatesNothing;
+}
+
+/// Moves the blocks of an area from its own frame to the plan's.
+HLC_INLINE void place(const PolygonBlock* from, const Placement& at, std::uint32_t num_blocks,
+                      PolygonBlock* to) {
+  for (std::uint32_t i = 0; i < num_blocks; ++i) {
+    const Floats x = load(from[i].x);
+    const Floats y = load(from[i].y);
+    const Floats normal_x = load(from[i].normal_x);
+    const Floats normal_y = load(from[i].normal_y);
+    const Floats placed_normal_x = at.cos_heading * normal_x - at.sin_heading * normal_y;
+    const Floats placed_normal_y = at.sin_heading * normal_x + at.cos_heading * normal_y;
+    store(to[i].x, at.x + (at.cos_heading * x - at.sin_heading * y));
+    store(to[i].y, at.y + (at.sin_heading * x + at.cos_heading * y));
+    store(to[i].normal_x, placed_normal_x);
+    store(to[i].normal_y, placed_normal_y);
+    store(to[i].offset, load(from[i].offset) + (placed_normal_x * at.x + placed_normal_y * at.y));
+  }
+}
+
+/// How far the nearest corner of `other` lies beyond each edge of one block of a polygon.
+HLC_INLINE Floats beyond_edges(const PolygonBlock& block, const PolygonBlock* other,
+                               std::uint32_t num_blocks) {
+  const Floats normal_x = load(block.normal_x);
+  const Floats normal_y = load(block.normal_y);
+  Floats nearest = all(kFarAway);
+  for (std::uint32_t i = 0; i < num_blocks; ++i) {
+#pragma GCC unroll 8
+    for (std::uint32_t k = 0; k < kFloatLanes; ++k) {
+      nearest = smaller(normal_x * all(other[i].x[k]) + normal_y * all(other[i].y[k]), nearest);
+    }
+  }
+  return nearest - load(block.offset);
+}
+
+enum class Answer { kApart, kMeet, kTooClose };
+
+/// Do a placed area and an obstacle meet? A separating-axis test.
+HLC_INLINE Answer compare(const PolygonBlock* area, std::uint32_t area_blocks,
+                          const PolygonBlock* obstacle, std::uint32_t obstacle_blocks,
+                          const Floats& tolerance) {
+  Floats most_apart = all(-kFarAway);
+  for (std::uint32_t i = 0; i < obstacle_blocks; ++i) {
+    most_apart = larger(beyond_edges(obstacle[i], area, area_blocks), most_apart);
+  }
+  if (lanes_less(tolerance, most_apart) != 0) return Answer::kApart;
+  for (std::uint32_t i = 0; i < area_blocks; ++i) {
+    most_apart = larger(beyond_edges(area[i], obstacle, obstacle_blocks), most_apart);
+  }
+  if (lanes_less(tolerance, most_apart) != 0) return Answer::kApart;
+  const Floats inside = all(0.0F) - tolerance;
+  return lanes_less(most_apart, inside) == kEveryLane ? Answer::kMeet : Answer::kTooClose;
+}
+
+bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step,
+                    const VertexData& vertex) {
+  const Plan& plan = *search.plan;
+  const Area& area = search.tables->edges[edge].swept;
+  if (area.num_blocks == 0) return false;
+  const Placement at = placement_of(plan, vertex);
+  const Floats centre_x =
+      at.x + (at.cos_heading * all(area.centre_x) - at.sin_heading * all(area.centre_y));
+  const Floats centre_y =
+      at.y + (at.sin_heading * all(area.centre_x) + at.cos_heading * all(area.centre_y));
+  const Floats radius = all(area.radius + plan.tolerance);
+  const Floats tolerance = all(plan.tolerance);
+  bool is_placed = false;
+  for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];
+       i += kFloatLanes) {
+    const Floats dx = load(plan.circle_x + i) - centre_x;
+    const Floats dy = load(plan.circle_y + i) - centre_y;
+    const Floats reach = load(plan.circle_radius + i) + radius;
+    std::uint32_t near = lanes_less(dx * dx + dy * dy, reach * reach);
+    for (; near != 0; near &= near - 1) {
+      const std::uint32_t item = i + static_cast<std::uint32_t>(__builtin_ctz(near));
+      ObstacleData& obstacle = plan.obstacles[item];
+      const PolygonData& polygon = plan.polygons[obstacle.polygon];
+      if (!obstacle.is_ready) {
+        make_ready(plan, polygon);
+        obstacle.is_ready = true;
+      }
+      if (!is_placed) {
+        place(search.tables->area_blocks + area.first_block, at, area.num_blocks, search.placed);
+        is_placed = true;
+      }
+      const Answer answer =
+          compare(search.placed, area.num_blocks, plan.obstacle_blocks + polygon.first_block,
+                  polygon.num_blocks, tolerance);
+      if (answer == Answer::kMeet) return true;
+      if (answer == Answer::kTooClose &&
+          search.decides(search.decides_context, {edge, false, item, &vertex})) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Eight segments in a row against an area, seen from its vertex.
+HLC_INLINE bool meets_block(const Search& search, std::uint32_t edge, const Area& area,
+                            std::uint32_t number, const Placement& at, const VertexData& vertex) {
+  const Plan& plan = *search.plan;
+  const SegmentBlock& segments = plan.segment_blocks[number];
+  const Floats c = at.cos_heading;
+  const Floats s = at.sin_heading;
+  const Floats tolerance = all(plan.tolerance);
+  const Floats from_dx = load(segments.from_x) - at.x;
+  const Floats from_dy = load(segments.from_y) - at.y;
+  const Floats to_dx = load(segments.to_x) - at.x;
+  const Floats to_dy = load(segments.to_y) - at.y;
+  const Floats from_x = from_dx * c + from_dy * s;
+  const Floats from_y = from_dy * c - from_dx * s;
+  const Floats to_x = to_dx * c + to_dy * s;
+  const Floats to_y = to_dy * c - to_dx * s;
+
+  // The area's box.
+  const Floats centre_x = all(area.centre_x);
+  const Floats centre_y = all(area.centre_y);
+  Floats most_apart = larger(
+      larger(smaller(from_x, to_x) - centre_x, centre_x - larger(from_x, to_x)) - all(area.half_x),
+      larger(smaller(from_y, to_y) - centre_y, centre_y - larger(from_y, to_y)) - all(area.half_y));
+  if (lanes_less(tolerance, most_apart) == kEveryLane) return false;
+
+  // The area's edges.
+  const PolygonBlock* const blocks = search.tables->area_blocks + area.first_block;
+  for (std::uint32_t i = 0; i < area.num_blocks; ++i) {
+#pragma GCC unroll 8
+    for (std::uint32_t k = 0; k < kFloatLanes; ++k) {
+      const Floats normal_x = all(blocks[i].normal_x[k]);
+      const Floats normal_y = all(blocks[i].normal_y[k]);
+      const Floats nearest =
+          smaller(normal_x * from_x + normal_y * from_y, normal_x * to_x + normal_y * to_y);
+      most_apart = larger(nearest - all(blocks[i].offset[k]), most_apart);
+    }
+  }
+  if (lanes_less(tolerance, most_apart) == kEveryLane) return false;
+
+  // The segments' own sides.
+  const Floats along_dx = load(segments.along_x);
+  const Floats along_dy = load(segments.along_y);
+  const Floats along_x = along_dx * c + along_dy * s;
+  const Floats along_y = along_dy * c - along_dx * s;
+  const Floats offset = along_x * from_y - along_y * from_x;
+  Floats leftmost = all(-kFarAway);
+  Floats rightmost = all(kFarAway);
+  for (std::uint32_t i = 0; i < area.num_blocks; ++i) {
+#pragma GCC unroll 8
+    for (std::uint32_t k = 0; k < kFloatLanes; ++k) {
+      const Floats side = along_x * all(blocks[i].y[k]) - along_y * all(blocks[i].x[k]);
+      leftmost = larger(side, leftmost);
+      rightmost = smaller(side, rightmost);
+    }
+  }
+  most_apart = larger(larger(rightmost - offset, offset - leftmost), most_apart);
+  if (lanes_less(most_apart, all(0.0F) - tolerance) != 0) return true;
+  std::uint32_t close = kEveryLane & ~lanes_less(tolerance, most_apart);
+  for (; close != 0; close &= close - 1) {
+    const std::uint32_t item =
+        number * kFloatLanes + static_cast<std::uint32_t>(__builtin_ctz(close));
+    if (search.decides(search.decides_context, {edge, true, item, &vertex})) return true;
+  }
+  return false;
+}
+
+bool meets_segment(const Search& search, std::uint32_t edge, const VertexData& vertex) {
+  const Plan& plan = *search.plan;
+  const Area& area = search.tables->edges[edge].lane;
+  if (area.num_blocks == 0) return false;
+  const Placement at = placement_of(plan, vertex);
+  const Floats c = at.cos_heading;
+  const Floats s = at.sin_heading;
+  const Floats centre_x = all(area.centre_x);
+  const Floats centre_y = all(area.centre_y);
+  const Floats half_x = all(area.half_x + plan.tolerance);
+  const Floats half_y = all(area.half_y + plan.tolerance);
+  for (std::uint32_t i = 0; i < plan.num_blocks; i += kFloatLanes) {
+    // How far the boxes of eight rectangles, in the area's frame, are from that of the area.
+    const RectangleBlock& rectangles = plan.rectangles[i / kFloatLanes];
+    const Floats dx = load(rectangles.x) - at.x;
+    const Floats dy = load(rectangles.y) - at.y;
+    const Floats along_x = load(rectangles.half_x);
+    const Floats along_y = load(rectangles.half_y);
+    const Floats half_width = load(rectangles.half_width);
+    const Floats beside_x = absolute(dx * c + dy * s - centre_x) -
+                            absolute(along_x * c + along_y * s) - half_width - half_x;
+    const Floats beside_y = absolute(dy * c - dx * s - centre_y) -
+                            absolute(along_y * c - along_x * s) - half_width - half_y;
+    std::uint32_t near = kEveryLane & ~lanes_less(all(0.0F), larger(beside_x, beside_y));
+    for (; near != 0; near &= near - 1) {
+      const std::uint32_t number = i + static_cast<std::uint32_t>(__builtin_ctz(near));
+      if (meets_block(search, edge, area, number, at, vertex)) return true;
+    }
+  }
+  return false;
+}
+
+HLC_INLINE bool is_free(const Search& search, std::uint32_t edge, std::size_t step,
+                        const VertexData& vertex) {
+  const Plan& plan = *search.plan;
+  if (plan.first_obstacle[step - 1] != plan.first_obstacle[step] &&
+      meets_obstacle(search, edge, step, vertex)) {
+    return false;
+  }
+  return plan.num_blocks == 0 || !meets_segment(search, edge, vertex);
+}
+
+/// Places along the axes of the start's frame.
+struct Axes {
+  Doubles x;
+  Doubles y;
+};
+
+HLC_INLINE Doubles along_axes(const Axes& axes, double x, double y) {
+  return axes.x * all(x) + axes.y * all(y);
+}
+
+/// Does the interval, on any axis, lie beyond what can be reached?
+HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double* reach) {
+  return (lanes_less(load(reach + kAxes), low) | lanes_less(high, load(reach))) != 0;
+}
+
+/// Obstacles that can be met in their step, with a circle around each.
+HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
+  // A little more than the circle, above the rounding of squares.
+  constexpr float kMore = 1.0F + 0x1p-20F;
+  std::uint32_t count = 0;
+  std::size_t next = 0;
+  plan.first_obstacle[0] = 0;
+  for (std::size_t step = 0; step < plan.horizon_steps; ++step) {
+    for (; next < plan.num_polygons && plan.polygons[next].step == step; ++next) {
+      const PolygonData& polygon = plan.polygons[next];
+      const double* const corners = polygon.corners;
+      // Two corners at a time; the last two may come twice.
+      const std::uint32_t last_pair = 2 * polygon.size - 4;
+      Doubles lowest = load(corners + last_pair);
+      Doubles highest = lowest;
+      for (std::uint32_t i = 0; i < last_pair; i += 4) {
+        const Doubles pair = load(corners + i);
+        lowest = smaller(pair, lowest);
+        highest = larger(pair, highest);
+      }
+      const double min_x = lowest[0] < lowest[2] ? lowest[0] : lowest[2];
+      const double min_y = lowest[1] < lowest[3] ? lowest[1] : lowest[3];
+      const double max_x = highest[0] > highest[2] ? highest[0] : highest[2];
+      const double max_y = highest[1] > highest[3] ? highest[1] : highest[3];
+      const double centre_x = 0.5 * (min_x + max_x) - plan.origin_x;
+      const double centre_y = 0.5 * (min_y + max_y) - plan.origin_y;
+      const double radius = 0.5 * __builtin_sqrt((max_x - min_x) * (max_x - min_x) +
+                                                 (max_y - min_y) * (max_y - min_y));
+      const Doubles centre = along_axes(axes, centre_x, centre_y);
+      if (is_beyond(centre - all(radius), centre + all(radius), plan.reach[step])) continue;
+      plan.circle_x[count] = static_cast<float>(centre_x);
+      plan.circle_y[count] = static_cast<float>(centre_y);
+      plan.circle_radius[count] = static_cast<float>(radius) * kMore;
+      plan.obstacles[count] = {static_cast<std::uint32_t>(next), false};
+      ++count;
+      const double size = absolute(centre_x) + absolute(centre_y) + radius;
+      plan.scale = size > plan.scale ? size : plan.scale;
+    }
+    for (; count % kFloatLanes != 0; ++count) {
+      plan.circle_x[count] = kFarAway;
+      plan.circle_y[count] = kFarAway;
+      plan.circle_radius[count] = 0.0F;
+    }
+    plan.first_obstacle[step + 1] = count;
+  }
+}
+
+/// An oriented rectangle that contains eight segments in a row, along the line from the first one's
+/// begin to the last one's end.
+HLC_INLINE void enclose(const SegmentBlock& segments, RectangleBlock& rectangles,
+                        std::uint32_t lane) {
+  constexpr std::uint32_t kLast = kFloatLanes - 1;
+  float along_x = segments.to_x[kLast] - segments.from_x[0];
+  float along_y = segments.to_y[kLast] - segments.from_y[0];
+  const float length = __builtin_sqrtf(along_x * along_x + along_y * along_y);
+  along_x = length > 0.0F ? along_x / length : 1.0F;
+  along_y = length > 0.0F ? along_y / length : 0.0F;
+  const Floats from_x = load(segments.from_x);
+  const Floats from_y = load(segments.from_y);
+  const Floats to_x = load(segments.to_x);
+  const Floats to_y = load(segments.to_y);
+  const Floats from_along = from_x * all(along_x) + from_y * all(along_y);
+  const Floats to_along = to_x * all(along_x) + to_y * all(along_y);
+  const Floats from_aside = from_y * all(along_x) - from_x * all(along_y);
+  const Floats to_aside = to_y * all(along_x) - to_x * all(along_y);
+  const float begin = least(smaller(from_along, to_along));
+  const float end = largest(larger(from_along, to_along));
+  const float right = least(smaller(from_aside, to_aside));
+  const float left = largest(larger(from_aside, to_aside));
+  const float middle = 0.5F * (begin + end);
+  const float aside = 0.5F * (left + right);
+  rectangles.x[lane] = middle * along_x - aside * along_y;
+  rectangles.y[lane] = middle * along_y + aside * along_x;
+  rectangles.half_x[lane] = 0.5F * (end - begin) * along_x;
+  rectangles.half_y[lane] = 0.5F * (end - begin) * along_y;
+  rectangles.half_width[lane] = 0.5F * (left - right);
+}
+
+/// Writes a segment into its block.
+HLC_INLINE void add_segment(const Plan& plan, std::uint32_t number, std::uint32_t source) {
+  const double* const ends = plan.boundary + 4 * std::size_t{source};
+  const double along_x = ends[2] - ends[0];
+  const double along_y = ends[3] - ends[1];
+  const double length =
+      absolute(along_x) > absolute(along_y) ? absolute(along_x) : absolute(along_y);
+  // As with obstacles: no direction, too close to call.
+  const double scale = length > 1e-6 * plan.scale ? 1.0 / length : 0.0;
+  SegmentBlock& block = plan.segment_blocks[number / kFloatLanes];
+  const std::uint32_t lane = number % kFloatLanes;
+  block.from_x[lane] = static_cast<float>(ends[0] - plan.origin_x);
+  block.from_y[lane] = static_cast<float>(ends[1] - plan.origin_y);
+  block.to_x[lane] = static_cast<float>(ends[2] - plan.origin_x);
+  block.to_y[lane] = static_cast<float>(ends[3] - plan.origin_y);
+  block.along_x[lane] = static_cast<float>(along_x * scale);
+  block.along_y[lane] = static_cast<float>(along_y * scale);
+  plan.segment_source[number] = source;
+}
+
+/// Boundary segments that can be met in any step.
+HLC_INLINE void prepare_segments(Plan& plan, const Axes& axes) {
+  plan.num_blocks = 0;
+  if (plan.boundary_size == 0) return;
+  Doubles low = load(plan.reach[0]);
+  Doubles high = load(plan.reach[0] + kAxes);
+  for (std::size_t step = 1; step < plan.horizon_steps; ++step) {
+    low = smaller(low, load(plan.reach[step]));
+    high = larger(high, load(plan.reach[step] + kAxes));
+  }
+  double reach[2 * kAxes];
+  store(reach, low);
+  store(reach + kAxes, high);
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < plan.boundary_size; ++i) {
+    const double* const ends = plan.boundary + 4 * std::size_t{i};
+    const Doubles from = along_axes(axes, ends[0] - plan.origin_x, ends[1] - plan.origin_y);
+    const Doubles to = along_axes(axes, ends[2] - plan.origin_x, ends[3] - plan.origin_y);
+    if (is_beyond(smaller(from, to), larger(from, to), reach)) continue;
+    plan.segment_source[count++] = i;
+    const double from_size = absolute(ends[0] - plan.origin_x) + absolute(ends[1] - plan.origin_y);
+    const double to_size = absolute(ends[2] - plan.origin_x) + absolute(ends[3] - plan.origin_y);
+    const double size = from_size > to_size ? from_size : to_size;
+    plan.scale = size > plan.scale ? size : plan.scale;
+  }
+  if (count == 0) return;
+  // The last one again: it meets what that one meets.
+  for (; count % kFloatLanes != 0; ++count) {
+    plan.segment_source[count] = plan.segment_source[count - 1];
+  }
+  for (std::uint32_t i = 0; i < count; ++i) add_segment(plan, i, plan.segment_source[i]);
+  plan.num_blocks = count / kFloatLanes;
+  std::uint32_t block = 0;
+  for (; block < plan.num_blocks; ++block) {
+    enclose(plan.segment_blocks[block], plan.rectangles[block / kFloatLanes], block % kFloatLanes);
+  }
+  for (; block % kFloatLanes != 0; ++block) {
+    RectangleBlock& rectangles = plan.rectangles[block / kFloatLanes];
+    const std::uint32_t lane = block % kFloatLanes;
+    rectangles.x[lane] = kFarAway;
+    rectangles.y[lane] = kFarAway;
+    rectangles.half_x[lane] = 0.0F;
+    rectangles.half_y[lane] = 0.0F;
+    rectangles.half_width[lane] = 0.0F;
+  }
+}
+
+void prepare(Plan& plan, const VertexData& start) {
+  const double c = start.cos_heading;
+  const double s = start.sin_heading;
+  const double diagonal = (c - s) * kDiagonal;
+  const double other = (c + s) * kDiagonal;
+  const double x[kAxes] = {c, diagonal, -s, -other};
+  const double y[kAxes] = {s, other, c, diagonal};
+  const Axes axes{load(x), load(y)};
+  plan.origin_x = start.x;
+  plan.origin_y = start.y;
+  prepare_obstacles(plan, axes);
+  prepare_segments(plan, axes);
+  plan.tolerance = 0x1p-18F * static_cast<float>(plan.scale);
+}
+
+}  // namespace
+}  // namespace hlc::branch_and_bound
