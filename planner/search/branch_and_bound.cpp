@@ -14,7 +14,7 @@
 namespace hlc {
 namespace {
 
-using branch_and_bound::kLanes;
+using branch_and_bound::kFloatLanes;
 using branch_and_bound::kNoPath;
 using branch_and_bound::Question;
 using branch_and_bound::TableStore;
@@ -74,11 +74,12 @@ class BranchAndBound::Core {
   /// Obstacles, references and room for a path.
   void prepare(const HorizonProblem& problem) {
     const std::size_t n = problem.horizon_steps();
-    const std::size_t stride = n + 2 * kLanes;
-    if (reference_x_.size() < stride) {
-      reference_x_.resize(stride);
-      reference_y_.resize(stride);
-      projections_.resize(branch_and_bound::kAxes * stride);
+    if (reference_x_.size() < n) {
+      reference_x_.resize(n);
+      reference_y_.resize(n);
+      reference_dx_.resize(n + kFloatLanes);
+      reference_dy_.resize(n + kFloatLanes);
+      projections_.resize(branch_and_bound::kAxes * (n + kFloatLanes));
       path.resize(n + 1);
       keys_.resize((n + 1) * tables.most_edges());
       best_edges.resize(n + 1);
@@ -89,9 +90,13 @@ class BranchAndBound::Core {
     for (std::size_t j = 0; j < n; ++j) {
       reference_x_[j] = problem.reference_m[j].x();
       reference_y_[j] = problem.reference_m[j].y();
+      reference_dx_[j] = static_cast<float>(reference_x_[j] - problem.start.x_m);
+      reference_dy_[j] = static_cast<float>(reference_y_[j] - problem.start.y_m);
     }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
+    plan.reference_dx = reference_dx_.data();
+    plan.reference_dy = reference_dy_.data();
 
     if (levels_.size() < n) levels_.resize(n);
     for (std::size_t depth = 0; depth < n; ++depth) {
@@ -100,7 +105,6 @@ class BranchAndBound::Core {
     search.levels = levels_.data();
     search.path = path.data();
     search.projections = projections_.data();
-    search.projection_stride = reference_x_.size();
     search.best_cost = kNoPath;
     search.best_edges = best_edges.data();
     search.best_x = best_x.data();
@@ -149,7 +153,9 @@ class BranchAndBound::Core {
  private:
   std::vector<double> reference_x_;
   std::vector<double> reference_y_;
-  std::vector<double> projections_;
+  std::vector<float> reference_dx_;
+  std::vector<float> reference_dy_;
+  std::vector<float> projections_;
   std::vector<double> keys_;
   std::vector<branch_and_bound::Level> levels_;
   std::vector<branch_and_bound::PolygonBlock> area_;  ///< room for a placed area

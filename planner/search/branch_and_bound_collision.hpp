@@ -15,7 +15,8 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-constexpr float kFarAway = 1e15F;  // coordinate of padding; its square is still a number
+constexpr float kFarAway = 1e15F;      // coordinate of padding; its square is still a number
+constexpr double kLeastLength = 1e-6;  // of an edge with a direction, relative to S
 constexpr double kDiagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
 constexpr std::uint32_t kEveryLane = 0xff;
 
@@ -46,7 +47,7 @@ void make_ready(const Plan& plan, const PolygonData& polygon) {
     x[i] = x[0];
     y[i] = y[0];
   }
-  const double least_length = 1e-6 * plan.scale;
+  const double least_length = kLeastLength * plan.scale;
   for (std::uint32_t i = 0; i < padded; i += kLanes) {
     PolygonBlock& block = plan.obstacle_blocks[polygon.first_block + i / kFloatLanes];
     const std::uint32_t lane = i % kFloatLanes;
@@ -368,28 +369,51 @@ HLC_INLINE void enclose(const SegmentBlock& segments, RectangleBlock& rectangles
   rectangles.half_width[lane] = 0.5F * (left - right);
 }
 
-/// Writes a segment into its block.
-HLC_INLINE void add_segment(const Plan& plan, std::uint32_t number, std::uint32_t source) {
-  const double* const ends = plan.boundary + 4 * std::size_t{source};
+/// Writes a segment into a block.
+HLC_INLINE void add_segment(const Plan& plan, std::size_t source, SegmentBlock& block,
+                            std::uint32_t lane) {
+  const double* const ends = plan.boundary + 4 * source;
   const double along_x = ends[2] - ends[0];
   const double along_y = ends[3] - ends[1];
   const double length =
       absolute(along_x) > absolute(along_y) ? absolute(along_x) : absolute(along_y);
   // As with obstacles: no direction, too close to call.
-  const double scale = length > 1e-6 * plan.scale ? 1.0 / length : 0.0;
-  SegmentBlock& block = plan.segment_blocks[number / kFloatLanes];
-  const std::uint32_t lane = number % kFloatLanes;
+  const double scale = length > kLeastLength * plan.scale ? 1.0 / length : 0.0;
   block.from_x[lane] = static_cast<float>(ends[0] - plan.origin_x);
   block.from_y[lane] = static_cast<float>(ends[1] - plan.origin_y);
   block.to_x[lane] = static_cast<float>(ends[2] - plan.origin_x);
   block.to_y[lane] = static_cast<float>(ends[3] - plan.origin_y);
   block.along_x[lane] = static_cast<float>(along_x * scale);
   block.along_y[lane] = static_cast<float>(along_y * scale);
-  plan.segment_source[number] = source;
 }
 
-/// Boundary segments that can be met in any step.
-HLC_INLINE void prepare_segments(Plan& plan, const Axes& axes) {
+/// What can be reached in any step, along the axes of the start's frame: lowest, highest.
+struct Reachable {
+  float low[kAxes];
+  float high[kAxes];
+};
+
+/// Do all segments of a block, on the same axis, lie beyond what can be reached?
+HLC_INLINE bool is_beyond(const SegmentBlock& segments, const float* axis_x, const float* axis_y,
+                          const Reachable& reachable) {
+  const Floats from_x = load(segments.from_x);
+  const Floats from_y = load(segments.from_y);
+  const Floats to_x = load(segments.to_x);
+  const Floats to_y = load(segments.to_y);
+  std::uint32_t beyond = 0;
+#pragma GCC unroll 4
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const Floats from = from_x * all(axis_x[axis]) + from_y * all(axis_y[axis]);
+    const Floats to = to_x * all(axis_x[axis]) + to_y * all(axis_y[axis]);
+    const bool is_above = lanes_less(all(reachable.high[axis]), smaller(from, to)) == kEveryLane;
+    const bool is_below = lanes_less(larger(from, to), all(reachable.low[axis])) == kEveryLane;
+    beyond |= static_cast<std::uint32_t>(is_above) | static_cast<std::uint32_t>(is_below);
+  }
+  return beyond != 0;
+}
+
+/// Blocks of boundary segments that can be met in any step.
+HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double* axis_y) {
   plan.num_blocks = 0;
   if (plan.boundary_size == 0) return;
   Doubles low = load(plan.reach[0]);
@@ -398,41 +422,45 @@ HLC_INLINE void prepare_segments(Plan& plan, const Axes& axes) {
     low = smaller(low, load(plan.reach[step]));
     high = larger(high, load(plan.reach[step] + kAxes));
   }
-  double reach[2 * kAxes];
-  store(reach, low);
-  store(reach + kAxes, high);
+  // Far more than the rounding of what is anywhere near.
+  const Doubles slack = all(1e-5 * plan.scale);
+  Reachable reachable;
+  store(reachable.low, low - slack);
+  store(reachable.high, high + slack);
+  float x[kAxes];
+  float y[kAxes];
+  store(x, load(axis_x));
+  store(y, load(axis_y));
+
+  Floats largest_coordinate = all(0.0F);
   std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < plan.boundary_size; ++i) {
-    const double* const ends = plan.boundary + 4 * std::size_t{i};
-    const Doubles from = along_axes(axes, ends[0] - plan.origin_x, ends[1] - plan.origin_y);
-    const Doubles to = along_axes(axes, ends[2] - plan.origin_x, ends[3] - plan.origin_y);
-    if (is_beyond(smaller(from, to), larger(from, to), reach)) continue;
-    plan.segment_source[count++] = i;
-    const double from_size = absolute(ends[0] - plan.origin_x) + absolute(ends[1] - plan.origin_y);
-    const double to_size = absolute(ends[2] - plan.origin_x) + absolute(ends[3] - plan.origin_y);
-    const double size = from_size > to_size ? from_size : to_size;
-    plan.scale = size > plan.scale ? size : plan.scale;
+  for (std::size_t source = 0; source < plan.boundary_size; source += kFloatLanes) {
+    SegmentBlock& block = plan.segment_blocks[count];
+    for (std::uint32_t lane = 0; lane < kFloatLanes; ++lane) {
+      const std::size_t last = plan.boundary_size - 1;
+      // The last one again: it meets what that one meets.
+      add_segment(plan, source + lane < last ? source + lane : last, block, lane);
+    }
+    if (is_beyond(block, x, y, reachable)) continue;
+    plan.segment_source[count] = static_cast<std::uint32_t>(source);
+    enclose(block, plan.rectangles[count / kFloatLanes], count % kFloatLanes);
+    const Floats from = absolute(load(block.from_x)) + absolute(load(block.from_y));
+    const Floats to = absolute(load(block.to_x)) + absolute(load(block.to_y));
+    largest_coordinate = larger(larger(from, to), largest_coordinate);
+    ++count;
   }
-  if (count == 0) return;
-  // The last one again: it meets what that one meets.
+  plan.num_blocks = count;
   for (; count % kFloatLanes != 0; ++count) {
-    plan.segment_source[count] = plan.segment_source[count - 1];
-  }
-  for (std::uint32_t i = 0; i < count; ++i) add_segment(plan, i, plan.segment_source[i]);
-  plan.num_blocks = count / kFloatLanes;
-  std::uint32_t block = 0;
-  for (; block < plan.num_blocks; ++block) {
-    enclose(plan.segment_blocks[block], plan.rectangles[block / kFloatLanes], block % kFloatLanes);
-  }
-  for (; block % kFloatLanes != 0; ++block) {
-    RectangleBlock& rectangles = plan.rectangles[block / kFloatLanes];
-    const std::uint32_t lane = block % kFloatLanes;
+    RectangleBlock& rectangles = plan.rectangles[count / kFloatLanes];
+    const std::uint32_t lane = count % kFloatLanes;
     rectangles.x[lane] = kFarAway;
     rectangles.y[lane] = kFarAway;
     rectangles.half_x[lane] = 0.0F;
     rectangles.half_y[lane] = 0.0F;
     rectangles.half_width[lane] = 0.0F;
   }
+  const double size = static_cast<double>(largest(largest_coordinate));
+  plan.scale = size > plan.scale ? size : plan.scale;
 }
 
 void prepare(Plan& plan, const VertexData& start) {
@@ -446,7 +474,7 @@ void prepare(Plan& plan, const VertexData& start) {
   plan.origin_x = start.x;
   plan.origin_y = start.y;
   prepare_obstacles(plan, axes);
-  prepare_segments(plan, axes);
+  prepare_segments(plan, x, y);
   plan.tolerance = 0x1p-18F * static_cast<float>(plan.scale);
 }
 

@@ -22,8 +22,6 @@ inline constexpr std::uint32_t kLanes = 4;
 inline constexpr std::uint32_t kFloatLanes = 8;
 /// Axes of a bound: directions at 0, 45, 90 and 135 degrees, each with an interval.
 inline constexpr std::size_t kAxes = 4;
-/// Doubles of one bound of four edges: per axis, the four centres and the four half widths.
-inline constexpr std::size_t kBoundSize = 2 * kAxes * kLanes;
 /// Cost of the best path as long as there is none; the cost of no path comes near it.
 inline constexpr double kNoPath = 1e299;
 /// f of what must not be taken.
@@ -64,6 +62,13 @@ struct EdgeData {
   Area lane;
 };
 
+/// Bounds of four edges for two steps, one after the other: per axis the intervals of the four
+/// edges for the first step, then those for the second.
+struct BoundPair {
+  float centre[kAxes][kFloatLanes];
+  float half_width[kAxes][kFloatLanes];
+};
+
 /// Of the subgraph. Edges stand trim by trim; the edges of a trim are padded, so that groups of
 /// four never mix two trims. r counts steps left and is capped at `max_steps_left`.
 struct Tables {
@@ -71,15 +76,12 @@ struct Tables {
   const std::uint32_t* first_group;  ///< per trim and one more: edges [4 first, 4 next first)
   const double* displacement_x;      ///< per edge
   const double* displacement_y;
-  /// Per group, r and steps after the edge (from 1): kBoundSize doubles. See BranchAndBound.
-  const double* bounds;
+  const BoundPair* bounds;  ///< per group `bound_size`: see Level::bounds and BranchAndBound
   const PolygonBlock* area_blocks;
   std::size_t num_trims;
   std::size_t num_groups;
   std::size_t max_steps_left;
-  std::size_t bound_steps;  ///< most steps after an edge that there are bounds for
-  std::size_t bound_size;   ///< doubles per group
-  std::size_t near_stride;
+  std::size_t bound_size;
   const double* numbers;  ///< 0, 1, 2, ... as bits
   std::uint64_t index_mask;
 };
@@ -124,8 +126,10 @@ struct RectangleBlock {
 /// frame, all floats relative to the start, along the same axes.
 struct Plan {
   std::size_t horizon_steps;
-  const double* reference_x;  ///< r_1 ... r_n and four more
+  const double* reference_x;  ///< r_1 ... r_n
   const double* reference_y;
+  const float* reference_dx;  ///< the same relative to the start, and eight more
+  const float* reference_dy;
 
   // What the problem has, and what can be reached.
   const PolygonData* polygons;  ///< by step
@@ -151,7 +155,7 @@ struct Plan {
   double* corners;  ///< scratch: x and y of the largest obstacle's corners, one more
   std::size_t corner_stride;
   std::uint32_t num_blocks;       ///< of boundary segments that can be met
-  std::uint32_t* segment_source;  ///< number of a segment in the problem
+  std::uint32_t* segment_source;  ///< per block, the number of its first segment in the problem
   SegmentBlock* segment_blocks;
   RectangleBlock* rectangles;
   /// Bound on the rounding of a distance in single precision [m].
@@ -166,8 +170,10 @@ struct VertexData {
   double sin_heading;
   double cost_to_come;
   std::uint32_t trim;
-  std::uint32_t taken;  ///< number among the trim's edges of the one that leads on
-  double* keys;         ///< f of its children, each with the child's number in the last bits
+  std::uint32_t from_edge;   ///< the edge that led here
+  std::uint32_t first_edge;  ///< of those out of the trim
+  std::uint32_t num_edges;   ///< with padding
+  double* keys;              ///< f of its children, each with the child's number in the last bits
 };
 
 /// What is the same for all vertices of one depth.
@@ -175,12 +181,10 @@ struct Level {
   std::size_t steps_left;  ///< after an edge from here
   const double* penalty;   ///< `Tables::penalty` of these steps
   const std::uint32_t* permitted;
-  /// Bounds of a group: `num_far` in a row from `far`, for the first steps after the edge, then
-  /// `num_near` from `near`, each `Tables::near_stride` before the one before.
-  std::size_t far;
-  std::size_t num_far;
-  std::size_t near;
-  std::size_t num_near;
+  /// The steps after the edge, two by two, the first ones first: their number, and where among the
+  /// bounds of a group theirs are.
+  std::size_t num_pairs;
+  const std::uint32_t* bounds;
 };
 
 /// What an exact collision test is asked: does the edge's area, placed at a vertex, meet this one?
@@ -195,10 +199,9 @@ struct Question {
 struct Search {
   const Tables* tables;
   Plan* plan;
-  const Level* levels;  ///< n
-  VertexData* path;     ///< n + 1 vertices; the first is the start
-  double* projections;  ///< kAxes rows of projection_stride
-  std::size_t projection_stride;
+  const Level* levels;   ///< n
+  VertexData* path;      ///< n + 1 vertices; the first is the start
+  float* projections;    ///< per eight steps, kAxes rows of eight
   PolygonBlock* placed;  ///< room for the largest area
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;

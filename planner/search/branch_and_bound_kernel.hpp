@@ -15,69 +15,72 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-/// How far the reference point lies beyond each of four intervals, on the axis that has most; 0
-/// within them all.
-HLC_INLINE Doubles distance_beyond(const double* along, std::size_t stride,
-                                   const double* intervals) {
-  Doubles beyond = all(0.0);
+/// What a cost-to-go in single precision may be too large by: see TableStore::compute_bounds.
+constexpr float kSurely = 1.0F - 0x1p-18F;
+
+/// How far two reference points, the second and the third argument's `pair`, lie beyond the
+/// intervals of four edges each, on the axis that has most; 0 within them all.
+HLC_INLINE Floats distance_beyond(const BoundPair& bound, const float* along, std::size_t pair) {
+  Floats beyond = all(0.0F);
+#pragma GCC unroll 4
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    const Doubles from_centre =
-        absolute(all(along[axis * stride]) - load(intervals + 2 * axis * kLanes));
-    beyond = larger(from_centre - load(intervals + (2 * axis + 1) * kLanes), beyond);
+    const Floats from_centre =
+        absolute(four_times_two(along + axis * kFloatLanes, pair) - load(bound.centre[axis]));
+    beyond = larger(from_centre - load(bound.half_width[axis]), beyond);
   }
   return beyond;
 }
 
 /// Writes the keys of a vertex' children.
-HLC_INLINE void expand(Search& search, const VertexData& vertex, std::size_t depth) {
+HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth) {
+  constexpr std::size_t kPairs = kFloatLanes / 2;
+  constexpr std::size_t kRow = kAxes * kFloatLanes;
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
   const Level& level = search.levels[depth];
-  const std::size_t stride = search.projection_stride;
-  double* const along = search.projections;
 
-  // The reference points seen from the vertex, along each axis.
-  const Doubles c = all(vertex.cos_heading);
-  const Doubles s = all(vertex.sin_heading);
-  const Doubles x = all(vertex.x);
-  const Doubles y = all(vertex.y);
-  for (std::size_t j = 0; j <= level.steps_left; j += kLanes) {
-    const Doubles dx = load(plan.reference_x + depth + j) - x;
-    const Doubles dy = load(plan.reference_y + depth + j) - y;
-    const Doubles ahead = dx * c + dy * s;
-    const Doubles aside = dy * c - dx * s;
-    store(along + j, ahead);
-    store(along + stride + j, (ahead + aside) * all(kDiagonal));
-    store(along + 2 * stride + j, aside);
-    store(along + 3 * stride + j, (aside - ahead) * all(kDiagonal));
+  // The reference points after that of the edge, seen from the vertex, along each axis.
+  const Placement at = placement_of(plan, vertex);
+  float* along = search.projections;
+  for (std::size_t pair = 0; pair < level.num_pairs; pair += kPairs) {
+    const Floats dx = load(plan.reference_dx + depth + 1 + 2 * pair) - at.x;
+    const Floats dy = load(plan.reference_dy + depth + 1 + 2 * pair) - at.y;
+    const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
+    const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
+    store(along, ahead);
+    store(along + kFloatLanes, (ahead + aside) * all(static_cast<float>(kDiagonal)));
+    store(along + 2 * kFloatLanes, aside);
+    store(along + 3 * kFloatLanes, (aside - ahead) * all(static_cast<float>(kDiagonal)));
+    along += kRow;
   }
 
-  const Doubles ahead = all(along[0]);
-  const Doubles aside = all(along[2 * stride]);
+  const double dx = plan.reference_x[depth] - vertex.x;
+  const double dy = plan.reference_y[depth] - vertex.y;
+  const Doubles ahead = all(dx * vertex.cos_heading + dy * vertex.sin_heading);
+  const Doubles aside = all(dy * vertex.cos_heading - dx * vertex.sin_heading);
   const Doubles cost_to_come = all(vertex.cost_to_come);
-  const std::size_t first_edge = std::size_t{kLanes} * tables.first_group[vertex.trim];
+  const std::size_t first_group = tables.first_group[vertex.trim];
+  const std::size_t first_edge = kLanes * first_group;
   const std::size_t end_edge = std::size_t{kLanes} * tables.first_group[vertex.trim + 1];
-  const double* bounds = tables.bounds + first_edge / kLanes * tables.bound_size;
+  vertex.first_edge = static_cast<std::uint32_t>(first_edge);
+  vertex.num_edges = static_cast<std::uint32_t>(end_edge - first_edge);
+  const BoundPair* bounds = tables.bounds + first_group * tables.bound_size;
   double* const keys = vertex.keys;
   for (std::size_t edge = first_edge; edge < end_edge; edge += kLanes) {
-    const Doubles dx = ahead - load(tables.displacement_x + edge);
-    const Doubles dy = aside - load(tables.displacement_y + edge);
-    Doubles f = load(level.penalty + edge) + cost_to_come + (dx * dx + dy * dy);
-    const double* reference = along + 1;
-    const double* intervals = bounds + level.far;
-    for (std::size_t i = 0; i < level.num_far; ++i) {
-      const Doubles beyond = distance_beyond(reference++, stride, intervals);
-      f += beyond * beyond;
-      intervals += kBoundSize;
-    }
-    intervals = bounds + level.near;
-    for (std::size_t i = 0; i < level.num_near; ++i) {
-      const Doubles beyond = distance_beyond(reference++, stride, intervals);
-      f += beyond * beyond;
-      intervals -= tables.near_stride;
+    const Doubles beside_x = ahead - load(tables.displacement_x + edge);
+    const Doubles beside_y = aside - load(tables.displacement_y + edge);
+    const Doubles f =
+        load(level.penalty + edge) + cost_to_come + (beside_x * beside_x + beside_y * beside_y);
+    Floats to_go = all(0.0F);
+    along = search.projections;
+    for (std::size_t pair = 0; pair < level.num_pairs; ++pair) {
+      const Floats beyond =
+          distance_beyond(bounds[level.bounds[pair]], along + pair / kPairs * kRow, pair % kPairs);
+      to_go += beyond * beyond;
     }
     store(keys + (edge - first_edge),
-          numbered(f, tables.index_mask, load(tables.numbers + (edge - first_edge))));
+          numbered(f + halves_added(to_go * all(kSurely)), tables.index_mask,
+                   load(tables.numbers + (edge - first_edge))));
     bounds += tables.bound_size;
   }
   search.generated += level.permitted[vertex.trim];
@@ -85,18 +88,17 @@ HLC_INLINE void expand(Search& search, const VertexData& vertex, std::size_t dep
 }
 
 /// The least key of a vertex' children.
-HLC_INLINE double least_key(const Tables& tables, const VertexData& vertex) {
-  const std::size_t groups = tables.first_group[vertex.trim + 1] - tables.first_group[vertex.trim];
+HLC_INLINE double least_key(const VertexData& vertex) {
   const double* const keys = vertex.keys;
-  if (groups == 1) {
+  if (vertex.num_edges == kLanes) {
     // One by one: a key that has just been written cannot be read as part of a vector at once.
     const double low = keys[0] < keys[1] ? keys[0] : keys[1];
     const double high = keys[2] < keys[3] ? keys[2] : keys[3];
     return low < high ? low : high;
   }
   Doubles lowest = load(keys);
-  for (std::size_t group = 1; group < groups; ++group) {
-    lowest = smaller(load(keys + group * kLanes), lowest);
+  for (std::uint32_t i = kLanes; i < vertex.num_edges; i += kLanes) {
+    lowest = smaller(load(keys + i), lowest);
   }
   return least(lowest);
 }
@@ -109,7 +111,7 @@ HLC_INLINE std::uint64_t bits(double value) {
 
 void give_up(Search& search, std::size_t depth, double bound) {
   for (std::size_t k = 0; k <= depth; ++k) {
-    const double open = least_key(*search.tables, search.path[k]);
+    const double open = least_key(search.path[k]);
     bound = open < bound ? open : bound;
   }
   search.lower_bound = bound;
@@ -132,37 +134,37 @@ void run(Search& search) {
   }
   expand(search, search.path[0], 0);
 
+  VertexData* vertex = search.path;
   std::size_t depth = 0;
   double best = search.best_cost;
   for (;;) {
-    VertexData& vertex = search.path[depth];
-    const double key = least_key(tables, vertex);
+    const double key = least_key(*vertex);
     if (!(key < best)) {
       if (depth == 0) break;
       --depth;
+      --vertex;
       continue;
     }
     const auto number = static_cast<std::uint32_t>(bits(key) & tables.index_mask);
-    vertex.keys[number] = kForbidden;
-    vertex.taken = number;
-    const std::uint32_t edge = tables.first_group[vertex.trim] * kLanes + number;
-    if (!is_free(search, edge, depth + 1, vertex)) continue;
+    vertex->keys[number] = kForbidden;
+    const std::uint32_t edge = vertex->first_edge + number;
+    if (!is_free(search, edge, depth + 1, *vertex)) continue;
 
     const EdgeData& data = tables.edges[edge];
-    const double c = vertex.cos_heading;
-    const double s = vertex.sin_heading;
-    VertexData& child = search.path[depth + 1];
-    child.x = vertex.x + c * data.x - s * data.y;
-    child.y = vertex.y + s * data.x + c * data.y;
+    const double c = vertex->cos_heading;
+    const double s = vertex->sin_heading;
+    VertexData& child = vertex[1];
+    child.x = vertex->x + c * data.x - s * data.y;
+    child.y = vertex->y + s * data.x + c * data.y;
+    child.from_edge = edge;
     const double dx = child.x - plan.reference_x[depth];
     const double dy = child.y - plan.reference_y[depth];
-    child.cost_to_come = vertex.cost_to_come + (dx * dx + dy * dy);
+    child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy);
     if (depth + 1 == n) {
       if (!(child.cost_to_come < best)) continue;
       best = child.cost_to_come;
       for (std::size_t k = 0; k < n; ++k) {
-        search.best_edges[k] =
-            tables.first_group[search.path[k].trim] * kLanes + search.path[k].taken;
+        search.best_edges[k] = search.path[k + 1].from_edge;
         search.best_x[k] = search.path[k + 1].x;
         search.best_y[k] = search.path[k + 1].y;
       }
@@ -176,6 +178,7 @@ void run(Search& search) {
       break;
     }
     ++depth;
+    ++vertex;
     expand(search, child, depth);
   }
   search.best_cost = best;

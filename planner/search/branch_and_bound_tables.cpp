@@ -31,10 +31,10 @@ struct Interval {
 TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable) {
   view_.num_trims = subgraph.automaton().trims.size();
   view_.max_steps_left = reachable.max_steps_left();
-  view_.bound_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
   add_edges(subgraph);
   list_permitted(subgraph);
   compute_bounds(reachable);
+  list_levels(std::max<std::size_t>(reachable.max_steps(), 1));
   list_reach(subgraph, reachable);
 
   view_.edges = edges_.data();
@@ -143,38 +143,81 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
   }
 }
 
+// In single precision, relative to the start of the plan. With u = 2^-24, the distance L from the
+// start to the farthest vertex and p the place of a reference point along an axis, seen from a
+// vertex, p is off by at most 9 u |p| + 4 u L. Where |p| is at most 4 (|c| + w + L), widths that
+// are 64 u (|c| + w + L) larger make up for that and the rounding of c, w and the distance; beyond,
+// the distance is more than 3/4 |p|, its square off by less than 24 u of itself, and factor kSurely
+// of the kernel makes up for that and for adding up.
 void TableStore::compute_bounds(const ReachableSets& reachable) {
-  const std::size_t rows = view_.max_steps_left + 1;
-  view_.near_stride = (std::max<std::size_t>(view_.bound_steps, 1) - 1) * kBoundSize;
-  view_.bound_size = rows * view_.bound_steps * kBoundSize;
-  bounds_.assign(view_.num_groups * view_.bound_size, 0.0);
+  constexpr double kRounding = 0x1p-18;
+  constexpr float kNoBound = 1e15F;
+  const std::size_t cap = view_.max_steps_left;
+  const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
+  num_pairs_ = (max_steps + 1) / 2;
+  // Rows by the steps left after the first of two steps, the last for all that are above the cap.
+  const std::size_t rows = cap + 2;
+  view_.bound_size = rows * num_pairs_;
+  bounds_.assign(view_.num_groups * view_.bound_size, BoundPair{});
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
     if (maneuvers_[edge] == nullptr) continue;
     const EdgeData& data = edges_[edge];
     const Frame frame{{data.x, data.y}, data.cos_heading, data.sin_heading};
-    for (std::size_t steps = 1; steps <= view_.bound_steps; ++steps) {
-      for (std::size_t left = 0; left < rows; ++left) {
-        std::array<Interval, kAxes> intervals;
-        const auto positions_m = reachable.positions_m({data.to}, steps, left);
-        if (positions_m.empty()) continue;  // no permitted edge asks for it
-        for (const Point& position_m : positions_m) {
-          const Point seen_m = transformed(position_m, frame);
-          for (std::size_t axis = 0; axis < kAxes; ++axis) {
-            const double along_m =
-                kReachDirections[axis][0] * seen_m.x() + kReachDirections[axis][1] * seen_m.y();
-            intervals[axis].low = std::min(intervals[axis].low, along_m);
-            intervals[axis].high = std::max(intervals[axis].high, along_m);
-          }
-        }
-        const std::size_t row =
-            ((edge / kLanes * rows + left) * view_.bound_steps + steps - 1) * kBoundSize;
+    const auto write = [&](BoundPair& bound, std::size_t lane, std::size_t steps,
+                           std::size_t left) {
+      std::array<Interval, kAxes> intervals;
+      const auto positions_m = reachable.positions_m({data.to}, steps, left);
+      if (positions_m.empty()) return;  // no permitted edge asks for it
+      for (const Point& position_m : positions_m) {
+        const Point seen_m = transformed(position_m, frame);
         for (std::size_t axis = 0; axis < kAxes; ++axis) {
-          double* const bound = &bounds_[row + 2 * axis * kLanes + edge % kLanes];
-          const auto [low, high] = intervals[axis];
-          bound[0] = 0.5 * (low + high);
-          bound[kLanes] = 0.5 * (high - low) + ReachableSets::allowance_m(steps + 1);
+          const double along_m =
+              kReachDirections[axis][0] * seen_m.x() + kReachDirections[axis][1] * seen_m.y();
+          intervals[axis].low = std::min(intervals[axis].low, along_m);
+          intervals[axis].high = std::max(intervals[axis].high, along_m);
         }
       }
+      for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        const double centre = 0.5 * (intervals[axis].low + intervals[axis].high);
+        const double half_width = 0.5 * (intervals[axis].high - intervals[axis].low) +
+                                  ReachableSets::allowance_m(steps + 1);
+        const double rounding =
+            kRounding * (std::abs(centre) + half_width + reach_m(max_steps + 1));
+        bound.centre[axis][lane] = static_cast<float>(centre);
+        bound.half_width[axis][lane] = static_cast<float>(half_width + rounding);
+      }
+    };
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t pair = 0; pair < num_pairs_; ++pair) {
+        BoundPair& bound = bounds_[edge / kLanes * view_.bound_size + row * num_pairs_ + pair];
+        const std::size_t lane = edge % kLanes;
+        const std::size_t steps = 2 * pair + 1;
+        write(bound, lane, steps, std::min(row, cap));
+        if (row > 0 && steps < max_steps) {
+          write(bound, lane + kLanes, steps + 1, row - 1);
+        } else {  // there is no second step
+          for (auto& widths : bound.half_width) widths[lane + kLanes] = kNoBound;
+        }
+      }
+    }
+  }
+}
+
+void TableStore::list_levels(std::size_t max_steps) {
+  for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
+    auto& places = bound_places_.emplace_back();
+    for (std::size_t pair = 0; 2 * pair < steps_left; ++pair) {
+      const std::size_t row = std::min(steps_left - (2 * pair + 1), view_.max_steps_left + 1);
+      places.push_back(static_cast<std::uint32_t>(row * num_pairs_ + pair));
+    }
+  }
+  for (const std::size_t avoids_limit : {0U, 1U}) {
+    for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
+      const std::size_t left = std::min(steps_left, view_.max_steps_left);
+      levels_[avoids_limit].push_back({steps_left, &penalty_[avoids_limit][left * edges_.size()],
+                                       &permitted_[avoids_limit][left * view_.num_trims],
+                                       bound_places_[steps_left].size(),
+                                       bound_places_[steps_left].data()});
     }
   }
 }
@@ -206,22 +249,6 @@ const double* TableStore::reach(TrimId trim, std::size_t steps, std::size_t step
 std::size_t TableStore::reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const {
   return ((trim.index * (view_.max_steps_left + 1) + steps_left) * reach_steps_ + steps) *
          kReachSize;
-}
-
-Level TableStore::level(std::size_t steps_left, bool avoids_limit) const {
-  const std::size_t left = std::min(steps_left, view_.max_steps_left);
-  const std::size_t row = view_.bound_steps * kBoundSize;
-  Level level{};
-  level.steps_left = steps_left;
-  level.penalty = &penalty_[avoids_limit ? 1 : 0][left * edges_.size()];
-  level.permitted = &permitted_[avoids_limit ? 1 : 0][left * view_.num_trims];
-  // The i-th step after the edge has steps_left - i steps after it: a full row as long as that is
-  // not below the cap, then one row less for each step.
-  level.far = view_.max_steps_left * row;
-  level.num_far = steps_left - left;
-  level.num_near = left;
-  if (left > 0) level.near = (left - 1) * row + level.num_far * kBoundSize;
-  return level;
 }
 
 std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {

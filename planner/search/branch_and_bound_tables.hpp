@@ -20,7 +20,9 @@ class TableStore {
   [[nodiscard]] const Tables& view() const { return view_; }
   /// A depth with `steps_left` steps after an edge from it, if a plan may or may not end steps in
   /// trims near the steering limit.
-  [[nodiscard]] Level level(std::size_t steps_left, bool avoids_limit) const;
+  [[nodiscard]] const Level& level(std::size_t steps_left, bool avoids_limit) const {
+    return levels_[avoids_limit ? 1 : 0][steps_left];
+  }
   /// The maneuver of an edge; nullptr for padding.
   [[nodiscard]] const Maneuver* maneuver(std::uint32_t edge) const { return maneuvers_[edge]; }
   /// Number of the edge out of `trim` with this maneuver; kNoEdge if there is none.
@@ -46,6 +48,7 @@ class TableStore {
   [[nodiscard]] Area add_area(const ConvexPolygon& area_m);
   void list_permitted(const Subgraph& subgraph);
   void compute_bounds(const ReachableSets& reachable);
+  void list_levels(std::size_t max_steps);
   void list_reach(const Subgraph& subgraph, const ReachableSets& reachable);
   [[nodiscard]] std::size_t reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const;
 
@@ -54,7 +57,9 @@ class TableStore {
   std::vector<std::uint32_t> first_group_;
   std::vector<double> displacement_x_;
   std::vector<double> displacement_y_;
-  std::vector<double> bounds_;
+  std::vector<BoundPair> bounds_;
+  std::vector<std::vector<std::uint32_t>> bound_places_;  ///< Level::bounds, by steps left
+  std::array<std::vector<Level>, 2> levels_;
   std::array<std::vector<double>, 2> penalty_;
   std::array<std::vector<std::uint32_t>, 2> permitted_;
   std::vector<PolygonBlock> area_blocks_;
@@ -64,6 +69,7 @@ class TableStore {
   double area_radius_m_{};  ///< farthest corner of any area from the start of its maneuver
   std::size_t most_edges_{};
   std::size_t most_blocks_{};
+  std::size_t num_pairs_{};  ///< of steps after an edge
   Tables view_{};
 };
 

@@ -81,6 +81,19 @@ HLC_INLINE std::uint32_t lanes_less(const Floats& a, const Floats& b) {
 HLC_INLINE std::uint32_t lanes_less(const Doubles& a, const Doubles& b) {
   return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(a < b)));
 }
+/// Of eight floats in memory number 2 pair four times, then number 2 pair + 1 four times.
+HLC_INLINE Floats four_times_two(const float* from, std::size_t pair) {
+  const int first = static_cast<int>(2 * pair);
+  const int second = first + 1;
+  return __builtin_shuffle(load(from),
+                           FloatBits{first, first, first, first, second, second, second, second});
+}
+/// Elements 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+HLC_INLINE Doubles halves_added(const Floats& a) {
+  const auto low = __builtin_shufflevector(a, a, 0, 1, 2, 3);
+  const auto high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
+  return __builtin_convertvector(low + high, Doubles);
+}
 #else
 /// Two halves: the compiler makes poor code of longer vectors than the processor has.
 template <class Half>
@@ -178,6 +191,15 @@ HLC_INLINE Floats absolute(const Floats& a) {
 }
 HLC_INLINE Doubles numbered(const Doubles& a, std::uint64_t mask, const Doubles& number) {
   return {joined(masked(a.low, ~mask), number.low), joined(masked(a.high, ~mask), number.high)};
+}
+HLC_INLINE Floats four_times_two(const float* from, std::size_t pair) {
+  const float first = from[2 * pair];
+  const float second = from[2 * pair + 1];
+  return {HalfFloats{first, first, first, first}, HalfFloats{second, second, second, second}};
+}
+HLC_INLINE Doubles halves_added(const Floats& a) {
+  const HalfFloats sum = a.low + a.high;
+  return {HalfDoubles{sum[0], sum[1]}, HalfDoubles{sum[2], sum[3]}};
 }
 HLC_INLINE std::uint32_t signs(const HalfFloats& a) {
 #ifdef __SSE2__

@@ -44,7 +44,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   const std::size_t corner_stride = most_blocks_ * kFloatLanes + 1;
   grow(corners_, 2 * corner_stride);
   const std::size_t segment_blocks = blocks_of(problem.boundary_m.size());
-  grow(segment_source_, segment_blocks * kFloatLanes);
+  grow(segment_source_, segment_blocks);
   grow(segment_blocks_, segment_blocks);
   grow(rectangles_, blocks_of(segment_blocks));
 

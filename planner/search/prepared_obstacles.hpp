@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,8 +14,8 @@ namespace hlc::branch_and_bound {
 /// Memory for the obstacles and the boundary of one problem, for the kernel of BranchAndBound.
 ///
 /// The kernel leaves out what lies beyond one of the half-planes of TableStore::reach for the step:
-/// no edge of a plan can meet it in that step. Boundary segments are left out if this is so for
-/// every step. Equal obstacles of a step, one after the other, are one.
+/// no edge of a plan can meet it in that step. Eight boundary segments in a row are left out if
+/// they lie beyond one in every step. Equal obstacles of a step, one after the other, are one.
 class PreparedObstacles {
  public:
   explicit PreparedObstacles(const TableStore& tables) : tables_(tables) {}
@@ -29,7 +30,8 @@ class PreparedObstacles {
     return *sources_[obstacles_[item].polygon];
   }
   [[nodiscard]] const Segment& segment(std::uint32_t item) const {
-    return problem_->boundary_m[segment_source_[item]];
+    const std::size_t number = segment_source_[item / kFloatLanes] + item % kFloatLanes;
+    return problem_->boundary_m[std::min(number, problem_->boundary_m.size() - 1)];
   }
 
  private:
