@@ -10,22 +10,24 @@
 
 namespace hlc {
 
-/// Unit vectors n_0 ... n_7 at multiples of 45 degrees: the directions of Reach::support_m.
-inline constexpr std::array<std::array<double, 2>, 8> kReachDirections{
-    {{1.0, 0.0},
-     {std::numbers::sqrt2 / 2.0, std::numbers::sqrt2 / 2.0},
-     {0.0, 1.0},
-     {-std::numbers::sqrt2 / 2.0, std::numbers::sqrt2 / 2.0},
-     {-1.0, 0.0},
-     {-std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0},
-     {0.0, -1.0},
-     {std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0}}};
+/// Unit vectors n_0 ... n_15 at multiples of 22.5 degrees: the directions of Reach::support_m.
+inline constexpr std::array<std::array<double, 2>, 16> kReachDirections = [] {
+  constexpr double kDiagonal = std::numbers::sqrt2 / 2.0;
+  constexpr double kCos = 0.92387953251128675613;  // cos 22.5 deg
+  constexpr double kSin = 0.38268343236508977173;
+  std::array<std::array<double, 2>, 16> directions{
+      {{1.0, 0.0}, {kCos, kSin}, {kDiagonal, kDiagonal}, {kSin, kCos}}};
+  for (std::size_t i = 4; i < 16; ++i) {
+    directions[i] = {-directions[i - 4][1], directions[i - 4][0]};
+  }
+  return directions;
+}();
 
 /// A set of positions from outside, in the frame of the start pose: a circle around the start and
-/// eight half-planes, n_i p <= s_i, contain it. All -infinity if the set is empty.
+/// sixteen half-planes, n_i p <= s_i, contain it. All -infinity if the set is empty.
 struct Reach {
-  double max_distance_m{};            ///< d: of a position from the start
-  std::array<double, 8> support_m{};  ///< s_i = max n_i p over the set
+  double max_distance_m{};             ///< d: of a position from the start
+  std::array<double, 16> support_m{};  ///< s_i = max n_i p over the set
 };
 
 /// What a subgraph can reach, in the frame of the start pose. Tables, computed once per subgraph,
@@ -61,7 +63,7 @@ class ReachableSets {
     return reach(trim, steps, steps_left).max_distance_m;
   }
 
-  /// The same positions from outside: `max_distance_m` and the support in eight directions. Each
+  /// The same positions from outside: `max_distance_m` and the support in sixteen directions. Each
   /// number may be too large by `allowance_m(steps)`, none is too small.
   /// @pre steps <= max_steps
   [[nodiscard]] const Reach& reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;

@@ -79,7 +79,7 @@ class BranchAndBound::Core {
       reference_y_.resize(n);
       reference_dx_.resize(n + kFloatLanes);
       reference_dy_.resize(n + kFloatLanes);
-      projections_.resize(branch_and_bound::kAxes * (n + kFloatLanes));
+      projections_.resize(branch_and_bound::kBoundAxes * (n + kFloatLanes));
       path.resize(n + 1);
       keys_.resize((n + 1) * tables.most_edges());
       best_edges.resize(n + 1);

@@ -124,6 +124,18 @@ HLC_INLINE Answer compare(const PolygonBlock* area, std::uint32_t area_blocks,
   return lanes_less(most_apart, inside) == kEveryLane ? Answer::kMeet : Answer::kTooClose;
 }
 
+/// Does a point lie deep in a polygon?
+HLC_INLINE bool contains(const PolygonBlock* polygon, std::uint32_t num_blocks, const Floats& x,
+                         const Floats& y, const Floats& tolerance) {
+  Floats most_outside = all(-kFarAway);
+  for (std::uint32_t i = 0; i < num_blocks; ++i) {
+    const Floats outside =
+        load(polygon[i].normal_x) * x + load(polygon[i].normal_y) * y - load(polygon[i].offset);
+    most_outside = larger(outside, most_outside);
+  }
+  return lanes_less(most_outside, all(0.0F) - tolerance) == kEveryLane;
+}
+
 bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step,
                     const VertexData& vertex) {
   const Plan& plan = *search.plan;
@@ -151,13 +163,18 @@ bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step,
         make_ready(plan, polygon);
         obstacle.is_ready = true;
       }
+      const PolygonBlock* const blocks = plan.obstacle_blocks + polygon.first_block;
+      // In a large obstacle the centre tells at once; of areas alike it hardly ever does.
+      if (plan.circle_radius[item] > 2.0F * area.radius &&
+          contains(blocks, polygon.num_blocks, centre_x, centre_y, tolerance)) {
+        return true;
+      }
       if (!is_placed) {
         place(search.tables->area_blocks + area.first_block, at, area.num_blocks, search.placed);
         is_placed = true;
       }
       const Answer answer =
-          compare(search.placed, area.num_blocks, plan.obstacle_blocks + polygon.first_block,
-                  polygon.num_blocks, tolerance);
+          compare(search.placed, area.num_blocks, blocks, polygon.num_blocks, tolerance);
       if (answer == Answer::kMeet) return true;
       if (answer == Answer::kTooClose &&
           search.decides(search.decides_context, {edge, false, item, &vertex})) {

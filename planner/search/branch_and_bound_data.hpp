@@ -20,7 +20,9 @@ namespace hlc::branch_and_bound {
 /// Doubles, and floats, of one vector.
 inline constexpr std::uint32_t kLanes = 4;
 inline constexpr std::uint32_t kFloatLanes = 8;
-/// Axes of a bound: directions at 0, 45, 90 and 135 degrees, each with an interval.
+/// Axes of a bound: directions at 0, 22.5, ... 157.5 degrees, each with an interval.
+inline constexpr std::size_t kBoundAxes = 8;
+/// Every second of them: axes of what can be reached.
 inline constexpr std::size_t kAxes = 4;
 /// Cost of the best path as long as there is none; the cost of no path comes near it.
 inline constexpr double kNoPath = 1e299;
@@ -65,8 +67,8 @@ struct EdgeData {
 /// Bounds of four edges for two steps, one after the other: per axis the intervals of the four
 /// edges for the first step, then those for the second.
 struct BoundPair {
-  float centre[kAxes][kFloatLanes];
-  float half_width[kAxes][kFloatLanes];
+  float centre[kBoundAxes][kFloatLanes];
+  float half_width[kBoundAxes][kFloatLanes];
 };
 
 /// Of the subgraph. Edges stand trim by trim; the edges of a trim are padded, so that groups of
@@ -201,7 +203,7 @@ struct Search {
   Plan* plan;
   const Level* levels;   ///< n
   VertexData* path;      ///< n + 1 vertices; the first is the start
-  float* projections;    ///< per eight steps, kAxes rows of eight
+  float* projections;    ///< per eight steps, kBoundAxes rows of eight
   PolygonBlock* placed;  ///< room for the largest area
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;

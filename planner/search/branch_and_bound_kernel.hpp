@@ -18,12 +18,15 @@ namespace {
 /// What a cost-to-go in single precision may be too large by: see TableStore::compute_bounds.
 constexpr float kSurely = 1.0F - 0x1p-18F;
 
+constexpr float kCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
+constexpr float kSin = 0x1.87de2ap-2F;
+
 /// How far two reference points, the second and the third argument's `pair`, lie beyond the
 /// intervals of four edges each, on the axis that has most; 0 within them all.
 HLC_INLINE Floats distance_beyond(const BoundPair& bound, const float* along, std::size_t pair) {
   Floats beyond = all(0.0F);
-#pragma GCC unroll 4
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+#pragma GCC unroll 8
+  for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
     const Floats from_centre =
         absolute(four_times_two(along + axis * kFloatLanes, pair) - load(bound.centre[axis]));
     beyond = larger(from_centre - load(bound.half_width[axis]), beyond);
@@ -34,7 +37,7 @@ HLC_INLINE Floats distance_beyond(const BoundPair& bound, const float* along, st
 /// Writes the keys of a vertex' children.
 HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth) {
   constexpr std::size_t kPairs = kFloatLanes / 2;
-  constexpr std::size_t kRow = kAxes * kFloatLanes;
+  constexpr std::size_t kRow = kBoundAxes * kFloatLanes;
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
   const Level& level = search.levels[depth];
@@ -47,10 +50,18 @@ HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth) {
     const Floats dy = load(plan.reference_dy + depth + 1 + 2 * pair) - at.y;
     const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
     const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
+    const Floats ahead_cos = ahead * all(kCos);
+    const Floats ahead_sin = ahead * all(kSin);
+    const Floats aside_cos = aside * all(kCos);
+    const Floats aside_sin = aside * all(kSin);
     store(along, ahead);
-    store(along + kFloatLanes, (ahead + aside) * all(static_cast<float>(kDiagonal)));
-    store(along + 2 * kFloatLanes, aside);
-    store(along + 3 * kFloatLanes, (aside - ahead) * all(static_cast<float>(kDiagonal)));
+    store(along + kFloatLanes, ahead_cos + aside_sin);
+    store(along + 2 * kFloatLanes, (ahead + aside) * all(static_cast<float>(kDiagonal)));
+    store(along + 3 * kFloatLanes, ahead_sin + aside_cos);
+    store(along + 4 * kFloatLanes, aside);
+    store(along + 5 * kFloatLanes, aside_cos - ahead_sin);
+    store(along + 6 * kFloatLanes, (aside - ahead) * all(static_cast<float>(kDiagonal)));
+    store(along + 7 * kFloatLanes, aside_sin - ahead_cos);
     along += kRow;
   }
 

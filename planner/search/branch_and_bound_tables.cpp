@@ -165,19 +165,19 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
     const Frame frame{{data.x, data.y}, data.cos_heading, data.sin_heading};
     const auto write = [&](BoundPair& bound, std::size_t lane, std::size_t steps,
                            std::size_t left) {
-      std::array<Interval, kAxes> intervals;
+      std::array<Interval, kBoundAxes> intervals;
       const auto positions_m = reachable.positions_m({data.to}, steps, left);
       if (positions_m.empty()) return;  // no permitted edge asks for it
       for (const Point& position_m : positions_m) {
         const Point seen_m = transformed(position_m, frame);
-        for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
           const double along_m =
               kReachDirections[axis][0] * seen_m.x() + kReachDirections[axis][1] * seen_m.y();
           intervals[axis].low = std::min(intervals[axis].low, along_m);
           intervals[axis].high = std::max(intervals[axis].high, along_m);
         }
       }
-      for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
         const double centre = 0.5 * (intervals[axis].low + intervals[axis].high);
         const double half_width = 0.5 * (intervals[axis].high - intervals[axis].low) +
                                   ReachableSets::allowance_m(steps + 1);
@@ -234,8 +234,8 @@ void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reach
         const Reach& reach_m = reachable.reach(trim, steps, left);
         double* const row = &reach_[reach_row(trim, steps, left)];
         for (std::size_t axis = 0; axis < kAxes; ++axis) {
-          row[axis] = -reach_m.support_m[axis + kAxes] - beyond_m;
-          row[axis + kAxes] = reach_m.support_m[axis] + beyond_m;
+          row[axis] = -reach_m.support_m[2 * axis + kBoundAxes] - beyond_m;
+          row[axis + kAxes] = reach_m.support_m[2 * axis] + beyond_m;
         }
       }
     }

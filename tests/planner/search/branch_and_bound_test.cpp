@@ -474,6 +474,62 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
   EXPECT_GE(answers[1], 100U);
 }
 
+// From a thousandth of a millimetre to kilometres, anywhere on a large map, with corners that come
+// twice: single precision must know where it is not sure.
+TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  std::array<std::size_t, 2> answers{};
+  for (std::uint64_t seed = 0; seed < test::num_seeds(3000); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    HorizonProblem problem;
+    problem.start_trim = test::random_trim(subgraph, random);
+    const double map_m = std::pow(10.0, test::uniform(random, -1.0, 4.0));
+    problem.start = {test::uniform(random, -map_m, map_m), test::uniform(random, -map_m, map_m),
+                     test::uniform(random, -4.0, 4.0)};
+    problem.reference_m.assign(kMaxSteps, problem.start.position_m());
+    problem.obstacles_m.resize(kMaxSteps);
+    const double size_m = std::pow(10.0, test::uniform(random, -6.0, 3.5));
+    const Point near_m = problem.start.position_m() +
+                         Point{test::uniform(random, -0.4, 0.4), test::uniform(random, -0.4, 0.4)};
+    const Point centre_m =
+        near_m + size_m * Point{test::uniform(random, -1.0, 1.0), test::uniform(random, -1.0, 1.0)};
+    std::vector<Point> corners_m;
+    for (std::size_t i = 0; i < 3 + test::pick(random, 9); ++i) {
+      corners_m.push_back(centre_m + size_m * Point{test::uniform(random, -1.0, 1.0),
+                                                    test::uniform(random, -1.0, 1.0)});
+    }
+    ConvexPolygon obstacle_m = convex_hull(std::move(corners_m));
+    if (seed % 4 == 0) obstacle_m.vertices_m.push_back(obstacle_m.vertices_m.back());
+    if (seed % 4 == 1) {  // a corner cut off by next to nothing
+      obstacle_m.vertices_m.push_back(
+          obstacle_m.vertices_m.back() +
+          1e-9 * (obstacle_m.vertices_m.front() - obstacle_m.vertices_m.back()));
+    }
+    if (seed % 3 == 0) {
+      for (std::size_t i = 0; i < obstacle_m.vertices_m.size(); ++i) {
+        const std::size_t next = (i + 1) % obstacle_m.vertices_m.size();
+        problem.boundary_m.push_back({obstacle_m.vertices_m[i], obstacle_m.vertices_m[next]});
+      }
+    } else {
+      problem.obstacles_m[0] = {obstacle_m, obstacle_m};
+    }
+    check.prepare(problem);
+    engine.prepare(problem);
+    const Frame start = to_frame(problem.start);
+    for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+      const bool is_free = check.is_free(*edge.maneuver, 1, start);
+      ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free) << "size " << size_m;
+      ++answers[is_free ? 1 : 0];
+    }
+  }
+  EXPECT_GE(answers[0], 1000U);
+  EXPECT_GE(answers[1], 1000U);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothKernels, BranchAndBoundCollision,
                          testing::Values(Instructions::kBest, Instructions::kPortable),
                          [](const auto& instance) {

@@ -261,7 +261,10 @@ TEST(StraightLineCostToGo, GoesAsFarAsTheLongestManeuverInEveryStep) {
 }
 
 TEST(DistanceBeyond, IsThatOfTheNearestHalfPlaneOrCircle) {
-  Reach box{.max_distance_m = 3.0, .support_m = {1.0, 9.0, 2.0, 9.0, 1.0, 9.0, 2.0, 9.0}};
+  Reach box{.max_distance_m = 3.0, .support_m = {}};
+  box.support_m.fill(9.0);
+  box.support_m[0] = box.support_m[8] = 1.0;
+  box.support_m[4] = box.support_m[12] = 2.0;
   EXPECT_EQ(distance_beyond_m({0.5, -1.0}, box), 0.0);
   EXPECT_EQ(distance_beyond_m({1.5, 0.0}, box), 0.5);
   EXPECT_EQ(distance_beyond_m({0.0, -2.25}, box), 0.25);
