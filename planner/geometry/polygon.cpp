@@ -214,13 +214,17 @@ ConvexPolygon simplified_outwards(const ConvexPolygon& polygon, std::size_t max_
 }
 
 bool contains(const ConvexPolygon& polygon, const Point& point_m, double tolerance_m) {
+  return contains(polygon, std::span(&point_m, 1), tolerance_m);
+}
+
+bool contains(const ConvexPolygon& polygon, std::span<const Point> points_m, double tolerance_m) {
   const auto& vertices = polygon.vertices_m;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Point edge = vertices[next(i, vertices.size())] - vertices[i];
-    const double inwards = cross(edge, point_m - vertices[i]);
-    if (inwards < 0.0 && inwards < -tolerance_m * edge.norm()) {
-      return false;
-    }
+    const Point& from = vertices[i];
+    const Point edge = vertices[next(i, vertices.size())] - from;
+    double inwards = 0.0;  // of the point farthest outside
+    for (const Point& point : points_m) inwards = std::min(inwards, cross(edge, point - from));
+    if (inwards < 0.0 && inwards < -tolerance_m * edge.norm()) return false;
   }
   return !polygon.empty();
 }

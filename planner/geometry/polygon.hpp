@@ -71,6 +71,9 @@ inline constexpr double kRoundingAllowance_m = 1e-12;
 /// True if the point lies in the polygon or on its border, with `tolerance_m` to spare outside.
 [[nodiscard]] bool contains(const ConvexPolygon& polygon, const Point& point_m,
                             double tolerance_m = 0.0);
+/// True if that holds for all of the points.
+[[nodiscard]] bool contains(const ConvexPolygon& polygon, std::span<const Point> points_m,
+                            double tolerance_m = 0.0);
 
 /// Separating axis test: true if the two share a point that is inside at least one of them
 /// (polygons that only touch do not intersect; the empty polygon intersects nothing). Does not

@@ -57,17 +57,24 @@ std::size_t expansions_from_text(const std::string& text) {
   return value;
 }
 
+/// Written into the states of `former`, if that is a path as long which nobody else has: making
+/// states takes longer than many a search.
 ob::PathPtr make_geometric_path(const ob::SpaceInformationPtr& si, const HorizonProblem& problem,
-                                const SearchResult& plan) {
-  auto path = std::make_shared<og::PathGeometric>(si);
-  ob::State* state = si->allocState();
-  write_state({problem.start, problem.start_trim, 0}, *state);
-  path->append(state);
-  for (std::size_t j = 0; j < plan.maneuvers.size(); ++j) {
-    write_state({plan.poses[j], plan.maneuvers[j]->to, j + 1}, *state);
-    path->append(state);
+                                const SearchResult& plan, ob::PathPtr former) {
+  const std::size_t num_states = plan.maneuvers.size() + 1;
+  std::shared_ptr<og::PathGeometric> path;
+  if (former && former.use_count() == 1) {
+    path = std::dynamic_pointer_cast<og::PathGeometric>(std::move(former));
   }
-  si->freeState(state);
+  if (!path || path->getStateCount() != num_states) {
+    path = std::make_shared<og::PathGeometric>(si);
+    for (std::size_t j = 0; j < num_states; ++j) path->getStates().push_back(si->allocState());
+  }
+  write_state({problem.start, problem.start_trim, 0}, *path->getState(0));
+  for (std::size_t j = 0; j < plan.maneuvers.size(); ++j) {
+    write_state({plan.poses[j], plan.maneuvers[j]->to, j + 1},
+                *path->getState(static_cast<unsigned>(j + 1)));
+  }
   return path;
 }
 
@@ -122,8 +129,7 @@ void RecedingHorizonPlanner::setup() {
 
 ob::PlannerStatus RecedingHorizonPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
   if (!isSetup()) setup();
-  result_ = {};
-  path_.reset();
+  forget();
   if (!pdef_) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   const auto* goal = dynamic_cast<const StandstillGoal*>(pdef_->getGoal().get());
   if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
@@ -149,7 +155,7 @@ bool RecedingHorizonPlanner::starts_where_problem_starts(const HorizonProblem& p
 ob::PlannerStatus RecedingHorizonPlanner::add_solution(const HorizonProblem& problem) {
   const auto controls = std::dynamic_pointer_cast<oc::SpaceInformation>(si_);
   path_ = controls ? make_control_path(controls, problem, result_)
-                   : make_geometric_path(si_, problem, result_);
+                   : make_geometric_path(si_, problem, result_, std::move(former_path_));
   ob::State* last = si_->allocState();
   write_state({result_.poses.back(), result_.maneuvers.back()->to, problem.horizon_steps()}, *last);
   const bool is_exact = pdef_->getGoal()->isSatisfied(last);
@@ -169,8 +175,12 @@ ob::PlannerStatus RecedingHorizonPlanner::add_solution(const HorizonProblem& pro
 
 void RecedingHorizonPlanner::clear() {
   Planner::clear();
+  forget();
+}
+
+void RecedingHorizonPlanner::forget() {
   result_ = {};
-  path_.reset();
+  if (path_) former_path_ = std::move(path_);
 }
 
 void RecedingHorizonPlanner::getPlannerData(ob::PlannerData& data) const {

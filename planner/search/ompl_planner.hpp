@@ -79,6 +79,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
 
  private:
   void declare_parameters();
+  void forget();
   [[nodiscard]] bool starts_where_problem_starts(const HorizonProblem& problem) const;
   ompl::base::PlannerStatus add_solution(const HorizonProblem& problem);
 
@@ -88,6 +89,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   std::unique_ptr<SearchEngine> engine_;
   SearchResult result_;
   ompl::base::PathPtr path_;
+  ompl::base::PathPtr former_path_;  ///< to be written anew, if nobody else has it
 };
 
 /// A HorizonPlanner that plans through a RecedingHorizonPlanner; never timed.
