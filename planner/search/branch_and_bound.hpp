@@ -26,16 +26,19 @@ namespace hlc {
 ///     h = sum_{i=1}^{m} e_i^2,   e_i = max(0, max_a (| n_a q_i - c_a | - w_a))
 ///
 /// where q_i is the reference point of the i-th step after the edge, seen from the parent, n_a the
-/// axes at 0, 45, 90, 135 degrees of the parent's frame, and [c_a - w_a, c_a + w_a] the interval
-/// that T S(u, i, m - i) covers along n_a (S: ReachableSets::positions_m, with its allowance). Each
-/// e_i is the distance of q_i from a half-plane that contains the positions, so it is admissible
-/// for the same automata as CostToGo::kReachable and under the same assumption. The intervals
-/// depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made once.
+/// eight axes at 0, 22.5, ... 157.5 degrees of the parent's frame, and [c_a - w_a, c_a + w_a] the
+/// interval that T S(u, i, m - i) covers along n_a (S: ReachableSets::positions_m, with its
+/// allowance). Each e_i is the distance of q_i from a half-plane that contains the positions, so it
+/// is admissible for the same automata as CostToGo::kReachable and under the same assumption. The
+/// intervals depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made
+/// once. It is in single precision, and so is h, made smaller by a bound on the rounding
+/// (TableStore::compute_bounds).
 ///
 /// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
 /// step is left out once per plan (PreparedObstacles). Of the rest, circles around obstacles and
-/// rectangles around four boundary segments in a row leave out most; then a separating-axis test
-/// decides, unless two areas touch to within rounding: there the very test of CollisionCheck does.
+/// rectangles around eight boundary segments in a row leave out most; then a separating-axis test
+/// in single precision decides, unless two areas touch to within its rounding: there the very test
+/// of CollisionCheck does.
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
 /// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,
