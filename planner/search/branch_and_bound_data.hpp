@@ -12,9 +12,9 @@
 /// Everything that is handled four (in single precision eight) at a time is padded to a multiple
 /// of that.
 ///
-/// Costs and bounds are doubles. Collision tests compute in single precision, relative to the
-/// plan's start, with a tolerance above its rounding; where that leaves a doubt, `Search::decides`
-/// says what is true.
+/// Costs are doubles. Bounds are floats, made smaller by more than the rounding (TableStore).
+/// Collision tests compute with floats, relative to the plan's start, with a tolerance above the
+/// rounding; where that leaves a doubt, `Search::decides` says what is true.
 namespace hlc::branch_and_bound {
 
 /// Doubles, and floats, of one vector.
