@@ -11,7 +11,6 @@
 #include <thread>
 #include <vector>
 
-#include "planner/apps/automaton_plot.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/maneuver_table.hpp"
 #include "planner/apps/output_files.hpp"
@@ -20,6 +19,7 @@
 #include "planner/automaton/atomic_write.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
+#include "planner/plot/automaton_plot.hpp"
 
 namespace {
 

@@ -15,12 +15,13 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/apps/pareto_output.hpp"
+#include "planner/apps/pareto_table.hpp"
 #include "planner/automaton/atomic_write.hpp"
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/criteria.hpp"
+#include "planner/plot/pareto_plot.hpp"
 
 namespace {
 
@@ -181,9 +182,9 @@ void run(const Flags& flags) {
   const hlc::ParetoDescription description{problem.maneuver.from, problem.maneuver.to,
                                            problem.maneuver.duration_s, flags.criteria,
                                            problem.maneuver.free_duration};
-  hlc::write_atomically(hlc::csv_of(front, description), *flags.table.file);
+  hlc::write_atomically(hlc::pareto_table(front, description), *flags.table.file);
   if (const auto& plot = flags.plot.file) {
-    hlc::write_atomically(hlc::svg_of(front, weighted_sums, description), *plot);
+    hlc::write_atomically(hlc::pareto_plot(front, weighted_sums, description), *plot);
   }
   print_summary(flags, front, weighted_sums);
 }

@@ -11,8 +11,8 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/apps/problem_plot.hpp"
 #include "planner/automaton/atomic_write.hpp"
+#include "planner/plot/problem_plot.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/planner.hpp"
 #include "planner/search/search_options.hpp"

@@ -61,13 +61,7 @@ void declare(CLI::App& app, Flags& flags) {
 
 /// All problems that the scenario's controllers pose.
 std::vector<hlc::HorizonProblem> problems_of(const hlc::Scenario& scenario) {
-  std::vector<std::unique_ptr<hlc::Controller>> controllers;
-  std::vector<hlc::Pose> starts;
-  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
-    controllers.push_back(hlc::make_controller(scenario, vehicle.id));
-    starts.push_back(vehicle.start);
-  }
-  hlc::Rollout rollout(std::move(controllers), starts);
+  hlc::Rollout rollout = hlc::make_rollout(scenario);
   std::vector<hlc::HorizonProblem> problems;
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     rollout.step();

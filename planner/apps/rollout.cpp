@@ -62,19 +62,15 @@ bool others_changed_the_plan(const hlc::Controller& controller, hlc::HorizonPlan
 int run(const hlc::ScenarioChoices& choices) {
   const hlc::Scenario scenario = hlc::read_scenario(choices);
   const double step_s = scenario.subgraph->automaton().step_s;
-  std::vector<std::unique_ptr<hlc::Controller>> controllers;
-  std::vector<hlc::Pose> starts;
   std::map<hlc::VehicleId, Tally> tallies;
-  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
-    controllers.push_back(hlc::make_controller(scenario, vehicle.id));
-    starts.push_back(vehicle.start);
-  }
-  hlc::Rollout rollout(std::move(controllers), starts);
+  hlc::Rollout rollout = hlc::make_rollout(scenario);
   const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   const auto alone = hlc::make_horizon_planner(*scenario.subgraph, reachable, scenario.search);
-  const auto begin = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::duration wall{};
   for (std::size_t i = 0; i < scenario.steps; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
     const std::vector<hlc::Report> reports = rollout.step();
+    wall += std::chrono::steady_clock::now() - begin;
     for (std::size_t j = 0; j < reports.size(); ++j) {
       const hlc::Report& report = reports[j];
       Tally& tally = tallies[report.vehicle];
@@ -82,8 +78,7 @@ int run(const hlc::ScenarioChoices& choices) {
       if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;
     }
   }
-  const double wall_ms =
-      1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double wall_ms = 1e3 * std::chrono::duration<double>(wall).count();
 
   std::printf("%-10s %8s %12s %11s %14s %13s %10s %8s\n", "vehicle", "lap [s]", "error [mm]",
               "max [mm]", "max generated", "max expanded", "fallbacks", "changed");

@@ -1,9 +1,13 @@
-// Checks a scenario and prints who drives where; with --starts in a form for scripts.
+// Checks a scenario, prints who drives where (with --starts in a form for scripts) and draws it.
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
+#include "planner/automaton/atomic_write.hpp"
+#include "planner/plot/scenario_plot.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
@@ -40,15 +44,23 @@ int main(int argc, char** argv) {
   hlc::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
+  hlc::OutputFile plot{"--plot", {}};
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(CLI::Range(1, 100000));
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
   app.add_flag("--print_steps", steps, "print only the number of steps");
+  hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   try {
+    std::vector<std::filesystem::path> inputs{choices.file};
+    if (choices.map_file) inputs.push_back(*choices.map_file);
+    hlc::check_output_files({plot}, inputs);
     const hlc::Scenario scenario = hlc::read_scenario(choices);
+    if (plot.file) {
+      hlc::write_atomically(hlc::scenario_plot(scenario, hlc::map_of(scenario)), *plot.file);
+    }
     if (starts) {
       print_starts(scenario);
     } else if (steps) {

@@ -23,6 +23,12 @@ struct Delivery {
 struct JointStepRules {
   /// Messages for which this says true do not arrive. Absent: none.
   std::function<bool(const Delivery&)> is_lost{};
+  /// Controllers for which this says true miss the step's deadline: they neither plan nor say
+  /// anything more in this step, and their plan in force stays. Absent: none. Asked once per step.
+  std::function<bool(const Controller&)> is_late{};
+  /// Sees what a controller tells of itself, before anybody plans: its plan in force is still the
+  /// one that the step began with. Absent: nobody looks.
+  std::function<void(const Controller&, const Traffic&)> told{};
   /// Calls Controller::plan, for an owner who wants to measure. Absent: just calls it.
   std::function<Prediction(Controller&, std::span<const Prediction>)> plan{};
 };

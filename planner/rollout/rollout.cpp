@@ -71,4 +71,14 @@ std::vector<Report> Rollout::step() {
   return reports;
 }
 
+Rollout make_rollout(const Scenario& scenario) {
+  std::vector<std::unique_ptr<Controller>> controllers;
+  std::vector<Pose> starts;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    controllers.push_back(make_controller(scenario, vehicle.id));
+    starts.push_back(vehicle.start);
+  }
+  return {std::move(controllers), starts};
+}
+
 }  // namespace hlc

@@ -6,6 +6,7 @@
 
 #include "planner/controller/controller.hpp"
 #include "planner/rollout/joint_step.hpp"
+#include "planner/scenario/scenario.hpp"
 
 namespace hlc {
 
@@ -39,5 +40,8 @@ class Rollout {
   JointStepRules rules_;
   StepIndex next_step_{0};
 };
+
+/// All vehicles of the scenario, standing at their starts.
+[[nodiscard]] Rollout make_rollout(const Scenario& scenario);
 
 }  // namespace hlc

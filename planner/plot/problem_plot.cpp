@@ -1,13 +1,11 @@
-#include "planner/apps/problem_plot.hpp"
+#include "planner/plot/problem_plot.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <utility>
 
-#include "planner/apps/svg_plot.hpp"
 #include "planner/geometry/footprint.hpp"
+#include "planner/plot/svg_plot.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -62,28 +60,6 @@ void add_plan(const ProblemFile& file, const SearchResult& result, PlotPanel& pa
   }
 }
 
-/// The corner of the panel in which the least is drawn.
-Corner emptiest_corner(const PlotPanel& panel) {
-  std::vector<Eigen::Vector2d> points;
-  for (const PlotLine& line : panel.lines) {
-    points.insert(points.end(), line.points.begin(), line.points.end());
-  }
-  for (const PlotMark& mark : panel.marks) points.push_back(mark.at);
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& point : points) box.extend(point);
-  const Eigen::Vector2d centre = box.center();
-  const auto count = [&](bool right, bool top) {
-    return std::ranges::count_if(points, [&](const Eigen::Vector2d& point) {
-      return (point.x() > centre.x()) == right && (point.y() > centre.y()) == top;
-    });
-  };
-  const std::array corners{std::pair{count(true, true), Corner::kTopRight},
-                           std::pair{count(false, true), Corner::kTopLeft},
-                           std::pair{count(true, false), Corner::kBottomRight},
-                           std::pair{count(false, false), Corner::kBottomLeft}};
-  return std::ranges::min_element(corners, {}, [](const auto& one) { return one.first; })->second;
-}
-
 std::string subtitle(const SearchResult& result) {
   char text[96];
   if (result.status == SearchStatus::kFallback) {
@@ -106,7 +82,7 @@ std::string problem_plot(const ProblemFile& file, const SearchResult& result) {
   panel.equal_scale = true;
   add_surroundings(problem, panel);
   add_plan(file, result, panel);
-  panel.legend_corner = emptiest_corner(panel);
+  panel.legend_corner = Corner::kEmptiest;
   const std::string first = colour_of(0, problem);
   const std::string last = colour_of(problem.horizon_steps() - 1, problem);
   panel.legend = {

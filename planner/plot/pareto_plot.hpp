@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "planner/apps/svg_plot.hpp"
 #include "planner/maneuver_design/pareto_front.hpp"
 
 namespace hlc {
 
-/// What the outputs say beside the front itself.
+/// What table and plot say beside the front itself.
 struct ParetoDescription {
   Trim from;
   Trim to;
@@ -18,16 +17,10 @@ struct ParetoDescription {
   std::optional<DurationRange> free_duration{};  ///< instead of duration_s
 };
 
-/// One row per point, in the order of the front. Columns: the criteria by name, dx [m], dy [m],
-/// dpsi [rad] (end pose in the frame of the start), status (optimal or not_converged), duration [s]
-/// if it is free, v_max [m/s], dominated and knee (0 or 1), first_order_residual. Numbers with 17
-/// digits, so that they read back exactly.
-[[nodiscard]] std::string csv_of(const ParetoFront& front, const ParetoDescription& description);
-
 /// The paper's Fig. 1 for two criteria: the front with its knee and, for comparison, the weighted
 /// sums; positions, orientations, speeds and both inputs over time, coloured along the front from
 /// red (optimum of the second criterion: soft inputs for J2) to blue (optimum of the first).
-[[nodiscard]] std::string svg_of(const ParetoFront& front, const ParetoFront& weighted_sums,
-                                 const ParetoDescription& description);
+[[nodiscard]] std::string pareto_plot(const ParetoFront& front, const ParetoFront& weighted_sums,
+                                      const ParetoDescription& description);
 
 }  // namespace hlc

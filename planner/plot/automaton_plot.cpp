@@ -1,9 +1,9 @@
-#include "planner/apps/automaton_plot.hpp"
+#include "planner/plot/automaton_plot.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "planner/apps/svg_plot.hpp"
+#include "planner/plot/svg_plot.hpp"
 
 namespace hlc {
 namespace {

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+
+#include "planner/plot/svg_plot.hpp"
+
+/// From the units of a panel's axes to pixels.
+namespace hlc::svg {
+
+using Range = Eigen::AlignedBox2d;
+
+/// A point on axes whose logarithmic ones are already logarithms.
+[[nodiscard]] Eigen::Vector2d on_axes(const PlotPanel& panel, const Eigen::Vector2d& point);
+
+/// Calls `visit` with every point that the panel shows something at.
+template <class Visit>
+void for_each_point(const PlotPanel& panel, const Visit& visit) {
+  for (const auto* areas : {&panel.areas, &panel.front_areas}) {
+    for (const PlotArea& area : *areas) std::ranges::for_each(area.points, visit);
+  }
+  for (const PlotLine& line : panel.lines) std::ranges::for_each(line.points, visit);
+  for (const PlotMark& mark : panel.marks) visit(mark.at);
+  for (const PlotText& text : panel.texts) visit(text.at);
+  for (const PlotArrow& arrow : panel.arrows) {
+    visit(arrow.from);
+    visit(arrow.to);
+  }
+}
+
+/// Where a panel's axes stand and what they show.
+struct Frame {
+  const PlotPanel& panel;
+  Range range;                ///< of logarithms where an axis is logarithmic
+  Eigen::Vector2d corner_px;  ///< top left of the axes
+  Eigen::Vector2d size_px;
+
+  [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector2d& point) const {
+    return at(on_axes(panel, point));
+  }
+  [[nodiscard]] Eigen::Vector2d at(const Eigen::Vector2d& on_axes) const {
+    const Eigen::Vector2d share = (on_axes - range.min()).cwiseQuotient(range.sizes());
+    return corner_px + Eigen::Vector2d(share.x(), 1.0 - share.y()).cwiseProduct(size_px);
+  }
+};
+
+/// The panel's own range, or that of what it shows with a margin.
+[[nodiscard]] Frame frame_of(const PlotPanel& panel, const Eigen::Vector2d& corner_px,
+                             const Eigen::Vector2d& size_px);
+
+/// Grid, ticks, labels and title of the panel.
+[[nodiscard]] std::string axes_of(const Frame& frame);
+
+}  // namespace hlc::svg

@@ -1,0 +1,92 @@
+#include "planner/plot/scenario_plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kBetweenArrows_m = 1.0;
+constexpr double kArrow_m = 0.02;
+constexpr double kThinnest_px = 1.6;
+constexpr double kThicker_px = 1.8;  ///< a path that is drawn before another
+
+/// Arrow heads along the path, the first at `from_m`.
+void add_direction(const ReferencePath& path, double from_m, PlotPanel& panel) {
+  for (double s_m = from_m; s_m + kArrow_m < path.length_m(); s_m += kBetweenArrows_m) {
+    panel.arrows.push_back({.from = path.at(s_m), .to = path.at(s_m + kArrow_m)});
+  }
+}
+
+}  // namespace
+
+std::optional<LaneletMap> map_of(const Scenario& scenario) {
+  if (!scenario.map_file) return std::nullopt;
+  return read_lanelet_map(*scenario.map_file);
+}
+
+void add_lanes(const LaneletMap& map, PlotPanel& panel) {
+  for (const auto& [id, lanelet] : map.lanelets) {
+    PlotArea area{.points = {lanelet.left_m.begin(), lanelet.left_m.end()}, .fill = "#f0f0f0"};
+    area.points.insert(area.points.end(), lanelet.right_m.rbegin(), lanelet.right_m.rend());
+    panel.areas.push_back(std::move(area));
+    for (const std::vector<Point>* bound : {&lanelet.left_m, &lanelet.right_m}) {
+      panel.lines.push_back(
+          {.points = {bound->begin(), bound->end()}, .colour = "#9a9a9a", .width_px = 0.8});
+    }
+  }
+}
+
+PlotLine path_line(const ReferencePath& path) {
+  PlotLine line{.points = {path.points_m().begin(), path.points_m().end()}};
+  if (path.is_closed()) line.points.push_back(path.points_m().front());
+  return line;
+}
+
+std::string car_colour(const Scenario& scenario, std::size_t vehicle) {
+  static const std::map<std::string, std::string> kNames{
+      {"red", "#d62728"}, {"blue", "#1f4fd8"}, {"green", "#2ca02c"}};
+  const auto named = kNames.find(scenario.vehicles[vehicle].name);
+  return named != kNames.end() ? named->second : series_colour(vehicle);
+}
+
+std::string scenario_plot(const Scenario& scenario, const std::optional<LaneletMap>& map) {
+  PlotPanel panel{.x_label = "x [m]", .y_label = "y [m]", .equal_scale = true};
+  if (map) add_lanes(*map, panel);
+  const std::size_t count = scenario.vehicles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const ScenarioVehicle& vehicle = scenario.vehicles[i];
+    PlotLine line = path_line(vehicle.path);
+    line.colour = car_colour(scenario, i);
+    line.width_px = kThinnest_px;
+    // The first are the widest and lie below; many need no more than a few widths.
+    line.width_px += kThicker_px * static_cast<double>(std::min<std::size_t>(count - 1 - i, 3));
+    panel.legend.push_back(
+        {.text = "vehicle " + std::to_string(vehicle.id.value) + ": " + vehicle.name,
+         .colour = line.colour,
+         .radius_px = 0.0});
+    add_direction(vehicle.path,
+                  kBetweenArrows_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count),
+                  panel);
+    panel.lines.push_back(std::move(line));
+  }
+  const Footprint& footprint = scenario.subgraph->automaton().vehicle.footprint;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ScenarioVehicle& vehicle = scenario.vehicles[i];
+    const ConvexPolygon area = footprint_area(footprint, measured_start(scenario, vehicle));
+    panel.front_areas.push_back({.points = {area.vertices_m.begin(), area.vertices_m.end()},
+                                 .fill = car_colour(scenario, i),
+                                 .stroke = "#000000"});
+    panel.texts.push_back({.at = vehicle.start.position_m(),
+                           .text = std::to_string(vehicle.id.value),
+                           .colour = "#ffffff"});
+  }
+  panel.legend_corner = Corner::kEmptiest;
+  return svg_of("Scenario " + scenario.name + ": reference paths, vehicles at the start", {panel},
+                1, {.width_px = 900.0, .height_px = 800.0});
+}
+
+}  // namespace hlc
