@@ -33,6 +33,10 @@ std::optional<Pose> pose_at(const Drive& drive, Nanoseconds t) {
   return !drive.empty() && t > drive.back().t ? drive.back().pose : driven_pose_at(drive, t);
 }
 
+double distance_of(const Footprint& a, const Pose& pose_a, const Footprint& b, const Pose& pose_b) {
+  return distance_m(footprint_area(a, pose_a), footprint_area(b, pose_b));
+}
+
 void look_at_pair(const VehicleDescription& a, const Drive& drive_a, const VehicleDescription& b,
                   const Drive& drive_b, Nanoseconds from, Nanoseconds to, Encounters& result) {
   bool touched = false;
@@ -49,8 +53,7 @@ void look_at_pair(const VehicleDescription& a, const Drive& drive_a, const Vehic
       touched = false;
       continue;
     }
-    const double d_m =
-        distance_m(footprint_area(a.footprint, *pose_a), footprint_area(b.footprint, *pose_b));
+    const double d_m = distance_of(a.footprint, *pose_a, b.footprint, *pose_b);
     result.min_distance_m = std::min(result.min_distance_m.value_or(d_m), d_m);
     const bool touches = d_m == 0.0;
     result.collisions += touches && !touched ? 1U : 0U;
@@ -73,6 +76,19 @@ Encounters encounters(std::span<const VehicleDescription> vehicles, const Drives
     }
   }
   return result;
+}
+
+std::vector<TimedDistance> footprint_distances(const VehicleDescription& a, const Drive& drive_a,
+                                               const VehicleDescription& b, const Drive& drive_b,
+                                               Nanoseconds from, Nanoseconds to) {
+  std::vector<TimedDistance> distances;
+  for (const Nanoseconds t : instants(drive_a, drive_b, from, to)) {
+    const std::optional<Pose> pose_a = pose_at(drive_a, t);
+    const std::optional<Pose> pose_b = pose_at(drive_b, t);
+    if (!pose_a || !pose_b) continue;
+    distances.push_back({t, distance_of(a.footprint, *pose_a, b.footprint, *pose_b)});
+  }
+  return distances;
 }
 
 }  // namespace hlc

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "hlc_bridge/core/run_record.hpp"
 
@@ -20,5 +21,18 @@ struct Encounters {
 /// @param vehicles  their footprints; vehicles without a drive are passed over
 [[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
                                     const Drives& drives, Nanoseconds from, Nanoseconds to);
+
+/// The distance of two driven footprints at one time.
+struct TimedDistance {
+  Nanoseconds t{};
+  double distance_m{};  ///< 0: they touch
+};
+
+/// The same for one pair at every such instant, for who wants to see it over time.
+[[nodiscard]] std::vector<TimedDistance> footprint_distances(const VehicleDescription& a,
+                                                             const Drive& drive_a,
+                                                             const VehicleDescription& b,
+                                                             const Drive& drive_b, Nanoseconds from,
+                                                             Nanoseconds to);
 
 }  // namespace hlc

@@ -1,8 +1,8 @@
-// Drives a campaign of whole runs within one process and writes the evaluation's tables.
+// Drives a campaign of whole runs within one process, writes the evaluation's tables and draws its
+// figures.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -12,6 +12,7 @@
 #include "planner/apps/flags.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
+#include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
@@ -27,7 +28,10 @@ struct Choices {
   std::size_t jobs{1};
   bool keep_runs{false};
   std::filesystem::path out;
+  hlc::FigureChoices figures;
 };
+
+constexpr char kAllFigures[] = "all";
 
 /// A file, or the name of one in the folder of scenarios.
 std::filesystem::path scenario_file(const Choices& choices, const std::string& name) {
@@ -41,16 +45,6 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
 hlc::Nanoseconds wall_clock() {
   return static_cast<hlc::Nanoseconds>(
       std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
-}
-
-/// What is done with the records of a run.
-std::function<void(const hlc::Scenario&, const hlc::Experiment&)> keeper(const Choices& choices,
-                                                                         std::size_t run) {
-  if (!choices.keep_runs) return {};
-  return [folder = choices.out / "runs" / std::to_string(run)](const hlc::Scenario& scenario,
-                                                               const hlc::Experiment& experiment) {
-    hlc::write_run_folder(folder, scenario, experiment);
-  };
 }
 
 /// Drives what is missing. Returns the number of failed runs.
@@ -70,7 +64,12 @@ std::size_t drive(const hlc::Campaign& campaign, const Choices& choices,
       [&](std::size_t i) {
         const std::size_t run = missing[i];
         try {
-          files.add(run, campaign.drive(run, wall_clock, keeper(choices, run)));
+          const hlc::DrivenRun driven = campaign.drive(run, wall_clock);
+          if (choices.keep_runs) {
+            hlc::write_run_folder(choices.out / "runs" / std::to_string(run), driven.scenario,
+                                  driven.experiment);
+          }
+          files.add(run, campaign.result_of(driven));
         } catch (const std::exception& error) {
           files.add_failure(run, error.what());
         }
@@ -87,11 +86,47 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-int run(Choices choices, const std::string& command) {
+std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
+
+/// Everything that the campaign reads. What cannot be read is bad input.
+hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
   }
-  const hlc::Campaign campaign(choices.plan);
+  hlc::FigureChoices& figures = choices.figures;
+  if (std::ranges::find(figures.names, kAllFigures) != figures.names.end()) {
+    figures.names = hlc::figure_names();
+  }
+  if (figures.pareto_configuration.empty()) {
+    figures.pareto_configuration =
+        (choices.scenario_folder / "../automata/pareto_example.yaml").lexically_normal();
+  }
+  figures.wall_clock = wall_clock;
+  const std::filesystem::path folder = figure_folder(choices);
+  if (!figures.names.empty() && std::filesystem::exists(folder) &&
+      !std::filesystem::is_directory(folder)) {
+    throw std::invalid_argument("--out = " + choices.out.string() +
+                                ": figures is no folder, allowed a folder or nothing there");
+  }
+  try {
+    hlc::check_figures(figures);
+    return hlc::Campaign(choices.plan);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+void draw(const hlc::Campaign& campaign, Choices& choices) {
+  if (choices.figures.names.empty()) return;
+  choices.figures.say = [](const std::string& what) {
+    std::cerr << "evaluate: draws " << what << '\n';
+  };
+  const auto files = hlc::draw_figures(campaign, choices.figures, figure_folder(choices));
+  for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());
+}
+
+int run(Choices choices, const std::string& command) {
+  const hlc::Campaign campaign = read(choices);
   hlc::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
   const std::size_t failed = drive(campaign, choices, files);
@@ -102,6 +137,7 @@ int run(Choices choices, const std::string& command) {
                 .processor = hlc::this_host().cpu});
   std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,
               (choices.out / "table.md").c_str());
+  draw(campaign, choices);
   return failed == 0 ? 0 : 1;
 }
 
@@ -144,6 +180,15 @@ int main(int argc, char** argv) {
   app.add_option("--out", choices.out,
                  "folder for results.json, table.md, table.csv; an interrupted campaign goes on")
       ->required();
+  std::vector<std::string> figures{kAllFigures};
+  figures.insert(figures.end(), hlc::figure_names().begin(), hlc::figure_names().end());
+  app.add_option("--figures", choices.figures.names,
+                 "SVG files to draw into the folder `figures` of --out, as paths,distance or all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(figures));
+  app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
+                 "automaton configuration for the figure pareto_set; default: "
+                 "../automata/pareto_example.yaml, seen from --scenario_folder");
   app.footer("Exit codes: 0 all runs driven, 1 some failed (results.json says why), 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   int code = 0;

@@ -60,6 +60,14 @@ void add_planning(const Json& vehicles, RunFigures& figures) {
   figures.overlong_share = overlong;
 }
 
+double largest_deviation_mm(const RunSummary& summary) {
+  double largest_m = 0.0;
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    largest_m = std::max(largest_m, vehicle.deviation_max_m.value_or(0.0));
+  }
+  return 1e3 * largest_m;
+}
+
 RunFigures figures_of(const Json& record) {
   RunFigures figures{.scenario = record.at("scenario").get<std::string>(),
                      .profile = record.at("profile").get<std::string>(),
@@ -85,6 +93,12 @@ RunFigures figures_of(const Json& record) {
   figures.expanded_sum_max = number_or_0(record.at("expanded_vertices_sum_max"));
   figures.collisions = record.at("collisions").get<std::size_t>();
   add_planning(vehicles, figures);
+  figures.deviation_max_mm = number_or_0(record.at("deviation_max_mm"));
+  const Json& wall = record.at("wall_shares_s");
+  figures.wall_s = number_or_0(record.at("wall_s"));
+  figures.wall_planning_s = number_or_0(wall.at("planning"));
+  figures.wall_coordination_s = number_or_0(wall.at("coordination"));
+  figures.wall_vehicles_s = number_or_0(wall.at("vehicles"));
   const double plans = number_or_0(record.at("steps")) *
                        static_cast<double>(std::max<std::size_t>(1, vehicles.size()));
   figures.overlong_share = plans > 0.0 ? figures.overlong_share / plans : 0.0;
@@ -117,21 +131,29 @@ EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& c
   lines.pop_back();  // behind the last line break: empty, or a line that was not finished
   std::string kept = heading_ + "\n";
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    records_[Json::parse(lines[i]).at("run").get<std::size_t>()] = lines[i];
+    try {
+      records_[Json::parse(lines[i]).at("run").get<std::size_t>()] = lines[i];
+    } catch (const Json::exception&) {
+      refuse("line " + std::to_string(i + 1) + " of runs.jsonl is no record of a run");
+    }
     kept += lines[i] + "\n";
   }
   if (kept != text) write_file(file, kept);
 }
 
-void EvaluationFiles::add(std::size_t run, const RunSummary& summary) {
+void EvaluationFiles::add(std::size_t run, const CampaignResult& result) {
   Json record;
   record["run"] = run;
   record["start"] = campaign_.runs()[run].start;
-  record["failure"] = nullptr;
-  RunSummary complete = summary;
+  record["failure"] = result.fault.empty() ? Json(nullptr) : Json(result.fault);
+  RunSummary complete = result.summary;
   complete.revision = program_revision();
   complete.host = this_host();
   record.update(Json::parse(summary_json(complete)));
+  record["deviation_max_mm"] = largest_deviation_mm(result.summary);
+  record["wall_shares_s"] = {{"planning", result.wall.planning_s},
+                             {"coordination", result.wall.coordination_s},
+                             {"vehicles", result.wall.vehicles_s}};
   append(run, record.dump());
 }
 

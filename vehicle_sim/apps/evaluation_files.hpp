@@ -14,13 +14,16 @@ namespace hlc {
 
 /// The folder of a campaign:
 ///
-///     runs.jsonl     first line: what the campaign is; then a line per run, as soon as it is
-///     driven results.json   {"campaign": ..., "runs": [...]}, in the order of the campaign
+///     runs.jsonl           first line: what the campaign is; then a line per run, once driven
+///     results.json         {"campaign": ..., "runs": [...]}, in the order of the campaign
 ///     table.md, table.csv
+///     figures/             what evaluation_figures.hpp draws
 ///
 /// A run's record has the keys of summary.json and "run" (its number), "start", "failure" (null, or
-/// the reason why it was not driven; then the other keys are absent but for scenario, profile and
-/// subgraph).
+/// why the run does not count) "deviation_max_mm" (of all vehicles, see VehicleSummary) and
+/// "wall_shares_s" (WallTimes: parts of "wall_s"). If it could not be driven to its end, the other
+/// keys are absent but for scenario, profile and subgraph; if it was driven, but does not count
+/// (CampaignResult::fault), they are there.
 ///
 /// A campaign that was interrupted goes on with the runs that are missing in runs.jsonl.
 class EvaluationFiles {
@@ -34,7 +37,7 @@ class EvaluationFiles {
   [[nodiscard]] std::size_t size() const { return records_.size(); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written
-  void add(std::size_t run, const RunSummary& summary);
+  void add(std::size_t run, const CampaignResult& result);
   void add_failure(std::size_t run, const std::string& reason);
 
   /// Writes results.json and the tables.

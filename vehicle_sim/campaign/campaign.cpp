@@ -13,6 +13,19 @@ std::string key_of(const CampaignRun& run) {
   return run.scenario.string() + '\n' + run.profile + '\n' + run.subgraph.value_or("");
 }
 
+std::string fault_of(const RunSummary& summary) {
+  if (summary.collisions > 0) {
+    return "vehicles touched each other " + std::to_string(summary.collisions) + " times";
+  }
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    if (vehicle.astray_steps == 0) continue;
+    return "vehicle " + std::to_string(vehicle.id.value) +
+           " was outside the areas that it had told the others in " +
+           std::to_string(vehicle.astray_steps) + " steps";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<CampaignRun> runs_of(const CampaignPlan& plan) {
@@ -49,21 +62,29 @@ const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
   return scenarios_.at(key_of(run));
 }
 
-RunSummary Campaign::drive(
-    std::size_t i, const std::function<Nanoseconds()>& wall_clock,
-    const std::function<void(const Scenario&, const Experiment&)>& keep) const {
+DrivenRun Campaign::drive(std::size_t i, const std::function<Nanoseconds()>& wall_clock) const {
   const CampaignRun& run = runs_.at(i);
   const Scenario& as_read = scenario_of(run);
-  const Scenario scenario =
-      run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start);
-  const Experiment experiment = drive_experiment(
-      scenario,
-      {.steps = scenario.steps, .noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
-  if (keep) keep(scenario, experiment);
+  DrivenRun driven{
+      .scenario = run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start),
+      .experiment = {}};
+  driven.experiment = drive_experiment(
+      driven.scenario,
+      {.steps = driven.scenario.steps, .noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
+  return driven;
+}
+
+CampaignResult Campaign::result_of(const DrivenRun& run) const {
+  const Experiment& experiment = run.experiment;
   if (experiment.facts.exit_code != 0) throw std::runtime_error(experiment.facts.reason);
   const std::vector<StepRecord> rows =
       step_records(experiment.reports, experiment.drives, experiment.facts);
-  return summarize(describe(scenario, plan_.noise_seed), experiment.facts, rows, experiment.drives);
+  CampaignResult result{.summary = summarize(describe(run.scenario, plan_.noise_seed),
+                                             experiment.facts, rows, experiment.drives),
+                        .fault = {},
+                        .wall = experiment.wall};
+  result.fault = fault_of(result.summary);
+  return result;
 }
 
 }  // namespace hlc

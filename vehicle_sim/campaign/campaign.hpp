@@ -36,6 +36,21 @@ struct CampaignRun {
 /// All runs of the plan: by scenario, then profile, subgraph, start.
 [[nodiscard]] std::vector<CampaignRun> runs_of(const CampaignPlan& plan);
 
+/// What a run of a campaign gives.
+struct CampaignResult {
+  RunSummary summary;  ///< without revision and host
+  /// Why the run does not count, in one line, though it was driven to its end: vehicles touched, or
+  /// were outside the areas that they had told the others. Empty if it counts.
+  std::string fault;
+  WallTimes wall;
+};
+
+/// A run with all that was recorded.
+struct DrivenRun {
+  Scenario scenario;
+  Experiment experiment;
+};
+
 /// Drives the runs of a plan. Automata are built or read once; `drive` may then be called by
 /// several threads.
 class Campaign {
@@ -48,17 +63,20 @@ class Campaign {
   [[nodiscard]] const CampaignPlan& plan() const { return plan_; }
   [[nodiscard]] const std::vector<CampaignRun>& runs() const { return runs_; }
 
-  /// The run number i; its result in the terms of summary.json, without revision and host.
+  /// The run number i with its series, for figures: a tenth of a second gives the same again, so
+  /// nobody needs to store it.
   /// @param wall_clock  see ExperimentOptions
-  /// @param keep  absent, or what is done with the records of the run, however it ended
-  /// @throws std::runtime_error with the reason if the run was not driven to its end
-  [[nodiscard]] RunSummary drive(
-      std::size_t i, const std::function<Nanoseconds()>& wall_clock,
-      const std::function<void(const Scenario&, const Experiment&)>& keep = {}) const;
+  [[nodiscard]] DrivenRun drive(std::size_t i,
+                                const std::function<Nanoseconds()>& wall_clock) const;
 
- private:
+  /// The same in the terms of summary.json.
+  /// @throws std::runtime_error with the reason if the run was not driven to its end
+  [[nodiscard]] CampaignResult result_of(const DrivenRun& run) const;
+
+  /// The scenario of a run as it was read, with the cars where the scenario has them.
   [[nodiscard]] const Scenario& scenario_of(const CampaignRun& run) const;
 
+ private:
   CampaignPlan plan_;
   std::vector<CampaignRun> runs_;
   std::map<std::string, Scenario> scenarios_;  ///< by what distinguishes them beside the start

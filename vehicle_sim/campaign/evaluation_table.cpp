@@ -21,6 +21,11 @@ struct Quantity {
 const std::string kSimulation = "paper_three_cars";
 const std::string kLab = "paper_red_alone";
 
+/// [%]
+std::optional<double> share_of_wall(const RunFigures& run, double part_s) {
+  return run.wall_s > 0.0 ? std::optional(100.0 * part_s / run.wall_s) : std::nullopt;
+}
+
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> all{
       {"Reference error, mean [mm]",
@@ -41,6 +46,11 @@ const std::vector<Quantity>& quantities() {
        [](const RunFigures& run) { return run.lap_s; },
        {{kSimulation, {{"A", 13.8}, {"B", 15.8}, {"C", 15.8}, {"D", 16.2}}},
         {kLab, {{"B", 15.8}, {"C", 16.0}, {"D", 16.0}}}}},
+      {"Starts in which it drove a lap [%]",
+       "lap_driven_percent",
+       0,
+       [](const RunFigures& run) { return std::optional(run.lap_s ? 100.0 : 0.0); },
+       {}},
       {"Max. generated vertices, one car",
        "generated_max",
        0,
@@ -93,6 +103,31 @@ const std::vector<Quantity>& quantities() {
        "collisions",
        0,
        [](const RunFigures& run) { return std::optional(static_cast<double>(run.collisions)); },
+       {}},
+      {"Largest deviation from the plan [mm]",
+       "deviation_max_mm",
+       1,
+       [](const RunFigures& run) { return std::optional(run.deviation_max_mm); },
+       {}},
+      {"Wall time of the whole run [ms]",
+       "wall_ms",
+       1,
+       [](const RunFigures& run) { return std::optional(1e3 * run.wall_s); },
+       {}},
+      {"- in planning [%]",
+       "wall_planning_percent",
+       1,
+       [](const RunFigures& run) { return share_of_wall(run, run.wall_planning_s); },
+       {}},
+      {"- in coordination [%]",
+       "wall_coordination_percent",
+       1,
+       [](const RunFigures& run) { return share_of_wall(run, run.wall_coordination_s); },
+       {}},
+      {"- in the simulated vehicles [%]",
+       "wall_vehicles_percent",
+       1,
+       [](const RunFigures& run) { return share_of_wall(run, run.wall_vehicles_s); },
        {}},
   };
   return all;
@@ -193,14 +228,22 @@ std::string markdown_of(const Group& group) {
     }
     text += "\n";
   }
-  text += "| Starts, driven / failed |";
+  text += "| Starts, good / failed |";
   for (const auto& [subgraph, runs] : group.subgraphs) {
     const auto failed =
         std::ranges::count_if(runs, [](const auto* run) { return !run->failure.empty(); });
     text += " " + std::to_string(static_cast<std::ptrdiff_t>(runs.size()) - failed) + " / " +
             std::to_string(failed) + " |" + (has_paper ? " |" : "");
   }
-  return text + "\n\n";
+  text += "\n";
+  for (const auto& [subgraph, runs] : group.subgraphs) {
+    for (const RunFigures* run : runs) {
+      if (run->failure.empty()) continue;
+      text += "\nFailed: subgraph " + subgraph + ", start " + std::to_string(run->start) + ": " +
+              run->failure + "\n";
+    }
+  }
+  return text + "\n";
 }
 
 }  // namespace
@@ -208,8 +251,9 @@ std::string markdown_of(const Group& group) {
 std::string evaluation_markdown(const std::vector<RunFigures>& runs,
                                 const EvaluationOrigin& origin) {
   std::string text =
-      "# Evaluation\n\nMeans over the starts, in brackets the smallest and the largest. Error and "
-      "lap are those of the vehicle of highest priority.\n\n";
+      "# Evaluation\n\nMeans over the starts, in brackets the smallest and the largest; without "
+      "failed runs. Error and lap are those of the vehicle of highest priority. Wall times are of "
+      "runs driven beside each other (`--jobs`).\n\n";
   for (const Group& group : groups_of(runs)) text += markdown_of(group);
   text += "Command: `" + origin.command + "`\n\nProgram " + origin.revision + ", compiled by " +
           origin.compiler + "; " + origin.processor + ".\n";

@@ -13,7 +13,7 @@ struct RunFigures {
   std::string profile;
   std::string subgraph;
   std::size_t start{};
-  std::string failure;  ///< why it was not driven to its end; empty if it was
+  std::string failure;  ///< why it does not count; empty if it does
   /// Of the vehicle of highest priority, as in the paper.
   std::optional<double> lap_s;
   std::optional<double> error_mean_mm;  ///< reference error over the steps
@@ -26,7 +26,12 @@ struct RunFigures {
   double planning_mean_ms{};
   double planning_std_ms{};
   double planning_max_ms{};
-  double overlong_share{};  ///< of the plans, those that took longer than a step
+  double overlong_share{};    ///< of the plans, those that took longer than a step
+  double deviation_max_mm{};  ///< footprint to plan, any tick; without drift near full lock
+  double wall_s{};            ///< of the whole run; its parts as in WallTimes
+  double wall_planning_s{};
+  double wall_coordination_s{};
+  double wall_vehicles_s{};
   std::size_t fallback_steps{};
   std::size_t collisions{};
 };

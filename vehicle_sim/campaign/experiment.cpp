@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -45,6 +46,7 @@ class Lab {
   Lab(const Scenario& scenario, const ExperimentOptions& options)
       : settings_(settings_of(scenario, options.steps)),
         run_(settings_),
+        rules_(options.rules),
         wall_clock_(options.wall_clock ? options.wall_clock : [] { return Nanoseconds{}; }) {
     for (const ScenarioVehicle& vehicle : scenario.vehicles) {
       const std::uint8_t id = vehicle.id.value;
@@ -72,13 +74,17 @@ class Lab {
       }
     }
     write_facts();
-    experiment_.facts.wall_s = 1e-9 * static_cast<double>(wall_clock_() - from);
+    experiment_.facts.wall_s = seconds_since(from);
     return std::move(experiment_);
   }
 
  private:
   /// Nobody keeps anybody waiting here.
   static constexpr Nanoseconds kNoWallTime = 0;
+
+  [[nodiscard]] double seconds_since(Nanoseconds from) const {
+    return 1e-9 * static_cast<double>(wall_clock_() - from);
+  }
 
   /// Everybody is there, hears everybody and asks for its first tick.
   void appear() {
@@ -101,7 +107,9 @@ class Lab {
         run_.ready({.source_id = middleware_name(member.id), .next_start = t + settings_.period});
       }
     } else {
+      const Nanoseconds from = wall_clock_();
       for (Member& member : members_) tick(member, t);
+      experiment_.wall.vehicles_s += seconds_since(from);
     }
   }
 
@@ -150,17 +158,25 @@ class Lab {
     }
     std::vector<Controller*> controllers;
     for (Member& member : members_) controllers.push_back(&member.hlc.controller());
-    std::vector<Nanoseconds> planning_ns;
-    const auto timed_plan = [&](Controller& controller, std::span<const Prediction> heard) {
+    std::map<const Controller*, Nanoseconds> planning_ns;
+    JointStepRules rules = rules_;
+    rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
       const Nanoseconds from = wall_clock_();
-      Prediction prediction = controller.plan(heard);
-      planning_ns.push_back(wall_clock_() - from);
+      Prediction prediction = rules_.plan ? rules_.plan(controller, heard) : controller.plan(heard);
+      planning_ns[&controller] = wall_clock_() - from;
       return prediction;
     };
-    const std::vector<Report> reports = joint_step(controllers, observation, {.plan = timed_plan});
+    const Nanoseconds from = wall_clock_();
+    const std::vector<Report> reports = joint_step(controllers, observation, rules);
+    const double step_s = seconds_since(from);
+    double planning_s = 0.0;
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      report({.report = reports[i], .planning_ns = planning_ns[i]});
+      const Nanoseconds planning = planning_ns[controllers[i]];  // 0 if it was late
+      planning_s += 1e-9 * static_cast<double>(planning);
+      report({.report = reports[i], .planning_ns = planning});
     }
+    experiment_.wall.planning_s += planning_s;
+    experiment_.wall.coordination_s += step_s - planning_s;
   }
 
   void report(const ReportRecord& record) {
@@ -196,6 +212,7 @@ class Lab {
 
   LabRunSettings settings_;
   LogicalRun run_;
+  JointStepRules rules_;
   std::function<Nanoseconds()> wall_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
   StateBuffer states_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hlc_bridge/core/run_record.hpp"
+#include "planner/rollout/joint_step.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/tracking/follower.hpp"
 
@@ -16,9 +17,19 @@ struct ExperimentOptions {
   /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
   std::optional<std::uint64_t> noise_seed{};
   FollowerGains gains{};
-  /// Wall clock by which planning times are measured; absent: they are 0. Nothing else depends on
-  /// it.
+  /// Wall clock by which planning times and WallTimes are measured; absent: they are 0. Nothing
+  /// else depends on it.
   std::function<Nanoseconds()> wall_clock{};
+  /// What happens around the controllers' steps. Absent: nothing is lost, nobody is late.
+  JointStepRules rules{};
+};
+
+/// Where the wall time of a run went. The rest of RunFacts::wall_s: state lists, commands, lab
+/// control, this measuring.
+struct WallTimes {
+  double planning_s{};      ///< Controller::plan of all vehicles: poses the problem, searches
+  double coordination_s{};  ///< the other phases of the controllers' steps
+  double vehicles_s{};      ///< the simulated vehicles' ticks
 };
 
 /// What the processes of a run would have written into its folder.
@@ -26,6 +37,7 @@ struct Experiment {
   RunFacts facts;
   std::vector<ReportRecord> reports;
   Drives drives;
+  WallTimes wall;
 };
 
 /// A whole run of the scenario in logical time within this process and thread: lab control

@@ -43,6 +43,19 @@ TEST(Encounters, DistanceIsThatOfTheFootprintsAlongTheYaw) {
               0.2 - 0.107 / 2.0 - 0.11, 1e-12);
 }
 
+TEST(Encounters, DistancesOverTimeAreThoseOfEveryInstantWithin) {
+  const std::vector<VehicleDescription> two = vehicles(2);
+  const Drive standing = drive({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+  const Drive leaving = drive({{0.1, 0, 0}, {0.3, 0, 0}, {0.5, 0, 0}, {0.7, 0, 0}});
+  const std::vector<TimedDistance> distances =
+      footprint_distances(two[0], standing, two[1], leaving, 0, 2 * kTick);
+  ASSERT_EQ(distances.size(), 3U);
+  EXPECT_EQ(distances[0].distance_m, 0.0);
+  EXPECT_NEAR(distances[1].distance_m, 0.3 - 0.22, 1e-12);
+  EXPECT_NEAR(distances[2].distance_m, 0.5 - 0.22, 1e-12);
+  EXPECT_EQ(distances[2].t, 2 * kTick);
+}
+
 TEST(Encounters, CollisionIsCountedWhenAPairBeginsToTouch) {
   const Pose far{1, 0, 0};
   const Pose near{0.1, 0, 0};

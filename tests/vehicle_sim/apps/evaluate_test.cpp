@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/support/program.hpp"
@@ -37,6 +38,7 @@ class Evaluate : public testing::Test {
     for (auto& run : results["runs"]) {
       run.erase("wall_s");
       run.erase("realtime_factor");
+      run.erase("wall_shares_s");
       for (auto& vehicle : run["vehicles"]) vehicle.erase("planning_time_ms");
     }
     return results;
@@ -96,11 +98,102 @@ TEST_F(Evaluate, RefusesTheFolderOfAnotherCampaign) {
   EXPECT_EQ(text_of(out_ / "runs.jsonl"), before);
 }
 
+TEST_F(Evaluate, RefusesAFolderInWhichSomebodyElseWrote) {
+  ASSERT_EQ(evaluate("").exit_code, 0);
+  const std::string before = text_of(out_ / "runs.jsonl");
+  put(out_ / "runs.jsonl", before + "by hand\n");
+  const Outcome broken = evaluate("");
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_THAT(broken.output, HasSubstr("line 6 of runs.jsonl"));
+  EXPECT_EQ(text_of(out_ / "runs.jsonl"), before + "by hand\n");
+  put(out_ / "runs.jsonl", before);
+  put(out_ / "figures", "a file");
+  const Outcome no_folder = evaluate("--figures error");
+  EXPECT_EQ(no_folder.exit_code, 2);
+  EXPECT_THAT(no_folder.output, HasSubstr("figures is no folder"));
+  EXPECT_EQ(text_of(out_ / "figures"), "a file");
+}
+
+TEST_F(Evaluate, SharesOfTheWallTimeAreInTheRecords) {
+  ASSERT_EQ(evaluate("").exit_code, 0);
+  for (const nlohmann::json& run : results()["runs"]) {
+    double sum_s = 0.0;
+    for (const char* part : {"planning", "coordination", "vehicles"}) {
+      const double share_s = run["wall_shares_s"][part];
+      EXPECT_GT(share_s, 0.0) << part;
+      sum_s += share_s;
+    }
+    EXPECT_LE(sum_s, run["wall_s"]);
+  }
+}
+
+TEST_F(Evaluate, DrawsTheFiguresThatAreAskedForAlsoLater) {
+  ASSERT_EQ(evaluate("").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(out_ / "figures"));
+  const Outcome later = evaluate("--figures scenario,paths,distance");
+  EXPECT_EQ(later.exit_code, 0) << later.output;
+  EXPECT_THAT(later.output, HasSubstr("4 of 4 runs are there already"));
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(out_ / "figures")) {
+    files.insert(entry.path().filename());
+  }
+  // No distance: there is one car.
+  EXPECT_EQ(files, (std::set<std::string>{"scenario_paper_red_alone.svg",
+                                          "paths_paper_red_alone_default.svg"}));
+}
+
+TEST_F(Evaluate, DrawsThePapersFiguresOfTheAutomaton) {
+  const std::string automata = std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/";
+  const Outcome done = evaluate("--figures automaton");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_THAT(text_of(out_ / "figures" / "automaton_paper.svg"), HasSubstr("12 trims"));
+  const Outcome unread =
+      evaluate("--figures pareto_set --pareto_configuration " + automata + "nowhere.yaml");
+  EXPECT_EQ(unread.exit_code, 2);
+  EXPECT_THAT(unread.output, HasSubstr("nowhere.yaml"));
+}
+
+// The simulated vehicles are model cars: they cannot follow the plans of full-size ones.
+TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
+  const Outcome done = run_program("evaluate --scenario passenger_cars,paper_red_alone --steps 20" +
+                                   kScenarios + " --out " + out_.string());
+  EXPECT_EQ(done.exit_code, 1) << done.output;
+  EXPECT_THAT(done.output, HasSubstr("2 runs, 1 failed"));
+  const nlohmann::json runs = results()["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("outside the areas"));
+  EXPECT_TRUE(runs[1]["failure"].is_null());
+  EXPECT_THAT(text_of(out_ / "table.md"),
+              HasSubstr("Failed: subgraph effort, start 0: vehicle 1 was outside the areas"));
+}
+
+TEST_F(Evaluate, AMapThatCannotBeReadIsBadInput) {
+  const std::filesystem::path scenario = folder_ / "own.yaml";
+  std::string text =
+      text_of(std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/paper_red_alone.yaml");
+  const std::string automaton = "../automata/paper.yaml";
+  text.replace(text.find(automaton), automaton.size(),
+               std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/paper.yaml");
+  const std::string map = "../maps/lab_like.xml";
+  text.replace(text.find(map), map.size(), "map.xml");
+  put(scenario, text);
+  for (const char* content : {"", "<commonRoad", "<other/>"}) {
+    if (*content != '\0') put(folder_ / "map.xml", content);  // first: no such file
+    const Outcome outcome =
+        run_program("evaluate --scenario " + scenario.string() + " --out " + out_.string());
+    EXPECT_EQ(outcome.exit_code, 2) << content;
+    EXPECT_THAT(outcome.output, HasSubstr("map.xml"));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(out_));
+  }
+}
+
 TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
   for (const auto& [flags, message] : {std::pair{"--profile 2021", "2021"},
                                        {"--scenario nowhere", "--scenario = nowhere"},
                                        {"--subgraphs Z", "Z"},
                                        {"--starts 0", "--starts"},
+                                       {"--figures path", "--figures"},
                                        {"--unheard_of", "unheard_of"}}) {
     const Outcome outcome =
         run_program(std::string("evaluate --out ") + out_.string() + kScenarios + " " + flags);

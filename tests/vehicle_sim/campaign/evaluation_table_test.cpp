@@ -31,9 +31,43 @@ TEST(EvaluationTable, HasMeansAndRangesOverTheStartsBesideThePapersValues) {
 TEST(EvaluationTable, FailedRunsAreCountedAndLeftOut) {
   RunFigures failed = run("B", 99.0, 99.0);
   failed.failure = "somebody died";
+  failed.start = 7;
   const std::string table = evaluation_markdown({run("B", 15.0, 20.0), failed}, {});
-  EXPECT_THAT(table, HasSubstr("| Starts, driven / failed | 1 / 1 |"));
+  EXPECT_THAT(table, HasSubstr("| Starts, good / failed | 1 / 1 |"));
   EXPECT_THAT(table, Not(HasSubstr("99.0")));
+  EXPECT_THAT(table, HasSubstr("\nFailed: subgraph B, start 7: somebody died\n"));
+}
+
+TEST(EvaluationTable, SaysWhereTheWallTimeWent) {
+  RunFigures one = run("B", 15.0, 20.0);
+  one.wall_s = 0.2;
+  one.wall_planning_s = 0.1;
+  one.wall_coordination_s = 0.05;
+  one.wall_vehicles_s = 0.02;
+  const std::string table = evaluation_markdown({one}, {});
+  EXPECT_THAT(table, HasSubstr("| Wall time of the whole run [ms] | 200.0 |"));
+  EXPECT_THAT(table, HasSubstr("| - in planning [%] | 50.0 |"));
+  EXPECT_THAT(table, HasSubstr("| - in coordination [%] | 25.0 |"));
+  EXPECT_THAT(table, HasSubstr("| - in the simulated vehicles [%] | 10.0 |"));
+}
+
+TEST(EvaluationTable, SaysWhereItComesFrom) {
+  const std::string table =
+      evaluation_markdown({run("B", 15.0, 20.0)}, {.command = "evaluate --starts 1",
+                                                   .revision = "abc",
+                                                   .compiler = "GCC 12",
+                                                   .processor = "Z80"});
+  EXPECT_THAT(
+      table,
+      HasSubstr("Command: `evaluate --starts 1`\n\nProgram abc, compiled by GCC 12; Z80.\n"));
+}
+
+TEST(EvaluationTable, ALapThatWasNotDrivenShowsBesideThoseThatWere) {
+  RunFigures stuck = run("B", 15.0, 3.0);
+  stuck.lap_s.reset();
+  const std::string table = evaluation_markdown({run("B", 15.0, 20.0), stuck}, {});
+  EXPECT_THAT(table, HasSubstr("| Time for one lap [s] | 15.00 | 15.8 |"));
+  EXPECT_THAT(table, HasSubstr("| Starts in which it drove a lap [%] | 50 [0 … 100] | |"));
 }
 
 TEST(EvaluationTable, OtherScenariosHaveNoColumnOfThePaper) {

@@ -45,6 +45,34 @@ TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
   EXPECT_NE(summary_of(scenario, {.steps = 30}).trace_sha256, trace);
 }
 
+TEST(Experiment, ALateControllerFallsBackAndSaysNothingMore) {
+  const Scenario scenario = scenario_of("paper_red_alone");
+  std::size_t asked = 0;
+  JointStepRules rules;
+  rules.is_late = [&asked](const Controller&) { return ++asked % 4 == 0; };
+  const Experiment experiment = drive_experiment(scenario, {.steps = 20, .rules = rules});
+  const auto is_late = [](const ReportRecord& record) {
+    return record.report.reason == FallbackReason::kLate;
+  };
+  EXPECT_GE(asked, 19U);
+  EXPECT_EQ(std::ranges::count_if(experiment.reports, is_late),
+            static_cast<std::ptrdiff_t>(asked / 4));
+}
+
+TEST(Experiment, WallTimesAreThoseOfTheClockAndTheirSumIsNotMoreThanTheWhole) {
+  Nanoseconds now = 0;
+  const auto clock = [&now] { return now += 1'000; };
+  const Experiment experiment =
+      drive_experiment(scenario_of("paper_three_cars"), {.steps = 10, .wall_clock = clock});
+  const WallTimes& wall = experiment.wall;
+  EXPECT_GT(wall.planning_s, 0.0);
+  EXPECT_GT(wall.coordination_s, 0.0);
+  EXPECT_GT(wall.vehicles_s, 0.0);
+  EXPECT_LE(wall.planning_s + wall.coordination_s + wall.vehicles_s, experiment.facts.wall_s);
+  // One plan of a vehicle: two looks at the clock.
+  EXPECT_NEAR(wall.planning_s, 3.0 * 10.0 * 1e-6, 1e-6 * 6.1);
+}
+
 TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
   const Scenario scenario = scenario_of("paper_red_alone");
   const Experiment experiment =

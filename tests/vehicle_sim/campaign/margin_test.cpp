@@ -173,28 +173,35 @@ std::vector<Point> winding_path(std::mt19937_64& random, double max_curvature_pe
 }
 
 /// One drive along a random path, some with a start askew, with bursts of steps without a new plan.
-controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise, double give_up_rate) {
+controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise, double late_rate) {
   static const auto subgraph =
       std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
   std::mt19937_64 random(seed);
-  ControllerOptions options{.vehicle = {1}};
-  options.search.max_expansions = 3'000;
   const double max_curvature_per_m = 3.0 + 2.0 * static_cast<double>(seed % 3);
-  Controller controller(options, subgraph,
-                        ReferencePath(winding_path(random, max_curvature_per_m), false),
-                        Corridor{});
+  const ReferencePath path(winding_path(random, max_curvature_per_m), false);
   std::uniform_real_distribution<double> turn(-1.2, 1.2);
   const Pose start{0.0, 0.0, seed % 2 == 0 ? 0.0 : turn(random)};
-  std::bernoulli_distribution begins(give_up_rate);
+  std::bernoulli_distribution begins(late_rate);
   std::size_t burst = 0;
-  const auto gives_up = [&](std::uint64_t) {
+  const auto is_late = [&] {
     if (burst == 0 && begins(random)) burst = 1 + random() % 10;
     if (burst == 0) return false;
     --burst;
     return true;
   };
-  return controlled_loop::drive(controller, start, 70,
-                                with_noise ? std::optional(seed) : std::nullopt, gives_up);
+  const Profile profile = profile_from_name("default");
+  const Scenario scenario{
+      .name = "winding path",
+      .steps = 70,
+      .horizon_steps = 8,
+      .reference_speed_mps = 0.8,
+      .profile = profile,
+      .search = {.engine = profile.engine,
+                 .cost_to_go = profile.cost_to_go,
+                 .max_expansions = 3'000},
+      .subgraph = subgraph,
+      .vehicles = {{.id = {1}, .name = "car", .start = start, .path = path, .corridor = {}}}};
+  return controlled_loop::drive(scenario, with_noise ? std::optional(seed) : std::nullopt, is_late);
 }
 
 // Paths sharper than the vehicle can turn, so that full lock is used often; plans driven to their
@@ -204,11 +211,11 @@ TEST(Margin, TheAreasThatAControllerTellsHoldItsVehicleAtEveryTick) {
   controlled_loop::Stray all;
   double largest_without_limit_m = 0.0;
   for (const bool with_noise : {false, true}) {
-    for (const double give_up_rate : {0.0, 0.05, 0.3}) {
+    for (const double late_rate : {0.0, 0.05, 0.3}) {
       for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed) + (with_noise ? ", noise" : "") +
-                     ", gives up at a rate of " + std::to_string(give_up_rate));
-        const controlled_loop::Stray stray = drive_along(seed, with_noise, give_up_rate);
+                     ", late at a rate of " + std::to_string(late_rate));
+        const controlled_loop::Stray stray = drive_along(seed, with_noise, late_rate);
         EXPECT_LE(stray.outside_m, 1e-6) << "tick " << stray.outside_tick;
         EXPECT_LE(stray.beyond_reach_m, 2e-5);
         all.steps_at_limit += stray.steps_at_limit;
@@ -222,6 +229,7 @@ TEST(Margin, TheAreasThatAControllerTellsHoldItsVehicleAtEveryTick) {
     }
   }
   EXPECT_GT(all.steps_at_limit, 500U) << "the paths are to be hard";
+  EXPECT_GT(all.fallback_steps, 1'000U) << "plans are to be driven to their end";
   EXPECT_GT(all.deviation_m, 2.0 * margin_m());
   std::printf(
       "%llu drives: %zu steps at the limit, %zu without a new plan; farthest from the plan "

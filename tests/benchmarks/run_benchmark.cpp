@@ -1,0 +1,105 @@
+// How long a whole run takes within one process: planning and coordination alone, with vehicles
+// that follow perfectly, and with simulated vehicles, and where that time goes.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "planner/apps/flags.hpp"
+#include "planner/rollout/rollout.hpp"
+#include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/campaign/experiment.hpp"
+
+namespace {
+
+hlc::Nanoseconds wall_clock() {
+  return static_cast<hlc::Nanoseconds>(
+      std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count());
+}
+
+double since_ms(hlc::Nanoseconds from) { return 1e-6 * static_cast<double>(wall_clock() - from); }
+
+/// All steps; making the controllers (their tables) is not timed: a run does it before its start.
+double rollout_ms(const hlc::Scenario& scenario) {
+  hlc::Rollout rollout = hlc::make_rollout(scenario);
+  const hlc::Nanoseconds from = wall_clock();
+  for (std::size_t i = 0; i < scenario.steps; ++i) static_cast<void>(rollout.step());
+  return since_ms(from);
+}
+
+struct Times {
+  std::vector<double> rollout_ms;
+  std::vector<double> run_ms;  ///< with simulated vehicles; of it:
+  std::vector<double> planning_ms;
+  std::vector<double> coordination_ms;
+  std::vector<double> vehicles_ms;
+  std::vector<double> rest_ms;
+};
+
+void add_run(const hlc::Scenario& scenario, Times& times) {
+  const hlc::Experiment experiment =
+      hlc::drive_experiment(scenario, {.steps = scenario.steps, .wall_clock = wall_clock});
+  const hlc::WallTimes& wall = experiment.wall;
+  const double run_ms = 1e3 * experiment.facts.wall_s;
+  times.run_ms.push_back(run_ms);
+  times.planning_ms.push_back(1e3 * wall.planning_s);
+  times.coordination_ms.push_back(1e3 * wall.coordination_s);
+  times.vehicles_ms.push_back(1e3 * wall.vehicles_s);
+  times.rest_ms.push_back(run_ms - 1e3 * (wall.planning_s + wall.coordination_s + wall.vehicles_s));
+}
+
+void print(const char* what, std::vector<double> sample, double run_s) {
+  std::ranges::sort(sample);
+  const double median = sample[sample.size() / 2];
+  std::printf("%-46s %8.2f %8.2f %8.2f", what, sample.front(), median, sample.back());
+  if (run_s > 0.0) std::printf(" %10.0f", 1e3 * run_s / median);
+  std::printf("\n");
+}
+
+void run(const hlc::ScenarioChoices& choices, std::size_t repeats) {
+  const hlc::Scenario scenario = hlc::read_scenario(choices);
+  const double run_s = static_cast<double>(scenario.steps) * scenario.subgraph->automaton().step_s;
+  Times times;
+  for (std::size_t i = 0; i < repeats; ++i) {
+    times.rollout_ms.push_back(rollout_ms(scenario));
+    add_run(scenario, times);
+  }
+  std::printf("%s, subgraph %s, profile %s: %zu vehicles, %zu steps, %zu repeats, wall time [ms]\n",
+              scenario.name.c_str(), scenario.subgraph->spec().name.c_str(),
+              scenario.profile.name.c_str(), scenario.vehicles.size(), scenario.steps, repeats);
+  std::printf("%-46s %8s %8s %8s %10s\n", "", "min", "median", "max", "x realtime");
+  print("planning and coordination (perfect vehicles)", times.rollout_ms, run_s);
+  print("whole run with simulated vehicles", times.run_ms, run_s);
+  print("  planning", times.planning_ms, 0.0);
+  print("  coordination", times.coordination_ms, 0.0);
+  print("  simulated vehicles", times.vehicles_ms, 0.0);
+  print("  rest (messages, lab control)", times.rest_ms, 0.0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Times whole runs of a scenario within this process.", "run_benchmark"};
+  hlc::ScenarioChoices choices;
+  std::size_t repeats = 20;
+  hlc::declare_scenario_flags(app, choices);
+  app.get_option("--scenario")->required(false)->capture_default_str();
+  choices.file = "launch_scripts/scenarios/paper_three_cars.yaml";
+  app.add_option("--steps", choices.steps, "instead of the scenario's")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--repeats", repeats, "how often")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.footer("Exit codes: 0 good, 2 bad input.");
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  try {
+    run(choices, repeats);
+  } catch (const std::exception& error) {
+    std::cerr << "run_benchmark: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

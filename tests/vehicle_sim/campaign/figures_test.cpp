@@ -1,0 +1,112 @@
+#include "vehicle_sim/campaign/figures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/plot/scenario_plot.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<DrivenRun> runs_of(const std::string& scenario, std::vector<std::string> subgraphs) {
+  const Campaign campaign(
+      {.scenarios = {HLC_SOURCE_DIR "/launch_scripts/scenarios/" + scenario + ".yaml"},
+       .profiles = {"default"},
+       .subgraphs = std::move(subgraphs),
+       .steps = 15});
+  Nanoseconds now = 0;
+  std::vector<DrivenRun> runs;
+  for (std::size_t i = 0; i < campaign.runs().size(); ++i) {
+    runs.push_back(campaign.drive(i, [&now] { return now += 50'000; }));
+  }
+  return runs;
+}
+
+std::size_t count(const std::string& text, const std::string& piece) {
+  std::size_t sum = 0;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) {
+    ++sum;
+  }
+  return sum;
+}
+
+/// Numbers that no figure may hold.
+void expect_finite(const std::string& svg) {
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
+TEST(Figures, PathsShowEverySubgraphAndTheLaneAndAPartEnlarged) {
+  const std::vector<DrivenRun> runs = runs_of("paper_red_alone", {"B", "D"});
+  const std::string svg = paths_figure(runs, map_of(runs.front().scenario));
+  for (const char* text : {"subgraph B", "subgraph D", "centre of the lane", "x [m]", "y [m]"}) {
+    EXPECT_THAT(svg, HasSubstr(std::string(">") + text + "<"));
+  }
+  EXPECT_EQ(count(svg, "<clipPath"), 1U);
+  EXPECT_EQ(count(svg, "stroke=\"#1f4fd8\" stroke-width=\"1.50\""), 2U);  // whole and enlarged
+  EXPECT_GT(count(svg, "#f0f0f0"), 10U);
+  expect_finite(svg);
+  const std::string on_open_ground = paths_figure(runs, std::nullopt);
+  EXPECT_THAT(on_open_ground, HasSubstr(">reference path<"));
+  EXPECT_EQ(count(on_open_ground, "#f0f0f0"), 0U);
+}
+
+TEST(Figures, ThePartEnlargedIsWhereTwoDifferThoughAThirdStands) {
+  std::vector<DrivenRun> runs = runs_of("paper_red_alone", {"B", "D"});
+  const auto ticks = [&](const std::string& svg) {
+    const std::string panel = svg.substr(0, svg.find("where they differ most"));
+    return panel.substr(panel.rfind("<g>"));  // grid and ticks of the second panel
+  };
+  const std::string of_two = ticks(paths_figure(runs, std::nullopt));
+  DrivenRun standing = runs.front();
+  Drive& drive = standing.experiment.drives.begin()->second;
+  for (DrivenSample& sample : drive) sample.pose = drive.front().pose;
+  runs.push_back(standing);
+  EXPECT_EQ(ticks(paths_figure(runs, std::nullopt)), of_two);
+}
+
+TEST(Figures, ErrorIsDrawnForEverySubgraphAndALapIsMarked) {
+  const std::string svg = error_figure(runs_of("paper_red_alone", {"B", "D"}));
+  for (const char* text :
+       {"subgraph B", "subgraph D", "one lap", "distance to the lane's centre [mm]"}) {
+    EXPECT_THAT(svg, HasSubstr(std::string(">") + text + "<"));
+  }
+  EXPECT_EQ(count(svg, "<polyline"), 3U);
+  expect_finite(svg);
+}
+
+TEST(Figures, VerticesHaveOnePanelPerSubgraphWithTwoLinesPerVehicle) {
+  const std::string svg = vertices_figure(runs_of("paper_three_cars", {"B", "D"}));
+  EXPECT_EQ(count(svg, ">subgraph "), 2U);
+  EXPECT_EQ(count(svg, "<polyline"), 2U * 3U * 2U);
+  EXPECT_EQ(count(svg, ">red<"), 1U);
+  EXPECT_THAT(svg, HasSubstr(">100<"));  // a power of ten among the ticks
+  expect_finite(svg);
+}
+
+TEST(Figures, PlanningTimesThatNobodyMeasuredAreLeftOut) {
+  std::vector<DrivenRun> runs = runs_of("paper_red_alone", {"B"});
+  const std::string measured = planning_time_figure(runs);
+  expect_finite(measured);
+  for (ReportRecord& record : runs.front().experiment.reports) record.planning_ns = 0;
+  const std::string unmeasured = planning_time_figure(runs);
+  expect_finite(unmeasured);
+  EXPECT_NE(measured, unmeasured);
+  EXPECT_THAT(measured, HasSubstr(">length of a step<"));
+}
+
+TEST(Figures, DistancesHaveALinePerPairAndThoseOfContactAndMargins) {
+  const std::string svg = distance_figure(runs_of("paper_three_cars", {"B"}));
+  for (const char* text : {"red and blue", "red and green", "blue and green", "contact",
+                           "safety margins of both", "distance of footprints [m]"}) {
+    EXPECT_EQ(count(svg, std::string(">") + text + "<"), 1U) << text;
+  }
+  EXPECT_EQ(count(svg, "<polyline"), 3U + 2U);
+  expect_finite(svg);
+}
+
+}  // namespace
+}  // namespace hlc

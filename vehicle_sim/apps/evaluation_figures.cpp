@@ -1,0 +1,171 @@
+#include "vehicle_sim/apps/evaluation_figures.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "hlc_bridge/record/text_file.hpp"
+#include "planner/maneuver_design/automaton_builder.hpp"
+#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/maneuver_design/built_automaton.hpp"
+#include "planner/maneuver_design/criteria.hpp"
+#include "planner/plot/automaton_plot.hpp"
+#include "planner/plot/pareto_plot.hpp"
+#include "planner/plot/scenario_plot.hpp"
+#include "vehicle_sim/campaign/figures.hpp"
+
+namespace hlc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The maneuver of the paper's Fig. 1.
+constexpr Trim kParetoFrom{};
+constexpr Trim kParetoTo{.speed_mps = 2.3, .steering_rad = 0.62};
+constexpr std::size_t kParetoPoints = 31;
+
+std::string pareto_set(const fs::path& configuration) {
+  const AutomatonConfiguration c = read_automaton_configuration(configuration);
+  ParetoProblem problem{.maneuver = problem_between(kParetoFrom, kParetoTo, c)};
+  const ParetoDescription description{
+      kParetoFrom, kParetoTo, problem.maneuver.duration_s, {"J1", "J2"}};
+  for (const std::string& name : description.criteria) {
+    problem.criteria.push_back(make_criterion(name, c.vehicle));
+  }
+  const ParetoOptions options{.points = kParetoPoints};
+  const ParetoFront front = epsilon_constraint_front(problem, options);
+  if (front.status != ManeuverStatus::kOptimal) {
+    throw std::runtime_error(configuration.string() + ": " + front.reason);
+  }
+  return pareto_plot(front, weighted_sum_front(problem, options), description);
+}
+
+/// The whole automaton; a scenario holds only what its subgraph needs.
+std::string automaton(const fs::path& file) {
+  if (is_automaton_file(file)) return automaton_plot(read_current_automaton_file(file));
+  const AutomatonConfiguration configuration = read_automaton_configuration(file);
+  return automaton_plot(file_of(configuration, build_automaton(configuration)));
+}
+
+using RunsFigure = std::string (*)(std::span<const DrivenRun>, const std::optional<LaneletMap>&);
+
+/// Figures that need driven runs.
+const std::vector<std::pair<std::string, RunsFigure>>& runs_figures() {
+  static const std::vector<std::pair<std::string, RunsFigure>> figures{
+      {"paths", paths_figure},
+      {"error", [](auto runs, const auto&) { return error_figure(runs); }},
+      {"vertices", [](auto runs, const auto&) { return vertices_figure(runs); }},
+      {"planning_time", [](auto runs, const auto&) { return planning_time_figure(runs); }},
+      {"distance", [](auto runs, const auto&) { return distance_figure(runs); }}};
+  return figures;
+}
+
+class Drawing {
+ public:
+  Drawing(const Campaign& campaign, const FigureChoices& choices, fs::path folder)
+      : campaign_(campaign), choices_(choices), folder_(std::move(folder)) {
+    fs::create_directories(folder_);
+  }
+
+  std::vector<fs::path> draw() {
+    if (is_wanted("pareto_set")) {
+      choices_.say("the Pareto set of Fig. 1");
+      write("pareto_set", pareto_set(choices_.pareto_configuration));
+    }
+    std::set<fs::path> automata;
+    std::set<fs::path> scenarios;
+    for (const CampaignRun& run : campaign_.runs()) {
+      const Scenario& scenario = campaign_.scenario_of(run);
+      const std::string name = run.scenario.stem().string();
+      if (is_wanted("automaton") && automata.insert(scenario.automaton_file).second) {
+        choices_.say("the automaton of " + name);
+        write("automaton_" + scenario.automaton_file.stem().string(),
+              automaton(scenario.automaton_file));
+      }
+      if (is_wanted("scenario") && scenarios.insert(run.scenario).second) {
+        write("scenario_" + name, scenario_plot(scenario, map_of(scenario)));
+      }
+    }
+    if (std::ranges::any_of(runs_figures(),
+                            [&](const auto& figure) { return is_wanted(figure.first); })) {
+      draw_runs();
+    }
+    return written_;
+  }
+
+ private:
+  [[nodiscard]] bool is_wanted(const std::string& name) const {
+    return std::ranges::find(choices_.names, name) != choices_.names.end();
+  }
+
+  void write(const std::string& name, const std::string& svg) {
+    written_.push_back(folder_ / (name + ".svg"));
+    write_file(written_.back(), svg);
+  }
+
+  /// Numbers of the runs with the first start, by scenario and profile.
+  [[nodiscard]] std::map<std::pair<fs::path, std::string>, std::vector<std::size_t>> groups()
+      const {
+    std::map<std::pair<fs::path, std::string>, std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < campaign_.runs().size(); ++i) {
+      const CampaignRun& run = campaign_.runs()[i];
+      if (run.start == 0) groups[{run.scenario, run.profile}].push_back(i);
+    }
+    return groups;
+  }
+
+  void draw_runs() {
+    for (const auto& [group, numbers] : groups()) {
+      const std::string name = group.first.stem().string() + "_" + group.second;
+      choices_.say("the runs of " + name);
+      std::vector<DrivenRun> runs;
+      for (const std::size_t i : numbers) {
+        // A run that fails is recorded with its reason among the campaign's.
+        try {
+          DrivenRun run = campaign_.drive(i, choices_.wall_clock);
+          if (run.experiment.facts.exit_code == 0) runs.push_back(std::move(run));
+        } catch (const std::exception&) {
+          continue;
+        }
+      }
+      if (runs.empty()) continue;
+      const std::optional<LaneletMap> map = map_of(runs.front().scenario);
+      for (const auto& [figure, draw] : runs_figures()) {
+        if (!is_wanted(figure)) continue;
+        if (figure == "distance" && runs.front().scenario.vehicles.size() < 2) continue;
+        write(figure + "_" + name, draw(runs, map));
+      }
+    }
+  }
+
+  const Campaign& campaign_;
+  const FigureChoices& choices_;
+  fs::path folder_;
+  std::vector<fs::path> written_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& figure_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"pareto_set", "automaton", "scenario"};
+    for (const auto& [name, draw] : runs_figures()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+void check_figures(const FigureChoices& choices) {
+  if (std::ranges::find(choices.names, "pareto_set") != choices.names.end()) {
+    static_cast<void>(read_automaton_configuration(choices.pareto_configuration));
+  }
+}
+
+std::vector<fs::path> draw_figures(const Campaign& campaign, const FigureChoices& choices,
+                                   const fs::path& folder) {
+  return Drawing(campaign, choices, folder).draw();
+}
+
+}  // namespace hlc

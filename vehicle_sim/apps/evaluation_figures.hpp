@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vehicle_sim/campaign/campaign.hpp"
+
+namespace hlc {
+
+/// Names of the figures that an evaluation can draw:
+///
+/// | name            | shows                                                    | one for each |
+/// |-----------------|----------------------------------------------------------|--------------------|
+/// | `pareto_set`    | the paper's Fig. 1                                       | campaign | |
+/// `automaton`     | its Fig. 2                                               | automaton | |
+/// `scenario`      | its Fig. 3                                               | scenario | |
+/// `paths`         | its Fig. 4: driven paths of the first vehicle            | scenario, profile |
+/// | `error`         | its reference error over arc length                      | scenario, profile
+/// | | `vertices`      | generated and expanded over time                         | scenario,
+/// profile  | | `planning_time` | the distribution of planning times                       |
+/// scenario, profile  | | `distance`      | distances between vehicles over time, if there are any
+/// | scenario, profile  |
+///
+/// The last five are of the first start (where the scenario has the cars) and have a line or a
+/// panel for every subgraph.
+[[nodiscard]] const std::vector<std::string>& figure_names();
+
+struct FigureChoices {
+  std::vector<std::string> names;               ///< of figure_names()
+  std::filesystem::path pareto_configuration;   ///< automaton configuration for `pareto_set`
+  std::function<Nanoseconds()> wall_clock;      ///< for `planning_time`
+  std::function<void(const std::string&)> say;  ///< called with a line on what is being drawn
+};
+
+/// To be called before anything is driven.
+/// @throws std::invalid_argument or std::runtime_error with one line if a file that the figures
+/// need cannot be read
+void check_figures(const FigureChoices& choices);
+
+/// Draws into `folder`, which is made: NAME.svg, NAME_SCENARIO.svg, NAME_SCENARIO_PROFILE.svg.
+/// Runs are driven again for their series, one at a time, so planning times are measured
+/// undisturbed by other runs. A run that fails is left out.
+/// @throws std::runtime_error if a file cannot be written
+/// @return the files
+std::vector<std::filesystem::path> draw_figures(const Campaign& campaign,
+                                                const FigureChoices& choices,
+                                                const std::filesystem::path& folder);
+
+}  // namespace hlc

@@ -1,0 +1,70 @@
+#include "vehicle_sim/campaign/figures.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/core/encounters.hpp"
+#include "hlc_bridge/core/run_description.hpp"
+#include "vehicle_sim/campaign/figure_parts.hpp"
+
+namespace hlc {
+namespace {
+
+/// None of those that vehicles have.
+std::string pair_colour(std::size_t pair) { return series_colour(pair + 3); }
+
+PlotPanel distance_panel(const DrivenRun& run) {
+  PlotPanel panel{
+      .title = subgraph_name(run), .x_label = "time [s]", .y_label = "distance of footprints [m]"};
+  const RunDescription description = describe(run.scenario, std::nullopt);
+  const auto [from, to] = times_of(run.experiment.facts);
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < description.vehicles.size(); ++i) {
+    for (std::size_t j = i + 1; j < description.vehicles.size(); ++j) {
+      const VehicleDescription& a = description.vehicles[i];
+      const VehicleDescription& b = description.vehicles[j];
+      const Drives& drives = run.experiment.drives;
+      PlotPoints points;
+      for (const TimedDistance& one :
+           footprint_distances(a, drives.at(a.id.value), b, drives.at(b.id.value), from, to)) {
+        points.emplace_back(seconds_after(one.t, from), one.distance_m);
+      }
+      panel.lines.push_back({.points = std::move(points), .colour = pair_colour(pair)});
+      panel.legend.push_back(
+          {.text = a.name + " and " + b.name, .colour = pair_colour(pair), .radius_px = 0.0});
+      ++pair;
+    }
+  }
+  const double end_s = seconds_after(to, from);
+  const double margins_m = 2.0 * run.scenario.subgraph->automaton().vehicle.safety_margin_m;
+  panel.lines.push_back({.points = {{0.0, 0.0}, {end_s, 0.0}}, .colour = "#000000"});
+  panel.lines.push_back({.points = {{0.0, margins_m}, {end_s, margins_m}},
+                         .colour = kMarkColour,
+                         .stroke = Stroke::kDashed});
+  panel.legend.push_back({.text = "contact", .colour = "#000000", .radius_px = 0.0});
+  panel.legend.push_back({.text = "safety margins of both",
+                          .colour = kMarkColour,
+                          .radius_px = 0.0,
+                          .stroke = Stroke::kDashed});
+  return panel;
+}
+
+}  // namespace
+
+std::string distance_figure(std::span<const DrivenRun> runs) {
+  constexpr double kShown_m = 0.6;
+  std::vector<PlotPanel> panels;
+  double end_s = 0.0;
+  for (const DrivenRun& run : runs) {
+    panels.push_back(distance_panel(run));
+    const auto [from, to] = times_of(run.experiment.facts);
+    end_s = std::max(end_s, seconds_after(to, from));
+  }
+  share_range(panels, end_s, -0.03, kShown_m);
+  const std::vector<PlotLegend> legend = taken_legend(panels);
+  return svg_of(figure_title("Distance between driven vehicles, where below 0.6 m", runs), panels,
+                columns_for(panels.size()), kSmallPanel, legend);
+}
+
+}  // namespace hlc

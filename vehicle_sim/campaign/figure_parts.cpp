@@ -1,0 +1,69 @@
+#include "vehicle_sim/campaign/figure_parts.hpp"
+
+#include <algorithm>
+
+namespace hlc {
+namespace {
+
+Stroke stroke_of(std::size_t series) { return series % 2 == 1 ? Stroke::kDashed : Stroke::kSolid; }
+
+}  // namespace
+
+const ScenarioVehicle& first_vehicle(const DrivenRun& run) { return run.scenario.vehicles.front(); }
+
+std::string subgraph_name(const DrivenRun& run) {
+  return "subgraph " + run.scenario.subgraph->spec().name;
+}
+
+std::string figure_title(const std::string& what, std::span<const DrivenRun> runs) {
+  const Scenario& scenario = runs.front().scenario;
+  return what + " (" + scenario.name + ", profile " + scenario.profile.name + ")";
+}
+
+std::pair<Nanoseconds, Nanoseconds> times_of(const RunFacts& facts) {
+  const Nanoseconds from = facts.first_step.value_or(0) * facts.period;
+  return {from, from + facts.steps * facts.period};
+}
+
+double seconds_after(Nanoseconds t, Nanoseconds from) {
+  return 1e-9 * (static_cast<double>(t) - static_cast<double>(from));
+}
+
+std::vector<StepRecord> steps_of(const DrivenRun& run) {
+  return step_records(run.experiment.reports, run.experiment.drives, run.experiment.facts);
+}
+
+bool has_searched(const Report& report) {
+  return report.status == StepStatus::kPlanned || report.status == StepStatus::kFallback;
+}
+
+void add_series(std::size_t series, const std::string& name, PlotPoints points, PlotPanel& panel) {
+  panel.lines.push_back({.points = std::move(points),
+                         .colour = series_colour(series),
+                         .width_px = 1.5,
+                         .stroke = stroke_of(series)});
+  panel.legend.push_back({.text = name,
+                          .colour = series_colour(series),
+                          .radius_px = 0.0,
+                          .stroke = stroke_of(series)});
+}
+
+std::vector<PlotLegend> taken_legend(std::vector<PlotPanel>& panels) {
+  std::vector<PlotLegend> legend = panels.front().legend;
+  for (PlotPanel& panel : panels) panel.legend.clear();
+  return legend;
+}
+
+void bring_dashed_to_front(PlotPanel& panel) {
+  std::ranges::stable_partition(panel.lines,
+                                [](const PlotLine& line) { return line.stroke == Stroke::kSolid; });
+}
+
+void share_range(std::vector<PlotPanel>& panels, double x_max, double y_min, double y_max) {
+  for (PlotPanel& panel : panels)
+    panel.range = Eigen::AlignedBox2d(Point(0.0, y_min), Point(x_max, y_max));
+}
+
+std::size_t columns_for(std::size_t panels) { return panels == 1 ? 1 : 2; }
+
+}  // namespace hlc

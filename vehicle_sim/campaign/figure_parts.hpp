@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/plot/svg_plot.hpp"
+#include "vehicle_sim/campaign/campaign.hpp"
+
+/// What the figures of runs have in common.
+namespace hlc {
+
+using PlotPoints = std::vector<Eigen::Vector2d>;
+
+/// Of lines that are no series: bounds, marks.
+inline constexpr char kMarkColour[] = "#444444";
+
+/// One of several panels.
+inline constexpr PlotSize kSmallPanel{.width_px = 620.0, .height_px = 340.0};
+
+/// The vehicle of highest priority.
+[[nodiscard]] const ScenarioVehicle& first_vehicle(const DrivenRun& run);
+
+/// "subgraph B"
+[[nodiscard]] std::string subgraph_name(const DrivenRun& run);
+
+/// With scenario and profile.
+[[nodiscard]] std::string figure_title(const std::string& what, std::span<const DrivenRun> runs);
+
+/// From the first step to the end of the last one.
+[[nodiscard]] std::pair<Nanoseconds, Nanoseconds> times_of(const RunFacts& facts);
+
+[[nodiscard]] double seconds_after(Nanoseconds t, Nanoseconds from);
+
+[[nodiscard]] std::vector<StepRecord> steps_of(const DrivenRun& run);
+
+/// False before the start and after the end.
+[[nodiscard]] bool has_searched(const Report& report);
+
+/// A line with its entry in the legend. Every second series is dashed, so that two that lie on each
+/// other both show (see bring_dashed_to_front).
+void add_series(std::size_t series, const std::string& name, PlotPoints points, PlotPanel& panel);
+
+/// What lies below dashed lines still shows.
+void bring_dashed_to_front(PlotPanel& panel);
+
+/// The legend of the first panel, which then stands above them all; takes it from all of them.
+[[nodiscard]] std::vector<PlotLegend> taken_legend(std::vector<PlotPanel>& panels);
+
+/// The same ranges for all panels, from x = 0, so that they can be compared.
+void share_range(std::vector<PlotPanel>& panels, double x_max, double y_min, double y_max);
+
+/// Two, or one for a single panel.
+[[nodiscard]] std::size_t columns_for(std::size_t panels);
+
+}  // namespace hlc

@@ -1,0 +1,152 @@
+#include "vehicle_sim/campaign/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planner/plot/scenario_plot.hpp"
+#include "vehicle_sim/campaign/figure_parts.hpp"
+
+namespace hlc {
+namespace {
+
+using Range = Eigen::AlignedBox2d;
+
+/// One panel of vertices_figure; the smallest and largest number are noted in `range`.
+PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
+  PlotPanel panel{.title = subgraph_name(run), .x_label = "time [s]", .y_label = "vertices"};
+  panel.y_scale = Scale::kLog;
+  const double step_s = run.scenario.subgraph->automaton().step_s;
+  const std::vector<StepRecord> rows = steps_of(run);
+  for (std::size_t i = 0; i < run.scenario.vehicles.size(); ++i) {
+    const ScenarioVehicle& vehicle = run.scenario.vehicles[i];
+    const std::string colour = car_colour(run.scenario, i);
+    for (const auto& [field, stroke] : {std::pair{&Report::generated, Stroke::kSolid},
+                                        std::pair{&Report::expanded, Stroke::kDashed}}) {
+      PlotLine line{.colour = colour, .width_px = 1.1, .stroke = stroke};
+      const auto end_piece = [&] {
+        if (line.points.size() > 1) panel.lines.push_back(line);
+        line.points.clear();
+      };
+      for (const StepRecord& row : rows) {
+        const Report& report = row.record.report;
+        if (report.vehicle != vehicle.id) continue;
+        const auto count = static_cast<double>(report.*field);
+        if (!has_searched(report) || count < 1.0) {
+          end_piece();
+          continue;
+        }
+        line.points.emplace_back(step_s * static_cast<double>(row.step), count);
+        range.extend(line.points.back());
+      }
+      end_piece();
+    }
+    panel.legend.push_back({.text = vehicle.name, .colour = colour, .radius_px = 0.0});
+  }
+  panel.legend.push_back({.text = "solid: generated", .colour = "#444444", .radius_px = 0.0});
+  panel.legend.push_back({.text = "dashed: expanded",
+                          .colour = "#444444",
+                          .radius_px = 0.0,
+                          .stroke = Stroke::kDashed});
+  return panel;
+}
+
+/// Sorted, in ms; without those that nobody measured.
+std::vector<double> planning_times_ms(const DrivenRun& run) {
+  std::vector<double> times_ms;
+  for (const StepRecord& row : steps_of(run)) {
+    if (has_searched(row.record.report) && row.record.planning_ns > 0) {
+      times_ms.push_back(1e-6 * static_cast<double>(row.record.planning_ns));
+    }
+  }
+  std::ranges::sort(times_ms);
+  return times_ms;
+}
+
+/// Ten bins a decade, as steps; heights are percentages of the sample.
+PlotPoints histogram(const std::vector<double>& sorted) {
+  constexpr double kBinsPerDecade = 10.0;
+  const auto bin_of = [](double value) {
+    return static_cast<int>(std::floor(kBinsPerDecade * std::log10(value)));
+  };
+  std::map<int, std::size_t> counts;
+  for (const double value : sorted) ++counts[bin_of(value)];
+  PlotPoints points;
+  if (sorted.empty()) return points;
+  const auto add = [&](int bin, double height) {
+    points.emplace_back(std::pow(10.0, bin / kBinsPerDecade), height);
+  };
+  const int first = counts.begin()->first;
+  const int last = counts.rbegin()->first;
+  add(first, 0.0);
+  for (int bin = first; bin <= last; ++bin) {
+    const double height =
+        100.0 * static_cast<double>(counts[bin]) / static_cast<double>(sorted.size());
+    add(bin, height);
+    add(bin + 1, height);
+  }
+  add(last + 1, 0.0);
+  return points;
+}
+
+/// Share [%] of the sample above each of its values; the largest has none above it and ends the
+/// line at the share of itself.
+PlotPoints exceedance(const std::vector<double>& sorted) {
+  PlotPoints points;
+  const auto count = static_cast<double>(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const double at_least = 100.0 * (count - static_cast<double>(i)) / count;
+    points.emplace_back(sorted[i], at_least);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string vertices_figure(std::span<const DrivenRun> runs) {
+  std::vector<PlotPanel> panels;
+  Range range;
+  for (const DrivenRun& run : runs) panels.push_back(vertices_panel(run, range));
+  if (!range.isEmpty()) share_range(panels, range.max().x(), 0.8, 2.0 * range.max().y());
+  const std::vector<PlotLegend> legend = taken_legend(panels);
+  return svg_of(figure_title("Vertices of each step's search", runs), panels,
+                columns_for(panels.size()), kSmallPanel, legend);
+}
+
+std::string planning_time_figure(std::span<const DrivenRun> runs) {
+  PlotPanel density{.title = "distribution (ten bins a decade)",
+                    .x_label = "planning time [ms]",
+                    .y_label = "share of the plans [%]"};
+  PlotPanel tail{.title = "how many took at least so long",
+                 .x_label = "planning time [ms]",
+                 .y_label = "share of the plans [%]"};
+  density.x_scale = Scale::kLog;
+  tail.x_scale = Scale::kLog;
+  tail.y_scale = Scale::kLog;
+  double highest = 1.0;
+  double lowest = 100.0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::vector<double> times_ms = planning_times_ms(runs[i]);
+    const PlotPoints bars = histogram(times_ms);
+    for (const Eigen::Vector2d& point : bars) highest = std::max(highest, point.y());
+    if (!times_ms.empty()) lowest = std::min(lowest, 100.0 / static_cast<double>(times_ms.size()));
+    add_series(i, subgraph_name(runs[i]), bars, density);
+    add_series(i, subgraph_name(runs[i]), exceedance(times_ms), tail);
+  }
+  const double step_ms = 1e3 * runs.front().scenario.subgraph->automaton().step_s;
+  for (const auto& [panel, from, to] :
+       {std::tuple{&density, 0.0, highest}, std::tuple{&tail, lowest, 100.0}}) {
+    panel->lines.push_back({.points = {{step_ms, from}, {step_ms, to}}, .colour = kMarkColour});
+    panel->legend.push_back({.text = "length of a step", .colour = kMarkColour, .radius_px = 0.0});
+    bring_dashed_to_front(*panel);
+  }
+  std::vector<PlotPanel> panels{std::move(density), std::move(tail)};
+  const std::vector<PlotLegend> legend = taken_legend(panels);
+  return svg_of(figure_title("Planning time of all vehicles", runs), panels, 2,
+                {.width_px = 620.0, .height_px = 460.0}, legend);
+}
+
+}  // namespace hlc
