@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -254,6 +255,17 @@ void BranchAndBound::write_best(const HorizonProblem& problem, SearchResult& res
     result.maneuvers[j] = maneuver;
     result.poses[j] = {core_->best_x[j], core_->best_y[j], heading_rad};
   }
+}
+
+std::vector<double> BranchAndBound::estimates(const HorizonProblem& problem) {
+  core_->prepare(problem);
+  core_->kernel.expand(core_->search);
+  const std::size_t num_edges = subgraph_.successors(problem.start_trim).size();
+  std::vector<double> estimates(core_->path[0].keys, core_->path[0].keys + num_edges);
+  for (double& f : estimates) {
+    if (f >= kNoPath) f = std::numeric_limits<double>::infinity();
+  }
+  return estimates;
 }
 
 void BranchAndBound::prepare(const HorizonProblem& problem) { core_->prepare(problem); }

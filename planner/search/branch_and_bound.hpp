@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
@@ -66,10 +67,16 @@ class BranchAndBound final : public SearchEngine {
   void search(const HorizonProblem& problem, const std::function<bool()>& stop,
               SearchResult& result) override;
 
+  /// f of every edge out of the start, in the order of Subgraph::successors(start_trim), as the
+  /// search sees it; infinite for those that recursive feasibility or `avoids_steering_limit`
+  /// forbids. @pre as `search`, with a horizon of at least one step
+  [[nodiscard]] std::vector<double> estimates(const HorizonProblem& problem);
+
   /// Prepares the obstacles and the boundary of a problem, for `is_free`; `search` does it itself.
+  /// @param problem  must stay as it is while `is_free` is asked
   void prepare(const HorizonProblem& problem);
   /// As CollisionCheck::is_free, for the problem prepared last.
-  /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`
+  /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`; 1 <= step <= horizon
   [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
 
  private:

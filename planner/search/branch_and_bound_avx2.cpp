@@ -3,6 +3,6 @@
 
 namespace hlc::branch_and_bound {
 
-Kernel avx2_kernel() { return {prepare, run, is_free_entry}; }
+Kernel avx2_kernel() { return {prepare, run, expand_start, is_free_entry}; }
 
 }  // namespace hlc::branch_and_bound

@@ -227,6 +227,8 @@ struct Kernel {
   /// Leaves out of the problem's obstacles and boundary what the plan cannot meet.
   void (*prepare)(Plan& plan, const VertexData& start);
   void (*search)(Search& search);
+  /// Writes the keys of the start's children.
+  void (*expand)(Search& search);
   /// Is the edge free in step `step`, driven from this vertex?
   bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step,
                   const VertexData& vertex);

@@ -195,6 +195,8 @@ void run(Search& search) {
   search.best_cost = best;
 }
 
+void expand_start(Search& search) { expand(search, search.path[0], 0); }
+
 bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step,
                    const VertexData& vertex) {
   return is_free(search, edge, step, vertex);

@@ -3,6 +3,6 @@
 
 namespace hlc::branch_and_bound {
 
-Kernel portable_kernel() { return {prepare, run, is_free_entry}; }
+Kernel portable_kernel() { return {prepare, run, expand_start, is_free_entry}; }
 
 }  // namespace hlc::branch_and_bound
