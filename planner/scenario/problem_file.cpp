@@ -19,7 +19,6 @@ constexpr double kConvexTolerance_m = 1e-9;
 constexpr double kSmallestArea_m2 = 1e-12;
 
 // ---- writing
-// -------------------------------------------------------------------------------------
 
 std::string number(double value) {
   if (!std::isfinite(value)) {
@@ -51,11 +50,16 @@ std::string step_obstacles(const std::vector<ConvexPolygon>& areas_m) {
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
 // ---- reading
-// -------------------------------------------------------------------------------------
+
+double read_coordinate(const JsonPlace& place) {
+  const double value_m = place.number();
+  if (std::abs(value_m) > HorizonProblem::kLargest_m) place.fail("numbers from -1e9 to 1e9");
+  return value_m;
+}
 
 Point read_point(const JsonPlace& place) {
   const auto xy = place.list("[x, y]", 2);
-  return {xy[0].number(), xy[1].number()};
+  return {read_coordinate(xy[0]), read_coordinate(xy[1])};
 }
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -114,8 +118,8 @@ TrimId read_trim(const JsonPlace& place, const Subgraph& subgraph) {
 
 void read_start(const JsonPlace& place, const Subgraph& subgraph, HorizonProblem& problem) {
   place.check_keys({"x", "y", "psi", "trim"});
-  problem.start.x_m = place.at("x", "a finite number").number();
-  problem.start.y_m = place.at("y", "a finite number").number();
+  problem.start.x_m = read_coordinate(place.at("x", "a finite number"));
+  problem.start.y_m = read_coordinate(place.at("y", "a finite number"));
   problem.start.heading_rad = place.at("psi", "a finite number").number();
   problem.start_trim = read_trim(place.at("trim", "the number of a trim, from 1"), subgraph);
 }

@@ -9,6 +9,7 @@
 
 #include "planner/search/branch_and_bound_data.hpp"
 #include "planner/search/branch_and_bound_tables.hpp"
+#include "planner/search/collision.hpp"
 #include "planner/search/cost_to_go.hpp"
 #include "planner/search/prepared_obstacles.hpp"
 
@@ -33,15 +34,6 @@ branch_and_bound::Kernel choose_kernel(BranchAndBound::Instructions instructions
 
 Frame frame_of(const VertexData& vertex) {
   return {{vertex.x, vertex.y}, vertex.cos_heading, vertex.sin_heading};
-}
-
-/// Moves an area into `placed` and returns its box.
-Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed) {
-  placed.vertices_m.clear();
-  for (const Point& corner_m : area_m.vertices_m) {
-    placed.vertices_m.push_back(transformed(corner_m, start));
-  }
-  return bounding_box(placed);
 }
 
 }  // namespace
@@ -206,6 +198,9 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
     // The start's own bound is tighter than that of some of its children, now and then.
     const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, CostToGo::kReachable);
     const double of_start = cost_to_go(problem.start_trim, 0, to_frame(problem.start));
+    // Keys stand for f but for their last bits, which number the children.
+    constexpr double kLastBit = std::numeric_limits<double>::epsilon();
+    search.lower_bound *= 1.0 - kLastBit * static_cast<double>(core_->tables.view().index_mask + 1);
     search.lower_bound = std::max(search.lower_bound, of_start);
     give_up(has_path, search.lower_bound, result);
   } else if (has_path) {

@@ -154,7 +154,8 @@ bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step,
     const Floats dx = load(plan.circle_x + i) - centre_x;
     const Floats dy = load(plan.circle_y + i) - centre_y;
     const Floats reach = load(plan.circle_radius + i) + radius;
-    std::uint32_t near = lanes_less(dx * dx + dy * dy, reach * reach);
+    // What is not surely apart, so that what is no number is looked at.
+    std::uint32_t near = kEveryLane & ~lanes_less(reach * reach, dx * dx + dy * dy);
     for (; near != 0; near &= near - 1) {
       const std::uint32_t item = i + static_cast<std::uint32_t>(__builtin_ctz(near));
       ObstacleData& obstacle = plan.obstacles[item];
@@ -164,7 +165,8 @@ bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step,
         obstacle.is_ready = true;
       }
       const PolygonBlock* const blocks = plan.obstacle_blocks + polygon.first_block;
-      // In a large obstacle the centre tells at once; of areas alike it hardly ever does.
+      // The centre of the area's box lies in the area, which is convex. In a large obstacle it
+      // tells at once; of areas alike it hardly ever does.
       if (plan.circle_radius[item] > 2.0F * area.radius &&
           contains(blocks, polygon.num_blocks, centre_x, centre_y, tolerance)) {
         return true;
@@ -310,8 +312,6 @@ HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double*
 
 /// Obstacles that can be met in their step, with a circle around each.
 HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
-  // A little more than the circle, above the rounding of squares.
-  constexpr float kMore = 1.0F + 0x1p-20F;
   std::uint32_t count = 0;
   std::size_t next = 0;
   plan.first_obstacle[0] = 0;
@@ -417,13 +417,19 @@ HLC_INLINE bool is_beyond(const SegmentBlock& segments, const float* axis_x, con
   const Floats from_y = load(segments.from_y);
   const Floats to_x = load(segments.to_x);
   const Floats to_y = load(segments.to_y);
+  // Above the rounding of coordinates, of their projections and of what can be reached.
+  const Floats slack =
+      all(0x1p-20F) * (absolute(from_x) + absolute(from_y) + absolute(to_x) + absolute(to_y)) +
+      all(1e-6F);
   std::uint32_t beyond = 0;
 #pragma GCC unroll 4
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     const Floats from = from_x * all(axis_x[axis]) + from_y * all(axis_y[axis]);
     const Floats to = to_x * all(axis_x[axis]) + to_y * all(axis_y[axis]);
-    const bool is_above = lanes_less(all(reachable.high[axis]), smaller(from, to)) == kEveryLane;
-    const bool is_below = lanes_less(larger(from, to), all(reachable.low[axis])) == kEveryLane;
+    const Floats low = smaller(from, to) - slack;
+    const Floats high = larger(from, to) + slack;
+    const bool is_above = lanes_less(all(reachable.high[axis]), low) == kEveryLane;
+    const bool is_below = lanes_less(high, all(reachable.low[axis])) == kEveryLane;
     beyond |= static_cast<std::uint32_t>(is_above) | static_cast<std::uint32_t>(is_below);
   }
   return beyond != 0;
@@ -439,11 +445,9 @@ HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double*
     low = smaller(low, load(plan.reach[step]));
     high = larger(high, load(plan.reach[step] + kAxes));
   }
-  // Far more than the rounding of what is anywhere near.
-  const Doubles slack = all(1e-5 * plan.scale);
   Reachable reachable;
-  store(reachable.low, low - slack);
-  store(reachable.high, high + slack);
+  store(reachable.low, low);
+  store(reachable.high, high);
   float x[kAxes];
   float y[kAxes];
   store(x, load(axis_x));

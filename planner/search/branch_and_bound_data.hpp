@@ -29,6 +29,8 @@ inline constexpr double kNoPath = 1e299;
 /// f of what must not be taken.
 inline constexpr double kForbidden = 1e300;
 
+/// What a circle's radius is multiplied by, above the rounding of squares.
+inline constexpr float kMore = 1.0F + 0x1p-20F;
 /// Offset of an edge that everything is inside of.
 inline constexpr float kSeparatesNothing = 1e30F;
 
@@ -72,7 +74,7 @@ struct BoundPair {
 };
 
 /// Of the subgraph. Edges stand trim by trim; the edges of a trim are padded, so that groups of
-/// four never mix two trims. r counts steps left and is capped at `max_steps_left`.
+/// four never mix two trims. Every trim has at least one group, if only of padding.
 struct Tables {
   const EdgeData* edges;
   const std::uint32_t* first_group;  ///< per trim and one more: edges [4 first, 4 next first)
@@ -80,9 +82,6 @@ struct Tables {
   const double* displacement_y;
   const BoundPair* bounds;  ///< per group `bound_size`: see Level::bounds and BranchAndBound
   const PolygonBlock* area_blocks;
-  std::size_t num_trims;
-  std::size_t num_groups;
-  std::size_t max_steps_left;
   std::size_t bound_size;
   const double* numbers;  ///< 0, 1, 2, ... as bits
   std::uint64_t index_mask;
@@ -180,9 +179,8 @@ struct VertexData {
 
 /// What is the same for all vertices of one depth.
 struct Level {
-  std::size_t steps_left;  ///< after an edge from here
-  const double* penalty;   ///< `Tables::penalty` of these steps
-  const std::uint32_t* permitted;
+  const double* penalty;  ///< per edge: 0, or kForbidden where it must not be taken from here
+  const std::uint32_t* permitted;  ///< per trim, how many edges may be taken
   /// The steps after the edge, two by two, the first ones first: their number, and where among the
   /// bounds of a group theirs are.
   std::size_t num_pairs;

@@ -1,6 +1,7 @@
-// The inner loop of BranchAndBound. It is long-winded for speed: everything four at a time,
-// branches where they are foreseeable, nothing shared with other files but the plain data of
-// branch_and_bound_data.hpp. It is compiled twice, for any processor
+// The inner loop of BranchAndBound. It is long-winded for speed: four children at a time, their
+// bounds for two steps at a time, branches where they are foreseeable, nothing shared with other
+// files but its collision test and vectors and the plain data of branch_and_bound_data.hpp. It is
+// compiled twice, for any processor
 // (branch_and_bound_portable.cpp) and with AVX2 (branch_and_bound_avx2.cpp); only these two include
 // it. The same operations in the same order, no contraction: both give the same bits. No function
 // here may be visible outside, and none from elsewhere be used, or the linker could mix the two.
@@ -16,7 +17,7 @@ namespace hlc::branch_and_bound {
 namespace {
 
 /// What a cost-to-go in single precision may be too large by: see TableStore::compute_bounds.
-constexpr float kSurely = 1.0F - 0x1p-18F;
+constexpr float kSurely = 1.0F - 0x5p-20F;
 
 constexpr float kCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
 constexpr float kSin = 0x1.87de2ap-2F;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -11,11 +12,6 @@ namespace hlc::branch_and_bound {
 namespace {
 
 std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
-
-std::size_t blocks_of(std::size_t corners) { return (corners + kFloatLanes - 1) / kFloatLanes; }
-
-/// A little more than a circle, above the rounding of squares in single precision.
-constexpr double kMore = 1.0 + 0x1p-20;
 
 /// A shorter edge has no direction.
 constexpr double kLeastEdge_m = 1e-7;
@@ -29,8 +25,9 @@ struct Interval {
 }  // namespace
 
 TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable) {
-  view_.num_trims = subgraph.automaton().trims.size();
-  view_.max_steps_left = reachable.max_steps_left();
+  num_trims_ = subgraph.automaton().trims.size();
+  max_steps_left_ = reachable.max_steps_left();
+  assert(reachable.max_steps() <= kMostSteps);
   add_edges(subgraph);
   list_permitted(subgraph);
   compute_bounds(reachable);
@@ -47,20 +44,21 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable)
 }
 
 void TableStore::add_edges(const Subgraph& subgraph) {
-  const std::size_t num_trims = view_.num_trims;
+  const std::size_t num_trims = num_trims_;
   first_group_.push_back(0);
   for (std::size_t trim = 0; trim < num_trims; ++trim) {
     const auto successors = subgraph.successors({trim});
     for (const Edge& edge : successors) {
       const Maneuver& maneuver = *edge.maneuver;
       const Frame displacement = to_frame(maneuver.displacement);
+      area_radius_m_ = std::max(area_radius_m_, displacement.origin_m.norm());
       maneuvers_.push_back(&maneuver);
       edges_.push_back({displacement.origin_m.x(), displacement.origin_m.y(),
                         displacement.cos_heading, displacement.sin_heading,
                         static_cast<std::uint32_t>(edge.to.index), add_area(maneuver.swept_area_m),
                         add_area(maneuver.lane_area_m)});
     }
-    while (edges_.size() % kLanes != 0) {
+    while (edges_.size() % kLanes != 0 || edges_.size() == kLanes * first_group_.back()) {
       maneuvers_.push_back(nullptr);
       edges_.push_back({});
     }
@@ -68,7 +66,6 @@ void TableStore::add_edges(const Subgraph& subgraph) {
     first_group_.push_back(static_cast<std::uint32_t>(edges_.size() / kLanes));
   }
   most_edges_ = std::max<std::size_t>(most_edges_, kLanes);
-  view_.num_groups = first_group_.back();
   view_.index_mask = std::bit_ceil(most_edges_) - 1;
   for (std::uint64_t number = 0; number < most_edges_; ++number) {
     numbers_.push_back(std::bit_cast<double>(number));
@@ -109,7 +106,7 @@ Area TableStore::add_area(const ConvexPolygon& area_m) {
     block.normal_x[lane] = static_cast<float>(normal.x());
     block.normal_y[lane] = static_cast<float>(normal.y());
     block.offset[lane] = is_padding ? kSeparatesNothing : static_cast<float>(normal.dot(from));
-    area.radius = std::max(area.radius, static_cast<float>(kMore * (from - centre).norm()));
+    area.radius = std::max(area.radius, kMore * static_cast<float>((from - centre).norm()));
     area_radius_m_ = std::max(area_radius_m_, from.norm());
   }
   return area;
@@ -117,7 +114,7 @@ Area TableStore::add_area(const ConvexPolygon& area_m) {
 
 void TableStore::list_permitted(const Subgraph& subgraph) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  const std::size_t rows = view_.max_steps_left + 1;
+  const std::size_t rows = max_steps_left_ + 1;
   std::vector<bool> is_at_limit;
   for (const Trim& trim : automaton.trims) {
     is_at_limit.push_back(is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
@@ -126,9 +123,9 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
     auto& penalty = penalty_[avoids_limit ? 1 : 0];
     auto& permitted = permitted_[avoids_limit ? 1 : 0];
     penalty.assign(rows * edges_.size(), kForbidden);
-    permitted.assign(rows * view_.num_trims, 0);
+    permitted.assign(rows * num_trims_, 0);
     for (std::size_t left = 0; left < rows; ++left) {
-      for (std::size_t trim = 0; trim < view_.num_trims; ++trim) {
+      for (std::size_t trim = 0; trim < num_trims_; ++trim) {
         for (std::size_t edge = kLanes * first_group_[trim]; edge < kLanes * first_group_[trim + 1];
              ++edge) {
           if (maneuvers_[edge] == nullptr) continue;
@@ -136,7 +133,7 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
           if (subgraph.distance_to_standstill(to) > left) continue;
           if (avoids_limit && is_at_limit[to.index]) continue;
           penalty[left * edges_.size() + edge] = 0.0;
-          ++permitted[left * view_.num_trims + trim];
+          ++permitted[left * num_trims_ + trim];
         }
       }
     }
@@ -144,21 +141,27 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
 }
 
 // In single precision, relative to the start of the plan. With u = 2^-24, the distance L from the
-// start to the farthest vertex and p the place of a reference point along an axis, seen from a
-// vertex, p is off by at most 9 u |p| + 4 u L. Where |p| is at most 4 (|c| + w + L), widths that
-// are 64 u (|c| + w + L) larger make up for that and the rounding of c, w and the distance; beyond,
-// the distance is more than 3/4 |p|, its square off by less than 24 u of itself, and factor kSurely
-// of the kernel makes up for that and for adding up.
+// start to the farthest vertex of kMostSteps steps, q a reference point seen from a vertex and p
+// its place along an axis, p is off by at most 9 u ||q|| + 4 u L. Widths that are 64 u (|c| + w) +
+// 4 u L larger make up for the second term and, where ||q|| is at most 4 (|c| + w), for the first
+// and for the rounding of c, w and the distance. Beyond, the distance on the axis that has most is
+// at least 0.98 ||q|| - |c| - w > 0.7 ||q||, so it is off by less than 17 u of itself and its
+// square by less than 36 u; adding up m / 2 pairs of steps costs another m / 2 u. Factor kSurely of
+// the kernel, 1 - 80 u, makes up for both.
+//
+// Nothing here depends on how many steps there are tables for: equal searches expand equally many
+// vertices.
 void TableStore::compute_bounds(const ReachableSets& reachable) {
-  constexpr double kRounding = 0x1p-18;
+  constexpr double kRelative = 0x1p-18;
+  const double farthest = 0x1p-22 * reach_m(kMostSteps);
   constexpr float kNoBound = 1e15F;
-  const std::size_t cap = view_.max_steps_left;
+  const std::size_t cap = max_steps_left_;
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
   num_pairs_ = (max_steps + 1) / 2;
   // Rows by the steps left after the first of two steps, the last for all that are above the cap.
   const std::size_t rows = cap + 2;
   view_.bound_size = rows * num_pairs_;
-  bounds_.assign(view_.num_groups * view_.bound_size, BoundPair{});
+  bounds_.assign(edges_.size() / kLanes * view_.bound_size, BoundPair{});
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
     if (maneuvers_[edge] == nullptr) continue;
     const EdgeData& data = edges_[edge];
@@ -181,8 +184,7 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
         const double centre = 0.5 * (intervals[axis].low + intervals[axis].high);
         const double half_width = 0.5 * (intervals[axis].high - intervals[axis].low) +
                                   ReachableSets::allowance_m(steps + 1);
-        const double rounding =
-            kRounding * (std::abs(centre) + half_width + reach_m(max_steps + 1));
+        const double rounding = kRelative * (std::abs(centre) + half_width) + farthest;
         bound.centre[axis][lane] = static_cast<float>(centre);
         bound.half_width[axis][lane] = static_cast<float>(half_width + rounding);
       }
@@ -207,15 +209,15 @@ void TableStore::list_levels(std::size_t max_steps) {
   for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
     auto& places = bound_places_.emplace_back();
     for (std::size_t pair = 0; 2 * pair < steps_left; ++pair) {
-      const std::size_t row = std::min(steps_left - (2 * pair + 1), view_.max_steps_left + 1);
+      const std::size_t row = std::min(steps_left - (2 * pair + 1), max_steps_left_ + 1);
       places.push_back(static_cast<std::uint32_t>(row * num_pairs_ + pair));
     }
   }
   for (const std::size_t avoids_limit : {0U, 1U}) {
     for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
-      const std::size_t left = std::min(steps_left, view_.max_steps_left);
-      levels_[avoids_limit].push_back({steps_left, &penalty_[avoids_limit][left * edges_.size()],
-                                       &permitted_[avoids_limit][left * view_.num_trims],
+      const std::size_t left = std::min(steps_left, max_steps_left_);
+      levels_[avoids_limit].push_back({&penalty_[avoids_limit][left * edges_.size()],
+                                       &permitted_[avoids_limit][left * num_trims_],
                                        bound_places_[steps_left].size(),
                                        bound_places_[steps_left].data()});
     }
@@ -226,16 +228,16 @@ void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reach
   constexpr double kSlackM = 1e-6;  // rounding must not leave out what only just touches
   const double beyond_m = area_radius_m_ + kSlackM;
   reach_steps_ = std::max<std::size_t>(reachable.max_steps(), 1);
-  const std::size_t rows = view_.max_steps_left + 1;
-  reach_.resize(view_.num_trims * rows * reach_steps_ * kReachSize);
+  const std::size_t rows = max_steps_left_ + 1;
+  reach_.resize(num_trims_ * rows * reach_steps_ * kReachSize);
   for (const TrimId trim : subgraph.starts()) {
     for (std::size_t left = 0; left < rows; ++left) {
       for (std::size_t steps = 0; steps < reach_steps_; ++steps) {
-        const Reach& reach_m = reachable.reach(trim, steps, left);
+        const Reach& reach = reachable.reach(trim, steps, left);
         double* const row = &reach_[reach_row(trim, steps, left)];
         for (std::size_t axis = 0; axis < kAxes; ++axis) {
-          row[axis] = -reach_m.support_m[2 * axis + kBoundAxes] - beyond_m;
-          row[axis + kAxes] = reach_m.support_m[2 * axis] + beyond_m;
+          row[axis] = -reach.support_m[2 * axis + kBoundAxes] - beyond_m;
+          row[axis + kAxes] = reach.support_m[2 * axis] + beyond_m;
         }
       }
     }
@@ -243,12 +245,11 @@ void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reach
 }
 
 const double* TableStore::reach(TrimId trim, std::size_t steps, std::size_t steps_left) const {
-  return &reach_[reach_row(trim, steps, std::min(steps_left, view_.max_steps_left))];
+  return &reach_[reach_row(trim, steps, std::min(steps_left, max_steps_left_))];
 }
 
 std::size_t TableStore::reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const {
-  return ((trim.index * (view_.max_steps_left + 1) + steps_left) * reach_steps_ + steps) *
-         kReachSize;
+  return ((trim.index * (max_steps_left_ + 1) + steps_left) * reach_steps_ + steps) * kReachSize;
 }
 
 std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {

@@ -11,11 +11,22 @@
 
 namespace hlc::branch_and_bound {
 
+/// How many blocks hold so many corners or segments.
+[[nodiscard]] constexpr std::size_t blocks_of(std::size_t size) {
+  return (size + kFloatLanes - 1) / kFloatLanes;
+}
+
 /// Everything the kernel needs of a subgraph, computed once: edges with their areas, bounds, and
 /// what is permitted (see BranchAndBound and branch_and_bound_data.hpp).
 class TableStore {
  public:
+  /// @pre reachable.max_steps() <= kMostSteps
   TableStore(const Subgraph& subgraph, const ReachableSets& reachable);
+  TableStore(const TableStore&) = delete;  // it refers to itself
+  TableStore& operator=(const TableStore&) = delete;
+
+  /// Of so many steps the rounding of a bound is known (see the implementation).
+  static constexpr std::size_t kMostSteps = 80;
 
   [[nodiscard]] const Tables& view() const { return view_; }
   /// A depth with `steps_left` steps after an edge from it, if a plan may or may not end steps in
@@ -34,7 +45,7 @@ class TableStore {
   /// ReachableSets::reach moved outwards by the farthest corner of any area from the start of its
   /// maneuver.
   [[nodiscard]] const double* reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;
-  /// No corner of an area of the first `steps` steps is farther from the start [m].
+  /// No corner of an area of the first `steps` steps is farther from the start, and no vertex [m].
   [[nodiscard]] double reach_m(std::size_t steps) const {
     return static_cast<double>(steps) * area_radius_m_;
   }
@@ -66,7 +77,9 @@ class TableStore {
   std::vector<double> reach_;
   std::size_t reach_steps_{};
   std::vector<double> numbers_;
-  double area_radius_m_{};  ///< farthest corner of any area from the start of its maneuver
+  double area_radius_m_{};  ///< farthest corner of any area, or end, from its maneuver's start
+  std::size_t num_trims_{};
+  std::size_t max_steps_left_{};
   std::size_t most_edges_{};
   std::size_t most_blocks_{};
   std::size_t num_pairs_{};  ///< of steps after an edge

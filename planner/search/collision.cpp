@@ -18,6 +18,17 @@ double radius_m(const ConvexPolygon& polygon) {
 
 }  // namespace
 
+Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed) {
+  placed.vertices_m.clear();
+  Box box;
+  for (const Point& vertex_m : area_m.vertices_m) {
+    const Point& placed_m = placed.vertices_m.emplace_back(transformed(vertex_m, start));
+    box.min_m = box.min_m.cwiseMin(placed_m);
+    box.max_m = box.max_m.cwiseMax(placed_m);
+  }
+  return box;
+}
+
 CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
     : reachable_(reachable) {
   std::size_t max_vertices = 0;
@@ -71,7 +82,7 @@ bool CollisionCheck::meets_obstacle(const ConvexPolygon& area_m, std::size_t ste
                                     const Frame& start) {
   const std::vector<Obstacle>& obstacles = obstacles_[step - 1];
   if (obstacles.empty()) return false;
-  const Box box = place(area_m, start);
+  const Box box = place(area_m, start, placed_);
   return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& obstacle) {
     return overlap(box, obstacle.box) && intersects(placed_, *obstacle.polygon_m);
   });
@@ -79,21 +90,10 @@ bool CollisionCheck::meets_obstacle(const ConvexPolygon& area_m, std::size_t ste
 
 bool CollisionCheck::meets_boundary(const ConvexPolygon& area_m, const Frame& start) {
   if (boundary_.empty()) return false;
-  const Box box = place(area_m, start);
+  const Box box = place(area_m, start, placed_);
   return std::any_of(boundary_.begin(), boundary_.end(), [&](const BoundaryPiece& piece) {
     return overlap(box, piece.box) && intersects(placed_, piece.segment);
   });
-}
-
-Box CollisionCheck::place(const ConvexPolygon& area_m, const Frame& start) {
-  placed_.vertices_m.clear();
-  Box box;
-  for (const Point& vertex_m : area_m.vertices_m) {
-    const Point& placed_m = placed_.vertices_m.emplace_back(transformed(vertex_m, start));
-    box.min_m = box.min_m.cwiseMin(placed_m);
-    box.max_m = box.max_m.cwiseMax(placed_m);
-  }
-  return box;
 }
 
 }  // namespace hlc

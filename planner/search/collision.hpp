@@ -11,6 +11,10 @@
 
 namespace hlc {
 
+/// Moves an area from the frame of its start into `placed` and returns its box. Allocates nothing
+/// if `placed` has the capacity.
+Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed);
+
 /// Collision check of the edges of one search: a maneuver is free in step j if its swept area meets
 /// no obstacle of that step and its lane area crosses no boundary segment.
 ///
@@ -49,9 +53,6 @@ class CollisionCheck {
   [[nodiscard]] bool meets_obstacle(const ConvexPolygon& area_m, std::size_t step,
                                     const Frame& start);
   [[nodiscard]] bool meets_boundary(const ConvexPolygon& area_m, const Frame& start);
-  /// Moves `area_m` into `placed_` and returns its box.
-  Box place(const ConvexPolygon& area_m, const Frame& start);
-
   const ReachableSets& reachable_;
   double area_radius_m_{};  ///< farthest point of any maneuver's area from its start
   std::vector<std::vector<Obstacle>> obstacles_;

@@ -16,9 +16,8 @@ namespace hlc {
 ///
 ///     max(0, || q || - d, max_i (n_i q - s_i))
 ///
-/// For p in the set, || p - q || >= || q || - || p || >= || q || - d, and || p - q || >= n_i (q -
-/// p)
-/// >= n_i q - s_i because n_i is a unit vector.
+/// For p in the set, || p - q || >= || q || - || p || >= || q || - d, and because n_i is a unit
+/// vector, || p - q || >= n_i (q - p) >= n_i q - s_i.
 ///
 /// @param q_m  in the frame of `reach`
 /// @return +infinity for the empty set

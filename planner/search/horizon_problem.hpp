@@ -15,7 +15,10 @@ namespace hlc {
 ///     sum_{j=1}^{n} || p_j - r_j ||^2   [m^2]
 ///
 /// with p_j the position after step j and r_j the reference point of that step (paper, Section 4).
+/// Coordinates are at most kLargest_m.
 struct HorizonProblem {
+  static constexpr double kLargest_m = 1e9;
+
   Pose start;
   TrimId start_trim;
   std::vector<Point> reference_m;  ///< r_1 ... r_n; its size is the horizon n

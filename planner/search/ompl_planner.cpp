@@ -89,6 +89,7 @@ RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si
       reachable_(reachable),
       options_(options) {
   specs_.optimizingPaths = true;
+  specs_.approximateSolutions = true;
   specs_.directed = true;
   specs_.provingSolutionNonExistence = true;
   declare_parameters();
@@ -157,7 +158,10 @@ ob::PlannerStatus RecedingHorizonPlanner::add_solution(const HorizonProblem& pro
   path_ = controls ? make_control_path(controls, problem, result_)
                    : make_geometric_path(si_, problem, result_, std::move(former_path_));
   ob::State* last = si_->allocState();
-  write_state({result_.poses.back(), result_.maneuvers.back()->to, problem.horizon_steps()}, *last);
+  const std::size_t n = problem.horizon_steps();
+  write_state(n == 0 ? HorizonState{problem.start, problem.start_trim, 0}
+                     : HorizonState{result_.poses.back(), result_.maneuvers.back()->to, n},
+              *last);
   const bool is_exact = pdef_->getGoal()->isSatisfied(last);
   si_->freeState(last);
 
@@ -178,6 +182,11 @@ void RecedingHorizonPlanner::clear() {
   forget();
 }
 
+void RecedingHorizonPlanner::setProblemDefinition(const ob::ProblemDefinitionPtr& definition) {
+  forget();
+  Planner::setProblemDefinition(definition);
+}
+
 void RecedingHorizonPlanner::forget() {
   result_ = {};
   if (path_) former_path_ = std::move(path_);
@@ -185,7 +194,7 @@ void RecedingHorizonPlanner::forget() {
 
 void RecedingHorizonPlanner::getPlannerData(ob::PlannerData& data) const {
   Planner::getPlannerData(data);
-  if (!path_) return;
+  if (!path_ || !pdef_) return;
   const auto* controls = dynamic_cast<const oc::PathControl*>(path_.get());
   const auto state = [&](std::size_t i) {
     const auto index = static_cast<unsigned>(i);

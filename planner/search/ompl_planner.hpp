@@ -63,6 +63,8 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   using ompl::base::Planner::solve;
   void clear() override;
+  /// What was found for another definition is forgotten.
+  void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& definition) override;
 
   /// The path of the last `solve`: a vertex for each of its states, the first a start vertex, the
   /// last a goal vertex; an edge for each step with its term of the cost, and with its control if

@@ -78,7 +78,8 @@ bool StandstillGoal::isSatisfied(const ob::State* state) const {
       !subgraph_.automaton().trims[reached.trim.index].is_equilibrium()) {
     return false;
   }
-  return (reached.pose.position_m() - problem_.reference_m.back()).norm() <= radius_m_;
+  return problem_.reference_m.empty() ||
+         (reached.pose.position_m() - problem_.reference_m.back()).norm() <= radius_m_;
 }
 
 SquaredDistanceObjective::SquaredDistanceObjective(const ob::SpaceInformationPtr& si,

@@ -1,6 +1,7 @@
 #include "planner/search/prepared_obstacles.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <type_traits>
 
@@ -10,8 +11,6 @@ namespace {
 // The kernel reads corners and boundaries as they lie in memory.
 static_assert(sizeof(Point) == 2 * sizeof(double));
 static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v<Segment>);
-
-std::size_t blocks_of(std::size_t size) { return (size + kFloatLanes - 1) / kFloatLanes; }
 
 bool is_same(const ConvexPolygon& a, const ConvexPolygon& b) {
   const std::size_t size = a.vertices_m.size();
@@ -81,6 +80,7 @@ void PreparedObstacles::list_polygons() {
     for (const ConvexPolygon& polygon_m : problem_->obstacles_m[step]) {
       const std::size_t size = polygon_m.vertices_m.size();
       if (size == 0) continue;
+      assert(size >= 3);
       // A vehicle that keeps to its former plan is where both of its plans say, to the last bit.
       if (before != nullptr && is_same(*before, polygon_m)) continue;
       before = &polygon_m;
