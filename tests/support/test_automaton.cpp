@@ -83,9 +83,17 @@ Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
   return {std::move(automaton), std::move(spec)};
 }
 
+Subgraph make_test_subgraph(const std::vector<LabelledSurge>& labels,
+                            const std::vector<std::size_t>& trims,
+                            std::optional<double> max_speed_mps) {
+  SubgraphSpec spec{.name = "test", .labels = {}, .trims = {}, .max_speed_mps = max_speed_mps};
+  for (const LabelledSurge& label : labels) spec.labels.push_back(label.label);
+  for (const std::size_t number : trims) spec.trims.push_back({number - 1});
+  return {make_test_automaton(paper_trims(), labels), std::move(spec)};
+}
+
 Subgraph make_test_subgraph(double surge_mps2) {
-  return make_test_subgraph(make_test_automaton(surge_mps2),
-                            {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  return make_test_subgraph(make_test_automaton(surge_mps2), kAllTrims);
 }
 
 }  // namespace hlc::test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct LabelledSurge {
   double surge_mps2{};
 };
 
+inline const LabelledSurge kSlow{"slow", 0.0};
+inline const LabelledSurge kFast{"fast", 8.0};
+/// Of the paper, numbered from 1.
+inline const std::vector<std::size_t> kAllTrims{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+
 /// The same with other trims and with one maneuver per label between every two of them.
 [[nodiscard]] std::shared_ptr<UniversalAutomaton> make_test_automaton(
     const std::vector<Trim>& trims, const std::vector<LabelledSurge>& labels);
@@ -39,6 +45,11 @@ struct LabelledSurge {
 /// A subgraph with these trims, numbered from 1 as in the paper.
 [[nodiscard]] Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
                                           const std::vector<std::size_t>& trims);
+
+/// The same with these labels, all on.
+[[nodiscard]] Subgraph make_test_subgraph(const std::vector<LabelledSurge>& labels,
+                                          const std::vector<std::size_t>& trims,
+                                          std::optional<double> max_speed_mps = {});
 
 /// All twelve trims.
 [[nodiscard]] Subgraph make_test_subgraph(double surge_mps2 = 0.0);

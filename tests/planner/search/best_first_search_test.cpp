@@ -8,43 +8,26 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
+#include "tests/support/same_result.hpp"
+#include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
 namespace hlc {
 namespace {
 
-constexpr std::size_t kMaxSteps = 8;
+using test::box;
+using test::expect_same;
+using test::kAllTrims;
+using test::kFast;
+using test::kSlow;
+using test::straight_problem;
 
-/// Straight on at 0.8 m/s from the paper's pi_7.
-HorizonProblem straight_problem(std::size_t horizon_steps) {
-  HorizonProblem problem;
-  problem.start = {1.0, 2.0, 0.0};
-  problem.start_trim = TrimId{6};
-  for (std::size_t j = 1; j <= horizon_steps; ++j) {
-    problem.reference_m.emplace_back(1.0 + 0.16 * static_cast<double>(j), 2.0);
-  }
-  problem.reference_speed_mps.assign(horizon_steps, 0.8);
-  return problem;
-}
+constexpr std::size_t kMaxSteps = 8;
 
 HorizonProblem standing_problem(const Subgraph& subgraph, std::size_t horizon_steps) {
   HorizonProblem problem = straight_problem(horizon_steps);
   problem.start_trim = subgraph.standstill();
   return problem;
-}
-
-ConvexPolygon box(double min_x_m, double max_x_m, double min_y_m, double max_y_m) {
-  return convex_hull(
-      {{min_x_m, min_y_m}, {max_x_m, min_y_m}, {max_x_m, max_y_m}, {min_x_m, max_y_m}});
-}
-
-void expect_same(const SearchResult& a, const SearchResult& b) {
-  EXPECT_EQ(a.status, b.status);
-  EXPECT_EQ(a.cost, b.cost);
-  EXPECT_EQ(a.maneuvers, b.maneuvers);
-  EXPECT_EQ(a.poses, b.poses);
-  EXPECT_EQ(a.generated, b.generated);
-  EXPECT_EQ(a.expanded, b.expanded);
 }
 
 /// A subgraph, what it can reach, and a search on it.
@@ -71,25 +54,13 @@ struct OptimalityCase {
   std::uint64_t problems;
 };
 
-/// All labels on.
-Subgraph make_subgraph(const OptimalityCase& param) {
-  SubgraphSpec spec{.name = param.name, .labels = {}, .trims = {}};
-  for (const test::LabelledSurge& label : param.labels) spec.labels.push_back(label.label);
-  for (const std::size_t number : param.trims) spec.trims.push_back({number - 1});
-  return {test::make_test_automaton(test::paper_trims(), param.labels), std::move(spec)};
-}
-
 std::ostream& operator<<(std::ostream& out, const OptimalityCase& c) { return out << c.name; }
-
-const test::LabelledSurge kSlow{"slow", 0.0};
-const test::LabelledSurge kFast{"fast", 8.0};
-const std::vector<std::size_t> kAllTrims{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
 
 class BestFirstSearchOptimality : public testing::TestWithParam<OptimalityCase> {};
 
 TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
   const OptimalityCase& param = GetParam();
-  Searcher searcher(make_subgraph(param));
+  Searcher searcher(test::make_test_subgraph(param.labels, param.trims));
   std::uint64_t infeasible = 0;
   std::uint64_t obstructed = 0;
   const std::uint64_t problems = test::num_seeds(param.problems);
@@ -134,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Both maneuvers between two trims are used: with one of the labels alone the cost is higher.
 TEST(BestFirstSearch, OfTwoLabelsTheBetterIsTakenInEachStep) {
   OptimalityCase both{"Both", {kSlow, kFast}, kAllTrims, 6, 0};
-  Searcher searcher(make_subgraph(both));
+  Searcher searcher(test::make_test_subgraph(both.labels, both.trims));
   SubgraphSpec one = searcher.subgraph.spec();
   one.labels = {"slow"};
   Searcher slow(Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));

@@ -16,6 +16,10 @@
 namespace hlc {
 namespace {
 
+using test::kAllTrims;
+using test::kFast;
+using test::kSlow;
+
 constexpr std::size_t kMaxSteps = 8;
 constexpr double kRoundingM2 = 1e-9;
 
@@ -99,8 +103,6 @@ double true_cost_to_go(const Subgraph& subgraph, const VertexCase& vertex) {
 }
 
 constexpr std::array<CostToGo, 2> kAdmissible{CostToGo::kReachable, CostToGo::kStraightLine};
-const test::LabelledSurge kSlow{"slow", 0.0};
-const test::LabelledSurge kFast{"fast", 8.0};
 
 struct Automaton {
   const char* name;
@@ -111,14 +113,6 @@ struct Automaton {
 };
 
 std::ostream& operator<<(std::ostream& out, const Automaton& a) { return out << a.name; }
-
-Subgraph make_subgraph(const Automaton& param) {
-  SubgraphSpec spec{
-      .name = param.name, .labels = {}, .trims = {}, .max_speed_mps = param.max_speed_mps};
-  for (const test::LabelledSurge& label : param.labels) spec.labels.push_back(label.label);
-  for (const std::size_t number : param.trims) spec.trims.push_back({number - 1});
-  return {test::make_test_automaton(test::paper_trims(), param.labels), std::move(spec)};
-}
 
 class CostToGoTest : public testing::TestWithParam<Automaton> {
  protected:
@@ -141,7 +135,7 @@ class CostToGoTest : public testing::TestWithParam<Automaton> {
         vertex = full_speed_vertex(start(seed / 3), random);
       } else {
         const double angle_rad =
-            std::numbers::pi / 4.0 * static_cast<double>(test::pick(random, 8));
+            std::numbers::pi / 8.0 * static_cast<double>(test::pick(random, 16));
         vertex = far_reference_vertex(start(seed / 3), angle_rad, random);
       }
       const std::size_t left = vertex.problem.horizon_steps() - vertex.depth;
@@ -150,7 +144,8 @@ class CostToGoTest : public testing::TestWithParam<Automaton> {
     }
   }
 
-  Subgraph subgraph_{make_subgraph(GetParam())};
+  Subgraph subgraph_{
+      test::make_test_subgraph(GetParam().labels, GetParam().trims, GetParam().max_speed_mps)};
   ReachableSets reachable_{subgraph_, kMaxSteps};
 };
 
@@ -198,8 +193,6 @@ TEST_P(CostToGoTest, IsNoLessThanTheStraightLineBound) {
   EXPECT_GT(sum, 1.05 * straight_sum);
 }
 
-const std::vector<std::size_t> kAllTrims{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-
 INSTANTIATE_TEST_SUITE_P(
     Automata, CostToGoTest,
     testing::Values(Automaton{"SpeedsRampLinearly", {kSlow}, kAllTrims},
@@ -210,15 +203,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Automaton{"StartsThatAreOff", {kSlow}, {1, 2, 5, 8, 12}, {}, {3, 6, 7, 10}}),
     [](const auto& instance) { return instance.param.name; });
 
-// In each of the eight directions, and for each trim, the support is what one step reaches.
+// In each of the sixteen directions, and for each trim, the support is what one step reaches.
 TEST(CostToGo, IsTheTrueCostOfOneStepTowardsAFarReference) {
   const Subgraph subgraph = test::make_test_subgraph();
   const ReachableSets reachable(subgraph, kMaxSteps);
   for (std::size_t number = 1; number <= 12; ++number) {
-    for (std::size_t direction = 0; direction < 8; ++direction) {
-      std::mt19937_64 random(8 * number + direction);
+    for (std::size_t direction = 0; direction < 16; ++direction) {
+      std::mt19937_64 random(16 * number + direction);
       VertexCase vertex = far_reference_vertex(
-          {number - 1}, std::numbers::pi / 4.0 * static_cast<double>(direction), random);
+          {number - 1}, std::numbers::pi / 8.0 * static_cast<double>(direction), random);
       vertex.depth = vertex.problem.horizon_steps() - 1;
       const double truth = true_cost_to_go(subgraph, vertex);
       // The point reached stands aside of the line to the reference by what is lost here.
@@ -242,7 +235,7 @@ TEST(CostToGo, IsTheTrueCostAtFullSpeedTowardsAFarReference) {
 }
 
 TEST(StraightLineCostToGo, GoesAsFarAsTheLongestManeuverInEveryStep) {
-  const Subgraph subgraph = make_subgraph({"Mixed", {kSlow, kFast}, {1, 2, 6, 7}});
+  const Subgraph subgraph = test::make_test_subgraph({kSlow, kFast}, {1, 2, 6, 7});
   const ReachableSets reachable(subgraph, kMaxSteps);
   double longest_m = 0.0;
   for (const Maneuver& maneuver : subgraph.automaton().maneuvers) {
