@@ -11,6 +11,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"
 #include "tests/support/random_problem.hpp"
+#include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
 namespace ob = ompl::base;
@@ -30,22 +31,9 @@ class OmplPlannerTest : public testing::Test {
     return make_search_engine(subgraph_, reachable_, options);
   }
 
-  /// 1.28 m straight ahead.
-  [[nodiscard]] static HorizonProblem straight_problem() {
-    HorizonProblem problem;
-    problem.start = {1.0, 2.0, 0.0};
-    problem.start_trim = TrimId{6};
-    for (std::size_t j = 1; j <= kMaxSteps; ++j) {
-      problem.reference_m.emplace_back(1.0 + 0.16 * static_cast<double>(j), 2.0);
-    }
-    return problem;
-  }
-
   [[nodiscard]] static HorizonProblem infeasible_problem() {
-    HorizonProblem problem = straight_problem();
-    const ConvexPolygon everything =
-        convex_hull({{-9.0, -9.0}, {9.0, -9.0}, {9.0, 9.0}, {-9.0, 9.0}});
-    problem.obstacles_m.assign(kMaxSteps, {everything});
+    HorizonProblem problem = test::straight_problem(kMaxSteps);
+    problem.obstacles_m.assign(kMaxSteps, {test::box(-9.0, 9.0, -9.0, 9.0)});
     return problem;
   }
 
@@ -139,7 +127,7 @@ TEST_F(OmplPlannerTest, ProvesThatNoPathExists) {
 }
 
 TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   const auto definition = define(problem);
   RecedingHorizonPlanner planner = make_planner();
   planner.setProblemDefinition(definition);
@@ -153,7 +141,7 @@ TEST_F(OmplPlannerTest, HonoursTheTerminationCondition) {
 }
 
 TEST_F(OmplPlannerTest, ReportsAUsedUpBudgetAsTimeout) {
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   RecedingHorizonPlanner planner = make_planner({.max_expansions = 1});
   planner.setProblemDefinition(define(problem));
   EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
@@ -167,7 +155,7 @@ TEST_F(OmplPlannerTest, RefusesProblemsItDoesNotKnow) {
 }
 
 TEST_F(OmplPlannerTest, RefusesAStartThatIsNotTheProblems) {
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   const auto definition = define(problem);
   RecedingHorizonPlanner planner = make_planner();
   planner.setProblemDefinition(definition);
@@ -189,7 +177,7 @@ TEST_F(OmplPlannerTest, StatesKeepPoseTrimAndStep) {
 }
 
 TEST_F(OmplPlannerTest, PlansFromAHeadingOfPi) {
-  HorizonProblem problem = straight_problem();
+  HorizonProblem problem = test::straight_problem(kMaxSteps);
   for (const double heading_rad : {std::numbers::pi, -std::numbers::pi}) {
     problem.start.heading_rad = heading_rad;
     const auto definition = define(problem);
@@ -202,7 +190,7 @@ TEST_F(OmplPlannerTest, PlansFromAHeadingOfPi) {
 }
 
 TEST_F(OmplPlannerTest, GoalIsTheLastStepInStandstill) {
-  HorizonProblem problem = straight_problem();
+  HorizonProblem problem = test::straight_problem(kMaxSteps);
   problem.reference_m.resize(4);
   const StandstillGoal goal(si_, subgraph_, problem);
   ob::State* state = si_->allocState();
@@ -217,7 +205,7 @@ TEST_F(OmplPlannerTest, GoalIsTheLastStepInStandstill) {
 }
 
 TEST_F(OmplPlannerTest, APlanThatEndsOutsideTheGoalsRadiusIsApproximate) {
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   const auto solve_within = [&](double radius_m) {
     const auto definition = define(problem);
     definition->setGoal(std::make_shared<StandstillGoal>(si_, subgraph_, problem, radius_m));
@@ -236,7 +224,7 @@ TEST_F(OmplPlannerTest, APlanThatEndsOutsideTheGoalsRadiusIsApproximate) {
 }
 
 TEST_F(OmplPlannerTest, ParametersTakeEffectAtTheNextSolve) {
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   RecedingHorizonPlanner planner = make_planner();
   const auto solve = [&] {
     planner.clear();
@@ -269,7 +257,7 @@ TEST_F(OmplPlannerTest, ParametersThatAreNotAllowedAreRefused) {
   EXPECT_EQ(planner.options().max_expansions, SearchOptions{}.max_expansions);
   EXPECT_EQ(planner.options().engine, SearchOptions{}.engine);
 
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   planner.setProblemDefinition(define(problem));
   EXPECT_TRUE(parameters.setParam("engine", "branch_and_bound"));
   EXPECT_TRUE(parameters.setParam("cost_to_go", "2022"));
@@ -277,7 +265,7 @@ TEST_F(OmplPlannerTest, ParametersThatAreNotAllowedAreRefused) {
 }
 
 TEST_F(OmplPlannerTest, PlannerDataHoldsThePathOfTheLastSolve) {
-  const HorizonProblem problem = straight_problem();
+  const HorizonProblem problem = test::straight_problem(kMaxSteps);
   RecedingHorizonPlanner planner = make_planner();
   const auto definition = define(problem);
   planner.setProblemDefinition(definition);
@@ -300,6 +288,45 @@ TEST_F(OmplPlannerTest, PlannerDataHoldsThePathOfTheLastSolve) {
   ob::PlannerData nothing(si_);
   planner.getPlannerData(nothing);
   EXPECT_EQ(nothing.numVertices(), 0U);
+}
+
+TEST_F(OmplPlannerTest, WritesANewPathIntoTheFormerOneOnlyIfNobodyElseHasThat) {
+  RecedingHorizonPlanner planner = make_planner();
+  HorizonProblem problem = test::straight_problem(kMaxSteps);
+  const auto solve = [&] {
+    const auto definition = define(problem);
+    planner.clear();
+    planner.setProblemDefinition(definition);
+    EXPECT_EQ(planner.solve(ob::plannerNonTerminatingCondition()),
+              ob::PlannerStatus::EXACT_SOLUTION);
+    return definition->getSolutionPath();
+  };
+  const auto geometric = [](const ob::PathPtr& path) -> ompl::geometric::PathGeometric& {
+    return *path->as<ompl::geometric::PathGeometric>();
+  };
+  const auto move_on = [&] {
+    planner.setProblemDefinition(nullptr);  // it has the path, too
+    problem.start.x_m += 0.01;
+    problem.start.heading_rad += 0.1;
+  };
+
+  ob::PathPtr held = solve();
+  const ompl::geometric::PathGeometric copy(geometric(held));
+  move_on();
+  ob::PathPtr second = solve();
+  ASSERT_EQ(geometric(held).getStateCount(), copy.getStateCount());
+  for (unsigned j = 0; j < copy.getStateCount(); ++j) {
+    EXPECT_TRUE(si_->equalStates(geometric(held).getState(j), copy.getState(j))) << "state " << j;
+  }
+
+  const std::weak_ptr<ob::Path> former = second;
+  const ob::State* const former_start = geometric(second).getState(0);
+  second.reset();
+  move_on();
+  const ob::PathPtr third = solve();
+  EXPECT_EQ(former.lock(), third);
+  EXPECT_EQ(geometric(third).getState(0), former_start);
+  expect_path_is_plan(geometric(third), planner.result(), problem);
 }
 
 TEST_F(OmplPlannerTest, OmplIsSilent) {
