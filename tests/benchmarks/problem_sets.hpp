@@ -46,8 +46,8 @@ struct ProblemSetInfo {
 /// | `horizon_8`, `horizon_12`, `horizon_16` | 3 other cars, so many steps |
 /// | `trims_12`, `trims_34`, `trims_95` | 3 other cars, so many trims |
 /// | `maneuvers_j1` | 2 other cars, the paper's subgraph A, reference speed 1.2 m/s |
-/// | `infeasible` | from standstill, all ground occupied in the last step: the whole tree is tried
-/// | | `infeasible_random` | 19 other cars that do not keep out of the way, no plan exists |
+/// | `infeasible` | from standstill, all ground occupied in the last step: tries the whole tree |
+/// | `infeasible_random` | 19 other cars that do not keep out of the way, no plan exists |
 ///
 /// All but `maneuvers_j1`, `trims_34` and `trims_95` are on the paper's subgraph B.
 /// Without lanes means without any boundary. Only `three_cars_incumbent` has incumbents.
