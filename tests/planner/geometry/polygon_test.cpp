@@ -156,6 +156,27 @@ TEST(ConvexHull, OfPointsOnALineIsEmptyButItsEndsAreKnown) {
   EXPECT_TRUE(hull_vertices({}).empty());
 }
 
+// Corners that stand above each other but for the last bits of x, in any order.
+TEST(ConvexHull, HoldsPointsWhoseXDifferByRoundingOnly) {
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+    Random random(seed);
+    std::vector<Point> points{{0.0, 0.0}};
+    for (int i = 0; i < 5; ++i) {
+      const double ulps = std::floor(uniform(random, 0.0, 3.0));
+      points.emplace_back(1.0 - ulps * 0x1p-53, uniform(random, -0.3, 0.3));
+    }
+    const std::vector<Point> hull = hull_vertices(points);
+    ASSERT_GE(hull.size(), 3U) << "seed " << seed;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Point edge = hull[(i + 1) % hull.size()] - hull[i];
+      for (const Point& point : points) {
+        ASSERT_GE(cross(edge, point - hull[i]), -2.0 * kHullTolerance_m * edge.norm())
+            << "seed " << seed;
+      }
+    }
+  }
+}
+
 TEST(Polygon, TransformedMovesEveryVertexAsAPoint) {
   const Pose frame{1.0, -2.0, 0.7};
   const ConvexPolygon moved = transformed(kSquare, frame);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "planner/search/best_first_search.hpp"
 #include "planner/search/branch_and_bound.hpp"
 #include "tests/support/exhaustive_search.hpp"
 #include "tests/support/num_seeds.hpp"
@@ -121,6 +122,21 @@ TEST_P(BranchAndBoundEstimates, AreNoMoreThanTheBestPathThroughEachChildCosts) {
     }
   }
   EXPECT_GE(children, 250U);
+}
+
+TEST_P(BranchAndBoundEstimates, OfTheBestChildIsNoMoreThanTheOptimumOnLongHorizons) {
+  BestFirstSearch plain(subgraph_, reachable_, {.max_expansions = 20'000});
+  std::size_t solved = 0;
+  for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = random_case(subgraph_, 5 + test::pick(random, 8), random);
+    const SearchResult best = plain.search(problem, never_stop);
+    if (best.status != SearchStatus::kOptimal) continue;
+    ++solved;
+    const std::vector<double> f = engine_.estimates(problem);
+    ASSERT_LE(*std::min_element(f.begin(), f.end()), allowed_m2(best.cost)) << "seed " << seed;
+  }
+  EXPECT_GE(solved, 20U);
 }
 
 // Reference points far away along an axis: what counts is how far the automaton gets that way.
