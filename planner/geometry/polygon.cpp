@@ -16,9 +16,16 @@ Point right_of(const Point& direction) { return {direction.y(), -direction.x()};
 std::size_t next(std::size_t i, std::size_t size) { return i + 1 == size ? 0 : i + 1; }
 std::size_t previous(std::size_t i, std::size_t size) { return i == 0 ? size - 1 : i - 1; }
 
-/// True if `b` stands out to the right of the line from `a` to `c` by more than the tolerance.
+/// True if `b` stands out to the right of the way from `a` to `c` by more than the tolerance. It
+/// may lie beyond an end where x differs by rounding only.
 bool stands_out(const Point& a, const Point& b, const Point& c) {
-  return cross(b - a, c - a) > kHullTolerance_m * (c - a).norm();
+  const Point along = c - a;
+  const double area_m2 = cross(b - a, along);
+  if (area_m2 <= 0.0) return false;
+  const double beyond = (b - a).dot(along);
+  if (beyond < 0.0) return (b - a).norm() > kHullTolerance_m;
+  if (beyond > along.squaredNorm()) return (b - c).norm() > kHullTolerance_m;
+  return area_m2 > kHullTolerance_m * along.norm();
 }
 
 /// The lower half of the hull of points sorted by x; the upper half for points in reverse order.
