@@ -12,7 +12,7 @@ namespace hlc {
 namespace {
 
 /// Kept vertices of a swept area's hull; the recursion itself uses all of them.
-constexpr std::size_t kMaxVertices = 16;
+constexpr std::size_t kMaxReachVertices = 16;
 
 /// The extreme points in eight directions, counter-clockwise; one may stand there several times.
 std::array<Point, 8> extreme_points(const std::vector<Point>& points_m) {
@@ -95,7 +95,8 @@ std::vector<Point> first_step_area_m(const Subgraph& subgraph, TrimId trim) {
 
 ConvexPolygon containing(std::vector<Point> points_m, std::size_t steps) {
   const ConvexPolygon hull = convex_hull(std::move(points_m));
-  return simplified_outwards(inflated(hull, ReachableSets::allowance_m(steps + 1)), kMaxVertices);
+  return simplified_outwards(inflated(hull, ReachableSets::allowance_m(steps + 1)),
+                             kMaxReachVertices);
 }
 
 }  // namespace

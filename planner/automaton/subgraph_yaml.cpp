@@ -9,7 +9,7 @@ namespace hlc {
 namespace {
 
 template <class T>
-bool holds(const std::vector<T>& list, const T& value) {
+bool contains(const std::vector<T>& list, const T& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
@@ -28,7 +28,7 @@ std::vector<TrimId> read_trims(const YamlNode& entry, const SubgraphContext& con
   }
   for (const YamlNode& one : entry.list("trims")) {
     const TrimId trim = as_trim(one.as<std::size_t>(trim_numbers(context)));
-    if (holds(result, trim)) one.fail("each trim once");
+    if (contains(result, trim)) one.fail("each trim once");
     result.push_back(trim);
   }
   if (std::none_of(result.begin(), result.end(),
@@ -72,7 +72,7 @@ void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, Sub
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
   for (const YamlNode& one : entry.optional_list("edges")) {
     const TrimPair pair = read_pair(one, context);
-    if (pair.from == pair.to || !holds(pairs, pair)) {
+    if (pair.from == pair.to || !contains(pairs, pair)) {
       one.fail("to", "a trim that the rule connects with `from`");
     }
     if (std::any_of(spec.edges.begin(), spec.edges.end(),
@@ -89,10 +89,10 @@ void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, Sub
 void check_off(const YamlNode& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
                const SubgraphContext& context, const SubgraphSpec& spec) {
   const bool is_left_from =
-      !holds(spec.trims, off.edge.from) ||
+      !contains(spec.trims, off.edge.from) ||
       (spec.max_speed_mps && context.trims[off.edge.from.index].speed_mps > *spec.max_speed_mps);
   if (is_left_from) return;
-  if (!holds(pairs, off.edge)) one.fail("to", "a trim that the rule connects with `from`");
+  if (!contains(pairs, off.edge)) one.fail("to", "a trim that the rule connects with `from`");
   if (!off.label) return;
   const auto listed = std::ranges::find(spec.edges, off.edge, &EdgeLabels::edge);
   const auto& labels = listed == spec.edges.end() ? spec.labels : listed->labels;
@@ -112,7 +112,7 @@ void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpe
       one.fail("label", "none for a trim's own step, which is the same for all labels");
     }
     if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
-    if (holds(spec.off, off)) one.fail("each edge once");
+    if (contains(spec.off, off)) one.fail("each edge once");
     spec.off.push_back(std::move(off));
   }
 }

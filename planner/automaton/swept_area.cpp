@@ -6,7 +6,7 @@
 namespace hlc {
 namespace {
 
-constexpr std::size_t kMaxVertices = 8;
+constexpr std::size_t kMaxAreaVertices = 8;
 constexpr double kChordError_m = 1e-5;
 constexpr double kIntegrationError_m = 1e-6;
 
@@ -114,7 +114,7 @@ void append_corners(const Maneuver& maneuver, std::size_t interval, double margi
 
 ConvexPolygon area_around(std::vector<Point> corners_m) {
   const ConvexPolygon hull = convex_hull(std::move(corners_m));
-  return simplified_outwards(inflated(hull, kChordError_m + kIntegrationError_m), kMaxVertices);
+  return simplified_outwards(inflated(hull, kChordError_m + kIntegrationError_m), kMaxAreaVertices);
 }
 
 }  // namespace

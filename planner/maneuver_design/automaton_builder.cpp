@@ -18,7 +18,7 @@ namespace {
 
 /// A criterion whose range over the optima of others is smaller than this, relative, does not
 /// contradict them.
-constexpr double kNoRange = 1e-6;
+constexpr double kNoSpread = 1e-6;
 
 void complete(Maneuver& maneuver, const AutomatonConfiguration& configuration) {
   maneuver.displacement = maneuver.states.back().pose;
@@ -160,7 +160,7 @@ WeightedSum normalised(const std::vector<CriterionWeight>& weights, const Maneuv
     for (const ManeuverSolution& other : optima) {
       range.worst = std::max(range.worst, value_of(weights[i].criterion, other));
     }
-    if (range.worst - range.best <= kNoRange * std::abs(range.best)) continue;
+    if (range.worst - range.best <= kNoSpread * std::abs(range.best)) continue;
     kept.push_back(terms[i]);
     ranges.push_back(range);
   }
@@ -196,7 +196,7 @@ void add_bound(const FrontPoint& point, const DesignTask& task,
       make_criterion(point.bounded, configuration.vehicle);
   const double best = solved(problem, *bounded, task, configuration).cost;
   const double worst = value_of(point.bounded, solved(problem, *minimised, task, configuration));
-  if (worst - best <= kNoRange * std::abs(best)) return;
+  if (worst - best <= kNoSpread * std::abs(best)) return;
   problem.cost_bounds.push_back({bounded, best + point.share * (worst - best)});
 }
 

@@ -23,8 +23,8 @@ QuadraticProblem model_at(const Transcription& transcription, const Told& told,
   model.equalities = transcription.end_conditions(z).jacobian(Eigen::all, open);
   model.rows = bounds.jacobian(Eigen::all, open);
   // Closer than this to a constraint is at it.
-  constexpr double kAt = 1e-12;
-  const auto settled = [](double room) { return room < kAt ? 0.0 : room; };
+  constexpr double kNoRoom = 1e-12;
+  const auto settled = [](double room) { return room < kNoRoom ? 0.0 : room; };
   model.room = (-bounds.value).unaryExpr(settled);
   model.upper = (variables.upper() - z)(open).unaryExpr(settled);
   model.lower = -(z - variables.lower())(open).unaryExpr(settled);

@@ -41,7 +41,7 @@ bool is_well_formed(std::span<const TrajectoryPoint> points) {
   const auto is_not_later = [](const TrajectoryPoint& a, const TrajectoryPoint& b) {
     return b.t <= a.t;
   };
-  return std::ranges::all_of(points, is_finite) &&
+  return std::ranges::all_of(points, [](const TrajectoryPoint& p) { return is_finite(p); }) &&
          std::ranges::adjacent_find(points, is_not_later) == points.end();
 }
 

@@ -7,22 +7,23 @@
 namespace hlc {
 namespace {
 
-ConvexPolygon square_at(double x) { return footprint_area({1.0, 1.0}, {x, 0.0, 0.0}); }
+ConvexPolygon square_here(double x) { return footprint_area({1.0, 1.0}, {x, 0.0, 0.0}); }
 
 TEST(OccupiedAreas, EveryStepHasItsAreaAndTheFinalOneHoldsForEver) {
-  const OccupiedAreas areas{
-      .first = {5}, .areas_m = {square_at(0.0), square_at(1.0)}, .final_area_m = square_at(2.0)};
-  EXPECT_EQ(areas.during({5}), square_at(0.0));
-  EXPECT_EQ(areas.during({6}), square_at(1.0));
-  EXPECT_EQ(areas.during({7}), square_at(2.0));
-  EXPECT_EQ(areas.during({700}), square_at(2.0));
+  const OccupiedAreas areas{.first = {5},
+                            .areas_m = {square_here(0.0), square_here(1.0)},
+                            .final_area_m = square_here(2.0)};
+  EXPECT_EQ(areas.during({5}), square_here(0.0));
+  EXPECT_EQ(areas.during({6}), square_here(1.0));
+  EXPECT_EQ(areas.during({7}), square_here(2.0));
+  EXPECT_EQ(areas.during({700}), square_here(2.0));
 }
 
 TEST(Messages, AnEmptyAreaOrAWrongBeginIsNotWellFormed) {
   Traffic traffic;
   traffic.step = {5};
-  traffic.running = {.first = {5}, .areas_m = {square_at(0.0)}, .final_area_m = square_at(1.0)};
-  traffic.reachable_area_m = square_at(0.0);
+  traffic.running = {.first = {5}, .areas_m = {square_here(0.0)}, .final_area_m = square_here(1.0)};
+  traffic.reachable_area_m = square_here(0.0);
   EXPECT_TRUE(is_well_formed(traffic));
   Traffic nowhere = traffic;
   nowhere.reachable_area_m = {};

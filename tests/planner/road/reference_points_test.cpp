@@ -6,7 +6,7 @@ namespace hlc {
 namespace {
 
 const ReferencePath kStraight({{0.0, 0.0}, {10.0, 0.0}}, false);
-const ReferencePath kSquare({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, true);
+const ReferencePath kSquarePath({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, true);
 
 TEST(ReferencePoints, DefaultRuleStartsWithTheMeanOfCurrentAndReferenceSpeed) {
   const Reference reference =
@@ -34,7 +34,7 @@ TEST(ReferencePoints, Rule2022HalvesTheLastStepAndIgnoresTheCurrentSpeed) {
 
 TEST(ReferencePoints, GoRoundACircuit) {
   const Reference reference =
-      reference_points(kSquare, 3.9, 1.0, 1.0, 2, 0.2, ReferenceRule::kDefault);
+      reference_points(kSquarePath, 3.9, 1.0, 1.0, 2, 0.2, ReferenceRule::kDefault);
   EXPECT_NEAR((reference.points_m[0] - Point(0.1, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((reference.points_m[1] - Point(0.3, 0.0)).norm(), 0.0, 1e-12);
 }
