@@ -157,15 +157,6 @@ ConfigurationPlaces places_of(const YamlNode& file, const AutomatonConfiguration
   return places;
 }
 
-bool uses(const SubgraphSpec& subgraph, const std::string& label) {
-  const auto holds = [&label](const std::vector<std::string>& labels) {
-    return std::find(labels.begin(), labels.end(), label) != labels.end();
-  };
-  return holds(subgraph.labels) ||
-         std::any_of(subgraph.edges.begin(), subgraph.edges.end(),
-                     [&](const EdgeLabels& edge) { return holds(edge.labels); });
-}
-
 }  // namespace
 
 AutomatonConfiguration read_automaton_configuration(const std::filesystem::path& path) {
@@ -194,6 +185,15 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   configuration.places = places_of(file, configuration);
   file.check_no_unknown_keys();
   return configuration;
+}
+
+bool uses(const SubgraphSpec& subgraph, const std::string& label) {
+  const auto holds = [&label](const std::vector<std::string>& labels) {
+    return std::find(labels.begin(), labels.end(), label) != labels.end();
+  };
+  return holds(subgraph.labels) ||
+         std::any_of(subgraph.edges.begin(), subgraph.edges.end(),
+                     [&](const EdgeLabels& edge) { return holds(edge.labels); });
 }
 
 AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,

@@ -96,6 +96,9 @@ struct AutomatonConfiguration {
 [[nodiscard]] AutomatonConfiguration read_automaton_configuration(
     const std::filesystem::path& path);
 
+/// True if an edge of the subgraph may have that label.
+[[nodiscard]] bool uses(const SubgraphSpec& subgraph, const std::string& label);
+
 /// The same configuration with this subgraph alone and the labels that it uses: what a run needs
 /// that stays on one subgraph. Building it takes as long as that label does.
 [[nodiscard]] AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,

@@ -12,6 +12,7 @@
 #include "planner/apps/flags.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
+#include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
@@ -29,6 +30,7 @@ struct Choices {
   bool keep_runs{false};
   std::filesystem::path out;
   hlc::FigureChoices figures;
+  std::filesystem::path sweep;  ///< empty: a campaign
 };
 
 constexpr char kAllFigures[] = "all";
@@ -125,16 +127,41 @@ void draw(const hlc::Campaign& campaign, Choices& choices) {
   for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());
 }
 
+hlc::EvaluationOrigin origin_of(const std::string& command) {
+  return {.command = command,
+          .revision = hlc::program_revision(),
+          .compiler = "GCC " __VERSION__,
+          .processor = hlc::this_host().cpu};
+}
+
+hlc::Sweep read_sweep(const Choices& choices) {
+  try {
+    return hlc::Sweep(hlc::read_sweep(choices.sweep));
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+int run_sweep(const Choices& choices, const std::string& command) {
+  hlc::Sweep sweep = read_sweep(choices);
+  hlc::SweepFiles files(choices.out, sweep);
+  const Clock::time_point begin = Clock::now();
+  const std::size_t failed = hlc::drive_sweep(sweep, choices.jobs, files);
+  const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  files.finish(origin_of(command));
+  std::printf("%zu runs, %zu do not count, %.1f s; %s\n", sweep.runs().size(), failed, wall_s,
+              (choices.out / "sweep.md").c_str());
+  return failed == 0 ? 0 : 1;
+}
+
 int run(Choices choices, const std::string& command) {
+  if (!choices.sweep.empty()) return run_sweep(choices, command);
   const hlc::Campaign campaign = read(choices);
   hlc::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
   const std::size_t failed = drive(campaign, choices, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  files.finish({.command = command,
-                .revision = hlc::program_revision(),
-                .compiler = "GCC " __VERSION__,
-                .processor = hlc::this_host().cpu});
+  files.finish(origin_of(command));
   std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,
               (choices.out / "table.md").c_str());
   draw(campaign, choices);
@@ -189,6 +216,16 @@ int main(int argc, char** argv) {
   app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
                  "automaton configuration for the figure pareto_set; default: "
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
+  CLI::Option* sweep = app.add_option(
+      "--sweep", choices.sweep,
+      "a file that says which settings take which values (launch_scripts/sweeps/README.md): drives "
+      "every combination instead of a campaign, writes sweep.csv and sweep.md");
+  for (CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (name != "--help" && name != "--jobs" && name != "--out" && option != sweep) {
+      sweep->excludes(option);
+    }
+  }
   app.footer("Exit codes: 0 all runs driven, 1 some failed (results.json says why), 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   int code = 0;

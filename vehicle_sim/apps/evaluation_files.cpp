@@ -1,9 +1,7 @@
 #include "vehicle_sim/apps/evaluation_files.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
 
 #include "hlc_bridge/record/program.hpp"
@@ -108,38 +106,7 @@ RunFigures figures_of(const Json& record) {
 }  // namespace
 
 EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& campaign)
-    : campaign_(campaign), folder_(std::move(folder)), heading_(heading_of(campaign).dump()) {
-  const std::filesystem::path file = folder_ / "runs.jsonl";
-  const auto refuse = [&](const std::string& what) {
-    throw std::invalid_argument("--out = " + folder_.string() + ": " + what +
-                                ", allowed a new folder or that of the same campaign");
-  };
-  if (!std::filesystem::exists(folder_)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) refuse("cannot be made, " + error.message());
-  }
-  if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
-  if (!std::filesystem::exists(file)) {
-    if (!std::filesystem::is_empty(folder_)) refuse("holds something else");
-    write_file(file, heading_ + "\n");
-    return;
-  }
-  const std::string text = read_file(file);
-  std::vector<std::string> lines = split(text, '\n');
-  if (lines.front() != heading_) refuse("holds the campaign of other choices or another program");
-  lines.pop_back();  // behind the last line break: empty, or a line that was not finished
-  std::string kept = heading_ + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    try {
-      records_[Json::parse(lines[i]).at("run").get<std::size_t>()] = lines[i];
-    } catch (const Json::exception&) {
-      refuse("line " + std::to_string(i + 1) + " of runs.jsonl is no record of a run");
-    }
-    kept += lines[i] + "\n";
-  }
-  if (kept != text) write_file(file, kept);
-}
+    : campaign_(campaign), log_(std::move(folder), heading_of(campaign).dump()) {}
 
 void EvaluationFiles::add(std::size_t run, const CampaignResult& result) {
   Json record;
@@ -154,7 +121,7 @@ void EvaluationFiles::add(std::size_t run, const CampaignResult& result) {
   record["wall_shares_s"] = {{"planning", result.wall.planning_s},
                              {"coordination", result.wall.coordination_s},
                              {"vehicles", result.wall.vehicles_s}};
-  append(run, record.dump());
+  log_.append(run, record.dump());
 }
 
 void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
@@ -166,33 +133,24 @@ void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
   record["scenario"] = spec.scenario.stem().string();
   record["profile"] = spec.profile;
   record["subgraph"] = spec.subgraph.value_or("");
-  append(run, record.dump());
-}
-
-void EvaluationFiles::append(std::size_t run, const std::string& line) {
-  const std::lock_guard lock(mutex_);
-  const std::filesystem::path file = folder_ / "runs.jsonl";
-  std::ofstream stream(file, std::ios::app);
-  stream << line << '\n' << std::flush;
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
-  records_[run] = line;
+  log_.append(run, record.dump());
 }
 
 std::vector<RunFigures> EvaluationFiles::figures() const {
   std::vector<RunFigures> result;
-  for (const auto& [run, line] : records_) result.push_back(figures_of(Json::parse(line)));
+  for (const auto& [run, line] : log_.records()) result.push_back(figures_of(Json::parse(line)));
   return result;
 }
 
 void EvaluationFiles::finish(const EvaluationOrigin& origin) const {
   Json results;
-  results["campaign"] = Json::parse(heading_);
+  results["campaign"] = Json::parse(log_.heading());
   results["runs"] = Json::array();
-  for (const auto& [run, line] : records_) results["runs"].push_back(Json::parse(line));
-  write_file(folder_ / "results.json", results.dump(1) + "\n");
+  for (const auto& [run, line] : log_.records()) results["runs"].push_back(Json::parse(line));
+  write_file(log_.folder() / "results.json", results.dump(1) + "\n");
   const std::vector<RunFigures> runs = figures();
-  write_file(folder_ / "table.md", evaluation_markdown(runs, origin));
-  write_file(folder_ / "table.csv", evaluation_csv(runs));
+  write_file(log_.folder() / "table.md", evaluation_markdown(runs, origin));
+  write_file(log_.folder() / "table.csv", evaluation_csv(runs));
 }
 
 }  // namespace hlc

@@ -2,11 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "vehicle_sim/apps/run_log.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 
@@ -33,8 +32,8 @@ class EvaluationFiles {
   /// other choices or another program
   EvaluationFiles(std::filesystem::path folder, const Campaign& campaign);
 
-  [[nodiscard]] bool has(std::size_t run) const { return records_.contains(run); }
-  [[nodiscard]] std::size_t size() const { return records_.size(); }
+  [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
+  [[nodiscard]] std::size_t size() const { return log_.size(); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written
   void add(std::size_t run, const CampaignResult& result);
@@ -45,13 +44,8 @@ class EvaluationFiles {
   [[nodiscard]] std::vector<RunFigures> figures() const;
 
  private:
-  void append(std::size_t run, const std::string& line);
-
   const Campaign& campaign_;
-  std::filesystem::path folder_;
-  std::string heading_;                         ///< first line of runs.jsonl
-  std::map<std::size_t, std::string> records_;  ///< one line of JSON each, by run
-  std::mutex mutex_;
+  RunLog log_;
 };
 
 }  // namespace hlc

@@ -65,22 +65,30 @@ const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
 DrivenRun Campaign::drive(std::size_t i, const std::function<Nanoseconds()>& wall_clock) const {
   const CampaignRun& run = runs_.at(i);
   const Scenario& as_read = scenario_of(run);
-  DrivenRun driven{
-      .scenario = run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start),
-      .experiment = {}};
-  driven.experiment = drive_experiment(
-      driven.scenario,
-      {.steps = driven.scenario.steps, .noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
-  return driven;
+  return drive_run(run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start),
+                   {.noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
 }
 
 CampaignResult Campaign::result_of(const DrivenRun& run) const {
+  return hlc::result_of(run, plan_.noise_seed);
+}
+
+DrivenRun drive_run(Scenario scenario, ExperimentOptions options) {
+  options.steps = scenario.steps;
+  DrivenRun driven{.scenario = std::move(scenario), .experiment = {}};
+  driven.experiment = drive_experiment(driven.scenario, options);
+  return driven;
+}
+
+CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> noise_seed,
+                         std::uint64_t first_step) {
   const Experiment& experiment = run.experiment;
   if (experiment.facts.exit_code != 0) throw std::runtime_error(experiment.facts.reason);
-  const std::vector<StepRecord> rows =
+  std::vector<StepRecord> rows =
       step_records(experiment.reports, experiment.drives, experiment.facts);
-  CampaignResult result{.summary = summarize(describe(run.scenario, plan_.noise_seed),
-                                             experiment.facts, rows, experiment.drives),
+  std::erase_if(rows, [first_step](const StepRecord& row) { return row.step < first_step; });
+  CampaignResult result{.summary = summarize(describe(run.scenario, noise_seed), experiment.facts,
+                                             rows, experiment.drives),
                         .fault = {},
                         .wall = experiment.wall};
   result.fault = fault_of(result.summary);

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -50,6 +52,17 @@ struct DrivenRun {
   Scenario scenario;
   Experiment experiment;
 };
+
+/// Drives the scenario for the steps that it asks for (not for those of `options`).
+[[nodiscard]] DrivenRun drive_run(Scenario scenario, ExperimentOptions options);
+
+/// A run in the terms of summary.json.
+/// @param noise_seed  of the measurement noise that it was driven with
+/// @param first_step  what lies before is left out of laps, errors, vertices and hash
+/// @throws std::runtime_error with the reason if the run was not driven to its end
+[[nodiscard]] CampaignResult result_of(const DrivenRun& run,
+                                       std::optional<std::uint64_t> noise_seed,
+                                       std::uint64_t first_step = 0);
 
 /// Drives the runs of a plan. Automata are built or read once; `drive` may then be called by
 /// several threads.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <map>
 
 namespace hlc {
@@ -14,8 +13,9 @@ struct Quantity {
   std::string name;
   std::string key;
   int decimals;
-  std::function<std::optional<double>(const RunFigures&)> of;
+  std::optional<double> (*of)(const RunFigures&);
   std::map<std::string, std::map<std::string, double>> paper;
+  bool depends_on_machine{};
 };
 
 const std::string kSimulation = "paper_three_cars";
@@ -76,19 +76,22 @@ const std::vector<Quantity>& quantities() {
        3,
        [](const RunFigures& run) { return std::optional(run.planning_mean_ms); },
        {{kSimulation, {{"A", 9738.3}, {"B", 125.0}, {"C", 166.5}, {"D", 138.4}}},
-        {kLab, {{"B", 12.4}, {"C", 11.8}, {"D", 10.2}}}}},
+        {kLab, {{"B", 12.4}, {"C", 11.8}, {"D", 10.2}}}},
+       true},
       {"Computation time, standard deviation [ms]",
        "planning_std_ms",
        3,
        [](const RunFigures& run) { return std::optional(run.planning_std_ms); },
        {{kSimulation, {{"A", 5228.1}, {"B", 67.5}, {"C", 80.1}, {"D", 71.2}}},
-        {kLab, {{"B", 3.8}, {"C", 3.1}, {"D", 3.3}}}}},
+        {kLab, {{"B", 3.8}, {"C", 3.1}, {"D", 3.3}}}},
+       true},
       {"Max. computation time [ms]",
        "planning_max_ms",
        3,
        [](const RunFigures& run) { return std::optional(run.planning_max_ms); },
        {{kSimulation, {{"A", 28436.7}, {"B", 600.9}, {"C", 570.7}, {"D", 654.4}}},
-        {kLab, {{"B", 32.3}, {"C", 24.5}, {"D", 32.8}}}}},
+        {kLab, {{"B", 32.3}, {"C", 24.5}, {"D", 32.8}}}},
+       true},
       {"Plans that took longer than a step [%]",
        "overlong_percent",
        2,
@@ -247,6 +250,20 @@ std::string markdown_of(const Group& group) {
 }
 
 }  // namespace
+
+std::vector<PapersCell> papers_cells() {
+  std::vector<PapersCell> cells;
+  for (const std::string& scenario : {kSimulation, kLab}) {
+    for (const std::string subgraph : {"A", "B", "C", "D"}) {
+      for (const Quantity& quantity : quantities()) {
+        const std::optional<double> value = papers_value(quantity, scenario, subgraph);
+        if (!value || quantity.depends_on_machine) continue;
+        cells.push_back({scenario, subgraph, quantity.key, *value, quantity.of});
+      }
+    }
+  }
+  return cells;
+}
 
 std::string evaluation_markdown(const std::vector<RunFigures>& runs,
                                 const EvaluationOrigin& origin) {

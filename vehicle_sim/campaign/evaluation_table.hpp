@@ -36,6 +36,19 @@ struct RunFigures {
   std::size_t collisions{};
 };
 
+/// A cell of the paper's Table 2 that does not depend on the machine: reference error, lap,
+/// vertices.
+struct PapersCell {
+  std::string scenario;  ///< paper_three_cars (the paper's simulation), paper_red_alone (its lab)
+  std::string subgraph;
+  std::string quantity;  ///< its key in the table as comma-separated values
+  double value{};
+  std::optional<double> (*of)(const RunFigures&){};  ///< ours
+};
+
+/// All of them, by scenario, subgraph, quantity.
+[[nodiscard]] std::vector<PapersCell> papers_cells();
+
 /// Where the figures come from.
 struct EvaluationOrigin {
   std::string command;

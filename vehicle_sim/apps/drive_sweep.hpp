@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+
+#include "vehicle_sim/apps/sweep_files.hpp"
+
+namespace hlc {
+
+/// Designs the automata and drives the runs that are missing, `jobs` at a time, with progress lines
+/// on stderr. Runs that cannot be driven are recorded with their reason and stop nobody.
+/// @return the number of runs that do not count, those that were there already included
+std::size_t drive_sweep(Sweep& sweep, std::size_t jobs, SweepFiles& files);
+
+}  // namespace hlc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace hlc {
+
+/// The file runs.jsonl in the folder of a campaign or sweep: a first line that says what is driven,
+/// then a line per run, written once it is driven. What was interrupted goes on with the runs that
+/// are missing.
+class RunLog {
+ public:
+  /// Makes the folder, or opens that of the same campaign. A last line that was not finished is
+  /// dropped.
+  /// @param heading  one line of JSON
+  /// @throws std::invalid_argument naming the folder if it holds anything else, or a campaign with
+  /// another heading
+  RunLog(std::filesystem::path folder, std::string heading);
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const std::string& heading() const { return heading_; }
+  [[nodiscard]] bool has(std::size_t run) const { return records_.contains(run); }
+  [[nodiscard]] std::size_t size() const { return records_.size(); }
+  /// One line of JSON each, by run.
+  [[nodiscard]] const std::map<std::size_t, std::string>& records() const { return records_; }
+
+  /// From any thread.
+  /// @param line  of JSON, with "run" as a key
+  /// @throws std::runtime_error if it cannot be written
+  void append(std::size_t run, const std::string& line);
+
+ private:
+  std::filesystem::path folder_;
+  std::string heading_;
+  std::map<std::size_t, std::string> records_;
+  std::mutex mutex_;
+};
+
+}  // namespace hlc

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "vehicle_sim/apps/run_log.hpp"
+#include "vehicle_sim/campaign/sweep.hpp"
+
+namespace hlc {
+
+/// The folder of a sweep:
+///
+///     runs.jsonl             first line: files of sweep, scenarios and automaton with their
+///     hashes,
+///                            revision; then a line per run, once driven
+///     sweep.csv, sweep.md    see sweep_report.hpp
+///
+/// A run's record: "run" (its number), "failure" (null, or why it does not count), and, if it was
+/// driven, the columns of sweep.csv from lap_s to fallback_steps, "collisions" and "trace_sha256".
+///
+/// A sweep that was interrupted goes on with the runs that are missing in runs.jsonl.
+class SweepFiles {
+ public:
+  /// @throws std::invalid_argument as RunLog
+  SweepFiles(std::filesystem::path folder, const Sweep& sweep);
+
+  [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
+  [[nodiscard]] std::size_t size() const { return log_.size(); }
+
+  /// From any thread. @throws std::runtime_error if it cannot be written
+  void add(std::size_t run, const SweepResult& result);
+
+  /// Of all runs, in the order of the sweep. @pre all are there
+  [[nodiscard]] std::vector<RunFigures> figures() const;
+  /// Writes sweep.csv and sweep.md. @pre all runs are there
+  void finish(const EvaluationOrigin& origin) const;
+
+ private:
+  const Sweep& sweep_;
+  RunLog log_;
+};
+
+}  // namespace hlc

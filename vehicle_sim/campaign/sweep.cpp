@@ -1,0 +1,178 @@
+#include "vehicle_sim/campaign/sweep.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/maneuver_design/automaton_builder.hpp"
+#include "planner/scenario/named_subgraph.hpp"
+#include "planner/scenario/starts.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace hlc {
+namespace {
+
+/// Only the subgraphs that are driven, and what they need of the automaton.
+AutomatonConfiguration narrowed(const SweepPlan& plan, AutomatonConfiguration configuration) {
+  // Places in the file say nothing about values that a sweep has put in.
+  configuration.places = {};
+  std::erase_if(configuration.subgraphs, [&](const SubgraphSpec& spec) {
+    return std::ranges::find(plan.subgraphs, spec.name) == plan.subgraphs.end();
+  });
+  std::erase_if(configuration.criteria, [&](const LabelledCriterion& criterion) {
+    return std::ranges::none_of(configuration.subgraphs, [&](const SubgraphSpec& spec) {
+      return uses(spec, criterion.label);
+    });
+  });
+  return configuration;
+}
+
+/// Changes the configuration; returns the values that did, one text for each different automaton.
+std::string apply_to_automaton(const SweepPlan& plan, const SweepCombination& combination,
+                               AutomatonConfiguration& configuration) {
+  std::string key;
+  for (const SweepSetting& setting : sweep_settings()) {
+    const SweepValue* value = value_of(plan, combination, setting.name);
+    if (value == nullptr || !setting.on_automaton) continue;
+    setting.on_automaton(*value, configuration);
+    if (setting.name != kTrimsSetting) key += value->text + ' ';
+  }
+  return key;
+}
+
+std::uint64_t first_step_of(const SweepPlan& plan, const SweepCombination& combination) {
+  const SweepValue* lap = value_of(plan, combination, kLapSetting);
+  return lap != nullptr && lap->text == "flying" ? kFlyingStep : 0;
+}
+
+std::optional<double> in_mm(const std::optional<Statistics>& error_m, double Statistics::*value) {
+  return error_m ? std::optional(1e3 * ((*error_m).*value)) : std::nullopt;
+}
+
+void fill(const CampaignResult& result, RunFigures& figures) {
+  const RunSummary& summary = result.summary;
+  const VehicleSummary& first = summary.vehicles.front();
+  figures.failure = result.fault;
+  figures.lap_s = first.lap_s;
+  figures.error_mean_mm = in_mm(first.reference_error_m, &Statistics::mean);
+  figures.error_std_mm = in_mm(first.reference_error_m, &Statistics::std);
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    if (vehicle.generated) {
+      figures.generated_max = std::max(figures.generated_max, vehicle.generated->max);
+    }
+    if (vehicle.expanded) {
+      figures.expanded_max = std::max(figures.expanded_max, vehicle.expanded->max);
+    }
+    figures.deviation_max_mm =
+        std::max(figures.deviation_max_mm, 1e3 * vehicle.deviation_max_m.value_or(0.0));
+    figures.fallback_steps += vehicle.fallback_steps;
+  }
+  figures.generated_sum_max = static_cast<double>(summary.generated_vertices_sum_max);
+  figures.expanded_sum_max = static_cast<double>(summary.expanded_vertices_sum_max);
+  figures.collisions = summary.collisions;
+}
+
+}  // namespace
+
+Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combinations_of(plan_)) {
+  AutomatonConfiguration whole = read_automaton_configuration(plan_.automaton);
+  offered_ = whole.subgraphs;
+  trims_ = whole.trims;
+  const AutomatonConfiguration as_read = narrowed(plan_, std::move(whole));
+  std::map<std::string, std::size_t> automaton_by_key;
+  for (std::size_t c = 0; c < combinations_.size(); ++c) {
+    AutomatonConfiguration changed = as_read;
+    const std::string key = apply_to_automaton(plan_, combinations_[c], changed);
+    const auto [entry, is_new] = automaton_by_key.try_emplace(key, automata_.size());
+    if (is_new) automata_.push_back({.configuration = std::move(changed)});
+    automaton_of_.push_back(entry->second);
+    const std::string profile = profile_of(combinations_[c]);
+    for (std::size_t scenario = 0; scenario < plan_.scenarios.size(); ++scenario) {
+      if (!scenarios_.contains({scenario, profile})) {
+        scenarios_.emplace(std::pair{scenario, profile},
+                           read_scenario({.file = plan_.scenarios[scenario],
+                                          .profile = profile,
+                                          .subgraph = plan_.subgraphs.front(),
+                                          .steps = plan_.steps}));
+      }
+      for (std::size_t subgraph = 0; subgraph < plan_.subgraphs.size(); ++subgraph) {
+        for (std::size_t start = 0; start < plan_.starts; ++start) {
+          runs_.push_back({c, scenario, subgraph, start});
+        }
+      }
+    }
+  }
+  if (plan_.starts == 1) return;
+  for (const auto& [key, scenario] : scenarios_) {
+    static_cast<void>(with_random_starts(scenario, plan_.seed + 1));
+  }
+}
+
+std::string Sweep::profile_of(const SweepCombination& combination) const {
+  const SweepValue* profile = value_of(plan_, combination, kProfileSetting);
+  return profile != nullptr ? profile->text : "default";
+}
+
+std::size_t Sweep::automaton_of(std::size_t run) const {
+  return automaton_of_[runs_.at(run).combination];
+}
+
+void Sweep::build(std::size_t automaton) {
+  DesignedAutomaton& designed = automata_.at(automaton);
+  try {
+    designed.automaton = build_shared_automaton(designed.configuration);
+  } catch (const std::exception& error) {
+    designed.failure = error.what();
+  }
+}
+
+Scenario Sweep::scenario_of(std::size_t run) const {
+  const SweepRun& what = runs_.at(run);
+  const SweepCombination& combination = combinations_[what.combination];
+  const DesignedAutomaton& designed = automata_[automaton_of(run)];
+  assert(designed.automaton || !designed.failure.empty());
+  if (!designed.automaton) throw std::runtime_error(designed.failure);
+  Scenario scenario = scenarios_.at({what.scenario, profile_of(combination)});
+  SubgraphSpec spec =
+      *find_subgraph(designed.configuration.subgraphs, plan_.subgraphs[what.subgraph]);
+  if (const SweepValue* trims = value_of(plan_, combination, kTrimsSetting)) {
+    spec.trims = trims->trims;
+  }
+  scenario.subgraph = std::make_shared<Subgraph>(designed.automaton, spec);
+  check_driving(*scenario.subgraph, scenario.horizon_steps);
+  for (const SweepSetting& setting : sweep_settings()) {
+    const SweepValue* value = value_of(plan_, combination, setting.name);
+    if (value != nullptr && setting.on_scenario) setting.on_scenario(*value, scenario);
+  }
+  check_search_options(scenario.search);
+  if (what.start > 0) scenario = with_random_starts(scenario, plan_.seed + what.start);
+  if (overlapping_starts(scenario)) {
+    throw std::invalid_argument(scenario.file.string() + ": cars overlap at the start");
+  }
+  return scenario;
+}
+
+RunFigures Sweep::heading_of(std::size_t run) const {
+  const SweepRun& what = runs_.at(run);
+  return {.scenario = plan_.scenarios[what.scenario].stem().string(),
+          .profile = profile_of(combinations_[what.combination]),
+          .subgraph = plan_.subgraphs[what.subgraph],
+          .start = what.start};
+}
+
+SweepResult Sweep::drive(std::size_t run) const {
+  SweepResult result{.figures = heading_of(run), .trace_sha256 = {}};
+  const std::uint64_t first_step = first_step_of(plan_, combinations_[runs_.at(run).combination]);
+  try {
+    const CampaignResult driven =
+        result_of(drive_run(scenario_of(run), {}), std::nullopt, first_step);
+    fill(driven, result.figures);
+    result.trace_sha256 = driven.summary.trace_sha256;
+  } catch (const std::exception& error) {
+    result.figures.failure = error.what();
+  }
+  return result;
+}
+
+}  // namespace hlc

@@ -1,0 +1,85 @@
+#include "vehicle_sim/campaign/sweep_settings.hpp"
+
+namespace hlc {
+namespace {
+
+void set_search(const SweepValue& value, Scenario& scenario) {
+  scenario.search.engine =
+      value.text == "branch_and_bound" ? Engine::kBranchAndBound : Engine::kBestFirst;
+  scenario.search.cost_to_go = value.text == "2022" ? CostToGo::k2022 : CostToGo::kReachable;
+}
+
+void set_drivable(const SweepValue& value, Scenario& scenario) {
+  if (value.text == "lanes") return;
+  for (ScenarioVehicle& vehicle : scenario.vehicles) vehicle.corridor = Corridor();
+}
+
+void set_wheelbase(const SweepValue& value, AutomatonConfiguration& automaton) {
+  VehicleParameters& vehicle = automaton.vehicle;
+  vehicle.rear_axle_to_cg_m *= value.number / vehicle.wheelbase_m;
+  vehicle.wheelbase_m = value.number;
+}
+
+}  // namespace
+
+const std::vector<SweepSetting>& sweep_settings() {
+  using Automaton = AutomatonConfiguration;
+  using Value = SweepValue;
+  static const std::vector<SweepSetting> all{
+      {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
+      {"reference_rule",
+       false,
+       one_of({"default", "2022"}),
+       {},
+       [](const Value& value, Scenario& scenario) {
+         scenario.profile.reference_rule =
+             value.text == "2022" ? ReferenceRule::k2022 : ReferenceRule::kDefault;
+       }},
+      {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
+      {"reference_speed_mps",
+       true,
+       above(0.0, 100.0),
+       {},
+       [](const Value& value, Scenario& scenario) { scenario.reference_speed_mps = value.number; }},
+      {"drivable", false, one_of({"lanes", "everywhere"}), {}, set_drivable},
+      {"acceleration_mps2",
+       true,
+       above(0.0, 1e4),
+       [](const Value& value, Automaton& automaton) {
+         automaton.limits.acceleration_mps2 = value.number;
+       },
+       {}},
+      {"steering_rate_radps",
+       true,
+       above(0.0, 1e4),
+       [](const Value& value, Automaton& automaton) {
+         automaton.limits.steering_rate_radps = value.number;
+       },
+       {}},
+      {"wheelbase_m", true, above(0.0, 100.0), set_wheelbase, {}},
+      {"width_m",
+       true,
+       above(0.0, 100.0),
+       [](const Value& value, Automaton& automaton) {
+         automaton.vehicle.footprint.width_m = value.number;
+       },
+       {}},
+      {"safety_margin_m",
+       true,
+       between(0.0, 100.0),
+       [](const Value& value, Automaton& automaton) {
+         automaton.vehicle.safety_margin_m = value.number;
+       },
+       {}},
+      // One automaton with every edge serves all choices of trims.
+      {kTrimsSetting,
+       false,
+       {},
+       [](const Value&, Automaton& automaton) { automaton.edges = EdgeChoice::kAll; },
+       {}},
+      {kLapSetting, false, one_of({"standing", "flying"}), {}, {}},
+  };
+  return all;
+}
+
+}  // namespace hlc

@@ -1,0 +1,146 @@
+#include "vehicle_sim/campaign/trims_front.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+#include <tuple>
+
+namespace hlc {
+namespace {
+
+std::string number(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
+/// Mean over the runs of one combination; nothing if one of them drove no lap.
+std::optional<TrimsQuality> quality_of(const std::vector<const RunFigures*>& runs) {
+  TrimsQuality quality;
+  const auto count = static_cast<double>(runs.size());
+  for (const RunFigures* run : runs) {
+    if (!run->failure.empty() || !run->lap_s || !run->error_mean_mm) return std::nullopt;
+    quality.error_mean_mm += *run->error_mean_mm / count;
+    quality.lap_s += *run->lap_s / count;
+    quality.generated_max += run->generated_max / count;
+  }
+  return quality;
+}
+
+const std::vector<TrimId>& trims_of(const Sweep& sweep, std::size_t combination) {
+  const SweepValue* trims =
+      value_of(sweep.plan(), sweep.combinations()[combination], kTrimsSetting);
+  assert(trims != nullptr);
+  return trims->trims;
+}
+
+/// The settings of a combination in words, trims first.
+std::string name_of(const Sweep& sweep, std::size_t combination) {
+  const SweepCombination& values = sweep.combinations()[combination];
+  std::string name = value_of(sweep.plan(), values, kTrimsSetting)->text;
+  for (const SweepAxis& axis : sweep.plan().axes) {
+    if (axis.setting == kTrimsSetting || axis.values.size() == 1) continue;
+    name += ", " + axis.setting + " " + value_of(sweep.plan(), values, axis.setting)->text;
+  }
+  return name;
+}
+
+std::string row(const Sweep& sweep, const TrimsQuality& choice, const std::string& note) {
+  return "| " + std::to_string(choice.moving) + " | " + name_of(sweep, choice.combination) + " | " +
+         number(choice.error_mean_mm, 2) + " | " + number(choice.lap_s, 2) + " | " +
+         number(choice.generated_max, 0) + " | " + note + " |\n";
+}
+
+bool beats(const TrimsQuality& a, const TrimsQuality& b) {
+  return a.moving <= b.moving && a.error_mean_mm <= b.error_mean_mm &&
+         (a.moving < b.moving || a.error_mean_mm < b.error_mean_mm);
+}
+
+/// Of all choices with these trims, how many beat it.
+std::string place_of(const std::vector<TrimsQuality>& choices, const TrimsQuality& choice) {
+  const auto better =
+      std::ranges::count_if(choices, [&](const TrimsQuality& one) { return beats(one, choice); });
+  const auto same_size = std::ranges::count_if(
+      choices, [&](const TrimsQuality& one) { return one.moving == choice.moving; });
+  const auto ahead = std::ranges::count_if(choices, [&](const TrimsQuality& one) {
+    return one.moving == choice.moving && one.error_mean_mm < choice.error_mean_mm;
+  });
+  return (better == 0 ? std::string("on the front") : std::to_string(better) + " choices beat it") +
+         "; number " + std::to_string(ahead + 1) + " of " + std::to_string(same_size) +
+         " with as many trims";
+}
+
+std::string markdown_of(const Sweep& sweep, const std::vector<TrimsQuality>& choices) {
+  std::string text =
+      "| moving trims | trims | error, mean [mm] | lap [s] | max. generated | |\n"
+      "|---|---|---|---|---|---|\n";
+  for (const TrimsQuality& choice : trims_front(choices)) text += row(sweep, choice, "front");
+  const std::size_t most = std::ranges::max_element(choices, {}, &TrimsQuality::moving)->moving;
+  // Sorted: the first with so many is the most accurate of them.
+  const TrimsQuality& all = *std::ranges::find(choices, most, &TrimsQuality::moving);
+  const TrimsQuality& smallest = *std::ranges::find_if(
+      choices, [&](const TrimsQuality& one) { return one.error_mean_mm <= all.error_mean_mm; });
+  text += row(sweep, smallest, "smallest, not less accurate than the largest");
+  for (const SubgraphSpec& spec : sweep.offered_subgraphs()) {
+    std::vector<TrimId> trims = spec.trims;
+    std::ranges::sort(trims);
+    for (const TrimsQuality& choice : choices) {
+      if (trims_of(sweep, choice.combination) != trims) continue;
+      text += row(sweep, choice, "trims of " + spec.name + ": " + place_of(choices, choice));
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::vector<TrimsQuality> trims_that_drive(const Sweep& sweep, const std::vector<RunFigures>& runs,
+                                           std::size_t scenario, std::size_t subgraph) {
+  assert(runs.size() == sweep.runs().size());
+  std::vector<std::vector<const RunFigures*>> by_combination(sweep.combinations().size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const SweepRun& run = sweep.runs()[i];
+    if (run.scenario != scenario || run.subgraph != subgraph) continue;
+    by_combination[run.combination].push_back(&runs[i]);
+  }
+  std::vector<TrimsQuality> choices;
+  for (std::size_t c = 0; c < by_combination.size(); ++c) {
+    std::optional<TrimsQuality> quality = quality_of(by_combination[c]);
+    if (!quality) continue;
+    quality->combination = c;
+    const std::vector<TrimId>& trims = trims_of(sweep, c);
+    quality->moving = static_cast<std::size_t>(
+        std::ranges::count_if(trims, [&](TrimId trim) { return sweep.is_moving(trim); }));
+    choices.push_back(*quality);
+  }
+  std::ranges::stable_sort(choices, {}, [](const TrimsQuality& one) {
+    return std::tuple(one.moving, one.error_mean_mm);
+  });
+  return choices;
+}
+
+std::vector<TrimsQuality> trims_front(const std::vector<TrimsQuality>& choices) {
+  std::vector<TrimsQuality> front;
+  std::ranges::copy_if(choices, std::back_inserter(front), [&](const TrimsQuality& one) {
+    return std::ranges::none_of(choices,
+                                [&](const TrimsQuality& other) { return beats(other, one); });
+  });
+  return front;
+}
+
+std::string trims_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs) {
+  std::string text;
+  for (std::size_t scenario = 0; scenario < sweep.plan().scenarios.size(); ++scenario) {
+    for (std::size_t subgraph = 0; subgraph < sweep.plan().subgraphs.size(); ++subgraph) {
+      const std::vector<TrimsQuality> choices = trims_that_drive(sweep, runs, scenario, subgraph);
+      text += "## Trims: " + sweep.plan().scenarios[scenario].stem().string() + ", maneuvers of " +
+              sweep.plan().subgraphs[subgraph] + "\n\n" + std::to_string(choices.size()) + " of " +
+              std::to_string(sweep.combinations().size()) +
+              " choices drive a lap from every start.\n\n";
+      if (!choices.empty()) text += markdown_of(sweep, choices);
+    }
+  }
+  return text;
+}
+
+}  // namespace hlc
