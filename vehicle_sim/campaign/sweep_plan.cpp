@@ -75,9 +75,7 @@ SweepValue read_value(const YamlNode& entry, const SweepSetting& setting,
 
 std::vector<SweepAxis> read_axes(const YamlNode& settings, const std::vector<Trim>& trims) {
   std::vector<SweepAxis> axes;
-  std::string names;
   for (const SweepSetting& setting : sweep_settings()) {
-    names += (names.empty() ? "" : ", ") + setting.name;
     if (!settings.has(setting.name)) continue;
     SweepAxis axis{.setting = setting.name, .values = {}};
     if (setting.name == kTrimsSetting && settings.is_value(setting.name)) {
@@ -94,10 +92,7 @@ std::vector<SweepAxis> read_axes(const YamlNode& settings, const std::vector<Tri
     }
     axes.push_back(std::move(axis));
   }
-  for (const std::string& key : settings.keys()) {
-    const auto is_key = [&](const SweepSetting& setting) { return setting.name == key; };
-    if (std::ranges::none_of(sweep_settings(), is_key)) settings.fail(key, names);
-  }
+  settings.check_no_unknown_keys();
   return axes;
 }
 

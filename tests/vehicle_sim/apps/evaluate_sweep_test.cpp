@@ -1,0 +1,73 @@
+// `evaluate --sweep`: files, resumption, bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/child_process.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc::test {
+namespace {
+
+using testing::HasSubstr;
+
+class EvaluateSweep : public testing::Test {
+ protected:
+  [[nodiscard]] Outcome sweep(const std::string& settings, const std::string& flags = "") const {
+    put(folder_ / "sweep.yaml", "scenarios: [" HLC_SOURCE_DIR
+                                "/launch_scripts/scenarios/paper_red_alone.yaml]\nsubgraphs: [B, "
+                                "D]\nsteps: 20\nsettings: " +
+                                    settings + "\n");
+    return run_program("evaluate --sweep " + (folder_ / "sweep.yaml").string() + " --out " +
+                       out_.string() + " " + flags);
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path out_{folder_ / "out"};
+};
+
+TEST_F(EvaluateSweep, GoesOnWhereItWasInterrupted) {
+  const std::string settings = "{drivable: [lanes, everywhere]}";
+  const Outcome whole = sweep(settings, "--jobs 2");
+  ASSERT_EQ(whole.exit_code, 0) << whole.output;
+  EXPECT_THAT(whole.output, HasSubstr("4 runs, 0 do not count"));
+  const std::string csv = read_text(out_ / "sweep.csv");
+  const std::string lines = read_text(out_ / "runs.jsonl");
+  // Killed while it wrote the third run.
+  std::size_t cut = 0;
+  for (int line = 0; line < 3; ++line) cut = lines.find('\n', cut) + 1;
+  put(out_ / "runs.jsonl", lines.substr(0, cut + 20));
+  std::filesystem::remove(out_ / "sweep.csv");
+  const Outcome again = sweep(settings);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs are there already"));
+  EXPECT_EQ(read_text(out_ / "sweep.csv"), csv);
+}
+
+TEST_F(EvaluateSweep, ExitCodeTellsThatACombinationCouldNotBeDriven) {
+  const Outcome outcome = sweep("{steering_rate_radps: [2, 6.2]}");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("4 runs, 2 do not count"));
+  EXPECT_THAT(read_text(out_ / "sweep.md"), HasSubstr("Runs that do not count: 2"));
+}
+
+TEST_F(EvaluateSweep, BadInputIsOneLineExitCode2AndNothingWritten) {
+  const Outcome setting = sweep("{colour: [red]}");
+  EXPECT_EQ(setting.exit_code, 2);
+  EXPECT_THAT(setting.output, HasSubstr("sweep.yaml:4: settings.colour"));
+  EXPECT_EQ(setting.output.find('\n'), setting.output.size() - 1) << setting.output;
+  EXPECT_FALSE(std::filesystem::exists(out_));
+  EXPECT_EQ(sweep("{lap: [flying]}", "--starts 2").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+TEST_F(EvaluateSweep, RefusesTheFolderOfAnotherSweep) {
+  ASSERT_EQ(sweep("{lap: [flying]}").exit_code, 0);
+  const std::string before = read_text(out_ / "runs.jsonl");
+  const Outcome outcome = sweep("{lap: [standing]}");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(read_text(out_ / "runs.jsonl"), before);
+}
+
+}  // namespace
+}  // namespace hlc::test
