@@ -226,7 +226,9 @@ int main(int argc, char** argv) {
       sweep->excludes(option);
     }
   }
-  app.footer("Exit codes: 0 all runs driven, 1 some failed (results.json says why), 2 bad input.");
+  app.footer(
+      "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
+      "input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   int code = 0;
   const int problem =

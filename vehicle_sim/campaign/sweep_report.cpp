@@ -219,10 +219,10 @@ std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& ru
   const SweepPlan& plan = sweep.plan();
   std::string text =
       "# Sweep " + plan.file.filename().string() + "\n\n" + std::to_string(runs.size()) +
-      " runs: " + std::to_string(sweep.combinations().size()) + " combinations of settings, " +
-      std::to_string(plan.scenarios.size()) + " scenarios, " +
-      std::to_string(plan.subgraphs.size()) + " subgraphs, " + std::to_string(plan.starts) +
-      " starts; " + std::to_string(sweep.num_automata()) + " automata.\n\n";
+      " runs: " + std::to_string(sweep.combinations().size()) +
+      " combinations of settings; scenarios " + std::to_string(plan.scenarios.size()) +
+      ", subgraphs " + std::to_string(plan.subgraphs.size()) + ", starts " +
+      std::to_string(plan.starts) + ", automata " + std::to_string(sweep.num_automata()) + ".\n\n";
   const bool sweeps_trims = std::ranges::any_of(
       plan.axes, [](const SweepAxis& axis) { return axis.setting == kTrimsSetting; });
   text += sweeps_trims ? trims_markdown(sweep, runs) : paper_part(sweep, runs);
