@@ -8,6 +8,7 @@
 #include "hlc_bridge/record/summary_file.hpp"
 #include "hlc_bridge/record/text_file.hpp"
 #include "planner/automaton/sha256.hpp"
+#include "vehicle_sim/apps/json_number.hpp"
 
 namespace hlc {
 namespace {
@@ -30,10 +31,6 @@ Json heading_of(const Campaign& campaign) {
   json["noise_seed"] = plan.noise_seed ? Json(*plan.noise_seed) : Json(nullptr);
   json["revision"] = program_revision();
   return json;
-}
-
-std::optional<double> number_or_none(const Json& json) {
-  return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
 double number_or_0(const Json& json) { return number_or_none(json).value_or(0.0); }

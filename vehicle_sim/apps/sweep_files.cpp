@@ -7,6 +7,7 @@
 #include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/record/text_file.hpp"
 #include "planner/automaton/sha256.hpp"
+#include "vehicle_sim/apps/json_number.hpp"
 #include "vehicle_sim/campaign/sweep_report.hpp"
 
 namespace hlc {
@@ -32,10 +33,6 @@ Json heading_of(const Sweep& sweep) {
 }
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-std::optional<double> number_or_none(const Json& json) {
-  return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
-}
 
 /// The members of RunFigures that a record holds as numbers.
 struct Column {

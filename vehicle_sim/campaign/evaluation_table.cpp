@@ -1,8 +1,9 @@
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
+
+#include "vehicle_sim/campaign/number_text.hpp"
 
 namespace hlc {
 namespace {
@@ -134,12 +135,6 @@ const std::vector<Quantity>& quantities() {
        {}},
   };
   return all;
-}
-
-std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
 }
 
 /// A quantity over the starts.

@@ -6,16 +6,16 @@
 namespace hlc {
 namespace {
 
-constexpr char kSimulation[] = "paper_three_cars";
-constexpr char kLab[] = "paper_red_alone";
+constexpr char kThreeCars[] = "paper_three_cars";
+constexpr char kRedAlone[] = "paper_red_alone";
 
 std::vector<PapersCell> compared_cells() {
   std::vector<PapersCell> cells = papers_cells();
   std::vector<PapersCell> alone;
   for (PapersCell cell : cells) {
-    if (cell.scenario != kSimulation || cell.subgraph != "A") continue;
+    if (cell.scenario != kThreeCars || cell.subgraph != "A") continue;
     if (cell.quantity == "generated_sum_max") continue;  // of three cars
-    cell.scenario = kLab;
+    cell.scenario = kRedAlone;
     alone.push_back(cell);
   }
   cells.insert(cells.end(), alone.begin(), alone.end());

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
+#include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/trims_front.hpp"
 
@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::size_t kBestShown = 10;
 constexpr std::size_t kReasonsShown = 20;
-
-std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
-}
 
 std::string number(const std::optional<double>& value, int decimals) {
   return value ? number(*value, decimals) : "";

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
 #include <tuple>
+
+#include "vehicle_sim/campaign/number_text.hpp"
 
 namespace hlc {
 namespace {
-
-std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
-}
 
 /// Mean over the runs of one combination; nothing if one of them drove no lap.
 std::optional<TrimsQuality> quality_of(const std::vector<const RunFigures*>& runs) {

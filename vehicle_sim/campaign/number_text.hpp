@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace hlc {
+
+/// A number of a table with so many decimals; |value| < 1e40.
+[[nodiscard]] inline std::string number(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
+}  // namespace hlc
