@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kBestShown = 10;
 constexpr std::size_t kReasonsShown = 20;
 
-std::string number(const std::optional<double>& value, int decimals) {
+std::string number_or_empty(const std::optional<double>& value, int decimals) {
   return value ? number(*value, decimals) : "";
 }
 
@@ -192,8 +192,8 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
       text +=
           "," + value_of(sweep.plan(), sweep.combinations()[what.combination], axis.setting)->text;
     }
-    text += "," + number(run.lap_s, 4) + "," + number(run.error_mean_mm, 4) + "," +
-            number(run.error_std_mm, 4);
+    text += "," + number_or_empty(run.lap_s, 4) + "," + number_or_empty(run.error_mean_mm, 4) +
+            "," + number_or_empty(run.error_std_mm, 4);
     const bool was_driven = run.error_mean_mm.has_value();
     for (const double value :
          {run.generated_max, run.generated_sum_max, run.expanded_max, run.expanded_sum_max}) {
