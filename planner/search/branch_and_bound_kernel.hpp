@@ -1,7 +1,7 @@
 // The inner loop of BranchAndBound. It is long-winded for speed: four children at a time, their
-// bounds for two steps at a time, branches where they are foreseeable, nothing shared with other
-// files but its collision test and vectors and the plain data of branch_and_bound_data.hpp. It is
-// compiled twice, for any processor
+// bounds for two steps at a time, branches where they are foreseeable. Like its preparation,
+// collision test and vectors (files of their own) it shares nothing with other files but the plain
+// data of branch_and_bound_data.hpp. It is compiled twice, for any processor
 // (branch_and_bound_portable.cpp) and with AVX2 (branch_and_bound_avx2.cpp); only these two include
 // it. The same operations in the same order, no contraction: both give the same bits. No function
 // here may be visible outside, and none from elsewhere be used, or the linker could mix the two.
@@ -11,6 +11,7 @@
 
 #include "planner/search/branch_and_bound_collision.hpp"
 #include "planner/search/branch_and_bound_data.hpp"
+#include "planner/search/branch_and_bound_preparation.hpp"
 #include "planner/search/branch_and_bound_vectors.hpp"
 
 namespace hlc::branch_and_bound {

@@ -124,6 +124,17 @@ TEST_P(BranchAndBoundEstimates, AreNoMoreThanTheBestPathThroughEachChildCosts) {
   EXPECT_GE(children, 250U);
 }
 
+// A controller has tables for one step more than a replay of its decisions.
+TEST_P(BranchAndBoundEstimates, AreTheSameWhateverNumberOfStepsThereAreTablesFor) {
+  const ReachableSets longer(subgraph_, kMaxSteps + 1);
+  BranchAndBound other(subgraph_, longer, {});
+  for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
+    std::mt19937_64 random(seed);
+    const HorizonProblem problem = random_case(subgraph_, 1 + test::pick(random, 8), random);
+    ASSERT_EQ(other.estimates(problem), engine_.estimates(problem)) << "seed " << seed;
+  }
+}
+
 TEST_P(BranchAndBoundEstimates, OfTheBestChildIsNoMoreThanTheOptimumOnLongHorizons) {
   BestFirstSearch plain(subgraph_, reachable_, {.max_expansions = 20'000});
   std::size_t solved = 0;

@@ -1,0 +1,260 @@
+// What BranchAndBound's inner loop prepares once per plan, in single precision, relative to the
+// plan's start: obstacles and boundary segments that can be met, with what encloses them. Compiled
+// twice, as branch_and_bound_kernel.hpp, and for the same reason self-contained.
+#pragma once
+
+#include "planner/search/branch_and_bound_data.hpp"
+#include "planner/search/branch_and_bound_vectors.hpp"
+
+namespace hlc::branch_and_bound {
+namespace {
+
+constexpr float kFarAway = 1e15F;      // coordinate of padding; its square is still a number
+constexpr double kLeastLength = 1e-6;  // of an edge with a direction, relative to S
+constexpr double kDiagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
+constexpr std::uint32_t kEveryLane = 0xff;
+
+/// Corners, normals and offsets of an obstacle.
+void make_ready(const Plan& plan, const PolygonData& polygon) {
+  double* const x = plan.corners;
+  double* const y = plan.corners + plan.corner_stride;
+  const std::uint32_t padded = polygon.num_blocks * kFloatLanes;
+  for (std::uint32_t i = 0; i < polygon.size; ++i) {
+    x[i] = polygon.corners[2 * i] - plan.origin_x;
+    y[i] = polygon.corners[2 * i + 1] - plan.origin_y;
+  }
+  for (std::uint32_t i = polygon.size; i <= padded; ++i) {
+    x[i] = x[0];
+    y[i] = y[0];
+  }
+  const double least_length = kLeastLength * plan.scale;
+  for (std::uint32_t i = 0; i < padded; i += kLanes) {
+    PolygonBlock& block = plan.obstacle_blocks[polygon.first_block + i / kFloatLanes];
+    const std::uint32_t lane = i % kFloatLanes;
+    const Doubles from_x = load(x + i);
+    const Doubles from_y = load(y + i);
+    const Doubles along_x = load(x + i + 1) - from_x;
+    const Doubles along_y = load(y + i + 1) - from_y;
+    // An edge too short to have a direction gets no normal: it separates by 0, which is too close
+    // to call whatever lies beside it.
+    const Doubles length = larger(absolute(along_x), absolute(along_y));
+    const Doubles scale = if_less(all(least_length), length, all(1.0) / length, all(0.0));
+    const Doubles normal_x = along_y * scale;
+    const Doubles normal_y = all(0.0) - along_x * scale;
+    store(block.x + lane, from_x);
+    store(block.y + lane, from_y);
+    store(block.normal_x + lane, normal_x);
+    store(block.normal_y + lane, normal_y);
+    store(block.offset + lane, normal_x * from_x + normal_y * from_y);
+  }
+  PolygonBlock& last = plan.obstacle_blocks[polygon.first_block + polygon.num_blocks - 1];
+  for (std::uint32_t i = polygon.size; i < padded; ++i)
+    last.offset[i % kFloatLanes] = kSeparatesNothing;
+}
+
+/// Places along the axes of the start's frame.
+struct Axes {
+  Doubles x;
+  Doubles y;
+};
+
+HLC_INLINE Doubles along_axes(const Axes& axes, double x, double y) {
+  return axes.x * all(x) + axes.y * all(y);
+}
+
+/// Does the interval, on any axis, lie beyond what can be reached?
+HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double* reach) {
+  return (lanes_less(load(reach + kAxes), low) | lanes_less(high, load(reach))) != 0;
+}
+
+/// Obstacles that can be met in their step, with a circle around each.
+HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
+  std::uint32_t count = 0;
+  std::size_t next = 0;
+  plan.first_obstacle[0] = 0;
+  for (std::size_t step = 0; step < plan.horizon_steps; ++step) {
+    for (; next < plan.num_polygons && plan.polygons[next].step == step; ++next) {
+      const PolygonData& polygon = plan.polygons[next];
+      const double* const corners = polygon.corners;
+      // Two corners at a time; the last two may come twice.
+      const std::uint32_t last_pair = 2 * polygon.size - 4;
+      Doubles lowest = load(corners + last_pair);
+      Doubles highest = lowest;
+      for (std::uint32_t i = 0; i < last_pair; i += 4) {
+        const Doubles pair = load(corners + i);
+        lowest = smaller(pair, lowest);
+        highest = larger(pair, highest);
+      }
+      const double min_x = lowest[0] < lowest[2] ? lowest[0] : lowest[2];
+      const double min_y = lowest[1] < lowest[3] ? lowest[1] : lowest[3];
+      const double max_x = highest[0] > highest[2] ? highest[0] : highest[2];
+      const double max_y = highest[1] > highest[3] ? highest[1] : highest[3];
+      const double centre_x = 0.5 * (min_x + max_x) - plan.origin_x;
+      const double centre_y = 0.5 * (min_y + max_y) - plan.origin_y;
+      const double radius = 0.5 * __builtin_sqrt((max_x - min_x) * (max_x - min_x) +
+                                                 (max_y - min_y) * (max_y - min_y));
+      const Doubles centre = along_axes(axes, centre_x, centre_y);
+      if (is_beyond(centre - all(radius), centre + all(radius), plan.reach[step])) continue;
+      plan.circle_x[count] = static_cast<float>(centre_x);
+      plan.circle_y[count] = static_cast<float>(centre_y);
+      plan.circle_radius[count] = static_cast<float>(radius) * kMore;
+      plan.obstacles[count] = {static_cast<std::uint32_t>(next), false};
+      ++count;
+      const double size = absolute(centre_x) + absolute(centre_y) + radius;
+      plan.scale = size > plan.scale ? size : plan.scale;
+    }
+    for (; count % kFloatLanes != 0; ++count) {
+      plan.circle_x[count] = kFarAway;
+      plan.circle_y[count] = kFarAway;
+      plan.circle_radius[count] = 0.0F;
+    }
+    plan.first_obstacle[step + 1] = count;
+  }
+}
+
+/// An oriented rectangle that contains eight segments in a row, along the line from the first one's
+/// begin to the last one's end.
+HLC_INLINE void enclose(const SegmentBlock& segments, RectangleBlock& rectangles,
+                        std::uint32_t lane) {
+  constexpr std::uint32_t kLast = kFloatLanes - 1;
+  float along_x = segments.to_x[kLast] - segments.from_x[0];
+  float along_y = segments.to_y[kLast] - segments.from_y[0];
+  const float length = __builtin_sqrtf(along_x * along_x + along_y * along_y);
+  along_x = length > 0.0F ? along_x / length : 1.0F;
+  along_y = length > 0.0F ? along_y / length : 0.0F;
+  const Floats from_x = load(segments.from_x);
+  const Floats from_y = load(segments.from_y);
+  const Floats to_x = load(segments.to_x);
+  const Floats to_y = load(segments.to_y);
+  const Floats from_along = from_x * all(along_x) + from_y * all(along_y);
+  const Floats to_along = to_x * all(along_x) + to_y * all(along_y);
+  const Floats from_aside = from_y * all(along_x) - from_x * all(along_y);
+  const Floats to_aside = to_y * all(along_x) - to_x * all(along_y);
+  const float begin = least(smaller(from_along, to_along));
+  const float end = largest(larger(from_along, to_along));
+  const float right = least(smaller(from_aside, to_aside));
+  const float left = largest(larger(from_aside, to_aside));
+  const float middle = 0.5F * (begin + end);
+  const float aside = 0.5F * (left + right);
+  rectangles.x[lane] = middle * along_x - aside * along_y;
+  rectangles.y[lane] = middle * along_y + aside * along_x;
+  rectangles.half_x[lane] = 0.5F * (end - begin) * along_x;
+  rectangles.half_y[lane] = 0.5F * (end - begin) * along_y;
+  rectangles.half_width[lane] = 0.5F * (left - right);
+}
+
+/// Writes a segment into a block.
+HLC_INLINE void add_segment(const Plan& plan, std::size_t source, SegmentBlock& block,
+                            std::uint32_t lane) {
+  const double* const ends = plan.boundary + 4 * source;
+  const double along_x = ends[2] - ends[0];
+  const double along_y = ends[3] - ends[1];
+  const double length =
+      absolute(along_x) > absolute(along_y) ? absolute(along_x) : absolute(along_y);
+  // As with obstacles: no direction, too close to call.
+  const double scale = length > kLeastLength * plan.scale ? 1.0 / length : 0.0;
+  block.from_x[lane] = static_cast<float>(ends[0] - plan.origin_x);
+  block.from_y[lane] = static_cast<float>(ends[1] - plan.origin_y);
+  block.to_x[lane] = static_cast<float>(ends[2] - plan.origin_x);
+  block.to_y[lane] = static_cast<float>(ends[3] - plan.origin_y);
+  block.along_x[lane] = static_cast<float>(along_x * scale);
+  block.along_y[lane] = static_cast<float>(along_y * scale);
+}
+
+/// What can be reached in any step, along the axes of the start's frame: lowest, highest.
+struct Reachable {
+  float low[kAxes];
+  float high[kAxes];
+};
+
+/// Do all segments of a block, on the same axis, lie beyond what can be reached?
+HLC_INLINE bool is_beyond(const SegmentBlock& segments, const float* axis_x, const float* axis_y,
+                          const Reachable& reachable) {
+  const Floats from_x = load(segments.from_x);
+  const Floats from_y = load(segments.from_y);
+  const Floats to_x = load(segments.to_x);
+  const Floats to_y = load(segments.to_y);
+  // Above the rounding of coordinates, of their projections and of what can be reached.
+  const Floats slack =
+      all(0x1p-20F) * (absolute(from_x) + absolute(from_y) + absolute(to_x) + absolute(to_y)) +
+      all(1e-6F);
+  std::uint32_t beyond = 0;
+#pragma GCC unroll 4
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const Floats from = from_x * all(axis_x[axis]) + from_y * all(axis_y[axis]);
+    const Floats to = to_x * all(axis_x[axis]) + to_y * all(axis_y[axis]);
+    const Floats low = smaller(from, to) - slack;
+    const Floats high = larger(from, to) + slack;
+    const bool is_above = lanes_less(all(reachable.high[axis]), low) == kEveryLane;
+    const bool is_below = lanes_less(high, all(reachable.low[axis])) == kEveryLane;
+    beyond |= static_cast<std::uint32_t>(is_above) | static_cast<std::uint32_t>(is_below);
+  }
+  return beyond != 0;
+}
+
+/// Blocks of boundary segments that can be met in any step.
+HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double* axis_y) {
+  plan.num_blocks = 0;
+  if (plan.boundary_size == 0) return;
+  Doubles low = load(plan.reach[0]);
+  Doubles high = load(plan.reach[0] + kAxes);
+  for (std::size_t step = 1; step < plan.horizon_steps; ++step) {
+    low = smaller(low, load(plan.reach[step]));
+    high = larger(high, load(plan.reach[step] + kAxes));
+  }
+  Reachable reachable;
+  store(reachable.low, low);
+  store(reachable.high, high);
+  float x[kAxes];
+  float y[kAxes];
+  store(x, load(axis_x));
+  store(y, load(axis_y));
+
+  Floats largest_coordinate = all(0.0F);
+  std::uint32_t count = 0;
+  for (std::size_t source = 0; source < plan.boundary_size; source += kFloatLanes) {
+    SegmentBlock& block = plan.segment_blocks[count];
+    for (std::uint32_t lane = 0; lane < kFloatLanes; ++lane) {
+      const std::size_t last = plan.boundary_size - 1;
+      // The last one again: it meets what that one meets.
+      add_segment(plan, source + lane < last ? source + lane : last, block, lane);
+    }
+    if (is_beyond(block, x, y, reachable)) continue;
+    plan.segment_source[count] = static_cast<std::uint32_t>(source);
+    enclose(block, plan.rectangles[count / kFloatLanes], count % kFloatLanes);
+    const Floats from = absolute(load(block.from_x)) + absolute(load(block.from_y));
+    const Floats to = absolute(load(block.to_x)) + absolute(load(block.to_y));
+    largest_coordinate = larger(larger(from, to), largest_coordinate);
+    ++count;
+  }
+  plan.num_blocks = count;
+  for (; count % kFloatLanes != 0; ++count) {
+    RectangleBlock& rectangles = plan.rectangles[count / kFloatLanes];
+    const std::uint32_t lane = count % kFloatLanes;
+    rectangles.x[lane] = kFarAway;
+    rectangles.y[lane] = kFarAway;
+    rectangles.half_x[lane] = 0.0F;
+    rectangles.half_y[lane] = 0.0F;
+    rectangles.half_width[lane] = 0.0F;
+  }
+  const double size = static_cast<double>(largest(largest_coordinate));
+  plan.scale = size > plan.scale ? size : plan.scale;
+}
+
+void prepare(Plan& plan, const VertexData& start) {
+  const double c = start.cos_heading;
+  const double s = start.sin_heading;
+  const double diagonal = (c - s) * kDiagonal;
+  const double other = (c + s) * kDiagonal;
+  const double x[kAxes] = {c, diagonal, -s, -other};
+  const double y[kAxes] = {s, other, c, diagonal};
+  const Axes axes{load(x), load(y)};
+  plan.origin_x = start.x;
+  plan.origin_y = start.y;
+  prepare_obstacles(plan, axes);
+  prepare_segments(plan, x, y);
+  plan.tolerance = 0x1p-18F * static_cast<float>(plan.scale);
+}
+
+}  // namespace
+}  // namespace hlc::branch_and_bound
