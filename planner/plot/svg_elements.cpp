@@ -2,30 +2,12 @@
 
 #include <cstdio>
 
+#include "planner/road/xml_text.hpp"
+
 namespace hlc::svg {
 namespace {
 
 using Eigen::Vector2d;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -38,7 +20,7 @@ std::string number(double value) {
 std::string text_at(const Vector2d& at, const std::string& text, const std::string& anchor,
                     const std::string& more) {
   return "<text x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\" text-anchor=\"" + anchor +
-         "\"" + more + ">" + escaped(text) + "</text>\n";
+         "\"" + more + ">" + xml_escaped(text) + "</text>\n";
 }
 
 std::string segment(const Vector2d& from, const Vector2d& to, const std::string& style) {

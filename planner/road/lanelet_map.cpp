@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "planner/road/xml_text.hpp"
+
 namespace hlc {
 namespace {
 
@@ -188,27 +190,6 @@ class Reader {
   const std::string& name_;
 };
 
-/// As the value of an attribute in double quotes.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 void write_bound(std::ostream& xml, const char* name, const std::vector<Point>& points_m) {
   xml << "    <" << name << ">\n";
   for (const Point& point : points_m) {
@@ -259,9 +240,9 @@ LaneletMap read_lanelet_map(const std::filesystem::path& file) {
 std::string commonroad_head(const CommonRoadHead& head) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\"" +
-         escaped(head.benchmark_id) + "\" date=\"2025-01-01\" author=\"" + escaped(head.author) +
-         "\" affiliation=\"none\" source=\"" + escaped(head.source) + "\" timeStepSize=\"" +
-         escaped(head.time_step) +
+         xml_escaped(head.benchmark_id) + "\" date=\"2025-01-01\" author=\"" +
+         xml_escaped(head.author) + "\" affiliation=\"none\" source=\"" + xml_escaped(head.source) +
+         "\" timeStepSize=\"" + xml_escaped(head.time_step) +
          "\">\n"
          "  <location>\n"
          "    <geoNameId>-999</geoNameId>\n"
