@@ -31,20 +31,10 @@ struct Course {
   int steps_changed{};  ///< steps in which another vehicle changed somebody's plan
 };
 
-Rollout rollout_of(const Scenario& scenario) {
-  std::vector<std::unique_ptr<Controller>> controllers;
-  std::vector<Pose> starts;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
-    controllers.push_back(make_controller(scenario, vehicle.id));
-    starts.push_back(vehicle.start);
-  }
-  return Rollout(std::move(controllers), starts);
-}
-
 /// All steps of the scenario; `look` sees each.
 template <class Look>
 Rollout drive_on(const Scenario& scenario, Look look) {
-  Rollout rollout = rollout_of(scenario);
+  Rollout rollout = make_rollout(scenario);
   for (std::size_t step = 0; step < scenario.steps; ++step) {
     const std::vector<Report> reports = rollout.step();
     look(rollout, reports);
@@ -80,7 +70,7 @@ void place_at_random(Scenario& scenario, std::mt19937& random) {
 
 /// Drives `scenario` and looks at its first vehicle.
 Course drive(const Scenario& scenario) {
-  Rollout rollout = rollout_of(scenario);
+  Rollout rollout = make_rollout(scenario);
   const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   const auto alone = make_horizon_planner(*scenario.subgraph, reachable, scenario.search);
   std::vector<Point> positions_m;
@@ -205,7 +195,7 @@ TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
   const auto planner_b = make_horizon_planner(*b.subgraph, reachable_b, {});
   const auto planner_c = make_horizon_planner(*c.subgraph, reachable_c, {});
   constexpr double kApart_m = 2e-4;  // a sum of squares of distances moves by 2 sum d_j * this
-  Rollout rollout = rollout_of(b);
+  Rollout rollout = make_rollout(b);
   std::size_t same = 0;
   for (std::size_t step = 0; step < b.steps; ++step) {
     static_cast<void>(rollout.step());
