@@ -36,8 +36,18 @@ HLC_INLINE Floats distance_beyond(const BoundPair& bound, const float* along, st
   return beyond;
 }
 
-/// Writes the keys of a vertex' children.
-HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth) {
+/// As long as there is no path, costs-to-go only order the children. They know nothing of what is
+/// in the way: where after so many expansions there still is none, they are not worth their time.
+constexpr std::uint64_t kPatience = 4096;
+
+/// How many of the level's pairs of steps the keys of its children look ahead.
+HLC_INLINE std::size_t pairs_ahead(const Search& search, std::size_t depth, double best) {
+  return best < kNoPath || search.expanded < kPatience ? search.levels[depth].num_pairs : 0;
+}
+
+/// Writes the keys of a vertex' children, with costs-to-go of the first `num_pairs` pairs of steps.
+HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth,
+                       std::size_t num_pairs) {
   constexpr std::size_t kPairs = kFloatLanes / 2;
   constexpr std::size_t kRow = kBoundAxes * kFloatLanes;
   const Tables& tables = *search.tables;
@@ -47,7 +57,7 @@ HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth) {
   // The reference points after that of the edge, seen from the vertex, along each axis.
   const Placement at = placement_of(plan, vertex);
   float* along = search.projections;
-  for (std::size_t pair = 0; pair < level.num_pairs; pair += kPairs) {
+  for (std::size_t pair = 0; pair < num_pairs; pair += kPairs) {
     const Floats dx = load(plan.reference_dx + depth + 1 + 2 * pair) - at.x;
     const Floats dy = load(plan.reference_dy + depth + 1 + 2 * pair) - at.y;
     const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
@@ -86,7 +96,7 @@ HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth) {
         load(level.penalty + edge) + cost_to_come + (beside_x * beside_x + beside_y * beside_y);
     Floats to_go = all(0.0F);
     along = search.projections;
-    for (std::size_t pair = 0; pair < level.num_pairs; ++pair) {
+    for (std::size_t pair = 0; pair < num_pairs; ++pair) {
       const Floats beyond =
           distance_beyond(bounds[level.bounds[pair]], along + pair / kPairs * kRow, pair % kPairs);
       to_go += beyond * beyond;
@@ -145,7 +155,7 @@ void run(Search& search) {
     search.gave_up = true;  // the caller knows a bound for the start
     return;
   }
-  expand(search, search.path[0], 0);
+  expand(search, search.path[0], 0, search.levels[0].num_pairs);
 
   VertexData* vertex = search.path;
   std::size_t depth = 0;
@@ -192,12 +202,12 @@ void run(Search& search) {
     }
     ++depth;
     ++vertex;
-    expand(search, child, depth);
+    expand(search, child, depth, pairs_ahead(search, depth, best));
   }
   search.best_cost = best;
 }
 
-void expand_start(Search& search) { expand(search, search.path[0], 0); }
+void expand_start(Search& search) { expand(search, search.path[0], 0, search.levels[0].num_pairs); }
 
 bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step,
                    const VertexData& vertex) {

@@ -143,22 +143,34 @@ HLC_INLINE void enclose(const SegmentBlock& segments, RectangleBlock& rectangles
   rectangles.half_width[lane] = 0.5F * (left - right);
 }
 
-/// Writes a segment into a block.
-HLC_INLINE void add_segment(const Plan& plan, std::size_t source, SegmentBlock& block,
-                            std::uint32_t lane) {
-  const double* const ends = plan.boundary + 4 * source;
-  const double along_x = ends[2] - ends[0];
-  const double along_y = ends[3] - ends[1];
-  const double length =
-      absolute(along_x) > absolute(along_y) ? absolute(along_x) : absolute(along_y);
-  // As with obstacles: no direction, too close to call.
-  const double scale = length > kLeastLength * plan.scale ? 1.0 / length : 0.0;
-  block.from_x[lane] = static_cast<float>(ends[0] - plan.origin_x);
-  block.from_y[lane] = static_cast<float>(ends[1] - plan.origin_y);
-  block.to_x[lane] = static_cast<float>(ends[2] - plan.origin_x);
-  block.to_y[lane] = static_cast<float>(ends[3] - plan.origin_y);
-  block.along_x[lane] = static_cast<float>(along_x * scale);
-  block.along_y[lane] = static_cast<float>(along_y * scale);
+/// Writes eight segments in a row, the first of them number `first`, into a block.
+HLC_INLINE void write_segments(const Plan& plan, std::size_t first, SegmentBlock& block) {
+  const Doubles origin{plan.origin_x, plan.origin_y, plan.origin_x, plan.origin_y};
+  double along_x[kFloatLanes];
+  double along_y[kFloatLanes];
+  const std::size_t last = plan.boundary_size - 1;
+  for (std::uint32_t lane = 0; lane < kFloatLanes; ++lane) {
+    // The last one again: it meets what that one meets.
+    const double* const ends = plan.boundary + 4 * (first + lane < last ? first + lane : last);
+    along_x[lane] = ends[2] - ends[0];
+    along_y[lane] = ends[3] - ends[1];
+    float relative[kLanes];
+    store(relative, load(ends) - origin);
+    block.from_x[lane] = relative[0];
+    block.from_y[lane] = relative[1];
+    block.to_x[lane] = relative[2];
+    block.to_y[lane] = relative[3];
+  }
+  for (std::uint32_t lane = 0; lane < kFloatLanes; lane += kLanes) {
+    const Doubles x = load(along_x + lane);
+    const Doubles y = load(along_y + lane);
+    // As with obstacles: no direction, too close to call.
+    const Doubles length = larger(absolute(x), absolute(y));
+    const Doubles scale =
+        if_less(all(kLeastLength * plan.scale), length, all(1.0) / length, all(0.0));
+    store(block.along_x + lane, x * scale);
+    store(block.along_y + lane, y * scale);
+  }
 }
 
 /// What can be reached in any step, along the axes of the start's frame: lowest, highest.
@@ -214,11 +226,7 @@ HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double*
   std::uint32_t count = 0;
   for (std::size_t source = 0; source < plan.boundary_size; source += kFloatLanes) {
     SegmentBlock& block = plan.segment_blocks[count];
-    for (std::uint32_t lane = 0; lane < kFloatLanes; ++lane) {
-      const std::size_t last = plan.boundary_size - 1;
-      // The last one again: it meets what that one meets.
-      add_segment(plan, source + lane < last ? source + lane : last, block, lane);
-    }
+    write_segments(plan, source, block);
     if (is_beyond(block, x, y, reachable)) continue;
     plan.segment_source[count] = static_cast<std::uint32_t>(source);
     enclose(block, plan.rectangles[count / kFloatLanes], count % kFloatLanes);
