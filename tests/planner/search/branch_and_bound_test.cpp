@@ -226,6 +226,23 @@ TEST(BranchAndBound, TriesTheWholeTreeBeforeItSaysInfeasible) {
   EXPECT_EQ(result.expanded, 130'251);
 }
 
+// Without a path for thousands of expansions the search does without costs-to-go.
+TEST(BranchAndBound, FindsTheBestPathAlsoWhereTheFirstOneComesLate) {
+  Engines engines(test::make_test_subgraph());
+  for (const double free_until_m : {1.3, 1.5, 1.8}) {
+    SCOPED_TRACE(free_until_m);
+    HorizonProblem problem = straight_problem(8);
+    problem.obstacles_m.resize(8);
+    problem.obstacles_m.back() = {box(free_until_m, 99.0, -99.0, 99.0)};
+    const SearchResult result = engines.fast.search(problem, never_stop);
+    const SearchResult plain = engines.plain.search(problem, never_stop);
+    ASSERT_EQ(result.status, SearchStatus::kOptimal);
+    EXPECT_GT(result.expanded, 10'000U);
+    EXPECT_NEAR(result.cost, plain.cost, 1e-9);
+    expect_same(engines.portable.search(problem, never_stop), result);
+  }
+}
+
 TEST(BranchAndBound, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
   Engines engines(test::make_test_subgraph());
   HorizonProblem problem = straight_problem(0);
