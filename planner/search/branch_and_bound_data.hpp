@@ -10,7 +10,8 @@
 /// inline function.
 ///
 /// Everything that is handled four (in single precision eight) at a time is padded to a multiple
-/// of that.
+/// of that. Blocks of eight floats lie at addresses that no load of them spreads over two cache
+/// lines.
 ///
 /// Costs are doubles. Bounds are floats, made smaller by more than the rounding (TableStore).
 /// Collision tests compute with floats, relative to the plan's start, with a tolerance above the
@@ -37,7 +38,7 @@ inline constexpr float kSeparatesNothing = 1e30F;
 /// Eight corners p_i of a convex polygon with the normals n_i (outward, larger component 1) and
 /// offsets n_i p_i of the edges that begin there [m]. What is missing to eight repeats the first
 /// corner, with the offset kSeparatesNothing.
-struct PolygonBlock {
+struct alignas(32) PolygonBlock {
   float x[kFloatLanes];
   float y[kFloatLanes];
   float normal_x[kFloatLanes];
@@ -68,7 +69,7 @@ struct EdgeData {
 
 /// Bounds of four edges for two steps, one after the other: per axis the intervals of the four
 /// edges for the first step, then those for the second.
-struct BoundPair {
+struct alignas(32) BoundPair {
   float centre[kBoundAxes][kFloatLanes];
   float half_width[kBoundAxes][kFloatLanes];
 };
@@ -104,7 +105,7 @@ struct ObstacleData {
 
 /// Eight boundary segments in a row, with their directions (larger component 1; a segment without
 /// length has 0). What is missing to eight repeats the last.
-struct SegmentBlock {
+struct alignas(32) SegmentBlock {
   float from_x[kFloatLanes];
   float from_y[kFloatLanes];
   float to_x[kFloatLanes];
@@ -115,7 +116,7 @@ struct SegmentBlock {
 
 /// Oriented rectangles around eight blocks of segments: centre, half the length as a vector, half
 /// the width.
-struct RectangleBlock {
+struct alignas(32) RectangleBlock {
   float x[kFloatLanes];
   float y[kFloatLanes];
   float half_x[kFloatLanes];
