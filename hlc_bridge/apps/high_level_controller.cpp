@@ -2,13 +2,16 @@
 // or by launch_scripts/vehicle.sh.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/process_per_vehicle.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
@@ -25,18 +28,38 @@ struct Flags {
   int middleware_domain{1};
   std::optional<int> controller_domain;
   std::optional<std::filesystem::path> problem_folder;
+  std::string dds_initial_peer;
   hlc::ScenarioChoices scenario;
 };
 
+/// What is driven if nobody says what.
+constexpr const char* kDefaultScenario = "paper_three_cars";
+
+/// A file as it is; a name means scenarios/<name>.yaml beside the program, where installing puts
+/// them.
+std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
+  const std::filesystem::path name = chosen.empty() ? kDefaultScenario : chosen;
+  if (std::filesystem::exists(name) || name.has_extension()) return name;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  return program.parent_path() / "scenarios" / (name.string() + ".yaml");
+}
+
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--vehicle_ids", flags.vehicle_ids, "vehicle to control (one id)")
+  app.add_option("--vehicle_ids", flags.vehicle_ids,
+                 "vehicles to control, e.g. 1,2: each by a process of its own")
       ->delimiter(',')
       ->required()
-      ->expected(1)
       ->check(hlc::vehicle_id_range());
   hlc::declare_scenario_flags(app, flags.scenario);
+  app.get_option("--scenario")
+      ->required(false)
+      ->description(
+          "scenario file (YAML), or the name of one in the folder scenarios beside this program")
+      ->default_str(kDefaultScenario);
   app.add_option("--node_id", flags.node_id,
                  "name in the log; default: high_level_controller_<id>");
+  app.add_option("--dds_initial_peer", flags.dds_initial_peer,
+                 "accepted and ignored: the lab's scripts pass it, no program reads it");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
@@ -52,10 +75,23 @@ void declare(CLI::App& app, Flags& flags) {
       "died.");
 }
 
+void check_ids(std::vector<int> ids) {
+  std::ranges::sort(ids);
+  const auto twice = std::ranges::adjacent_find(ids);
+  if (twice != ids.end()) {
+    throw std::invalid_argument("--vehicle_ids: " + std::to_string(*twice) +
+                                " twice, allowed every id once");
+  }
+}
+
 hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   const hlc::NetworkFlags& network = flags.network;
   hlc::HlcProcessOptions options;
   options.node_id = flags.node_id.empty() ? hlc::controller_name(id.value) : flags.node_id;
+  if (!flags.dds_initial_peer.empty()) {
+    spdlog::warn("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",
+                 options.node_id, flags.dds_initial_peer);
+  }
   options.transport = hlc::transport_from_name(network.transport);
   options.domains = {.lab = network.dds_domain,
                      .local = flags.middleware_domain,
@@ -71,10 +107,10 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   return options;
 }
 
-std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags) {
-  const hlc::VehicleId id{static_cast<std::uint8_t>(flags.vehicle_ids.front())};
+std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags, const hlc::Scenario& scenario,
+                                              int vehicle_id) {
+  const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
   hlc::HlcProcessOptions options = process_options(flags, id);
-  const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
   if (flags.problem_folder) {
     options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file)](
                              const hlc::Controller& controller) { dump.write(controller); };
@@ -91,7 +127,17 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::run_program(
-      "high_level_controller", signals, [&] { return make_process(flags); },
-      [](hlc::HlcProcess& process) { process.stop(); });
+  const std::string program = "high_level_controller";
+  std::optional<hlc::Scenario> scenario;
+  const int code = hlc::exit_code_of(program.c_str(), [&] {
+    check_ids(flags.vehicle_ids);
+    flags.scenario.file = scenario_file(flags.scenario.file);
+    scenario = hlc::read_scenario(flags.scenario);
+  });
+  if (code != hlc::kExitGood) return hlc::kExitBadInput;
+  return hlc::process_per_vehicle(flags.vehicle_ids, signals, [&](int id) {
+    return hlc::run_program(
+        program, signals, [&] { return make_process(flags, *scenario, id); },
+        [](hlc::HlcProcess& process) { process.stop(); });
+  });
 }

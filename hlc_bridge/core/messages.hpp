@@ -114,4 +114,39 @@ struct LogLevel {
   std::uint16_t level{1};
 };
 
+/// What a Visualization draws of its points. In the lab's order.
+enum class DrawingKind : std::uint8_t { kLineStrips, kPolygon, kText, kFilledCircle };
+
+/// Which point of its text a text is anchored at. In the lab's order.
+enum class TextAnchor : std::uint8_t {
+  kBottomLeft,
+  kBottomCenter,
+  kBottomRight,
+  kCenterLeft,
+  kCenter,
+  kCenterRight,
+  kTopLeft,
+  kTopCenter,
+  kTopRight
+};
+
+struct DrawingColor {
+  std::uint8_t alpha{255};
+  std::uint8_t red{};
+  std::uint8_t green{};
+  std::uint8_t blue{};
+};
+
+/// Something to draw on the operator's map. A later one with the same id replaces it.
+struct Visualization {
+  std::uint64_t id{};
+  DrawingKind kind{};
+  Nanoseconds time_to_live{};
+  std::vector<Point> points_m;
+  double size_m{};  ///< of a line its width, of a text its height
+  std::string text;
+  TextAnchor anchor{};
+  DrawingColor color;
+};
+
 }  // namespace hlc

@@ -296,4 +296,49 @@ void to_wire(const LogLevel& message, ::LogLevel& wire) {
 
 Incoming<LogLevel> from_wire(const ::LogLevel& wire) { return {LogLevel{wire.log_level()}, 0}; }
 
+void to_wire(const Visualization& message, ::Visualization& wire) {
+  const auto& [id, kind, time_to_live, points_m, size_m, text, anchor, color] = message;
+  const auto& [alpha, red, green, blue] = color;
+  wire.id(id);
+  wire.type(static_cast<::VisualizationType>(kind));
+  wire.time_to_live(time_to_live);
+  std::vector<::Point2D> points(points_m.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].x(points_m[i].x());
+    points[i].y(points_m[i].y());
+  }
+  wire.points(std::move(points));
+  wire.size(size_m);
+  wire.string_message(text);
+  wire.string_message_anchor(static_cast<::StringMessageAnchor>(anchor));
+  wire.color().a(alpha);
+  wire.color().r(red);
+  wire.color().g(green);
+  wire.color().b(blue);
+}
+
+Incoming<Visualization> from_wire(const ::Visualization& wire) {
+  if (wire.points().size() > kMaxEntries || wire.string_message().size() > kMaxText ||
+      wire.type() > ::FilledCircle || wire.string_message_anchor() > ::TopRight ||
+      !std::isfinite(wire.size())) {
+    return {std::nullopt, 1};
+  }
+  Visualization message{.id = wire.id(),
+                        .kind = static_cast<DrawingKind>(wire.type()),
+                        .time_to_live = wire.time_to_live(),
+                        .points_m = {},
+                        .size_m = wire.size(),
+                        .text = wire.string_message(),
+                        .anchor = static_cast<TextAnchor>(wire.string_message_anchor()),
+                        .color = {.alpha = wire.color().a(),
+                                  .red = wire.color().r(),
+                                  .green = wire.color().g(),
+                                  .blue = wire.color().b()}};
+  for (const ::Point2D& point : wire.points()) {
+    if (!all_finite(point.x(), point.y())) return {std::nullopt, 1};
+    message.points_m.emplace_back(point.x(), point.y());
+  }
+  return {std::move(message), 0};
+}
+
 }  // namespace hlc

@@ -11,6 +11,7 @@
 #include <VehicleObservation.h>
 #include <VehicleState.h>
 #include <VehicleStateList.h>
+#include <Visualization.h>
 
 #include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/dds/conversion.hpp"
@@ -35,6 +36,7 @@ void to_wire(const ParameterRequest& message, ::ParameterRequest& wire);
 void to_wire(const StopRequest& message, ::StopRequest& wire);
 void to_wire(const Log& message, ::Log& wire);
 void to_wire(const LogLevel& message, ::LogLevel& wire);
+void to_wire(const Visualization& message, ::Visualization& wire);
 
 [[nodiscard]] Incoming<VehicleState> from_wire(const ::VehicleState& wire);
 [[nodiscard]] Incoming<VehicleObservation> from_wire(const ::VehicleObservation& wire);
@@ -47,5 +49,6 @@ void to_wire(const LogLevel& message, ::LogLevel& wire);
 [[nodiscard]] Incoming<StopRequest> from_wire(const ::StopRequest& wire);
 [[nodiscard]] Incoming<Log> from_wire(const ::Log& wire);
 [[nodiscard]] Incoming<LogLevel> from_wire(const ::LogLevel& wire);
+[[nodiscard]] Incoming<Visualization> from_wire(const ::Visualization& wire);
 
 }  // namespace hlc

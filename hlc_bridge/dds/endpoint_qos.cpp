@@ -52,6 +52,7 @@ constexpr auto kLabTable = std::to_array<LabRow>({
     {TopicId::kParameter,           DomainRole::kLab,   Lab::kReliable,        Lab::kReliable,         256,  256, false},
     {TopicId::kLog,                 DomainRole::kLab,   Lab::kReliable,        Lab::kReliable,         256, 1024, false},
     {TopicId::kLogLevel,            DomainRole::kLab,   Lab::kReliableAllLate, Lab::kReliableLate,       1,    1, true},
+    {TopicId::kVisualization,       DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffort,        16,  256, false},
     // clang-format on
 });
 

@@ -79,6 +79,7 @@ template class Reader<ParameterRequest>;
 template class Reader<StopRequest>;
 template class Reader<Log>;
 template class Reader<LogLevel>;
+template class Reader<Visualization>;
 template class Reader<Traffic>;
 template class Reader<Prediction>;
 template class Reader<Outcome>;

@@ -45,6 +45,8 @@ Topic<Log> log() { return {TopicId::kLog, "log"}; }
 
 Topic<LogLevel> log_level() { return {TopicId::kLogLevel, "logLevel"}; }
 
+Topic<Visualization> visualization() { return {TopicId::kVisualization, "visualization"}; }
+
 Topic<Traffic> traffic() { return {TopicId::kTraffic, "hlc/traffic"}; }
 
 Topic<Prediction> prediction() { return {TopicId::kPrediction, "hlc/prediction"}; }

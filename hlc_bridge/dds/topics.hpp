@@ -22,6 +22,7 @@ enum class TopicId : std::uint8_t {
   kStopRequest,
   kLog,
   kLogLevel,
+  kVisualization,
   kTraffic,
   kPrediction,
   kOutcome,
@@ -57,6 +58,7 @@ namespace topics {
 [[nodiscard]] Topic<StopRequest> stop_request();
 [[nodiscard]] Topic<Log> log();
 [[nodiscard]] Topic<LogLevel> log_level();
+[[nodiscard]] Topic<Visualization> visualization();
 
 // Controller domain; all but the last keyed by the vehicle
 [[nodiscard]] Topic<Traffic> traffic();

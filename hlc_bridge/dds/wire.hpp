@@ -18,6 +18,7 @@
 #include <VehicleObservationPubSubTypes.h>
 #include <VehicleStateListPubSubTypes.h>
 #include <VehicleStatePubSubTypes.h>
+#include <VisualizationPubSubTypes.h>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include "hlc_bridge/dds/convert_hlc.hpp"
@@ -58,6 +59,7 @@ template <> struct Wire<ParameterRequest> : LabWire<::ParameterRequest, Paramete
 template <> struct Wire<StopRequest> : LabWire<::StopRequest, StopRequestPubSubType> {};
 template <> struct Wire<Log> : LabWire<::Log, LogPubSubType> {};
 template <> struct Wire<LogLevel> : LabWire<::LogLevel, LogLevelPubSubType> {};
+template <> struct Wire<Visualization> : LabWire<::Visualization, VisualizationPubSubType> {};
 template <> struct Wire<Traffic> : OwnWire<TrafficMessage, TrafficMessagePubSubType> {};
 template <> struct Wire<Prediction> : OwnWire<PredictionMessage, PredictionMessagePubSubType> {};
 template <> struct Wire<Outcome> : OwnWire<OutcomeMessage, OutcomeMessagePubSubType> {};

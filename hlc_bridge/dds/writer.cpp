@@ -64,6 +64,7 @@ template class Writer<ParameterRequest>;
 template class Writer<StopRequest>;
 template class Writer<Log>;
 template class Writer<LogLevel>;
+template class Writer<Visualization>;
 template class Writer<Traffic>;
 template class Writer<Prediction>;
 template class Writer<Outcome>;

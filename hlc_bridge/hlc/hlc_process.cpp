@@ -13,6 +13,7 @@
 #include "hlc_bridge/core/observation.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/view/lab_map.hpp"
 
 namespace hlc {
 namespace {
@@ -22,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kCopyPause{50};
+constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 
 ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
                              std::optional<int> domain, DomainRole role) {
@@ -60,6 +62,9 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       prediction_writer_(controllers_, topics::prediction(), [this] { signal_.notify(); }),
       outcome_writer_(controllers_, topics::outcome(), [this] { signal_.notify(); }),
       report_writer_(controllers_, topics::report()),
+      drawing_writer_(lab_, topics::visualization()),
+      stop_request_writer_(lab_, topics::stop_request()),
+      lab_log_(lab_, options_.node_id),
       traffic_reader_(controllers_, topics::traffic(),
                       [this](const Traffic& message) {
                         signal_.post([&] {
@@ -243,6 +248,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
   if (const std::string problem = core_.problem_with(list); !problem.empty()) {
     spdlog::error("{}: {}", options_.node_id, problem);
     has_bad_period_ = true;
+    stop_request_writer_.write({.vehicle_id = vehicle_.value});
     return;
   }
   std::optional<Observation> observation = core_.observe(list);
@@ -266,6 +272,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
     send_answer(list);
   }
   report_writer_.write(record);
+  draw(record.report, list);
   if (core_.has_begun()) look_back();
 }
 
@@ -276,6 +283,14 @@ void HlcProcess::look_back() {
   } catch (const std::exception& error) {
     spdlog::error("{}: {}; nothing more is written", options_.node_id, error.what());
     options_.after_step = nullptr;
+  }
+}
+
+void HlcProcess::draw(const Report& report, const VehicleStateList& list) {
+  if (drawing_writer_.matched() == 0) return;
+  for (const Visualization& drawing :
+       lab_map(core_.controller(), report, kDrawnPeriods * list.period_ms * 1'000'000)) {
+    drawing_writer_.write(drawing);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/hlc/lab_log.hpp"
 #include "hlc_bridge/hlc/step_mailbox.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "planner/controller/controller.hpp"
@@ -90,6 +91,7 @@ class HlcProcess {
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
   void look_back();
+  void draw(const Report& report, const VehicleStateList& list);
   void send_answer(const VehicleStateList& list);
   [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;
 
@@ -119,6 +121,9 @@ class HlcProcess {
   Writer<Prediction> prediction_writer_;
   Writer<Outcome> outcome_writer_;
   Writer<ReportRecord> report_writer_;
+  Writer<Visualization> drawing_writer_;
+  Writer<StopRequest> stop_request_writer_;
+  LabLog lab_log_;
 
   std::vector<VehicleId> active_;
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;

@@ -28,6 +28,7 @@ template <> struct Place<ParameterRequest> { static auto topic() { return topics
 template <> struct Place<StopRequest> { static auto topic() { return topics::stop_request(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Log> { static auto topic() { return topics::log(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<LogLevel> { static auto topic() { return topics::log_level(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<Visualization> { static auto topic() { return topics::visualization(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Traffic> { static auto topic() { return topics::traffic(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<Prediction> { static auto topic() { return topics::prediction(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<Outcome> { static auto topic() { return topics::outcome(); } static constexpr auto kRole = DomainRole::kController; };
@@ -40,7 +41,7 @@ class RoundTrip : public testing::Test {};
 using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
                    ReadyStatus, SystemTrigger, Parameter, ParameterRequest, StopRequest, Log,
-                   LogLevel, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+                   LogLevel, Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
 TYPED_TEST_SUITE(RoundTrip, Messages);
 
 TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {

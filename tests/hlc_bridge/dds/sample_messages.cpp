@@ -78,6 +78,13 @@ void put_message(std::ostream& out, const Log& value) {
   put_all(out, a, b, c, d);
 }
 void put_message(std::ostream& out, const LogLevel& value) { put_all(out, value.level); }
+void put_message(std::ostream& out, const DrawingColor& value) {
+  put_all(out, value.alpha, value.red, value.green, value.blue);
+}
+void put_message(std::ostream& out, const Visualization& value) {
+  const auto& [a, b, c, d, e, f, g, h] = value;
+  put_all(out, a, b, c, d, e, f, g, h);
+}
 void put_message(std::ostream& out, const Traffic& value) {
   const auto& [a, b, c, d, e, f, g] = value;
   put_all(out, a, b, c, d, e, f, g);
@@ -149,6 +156,8 @@ auto list(Random& random, std::uint64_t max_size, Make make) {
   }
   return result;
 }
+
+Point point(Random& random) { return {number(random), number(random)}; }
 
 ConvexPolygon polygon(Random& random) {
   ConvexPolygon result;
@@ -271,6 +280,21 @@ LogLevel sample(Random& random) {
 }
 
 template <>
+Visualization sample(Random& random) {
+  const auto byte = [&random] { return static_cast<std::uint8_t>(whole(random, 255)); };
+  Visualization message{.id = random(),
+                        .kind = static_cast<DrawingKind>(whole(random, 3)),
+                        .time_to_live = random(),
+                        .points_m = list(random, 9, point),
+                        .size_m = number(random),
+                        .text = words(random),
+                        .anchor = static_cast<TextAnchor>(whole(random, 8)),
+                        .color = {}};
+  message.color = {.alpha = byte(), .red = byte(), .green = byte(), .blue = byte()};
+  return message;
+}
+
+template <>
 Traffic sample(Random& random) {
   return {vehicle(random),         {random()},    pose(random),
           {whole(random, 100)},    areas(random), polygon(random),
@@ -323,6 +347,7 @@ std::string text(const ParameterRequest& message) { return text_of(message); }
 std::string text(const StopRequest& message) { return text_of(message); }
 std::string text(const Log& message) { return text_of(message); }
 std::string text(const LogLevel& message) { return text_of(message); }
+std::string text(const Visualization& message) { return text_of(message); }
 std::string text(const Traffic& message) { return text_of(message); }
 std::string text(const Prediction& message) { return text_of(message); }
 std::string text(const Outcome& message) { return text_of(message); }

@@ -69,6 +69,7 @@ TEST(LabTypes, HaveBareNamesNoKeysAndAnnounceTypeObjects) {
   expect_lab_type<StopRequest>("StopRequest");
   expect_lab_type<Log>("Log");
   expect_lab_type<LogLevel>("LogLevel");
+  expect_lab_type<Visualization>("Visualization");
 }
 
 template <class Message>

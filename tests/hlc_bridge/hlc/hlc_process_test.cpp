@@ -1,7 +1,9 @@
 #include "hlc_bridge/hlc/hlc_process.hpp"
 
 #include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <future>
 #include <memory>
 
@@ -95,6 +97,78 @@ TEST_F(HlcProcessTest, LeavesWhenItsMiddlewareIsLostAndNotWhenAnotherControllerI
   middleware.reset();
   ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
+}
+
+/// The lab control centre's part that looks on.
+class Operator {
+ public:
+  explicit Operator(int domain)
+      : participant{on_loopback("operator", domain, DomainRole::kLab)},
+        level{participant, topics::log_level()},
+        log{participant, topics::log()},
+        drawings{participant, topics::visualization()},
+        stop_requests{participant, topics::stop_request()} {}
+
+  /// Until all of it is matched in both directions.
+  [[nodiscard]] bool sees(const HlcProcess&) {
+    return level.wait_for_matched(1, soon()) && log.reader().wait_for_matched(1, soon()) &&
+           drawings.reader().wait_for_matched(1, soon()) &&
+           stop_requests.reader().wait_for_matched(1, soon());
+  }
+
+  Participant participant;
+  Writer<LogLevel> level;
+  Mailbox<Log> log;
+  Mailbox<Visualization> drawings;
+  Mailbox<StopRequest> stop_requests;
+};
+
+TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
+  Operator lab_control{domains_.first()};
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
+  VehicleStateList list = list_of_nobody();
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  list.states = {{.vehicle_id = 1,
+                  .create_stamp = list.t_now - 60'000'000,
+                  .valid_after_stamp = list.t_now,
+                  .pose = start}};
+  middleware.lists.write(list);
+  const std::vector<Visualization> drawings = lab_control.drawings.wait_for(2);
+  ASSERT_GE(drawings.size(), 2U);
+  EXPECT_EQ(drawings[1].text, "1: standby");
+  EXPECT_NEAR(drawings[1].points_m.at(0).x(), start.x_m, 0.01);
+
+  spdlog::info("not for an operator who asks for critical lines alone");
+  spdlog::error("the operator's line");
+  const std::vector<Log> lines = lab_control.log.wait_for(1);
+  ASSERT_GE(lines.size(), 1U);
+  EXPECT_EQ(lines[0].content, "the operator's line");
+  EXPECT_EQ(lines[0].id, "high_level_controller");
+  EXPECT_EQ(lines[0].level, 1);
+
+  // From some line on the process knows that the operator wants to read everything.
+  lab_control.level.write({.level = 3});
+  const bool reads_all = Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{10},
+      [&] {
+        return std::ranges::any_of(lab_control.log.wait_for(1),
+                                   [](const Log& line) { return line.level == 3; });
+      },
+      [] { spdlog::info("for an operator who asks for all lines"); });
+  EXPECT_TRUE(reads_all);
+}
+
+TEST_F(HlcProcessTest, AsksTheLabControlToStopWhenItsPeriodIsNotTheLabs) {
+  Operator lab_control{domains_.first()};
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
+  VehicleStateList list = list_of_nobody();
+  list.period_ms = 400;
+  middleware.lists.write(list);
+  ASSERT_EQ(lab_control.stop_requests.wait_for(1).size(), 1U);
+  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  EXPECT_EQ(code_.get(), kExitBadInput);
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "hlc_bridge/time/stop_signals.hpp"
+
+namespace hlc {
+
+/// Runs `run(id)` in a process of its own for every id, as if each had been started alone: what
+/// happens to one happens to no other. They end with this process; SIGINT and SIGTERM are passed
+/// on to them. With one id `run` is called in this process.
+///
+/// @param run  of which the process' exit code is returned; takes the stop signals itself
+/// @return the largest exit code; kExitDied for a process that a signal ended
+/// @throws std::system_error if a process cannot be started
+/// @pre this process has one thread: the new ones begin with a copy of it
+[[nodiscard]] int process_per_vehicle(const std::vector<int>& ids, StopSignals& signals,
+                                      const std::function<int(int id)>& run);
+
+}  // namespace hlc

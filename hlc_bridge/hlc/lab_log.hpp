@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hlc_bridge/dds/participant.hpp"
+
+namespace hlc {
+
+/// While it lives, what this process logs (spdlog's default logger) is told to the operator, too:
+/// topic `log` of the lab domain, in the lab's levels.
+///
+/// | spdlog | lab |
+/// |---|---|
+/// | critical, error | 1 |
+/// | warning | 2 |
+/// | info and less | 3 |
+///
+/// Lines above the operator's level (topic `logLevel`; 1 as long as nobody says another) are not
+/// sent. Never blocks: the writer keeps the newest line.
+class LabLog {
+ public:
+  /// @param node_id  of the program, as the operator's log window names it
+  /// @throws std::runtime_error if an endpoint cannot be made
+  LabLog(Participant& lab, std::string node_id);
+  ~LabLog();
+  LabLog(const LabLog&) = delete;
+  LabLog& operator=(const LabLog&) = delete;
+
+ private:
+  class Sink;
+  std::shared_ptr<Sink> sink_;
+};
+
+}  // namespace hlc

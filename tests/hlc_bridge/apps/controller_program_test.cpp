@@ -1,0 +1,148 @@
+// high_level_controller as the lab control centre starts it: by its flags, from any folder, for
+// several vehicles.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <fstream>
+#include <vector>
+
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/support/domain_reservation.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Nanoseconds kPeriod = 200'000'000;
+const std::string kProgram = HLC_BINARY_DIR "/bin/high_level_controller";
+const std::string kScenario = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_three_cars.yaml";
+
+std::vector<pid_t> children_of(pid_t parent) {
+  const std::string id = std::to_string(parent);
+  std::ifstream file("/proc/" + id + "/task/" + id + "/children");
+  std::vector<pid_t> children;
+  for (pid_t pid = 0; file >> pid;) children.push_back(pid);
+  return children;
+}
+
+/// Also of a zombie: not.
+bool runs(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string id, name, state;
+  return (file >> id >> name >> state) && state != "Z";
+}
+
+/// The program for vehicles 1 and 2, on a middleware's domain of which the test is the middleware.
+class TwoControllers : public testing::Test {
+ protected:
+  TwoControllers()
+      : participant_(on_loopback("ParticipantSingleton", domains_.first() + 1, DomainRole::kLocal)),
+        lists_(participant_, topics::vehicle_state_list()),
+        commands_(participant_, topics::command()),
+        ready_(participant_, topics::ready_status()),
+        program_({kProgram, "--node_id=high_level_controller", "--vehicle_ids=1,2",
+                  "--scenario=" + kScenario, "--transport=loopback", "--simulated_time=false",
+                  "--dds_domain=" + std::to_string(domains_.first()),
+                  "--middleware_domain=" + std::to_string(domains_.first() + 1)},
+                 folder_ / "output") {}
+
+  /// Writes state lists until the condition holds.
+  template <class Condition>
+  [[nodiscard]] bool write_until(Condition condition) {
+    return Signal{}.repeat_until(soon(), 50ms, condition, [this] {
+      lists_.write({.t_now = next_on_grid(real_time_now(), kPeriod, kListOffset),
+                    .period_ms = 200,
+                    .states = {},
+                    .observations = {},
+                    .active_vehicle_ids = {1, 2}});
+    });
+  }
+  [[nodiscard]] bool are_ready() {
+    return write_until([this] {
+      const auto ready = ready_.wait_for(0);
+      return std::ranges::count(ready, controller_ready_id(1), &ReadyStatus::source_id) > 0 &&
+             std::ranges::count(ready, controller_ready_id(2), &ReadyStatus::source_id) > 0;
+    });
+  }
+  [[nodiscard]] std::size_t commands_to(std::uint8_t vehicle) const {
+    return static_cast<std::size_t>(
+        std::ranges::count(commands_.wait_for(0), vehicle, &TrajectoryCommand::vehicle_id));
+  }
+
+  TemporaryFolder folder_;
+  DomainReservation domains_{2};
+  Participant participant_;
+  Writer<VehicleStateList> lists_;
+  Mailbox<TrajectoryCommand> commands_;
+  Mailbox<ReadyStatus> ready_;
+  ChildProcess program_;
+};
+
+TEST_F(TwoControllers, AreReadyTogetherAndWhatHappensToOneHappensToNoOther) {
+  ASSERT_TRUE(are_ready()) << read_text(folder_ / "output");
+  const std::vector<pid_t> children = children_of(program_.pid());
+  ASSERT_EQ(children.size(), 2U);
+  kill(children[0], SIGKILL);
+  ASSERT_TRUE(eventually(60s, [&] { return !runs(children[0]); }));
+  const std::size_t before = commands_to(2);
+  EXPECT_TRUE(write_until([&] { return commands_to(2) > before + 3; }));
+  program_.send(SIGTERM);
+  EXPECT_EQ(program_.wait_for(60s), kExitDied) << "one of them was killed";
+  EXPECT_TRUE(eventually(60s, [&] { return !runs(children[1]); }));
+}
+
+TEST_F(TwoControllers, EndWithTheProgramThatWasStarted) {
+  ASSERT_TRUE(are_ready()) << read_text(folder_ / "output");
+  const std::vector<pid_t> children = children_of(program_.pid());
+  ASSERT_EQ(children.size(), 2U);
+  program_.send(SIGKILL);
+  EXPECT_TRUE(program_.wait_for(60s).has_value());
+  EXPECT_TRUE(eventually(60s, [&] { return !runs(children[0]) && !runs(children[1]); }));
+}
+
+TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
+  const TemporaryFolder folder;
+  const std::string lab = (folder / "lab").string();
+  ASSERT_EQ(
+      std::system(
+          ("cmake --install " HLC_BINARY_DIR " --prefix " + lab + " > /dev/null 2>&1").c_str()),
+      0);
+  const DomainReservation domains{2};
+  const auto start = [&](const std::string& flags) {
+    ChildProcess program(
+        {"/bin/sh", "-c",
+         "cd / && exec " + lab + "/high_level_controller --vehicle_ids=1 --transport=loopback" +
+             " --dds_domain=" + std::to_string(domains.first()) + " --middleware_domain=" +
+             std::to_string(domains.first() + 1) + " --startup_timeout_s=1 " + flags},
+        folder / "output");
+    const std::optional<int> code = program.wait_for(60s);
+    return std::pair{code, read_text(folder / "output")};
+  };
+  const auto [missing, nobody] =
+      start("--scenario=circle --dds_initial_peer=rtps@udpv4://10.0.0.1");
+  EXPECT_EQ(missing, kExitMissing) << nobody;
+  EXPECT_NE(nobody.find("--dds_initial_peer"), std::string::npos) << nobody;
+  EXPECT_EQ(start("").first, kExitMissing) << "without a name it drives the paper's three cars";
+  const auto [bad, unknown] = start("--scenario=nowhere");
+  EXPECT_EQ(bad, kExitBadInput);
+  EXPECT_NE(unknown.find("/lab/scenarios/nowhere.yaml"), std::string::npos) << unknown;
+}
+
+TEST(ControllerProgram, RefusesAVehicleThatIsNamedTwice) {
+  const Outcome outcome = run_program("high_level_controller --vehicle_ids=1,2,1");
+  EXPECT_EQ(outcome.exit_code, kExitBadInput);
+  EXPECT_NE(outcome.output.find("--vehicle_ids: 1 twice"), std::string::npos) << outcome.output;
+}
+
+}  // namespace
+}  // namespace hlc::test
