@@ -23,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kCopyPause{50};
-constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
+constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
+constexpr Nanoseconds kDrawnPeriods = 3;             // how long a step's drawings stay on the map
 
 ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
                              std::optional<int> domain, DomainRole role) {
@@ -248,7 +249,9 @@ void HlcProcess::answer(const VehicleStateList& list) {
   if (const std::string problem = core_.problem_with(list); !problem.empty()) {
     spdlog::error("{}: {}", options_.node_id, problem);
     has_bad_period_ = true;
-    stop_request_writer_.write({.vehicle_id = vehicle_.value});
+    if (stop_request_writer_.wait_for_matched(1, Clock::now() + kStopRequestWait)) {
+      stop_request_writer_.write({.vehicle_id = vehicle_.value});
+    }
     return;
   }
   std::optional<Observation> observation = core_.observe(list);
