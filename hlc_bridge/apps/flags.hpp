@@ -28,16 +28,21 @@ struct NetworkFlags {
   void declare(CLI::App& app) {
     app.add_option("--simulated_time", simulated_time, "true: logical time, false: real time")
         ->capture_default_str();
+    declare_network(app);
+    app.add_option("--startup_timeout_s", startup_timeout_s,
+                   "exit code 3 if somebody is not there by then")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
+  }
+
+  /// Without what only a run needs.
+  void declare_network(CLI::App& app) {
     app.add_option("--dds_domain", dds_domain, "lab domain")->capture_default_str();
     app.add_option("--transport", transport, "lab or loopback")->capture_default_str();
     app.add_option("--discovery_mode", discovery_mode, "simple or client");
     app.add_option("--discovery_server_id", discovery_server_id, "GUID prefix");
     app.add_option("--discovery_server_ip", discovery_server_ip, "IPv4 address");
     app.add_option("--discovery_server_port", discovery_server_port, "port");
-    app.add_option("--startup_timeout_s", startup_timeout_s,
-                   "exit code 3 if somebody is not there by then")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 3600));
   }
 
   /// @throws std::invalid_argument naming the flag

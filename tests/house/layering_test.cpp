@@ -52,6 +52,7 @@ const std::map<std::string, Names> kArrows{
      {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/view", "planner"}},
     {"hlc_bridge/lab_control",
      {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/record", "planner"}},
+    {"hlc_bridge/doctor", {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time"}},
     {"hlc_bridge/view", {"hlc_bridge/core", "planner"}},
     {"hlc_bridge/apps", {"hlc_bridge", "planner"}},
     {"vehicle_sim/plant", {"planner/geometry", "planner/vehicle"}},

@@ -1,0 +1,100 @@
+// Looks at a lab before or during a run, and says what is missing and what to do.
+#include <algorithm>
+#include <atomic>
+#include <iostream>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/dds/library_version.hpp"
+#include "hlc_bridge/doctor/listen.hpp"
+#include "hlc_bridge/doctor/shared_memory.hpp"
+#include "hlc_bridge/record/program.hpp"
+#include "hlc_bridge/time/stop_signals.hpp"
+
+namespace {
+
+struct Flags {
+  hlc::NetworkFlags network;
+  std::vector<int> vehicle_ids;
+  std::optional<int> middleware_domain;
+  std::optional<int> controller_domain;
+  double listen_s{3.0};
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("--vehicle_ids", flags.vehicle_ids, "vehicles that take part, e.g. 1,2,3")
+      ->delimiter(',')
+      ->required()
+      ->check(hlc::vehicle_id_range());
+  app.add_option("--middleware_domain", flags.middleware_domain,
+                 "local domain of this machine; default: the middleware is not looked for");
+  app.add_option("--controller_domain", flags.controller_domain,
+                 "domain of the controllers; default: lab domain + 50");
+  app.add_option("--listen_s", flags.listen_s, "how long to listen")
+      ->capture_default_str()
+      ->check(hlc::within(0.5, 600.0));
+  flags.network.declare_network(app);
+  app.footer("Exit codes: 0 nothing is bad, 1 something is bad, 2 bad input.");
+}
+
+hlc::ListenOptions listen_options(const Flags& flags) {
+  const hlc::NetworkFlags& network = flags.network;
+  hlc::ListenOptions options;
+  options.transport = hlc::transport_from_name(network.transport);
+  options.domains = {.lab = network.dds_domain,
+                     .local = flags.middleware_domain,
+                     .controller = flags.controller_domain
+                                       ? *flags.controller_domain
+                                       : hlc::default_controller_domain(network.dds_domain)};
+  options.discovery_server = network.discovery_server();
+  options.time = std::chrono::milliseconds{static_cast<int>(1000.0 * flags.listen_s)};
+  return options;
+}
+
+/// @return whether nothing is bad
+bool tell(const std::vector<hlc::Finding>& findings) {
+  bool is_good = true;
+  for (const hlc::Finding& finding : findings) {
+    const char* const mark = finding.verdict == hlc::Verdict::kGood   ? "good"
+                             : finding.verdict == hlc::Verdict::kNote ? "note"
+                                                                      : "BAD ";
+    std::cout << mark << "  " << finding.what << '\n';
+    if (!finding.advice.empty()) std::cout << "      -> " << finding.advice << '\n';
+    is_good = is_good && finding.verdict != hlc::Verdict::kBad;
+  }
+  return is_good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hlc::StopSignals signals;
+  CLI::App app{"Looks at a lab before or during a run: who answers, what is left over, what to do.",
+               "lab_doctor"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  std::atomic<bool> stop{false};
+  bool is_good = true;
+  const int code = hlc::exit_code_of("lab_doctor", [&] {
+    const hlc::ListenOptions options = listen_options(flags);
+    std::vector<hlc::Finding> findings{{hlc::Verdict::kGood,
+                                        "this program: revision " + hlc::program_revision() +
+                                            ", Fast DDS " + hlc::library_version(),
+                                        ""}};
+    for (const std::string& warning : hlc::check_domains(options.domains, options.transport)) {
+      findings.push_back({hlc::Verdict::kNote, warning, ""});
+    }
+    signals.on_stop([&stop](int) { stop = true; });
+    findings.push_back(hlc::leftovers(hlc::shared_memory_files()));
+    const hlc::Heard heard =
+        hlc::listen(options, [&stop](const hlc::Heard&) { return stop.load(); });
+    std::ranges::move(hlc::diagnose(flags.vehicle_ids, heard), std::back_inserter(findings));
+    is_good = tell(findings);
+  });
+  if (code != hlc::kExitGood) return hlc::kExitBadInput;
+  return is_good ? 0 : 1;
+}

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace hlc {
+
+/// Of Fast DDS, such as "2.9.1".
+[[nodiscard]] std::string library_version();
+
+}  // namespace hlc

@@ -1,0 +1,113 @@
+#include "hlc_bridge/doctor/diagnosis.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/time_grid.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr Nanoseconds kThisCentury = 946'684'800 * kNanosecondsPerSecond;  // since 1970 [ns]
+constexpr double kFewestStates_hz = 25.0;  // of 50 Hz: half of them lost
+constexpr std::int64_t kClockAhead_ns = 5'000'000;
+constexpr std::int64_t kClockBehind_ns = 100'000'000;
+
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
+std::string milliseconds(std::int64_t ns) {
+  return rounded(1e-6 * static_cast<double>(ns)) + " ms";
+}
+
+Finding of_lab_control(const Heard& heard) {
+  if (!heard.lab_control_answers) {
+    return {Verdict::kBad, "lab control: no answer to a parameter request",
+            "start the lab control centre or lab_control, with the same --dds_domain and "
+            "--transport"};
+  }
+  const std::string period =
+      heard.period_ms ? ", period " + std::to_string(*heard.period_ms) + " ms" : "";
+  return {Verdict::kGood, "lab control: answers" + period, ""};
+}
+
+Finding of_vehicle(int id, const Heard& heard) {
+  const std::string name = "vehicle " + std::to_string(id) + ": ";
+  const auto found = heard.vehicles.find(static_cast<std::uint8_t>(id));
+  if (found == heard.vehicles.end()) {
+    return {Verdict::kBad, name + "no state",
+            "start it (vehicle_sim, or the car), with the same --dds_domain; between machines "
+            "multicast must pass, or use --discovery_mode=client"};
+  }
+  const HeardVehicle& vehicle = found->second;
+  const double rate_hz = static_cast<double>(vehicle.states) / heard.listened_s.count();
+  const std::string states = rounded(rate_hz) + " states per second";
+  if (vehicle.logical_time) {
+    return {Verdict::kGood, name + states + ", in logical time: clocks do not matter", ""};
+  }
+  if (vehicle.least_age_ns < -kClockAhead_ns) {
+    return {Verdict::kBad,
+            name + "its clock is ahead of this machine's by at least " +
+                milliseconds(-vehicle.least_age_ns),
+            "synchronise the clocks (chrony or NTP) before a run in real time"};
+  }
+  if (vehicle.least_age_ns > kClockBehind_ns) {
+    return {Verdict::kBad,
+            name + "its states are at least " + milliseconds(vehicle.least_age_ns) +
+                " old when they arrive",
+            "synchronise the clocks (chrony or NTP), then look for a slow network"};
+  }
+  const std::string age = ", at least " + milliseconds(vehicle.least_age_ns) + " old";
+  if (rate_hz < kFewestStates_hz) {
+    return {Verdict::kBad, name + states + " instead of 50" + age,
+            "the network loses them or the machine is overloaded"};
+  }
+  return {Verdict::kGood, name + states + age, ""};
+}
+
+Finding of_controller(int id, const Heard& heard) {
+  const std::string name = controller_name(static_cast<std::uint8_t>(id));
+  if (heard.controllers.contains(name)) return {Verdict::kGood, name + ": there", ""};
+  return {Verdict::kNote, name + ": not on the controllers' domain",
+          "start it with the same --controller_domain, or with none and the same --dds_domain; one "
+          "of other software is not seen here"};
+}
+
+Finding of_middleware(const Heard& heard) {
+  if (heard.lists > 0) {
+    return {Verdict::kGood, "middleware: " + std::to_string(heard.lists) + " state lists", ""};
+  }
+  return {Verdict::kBad, "middleware: no state list",
+          "start it on this machine with the same --middleware_domain (with --transport=lab both "
+          "must share /dev/shm: no private container)"};
+}
+
+}  // namespace
+
+void note(const VehicleState& state, Nanoseconds now, Heard& heard) {
+  const auto age_ns = static_cast<std::int64_t>(now - state.create_stamp);
+  const auto [found, is_first] = heard.vehicles.try_emplace(state.vehicle_id);
+  HeardVehicle& vehicle = found->second;
+  ++vehicle.states;
+  vehicle.least_age_ns = is_first ? age_ns : std::min(vehicle.least_age_ns, age_ns);
+  vehicle.logical_time = state.create_stamp < kThisCentury;
+}
+
+std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Heard& heard) {
+  std::vector<Finding> findings{of_lab_control(heard)};
+  for (const int id : vehicle_ids) findings.push_back(of_vehicle(id, heard));
+  for (const auto& [id, vehicle] : heard.vehicles) {
+    if (std::ranges::find(vehicle_ids, static_cast<int>(id)) != vehicle_ids.end()) continue;
+    findings.push_back({Verdict::kNote, "vehicle " + std::to_string(id) + ": is there, too",
+                        "if it takes no part, nobody keeps clear of it"});
+  }
+  if (heard.listened_to_middleware) findings.push_back(of_middleware(heard));
+  for (const int id : vehicle_ids) findings.push_back(of_controller(id, heard));
+  return findings;
+}
+
+}  // namespace hlc

@@ -1,0 +1,84 @@
+#include "hlc_bridge/doctor/listen.hpp"
+
+#include <list>
+#include <memory>
+#include <variant>
+
+#include "hlc_bridge/core/run_parameters.hpp"
+#include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/signal.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr const char* kName = "lab_doctor";
+constexpr std::uint8_t kVehicles = 30;  // as many as the lab has room for
+constexpr std::chrono::milliseconds kRequestPause{500};
+
+Participant on_domain(const ListenOptions& options, std::optional<int> domain, DomainRole role) {
+  return Participant(
+      {.name = kName,
+       .domain_id = domain.value(),
+       .role = role,
+       .transport = options.transport,
+       .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt});
+}
+
+void note(const Parameter& parameter, Heard& heard) {
+  heard.lab_control_answers = true;
+  if (parameter.name != kPeriodParameter) return;
+  if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value)) {
+    heard.period_ms = *period_ms;
+  }
+}
+
+}  // namespace
+
+Heard listen(const ListenOptions& options, const std::function<bool(const Heard&)>& is_enough) {
+  Signal signal;
+  Heard heard;  // guarded by signal
+  const auto begin = std::chrono::steady_clock::now();
+
+  Participant lab = on_domain(options, options.domains.lab, DomainRole::kLab);
+  Participant controllers = on_domain(options, options.domains.controller, DomainRole::kController);
+  std::optional<Participant> local;
+  if (options.domains.local) {
+    heard.listened_to_middleware = true;
+    local.emplace(ParticipantOptions{.name = kName,
+                                     .domain_id = *options.domains.local,
+                                     .role = DomainRole::kLocal,
+                                     .transport = options.transport});
+  }
+  Writer<ParameterRequest> requests(lab, topics::parameter_request());
+  const Reader<Parameter> parameters(lab, topics::parameter(), [&](const Parameter& parameter) {
+    signal.post([&] { note(parameter, heard); });
+  });
+  std::list<Reader<VehicleState>> states;
+  for (std::uint8_t id = 1; id <= kVehicles; ++id) {
+    states.emplace_back(lab, topics::vehicle_state(id), [&](const VehicleState& state) {
+      const Nanoseconds now = real_time_now();
+      signal.post([&] { note(state, now, heard); });
+    });
+  }
+  std::optional<Reader<VehicleStateList>> lists;
+  if (local) {
+    lists.emplace(*local, topics::vehicle_state_list(),
+                  [&](const VehicleStateList&) { signal.post([&] { ++heard.lists; }); });
+  }
+
+  const auto is_over = [&] { return is_enough(heard); };
+  static_cast<void>(signal.repeat_until(begin + options.time, kRequestPause, is_over, [&] {
+    requests.write({.name = kPeriodParameter});
+    const std::set<std::string> names = controllers.alive();
+    signal.locked([&] { heard.controllers = names; });
+  }));
+  return signal.locked([&] {
+    heard.listened_s = std::chrono::steady_clock::now() - begin;
+    return heard;
+  });
+}
+
+}  // namespace hlc

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "hlc_bridge/dds/transport.hpp"
+#include "hlc_bridge/doctor/diagnosis.hpp"
+
+namespace hlc {
+
+struct ListenOptions {
+  Transport transport{Transport::kLab};
+  Domains domains;  ///< local: empty if the middleware is not to be looked for
+  std::optional<DiscoveryServer> discovery_server;
+  std::chrono::milliseconds time{3000};
+};
+
+/// Joins the domains and listens, for `time` or until `is_enough(what was heard so far)`. Sends
+/// nothing but requests for the lab control's period: a run goes on undisturbed.
+/// @throws std::invalid_argument, std::runtime_error if a domain cannot be joined
+[[nodiscard]] Heard listen(const ListenOptions& options,
+                           const std::function<bool(const Heard&)>& is_enough);
+
+}  // namespace hlc

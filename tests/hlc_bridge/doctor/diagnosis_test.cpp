@@ -1,0 +1,91 @@
+#include "hlc_bridge/doctor/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hlc {
+namespace {
+
+constexpr Nanoseconds kNow = 1'700'000'000'000'000'000;
+
+/// Three seconds of vehicle 1 alone, with all that a run needs.
+Heard good(std::int64_t age_ns = 2'000'000) {
+  Heard heard;
+  heard.listened_s = std::chrono::seconds{3};
+  heard.lab_control_answers = true;
+  heard.period_ms = 200;
+  heard.controllers = {"high_level_controller_1"};
+  for (Nanoseconds i = 0; i < 150; ++i) {
+    const Nanoseconds now = kNow + i * 20'000'000;
+    note({.vehicle_id = 1, .create_stamp = now - static_cast<Nanoseconds>(age_ns)}, now, heard);
+  }
+  return heard;
+}
+
+std::vector<Finding> bad_ones(const std::vector<int>& ids, const Heard& heard) {
+  std::vector<Finding> findings = diagnose(ids, heard);
+  std::erase_if(findings, [](const Finding& f) { return f.verdict != Verdict::kBad; });
+  return findings;
+}
+
+TEST(Diagnosis, OfALabThatIsCompleteIsGood) {
+  for (const Finding& finding : diagnose({1}, good())) {
+    EXPECT_EQ(finding.verdict, Verdict::kGood) << finding.what;
+    EXPECT_EQ(finding.advice, "");
+  }
+}
+
+TEST(Diagnosis, NamesWhoDoesNotAnswerAndSaysWhatToDo) {
+  const std::vector<Finding> findings = bad_ones({1, 2}, good());
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].what, "vehicle 2: no state");
+  EXPECT_NE(findings[0].advice, "");
+
+  Heard silent;
+  silent.listened_s = std::chrono::seconds{3};
+  silent.listened_to_middleware = true;
+  EXPECT_EQ(bad_ones({1, 2}, silent).size(), 4U) << "lab control, two vehicles, middleware";
+}
+
+TEST(Diagnosis, TellsOfClocksThatDiffer) {
+  const auto ahead = bad_ones({1}, good(-40'000'000));
+  ASSERT_EQ(ahead.size(), 1U);
+  EXPECT_EQ(ahead[0].what, "vehicle 1: its clock is ahead of this machine's by at least 40.0 ms");
+  const auto behind = bad_ones({1}, good(400'000'000));
+  ASSERT_EQ(behind.size(), 1U);
+  EXPECT_EQ(behind[0].what, "vehicle 1: its states are at least 400.0 ms old when they arrive");
+}
+
+TEST(Diagnosis, TakesTheYoungestStateForTheClock) {
+  Heard heard = good();
+  note({.vehicle_id = 1, .create_stamp = kNow - 900'000'000}, kNow, heard);
+  EXPECT_TRUE(bad_ones({1}, heard).empty()) << "one late state is no clock that differs";
+}
+
+TEST(Diagnosis, DoesNotCompareLogicalTimeWithAClock) {
+  Heard heard = good();
+  heard.vehicles.clear();
+  for (Nanoseconds i = 1; i <= 150; ++i) {
+    note({.vehicle_id = 1, .create_stamp = i * 20'000'000}, kNow, heard);
+  }
+  EXPECT_TRUE(bad_ones({1}, heard).empty());
+}
+
+TEST(Diagnosis, TellsOfStatesThatAreLost) {
+  Heard heard = good();
+  heard.listened_s = std::chrono::seconds{10};
+  const auto findings = bad_ones({1}, heard);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].what.find("vehicle 1: 15.0 states per second instead of 50"), 0U);
+}
+
+TEST(Diagnosis, NotesAVehicleThatNobodyAskedFor) {
+  const std::vector<Finding> findings = diagnose({}, good());
+  EXPECT_TRUE(std::ranges::any_of(findings, [](const Finding& finding) {
+    return finding.verdict == Verdict::kNote && finding.what == "vehicle 1: is there, too";
+  }));
+}
+
+}  // namespace
+}  // namespace hlc

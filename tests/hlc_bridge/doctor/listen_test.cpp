@@ -1,0 +1,83 @@
+#include "hlc_bridge/doctor/listen.hpp"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/run_parameters.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Listening : public testing::Test {
+ protected:
+  [[nodiscard]] ListenOptions options(std::chrono::milliseconds time) const {
+    return {.transport = Transport::kLoopback,
+            .domains = {.lab = domains_.first(),
+                        .local = domains_.first() + 1,
+                        .controller = domains_.first() + 50},
+            .discovery_server = std::nullopt,
+            .time = time};
+  }
+
+  DomainReservation domains_{2};
+};
+
+TEST_F(Listening, HearsWhoIsThere) {
+  const Participant lab_control{on_loopback(kLabControlName, domains_.first(), DomainRole::kLab)};
+  const Participant controller{
+      on_loopback(controller_name(2), domains_.first() + 50, DomainRole::kController)};
+  Participant vehicle{on_loopback(vehicle_name(2), domains_.first(), DomainRole::kLab)};
+  Participant middleware{on_loopback(middleware_name(2), domains_.first() + 1, DomainRole::kLocal)};
+  Participant answering{on_loopback("answering", domains_.first(), DomainRole::kLab)};
+  Writer<VehicleState> states{vehicle, topics::vehicle_state(2)};
+  Writer<VehicleStateList> lists{middleware, topics::vehicle_state_list()};
+  Writer<Parameter> parameters{answering, topics::parameter()};
+  const Reader<ParameterRequest> requests{
+      answering, topics::parameter_request(), [&](const ParameterRequest& request) {
+        parameters.write({.name = request.name, .value = std::uint64_t{250}});
+      }};
+
+  auto listening = std::async(std::launch::async, [&] {
+    return listen(options(60s), [](const Heard& heard) {
+      return heard.lab_control_answers && heard.lists == 1 && heard.vehicles.contains(2) &&
+             heard.vehicles.at(2).states == 7 && !heard.controllers.empty();
+    });
+  });
+  ASSERT_TRUE(states.wait_for_matched(1, soon()) && lists.wait_for_matched(1, soon()));
+  for (int i = 0; i < 7; ++i) {
+    states.write({.vehicle_id = 2, .create_stamp = real_time_now()});
+  }
+  lists.write({.t_now = real_time_now(),
+               .period_ms = 250,
+               .states = {},
+               .observations = {},
+               .active_vehicle_ids = {2}});
+  const Heard result = listening.get();
+  ASSERT_EQ(result.vehicles.count(2), 1U);
+  EXPECT_EQ(result.vehicles.at(2).states, 7U);
+  EXPECT_GE(result.vehicles.at(2).least_age_ns, 0);
+  EXPECT_EQ(result.lists, 1U);
+  EXPECT_TRUE(result.lab_control_answers);
+  EXPECT_EQ(result.period_ms, 250U);
+  EXPECT_EQ(result.controllers, std::set<std::string>{controller_name(2)});
+}
+
+TEST_F(Listening, EndsWhereNobodyIs) {
+  const Heard result = listen(options(500ms), [](const Heard&) { return false; });
+  EXPECT_TRUE(result.vehicles.empty());
+  EXPECT_FALSE(result.lab_control_answers);
+  EXPECT_EQ(result.lists, 0U);
+  EXPECT_TRUE(result.controllers.empty());
+  EXPECT_GE(result.listened_s.count(), 0.5);
+}
+
+}  // namespace
+}  // namespace hlc

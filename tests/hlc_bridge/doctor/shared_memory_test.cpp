@@ -1,0 +1,51 @@
+#include "hlc_bridge/doctor/shared_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+TEST(SharedMemory, AFileIsUsedIfAProcessHasItMapped) {
+  const TemporaryFolder folder;
+  const fs::path shm = folder / "shm";
+  const fs::path proc = folder / "proc";
+  for (const char* name : {"fastrtps_1234", "fastrtps_1234_el", "fastrtps_port7411",
+                           "sem.fastrtps_port7411_mutex", "fast_datasharing_0a_1", "pulse-shm-1"}) {
+    write(shm / name, "12345678");
+  }
+  write(proc / "17" / "maps",
+        "7f00-7f10 rw-s 00000000 00:19 3 " + (shm / "fastrtps_1234").string() + "\n");
+  write(proc / "self" / "maps",
+        "7f00-7f10 rw-s 00000000 00:19 3 " + (shm / "fastrtps_port7411").string() + "\n");
+
+  const std::vector<SharedMemoryFile> files = shared_memory_files(shm, proc);
+  ASSERT_EQ(files.size(), 5U) << "all but that of other software";
+  for (const SharedMemoryFile& file : files) {
+    EXPECT_EQ(file.is_used, file.name.starts_with("fastrtps_1234")) << file.name;
+    EXPECT_EQ(file.bytes, 8U);
+  }
+  const Finding finding = leftovers(files);
+  EXPECT_EQ(finding.verdict, Verdict::kNote);
+  EXPECT_EQ(finding.what.find("shared memory: 3 files in /dev/shm that nobody uses"), 0U);
+}
+
+TEST(SharedMemory, NothingIsLeftOverWhereNothingIs) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(shared_memory_files(folder / "missing", folder / "missing").empty());
+  EXPECT_EQ(leftovers({}).verdict, Verdict::kGood);
+}
+
+}  // namespace
+}  // namespace hlc
