@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/dds/transport.hpp"
@@ -14,6 +15,14 @@
 namespace hlc {
 
 [[nodiscard]] inline CLI::Range vehicle_id_range() { return {1, static_cast<int>(kMaxVehicleId)}; }
+
+/// Who is asked on the controllers' domain where multicast does not pass.
+inline void declare_controller_peers(CLI::App& app, std::vector<std::string>& peers) {
+  app.add_option("--controller_peers", peers,
+                 "IPv4 addresses of the other machines, asked on the controllers' domain besides "
+                 "multicast, e.g. 192.168.1.201,192.168.1.202")
+      ->delimiter(',');
+}
 
 struct NetworkFlags {
   bool simulated_time{false};

@@ -27,6 +27,7 @@ struct Flags {
   std::vector<int> vehicle_ids;
   int middleware_domain{1};
   std::optional<int> controller_domain;
+  std::vector<std::string> controller_peers;
   std::optional<std::filesystem::path> problem_folder;
   std::string dds_initial_peer;
   hlc::ScenarioChoices scenario;
@@ -64,6 +65,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
+  hlc::declare_controller_peers(app, flags.controller_peers);
   app.add_option(
       "--dump-problems,--dump_problems", flags.problem_folder,
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
@@ -102,6 +104,8 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = network.discovery_server();
+  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  options.controller_peers = flags.controller_peers;
   options.logical_time = network.simulated_time;
   options.startup_timeout = network.startup_timeout();
   return options;

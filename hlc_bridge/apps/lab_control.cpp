@@ -17,6 +17,7 @@ namespace {
 struct Flags {
   hlc::NetworkFlags network;
   int controller_domain{-1};
+  std::vector<std::string> controller_peers;
   std::vector<int> vehicle_ids;
   std::uint64_t steps{150};
   std::uint64_t period_ms{200};
@@ -29,6 +30,7 @@ void declare(CLI::App& app, Flags& flags) {
   flags.network.declare(app);
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
+  hlc::declare_controller_peers(app, flags.controller_peers);
   app.add_option("--vehicle_ids", flags.vehicle_ids, "all vehicles of the run: 1,2,3")
       ->delimiter(',')
       ->required()
@@ -74,6 +76,8 @@ hlc::LabControlOptions process_options(const Flags& flags) {
     spdlog::warn("{}", warning);
   }
   options.discovery_server = flags.network.discovery_server();
+  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  options.controller_peers = flags.controller_peers;
   options.logical_time = flags.network.simulated_time;
   options.out = flags.out;
   options.is_terminal = isatty(STDERR_FILENO) != 0;

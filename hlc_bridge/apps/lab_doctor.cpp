@@ -21,6 +21,7 @@ struct Flags {
   std::vector<int> vehicle_ids;
   std::optional<int> middleware_domain;
   std::optional<int> controller_domain;
+  std::vector<std::string> controller_peers;
   double listen_s{3.0};
 };
 
@@ -33,6 +34,7 @@ void declare(CLI::App& app, Flags& flags) {
                  "local domain of this machine; default: the middleware is not looked for");
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
+  hlc::declare_controller_peers(app, flags.controller_peers);
   app.add_option("--listen_s", flags.listen_s, "how long to listen")
       ->capture_default_str()
       ->check(hlc::within(0.5, 600.0));
@@ -50,6 +52,8 @@ hlc::ListenOptions listen_options(const Flags& flags) {
                                        ? *flags.controller_domain
                                        : hlc::default_controller_domain(network.dds_domain)};
   options.discovery_server = network.discovery_server();
+  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  options.controller_peers = flags.controller_peers;
   options.time = std::chrono::milliseconds{static_cast<int>(1000.0 * flags.listen_s)};
   return options;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "hlc_bridge/dds/transport.hpp"
 
@@ -21,6 +22,10 @@ struct ParticipantOptions {
   bool logical_time{};  ///< lease of 10 s instead of 2 s: that long after its death others see it
                         ///< as lost
   std::optional<DiscoveryServer> discovery_server;  ///< none: simple discovery (multicast)
+  bool is_discovery_server{};  ///< it is that server itself, not a client of it
+  /// IPv4 addresses of machines that are asked, too, where multicast does not pass. Simple
+  /// discovery only.
+  std::vector<std::string> peers{};
 };
 
 /// One process on one domain: the entry to DDS, and who else is there.

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
@@ -21,7 +23,9 @@ using namespace std::chrono_literals;
 constexpr auto kRealTimeLease = 2s;
 constexpr auto kLogicalTimeLease = 10s;
 constexpr int kAnnouncementsPerLease = 4;
-constexpr std::uint32_t kSocketBufferBytes = 1U << 20U;  // the system may grant less
+constexpr std::uint32_t kParticipantsPerMachine = 32;     // of one domain, that a peer is asked for
+constexpr const char* kMulticastAddress = "239.255.0.1";  // the standard's
+constexpr std::uint32_t kSocketBufferBytes = 1U << 20U;   // the system may grant less
 
 void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos) {
   const bool loopback = options.transport == Transport::kLoopback;
@@ -34,6 +38,7 @@ void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos)
     return;
   }
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  udp->maxInitialPeersRange = kParticipantsPerMachine;
   if (loopback) {
     udp->interfaceWhiteList = {"127.0.0.1"};
     udp->sendBufferSize = kSocketBufferBytes;
@@ -50,12 +55,32 @@ void set_lease(const ParticipantOptions& options, DomainParticipantQos& qos) {
   discovery.initial_announcements = {5, to_duration(100ms)};
 }
 
+// A list of peers takes the place of multicast, which goes on being asked here.
+void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
+  if (options.peers.empty()) return;
+  auto& initial_peers = qos.wire_protocol().builtin.initialPeersList;
+  std::vector<std::string> addresses{kMulticastAddress, "127.0.0.1"};
+  addresses.insert(addresses.end(), options.peers.begin(), options.peers.end());
+  for (const std::string& address : addresses) {
+    frtps::Locator_t locator;  // port 0: those of the domain
+    if (!frtps::IPLocator::setIPv4(locator, address)) {
+      throw std::invalid_argument("peer \"" + address + "\", allowed IPv4 addresses");
+    }
+    initial_peers.push_back(locator);
+  }
+}
+
 // As the lab's own clients do it.
 void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::SIMPLE;
   if (!options.discovery_server) {
+    set_peers(options, qos);
     return;
+  }
+  if (!options.peers.empty()) {
+    throw std::invalid_argument("participant " + options.name +
+                                ": peers have no meaning for a client of a discovery server");
   }
   if (options.role == DomainRole::kLocal) {
     throw std::invalid_argument("participant " + options.name +
@@ -69,6 +94,12 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
   frtps::Locator_t address;
   frtps::IPLocator::setIPv4(address, options.discovery_server->ip);
   address.port = options.discovery_server->port;
+  if (options.is_discovery_server) {
+    discovery.discoveryProtocol = frtps::DiscoveryProtocol::SERVER;
+    qos.wire_protocol().prefix = server.guidPrefix;
+    qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(address);
+    return;
+  }
   server.metatrafficUnicastLocatorList.push_back(address);
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::CLIENT;
   discovery.m_DiscoveryServers.push_back(server);

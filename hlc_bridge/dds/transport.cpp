@@ -72,6 +72,15 @@ int default_controller_domain(int lab_domain) {
   return domain;
 }
 
+void check_addresses(const std::string& flag, const std::vector<std::string>& addresses) {
+  for (const std::string& address : addresses) {
+    in_addr parsed{};
+    if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
+      refuse(flag, quoted(address), "an IPv4 address");
+    }
+  }
+}
+
 std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
                                                     const std::string& server_id,
                                                     const std::string& server_ip,
@@ -90,10 +99,7 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
     refuse("--discovery_server_id", quoted(server_id),
            "12 bytes in hexadecimal with dots between them");
   }
-  in_addr address{};
-  if (inet_pton(AF_INET, server_ip.c_str(), &address) != 1) {
-    refuse("--discovery_server_ip", quoted(server_ip), "an IPv4 address");
-  }
+  check_addresses("--discovery_server_ip", {server_ip});
   DiscoveryServer server{server_id, server_ip, 0};
   const char* const end = server_port.data() + server_port.size();
   const auto [parsed_end, error] = std::from_chars(server_port.data(), end, server.port);

@@ -64,4 +64,7 @@ struct DiscoveryServer {
                                                                   const std::string& server_ip,
                                                                   const std::string& server_port);
 
+/// Throws std::invalid_argument naming `flag` unless every address is an IPv4 address.
+void check_addresses(const std::string& flag, const std::vector<std::string>& addresses);
+
 }  // namespace hlc

@@ -24,7 +24,9 @@ Participant on_domain(const ListenOptions& options, std::optional<int> domain, D
        .domain_id = domain.value(),
        .role = role,
        .transport = options.transport,
-       .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt});
+       .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
+       .peers = role == DomainRole::kController ? options.controller_peers
+                                                : std::vector<std::string>{}});
 }
 
 void note(const Parameter& parameter, Heard& heard) {

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "hlc_bridge/dds/transport.hpp"
 #include "hlc_bridge/doctor/diagnosis.hpp"
@@ -13,6 +15,8 @@ struct ListenOptions {
   Transport transport{Transport::kLab};
   Domains domains;  ///< local: empty if the middleware is not to be looked for
   std::optional<DiscoveryServer> discovery_server;
+  std::vector<std::string>
+      controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
   std::chrono::milliseconds time{3000};
 };
 

@@ -33,7 +33,9 @@ ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle
           .role = role,
           .transport = options.transport,
           .logical_time = options.logical_time,
-          .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt};
+          .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
+          .peers = role == DomainRole::kController ? options.controller_peers
+                                                   : std::vector<std::string>{}};
 }
 
 std::string joined(const std::set<std::string>& names) {

@@ -40,6 +40,8 @@ struct HlcProcessOptions {
   Transport transport{Transport::kLab};
   Domains domains;
   std::optional<DiscoveryServer> discovery_server;
+  std::vector<std::string>
+      controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
   bool logical_time{};
   std::chrono::seconds startup_timeout{30};
   StepDeadlines deadlines;

@@ -34,7 +34,8 @@ ParticipantOptions on_domain(const LabControlOptions& options, DomainRole role) 
           .role = role,
           .transport = options.transport,
           .logical_time = options.logical_time,
-          .discovery_server = lab ? options.discovery_server : std::nullopt};
+          .discovery_server = lab ? options.discovery_server : std::nullopt,
+          .peers = lab ? std::vector<std::string>{} : options.controller_peers};
 }
 
 std::unique_ptr<LabRun> make_run(const LabControlOptions& options) {

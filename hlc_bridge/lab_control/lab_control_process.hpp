@@ -23,6 +23,8 @@ struct LabControlOptions {
   int lab_domain{};
   int controller_domain{};
   std::optional<DiscoveryServer> discovery_server;
+  std::vector<std::string>
+      controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
   bool logical_time{};
   std::filesystem::path out;  ///< run folder; empty: nothing is recorded
   bool is_terminal{};         ///< standard error is one

@@ -1,11 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <stdexcept>
 
-#include "hlc_bridge/dds/library.hpp"
-#include "hlc_bridge/dds/participant_core.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
@@ -15,61 +11,63 @@ namespace {
 
 constexpr const char* kServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
 
-/// What the lab control centre runs. The port is one of the domain's own, above those of
-/// participants.
-class Server {
- public:
-  explicit Server(int domain) : port_{static_cast<std::uint16_t>(7400 + 250 * domain + 249)} {
-    set_up_library();
-    fdds::DomainParticipantQos qos;
-    auto& discovery = qos.wire_protocol().builtin.discovery_config;
-    discovery.discoveryProtocol = frtps::DiscoveryProtocol::SERVER;
-    qos.wire_protocol().prefix = prefix();
-    frtps::Locator_t address;
-    frtps::IPLocator::setIPv4(address, "127.0.0.1");
-    address.port = port_;
-    qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(address);
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-    udp->interfaceWhiteList = {"127.0.0.1"};
-    qos.transport().use_builtin_transports = false;
-    qos.transport().user_transports = {udp};
-    server_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<fdds::DomainId_t>(domain), qos);
-  }
-  ~Server() { fdds::DomainParticipantFactory::get_instance()->delete_participant(server_); }
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
+/// The port is one of the domain's own, above those of participants.
+ParticipantOptions through_server(const std::string& name, int domain) {
+  ParticipantOptions options = on_loopback(name, domain, DomainRole::kLab);
+  options.discovery_server = {kServerId, "127.0.0.1",
+                              static_cast<std::uint16_t>(7400 + 250 * domain + 249)};
+  return options;
+}
 
-  [[nodiscard]] bool is_running() const { return server_ != nullptr; }
-  [[nodiscard]] DiscoveryServer description() const { return {kServerId, "127.0.0.1", port_}; }
-
- private:
-  static frtps::GuidPrefix_t prefix() {
-    eprosima::fastdds::rtps::RemoteServerAttributes attributes;
-    attributes.ReadguidPrefix(kServerId);
-    return attributes.guidPrefix;
-  }
-
-  std::uint16_t port_;
-  fdds::DomainParticipant* server_{};
-};
+ParticipantOptions server_of(int domain) {
+  ParticipantOptions options = through_server("discovery_server", domain);
+  options.is_discovery_server = true;
+  return options;
+}
 
 TEST(DiscoveryServer, ClientsFindEachOtherThroughIt) {
   const DomainReservation domain;
-  const Server server{domain.first()};
-  ASSERT_TRUE(server.is_running());
-  const auto client = [&](const std::string& name) {
-    ParticipantOptions options = on_loopback(name, domain.first(), DomainRole::kLab);
-    options.discovery_server = server.description();
-    return options;
-  };
-  Participant vehicle{client("vehicle_raspberry_1")};
-  Participant middleware{client("middleware_1")};
+  const Participant server{server_of(domain.first())};
+  Participant vehicle{through_server("vehicle_raspberry_1", domain.first())};
+  Participant middleware{through_server("middleware_1", domain.first())};
   Mailbox<VehicleState> mailbox{middleware, topics::vehicle_state(1)};
   Writer<VehicleState> writer{vehicle, topics::vehicle_state(1)};
   ASSERT_TRUE(writer.wait_for_matched({"middleware_1"}, soon()));
   ASSERT_TRUE(writer.write(VehicleState{}));
   EXPECT_EQ(mailbox.wait_for(1).size(), 1U);
+}
+
+TEST(DiscoveryServer, ClientsDoNotFindEachOtherWithoutIt) {
+  const DomainReservation domain;
+  const Participant vehicle{through_server("vehicle_raspberry_1", domain.first())};
+  const Participant middleware{through_server("middleware_1", domain.first())};
+  // What must not happen is given a second to happen.
+  EXPECT_FALSE(vehicle.wait_for({"middleware_1"},
+                                std::chrono::steady_clock::now() + std::chrono::seconds{1}));
+  EXPECT_TRUE(middleware.alive().empty());
+}
+
+TEST(Peers, AreFoundAsWell) {
+  const DomainReservation domain;
+  ParticipantOptions options =
+      on_loopback("high_level_controller_1", domain.first(), DomainRole::kController);
+  options.peers = {"127.0.0.1"};
+  const Participant first{options};
+  options.name = "high_level_controller_2";
+  const Participant second{options};
+  const Participant other{on_loopback("lab_control", domain.first(), DomainRole::kController)};
+  EXPECT_TRUE(first.wait_for({"high_level_controller_2", "lab_control"}, soon()));
+  EXPECT_TRUE(other.wait_for({"high_level_controller_1", "high_level_controller_2"}, soon()));
+}
+
+TEST(Peers, AreAddressesAndNotForClientsOfAServer) {
+  const DomainReservation domain;
+  ParticipantOptions options = on_loopback("a", domain.first(), DomainRole::kController);
+  options.peers = {"lab-pc"};
+  EXPECT_THROW(Participant{options}, std::invalid_argument);
+  options = through_server("a", domain.first());
+  options.peers = {"127.0.0.1"};
+  EXPECT_THROW(Participant{options}, std::invalid_argument);
 }
 
 }  // namespace

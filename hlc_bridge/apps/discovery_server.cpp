@@ -1,0 +1,82 @@
+// A discovery server for the lab domain, where multicast does not pass and no lab control centre
+// runs one. Debian's own (fast-discovery-server 2.9.1) does not know the lab's types and dies when
+// it meets them.
+#include <iostream>
+#include <memory>
+
+#include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/run_program.hpp"
+#include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/time/signal.hpp"
+
+namespace {
+
+struct Flags {
+  int dds_domain{0};
+  std::string id{"44.53.00.5f.45.50.52.4f.53.49.4d.41"};
+  std::string ip;
+  std::string port{"11811"};
+  std::string transport{"lab"};
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("--dds_domain", flags.dds_domain, "lab domain")->capture_default_str();
+  app.add_option("--discovery_server_id", flags.id, "GUID prefix")->capture_default_str();
+  app.add_option("--discovery_server_ip", flags.ip,
+                 "IPv4 address of this machine by which the others reach it")
+      ->required();
+  app.add_option("--discovery_server_port", flags.port, "port")->capture_default_str();
+  app.add_option("--transport", flags.transport, "lab or loopback")->capture_default_str();
+  app.footer(
+      "Runs until it is stopped. The others find each other through it with "
+      "--discovery_mode=client and the same --discovery_server_... flags. "
+      "Exit codes: 0 stopped, 2 bad input.");
+}
+
+/// Serves until it is stopped.
+class Server {
+ public:
+  explicit Server(const hlc::ParticipantOptions& options) : participant_(options) {}
+  int run() {
+    while (!signal_.wait_until(std::chrono::steady_clock::now() + std::chrono::hours{1},
+                               [this] { return stop_; })) {
+    }
+    return hlc::kExitGood;
+  }
+  void stop() {
+    signal_.post([this] { stop_ = true; });
+  }
+
+ private:
+  hlc::Participant participant_;
+  hlc::Signal signal_;
+  bool stop_{};
+};
+
+std::shared_ptr<Server> make_server(const Flags& flags) {
+  hlc::ParticipantOptions options;
+  options.name = "discovery_server";
+  hlc::check_domain_id("--dds_domain", flags.dds_domain);
+  options.domain_id = flags.dds_domain;
+  options.role = hlc::DomainRole::kLab;
+  options.transport = hlc::transport_from_name(flags.transport);
+  options.discovery_server = hlc::discovery_from_flags("client", flags.id, flags.ip, flags.port);
+  options.is_discovery_server = true;
+  auto server = std::make_shared<Server>(options);
+  std::cout << "discovery_server: serves domain " << flags.dds_domain << " at " << flags.ip << ":"
+            << flags.port << std::endl;
+  return server;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hlc::StopSignals signals;
+  CLI::App app{"Tells the participants of the lab domain of each other.", "discovery_server"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  return hlc::run_program(
+      "discovery_server", signals, [&] { return make_server(flags); },
+      [](Server& server) { server.stop(); });
+}
