@@ -29,8 +29,12 @@ void add_route(const VehicleDescription& vehicle, std::span<const StepRecord* co
     positions_m.push_back(row->record.report.planned_pose.position_m());
     times_s.push_back(static_cast<double>(row->step) * step_s);
   }
-  const Progress progress = progress_along(*vehicle.route, positions_m);
+  Progress progress = progress_along(*vehicle.route, positions_m);
   summary.reference_error_m = statistics(progress.distance_m);
+  if (!rows.empty() && rows.front()->step == 0) {
+    progress.s_m.erase(progress.s_m.begin());
+    times_s.erase(times_s.begin());
+  }
   summary.lap_s = lap_s(*vehicle.route, progress, times_s);
 }
 

@@ -13,8 +13,11 @@ namespace hlc {
 struct VehicleSummary {
   VehicleId id;
   std::string name;
-  std::size_t steps{};          ///< reported ones; fewer than asked for if the vehicle died
-  std::optional<double> lap_s;  ///< planned positions along the route; closed routes only
+  std::size_t steps{};  ///< reported ones; fewer than asked for if the vehicle died
+  /// Planned positions along the route, from step 1 on: what is planned in step 0 is driven from
+  /// then on, and until then the vehicle stands, whatever it plans. So the lap compares with the
+  /// authors' simulation, whose plans are driven at once. Closed routes only.
+  std::optional<double> lap_s;
   std::optional<Statistics> reference_error_m;  ///< planned positions to the route's centre line
   std::optional<Statistics> tracking_error_m;   ///< driven to planned position, at every tick
   /// Largest footprint_deviation_m at any tick. Left out are steps near the steering limit, and

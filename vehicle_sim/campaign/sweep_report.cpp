@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <regex>
 
+#include "vehicle_sim/campaign/accuracy_comparison.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/trims_front.hpp"
@@ -139,21 +141,71 @@ std::string paper_part(const Sweep& sweep, const std::vector<RunFigures>& runs) 
          values_table(sweep, nearest);
 }
 
+/// A reason with its numbers taken out: "vehicle # was out of its areas in # steps".
+struct Reason {
+  std::string text;
+  std::vector<std::string> numbers;
+};
+
+constexpr char kNumberHere = '#';
+
+Reason reason_of(const std::string& failure) {
+  static const std::regex number_text("[0-9]+([.][0-9]+)?");
+  Reason reason;
+  for (std::sregex_iterator it(failure.begin(), failure.end(), number_text), end; it != end; ++it) {
+    reason.numbers.push_back(it->str());
+  }
+  reason.text = std::regex_replace(failure, number_text, std::string(1, kNumberHere));
+  return reason;
+}
+
+/// The runs that failed for the same reason.
+struct Failures {
+  std::size_t count{};
+  std::vector<std::string> least;  ///< of the reason's numbers
+  std::vector<std::string> largest;
+
+  void add(const std::vector<std::string>& numbers) {
+    if (count++ == 0) least = largest = numbers;
+    for (std::size_t i = 0; i < std::min(numbers.size(), least.size()); ++i) {
+      if (std::stod(numbers[i]) < std::stod(least[i])) least[i] = numbers[i];
+      if (std::stod(numbers[i]) > std::stod(largest[i])) largest[i] = numbers[i];
+    }
+  }
+
+  [[nodiscard]] std::string in_words(const std::string& reason) const {
+    std::string text;
+    std::size_t number = 0;
+    for (const char letter : reason) {
+      if (letter != kNumberHere || number == least.size()) {
+        text += letter;
+        continue;
+      }
+      text += least[number];
+      if (largest[number] != least[number]) text += " … " + largest[number];
+      ++number;
+    }
+    return text;
+  }
+};
+
 std::string failures_part(const std::vector<RunFigures>& runs) {
-  std::map<std::string, std::size_t> counts;
+  std::map<std::string, Failures> by_reason;
   std::size_t failed = 0;
   for (const RunFigures& run : runs) {
     if (run.failure.empty()) continue;
     ++failed;
-    ++counts["subgraph " + run.subgraph + ": " + run.failure];
+    const Reason reason = reason_of(run.failure);
+    by_reason["subgraph " + run.subgraph + ": " + reason.text].add(reason.numbers);
   }
   if (failed == 0) return "";
-  std::vector<std::pair<std::string, std::size_t>> reasons(counts.begin(), counts.end());
+  std::vector<std::pair<std::string, Failures>> reasons(by_reason.begin(), by_reason.end());
   std::ranges::stable_sort(reasons, std::ranges::greater{},
-                           &std::pair<std::string, std::size_t>::second);
+                           [](const auto& reason) { return reason.second.count; });
   std::string text = "## Runs that do not count: " + std::to_string(failed) + "\n\n";
   for (std::size_t i = 0; i < std::min(kReasonsShown, reasons.size()); ++i) {
-    text += "* " + std::to_string(reasons[i].second) + " times " + reasons[i].first + "\n";
+    const auto& [reason, failures] = reasons[i];
+    text += "* " + std::to_string(failures.count) + " times " + failures.in_words(reason) + "\n";
   }
   if (reasons.size() > kReasonsShown) {
     text += "* and " + std::to_string(reasons.size() - kReasonsShown) +
@@ -219,7 +271,8 @@ std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& ru
       std::to_string(plan.starts) + ", automata " + std::to_string(sweep.num_automata()) + ".\n\n";
   const bool sweeps_trims = std::ranges::any_of(
       plan.axes, [](const SweepAxis& axis) { return axis.setting == kTrimsSetting; });
-  text += sweeps_trims ? trims_markdown(sweep, runs) : paper_part(sweep, runs);
+  text += sweeps_trims ? trims_markdown(sweep, runs)
+                       : paper_part(sweep, runs) + accuracy_comparison(sweep, runs);
   text += failures_part(runs);
   return text + "Command: `" + origin.command + "`\n\nProgram " + origin.revision +
          ", compiled by " + origin.compiler + "; " + origin.processor + ".\n";

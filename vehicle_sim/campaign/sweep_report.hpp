@@ -20,8 +20,9 @@ namespace hlc {
 /// over all starts and the smallest and largest D of one start; the best one's cells beside the
 /// paper's; and for every value of every setting how near the combinations with it come, and how
 /// many of them are as good as the best as far as the starts can tell: their D is not above the
-/// best's largest D of one start. If `trims` is swept: see trims_front.hpp. Then what failed and
-/// why.
+/// best's largest D of one start; then accuracy_comparison.hpp. If `trims` is swept: see
+/// trims_front.hpp. At last what failed and why; reasons that differ in numbers only are one, with
+/// the range of these numbers.
 [[nodiscard]] std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs,
                                          const EvaluationOrigin& origin);
 

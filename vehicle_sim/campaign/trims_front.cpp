@@ -4,23 +4,11 @@
 #include <cassert>
 #include <tuple>
 
+#include "vehicle_sim/campaign/lap_quality.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 
 namespace hlc {
 namespace {
-
-/// Mean over the runs of one combination; nothing if one of them drove no lap.
-std::optional<TrimsQuality> quality_of(const std::vector<const RunFigures*>& runs) {
-  TrimsQuality quality;
-  const auto count = static_cast<double>(runs.size());
-  for (const RunFigures* run : runs) {
-    if (!run->failure.empty() || !run->lap_s || !run->error_mean_mm) return std::nullopt;
-    quality.error_mean_mm += *run->error_mean_mm / count;
-    quality.lap_s += *run->lap_s / count;
-    quality.generated_max += run->generated_max / count;
-  }
-  return quality;
-}
 
 const std::vector<TrimId>& trims_of(const Sweep& sweep, std::size_t combination) {
   const SweepValue* trims =
@@ -100,13 +88,15 @@ std::vector<TrimsQuality> trims_that_drive(const Sweep& sweep, const std::vector
   }
   std::vector<TrimsQuality> choices;
   for (std::size_t c = 0; c < by_combination.size(); ++c) {
-    std::optional<TrimsQuality> quality = quality_of(by_combination[c]);
+    const std::optional<LapQuality> quality = lap_quality(by_combination[c]);
     if (!quality) continue;
-    quality->combination = c;
-    const std::vector<TrimId>& trims = trims_of(sweep, c);
-    quality->moving = static_cast<std::size_t>(
-        std::ranges::count_if(trims, [&](TrimId trim) { return sweep.is_moving(trim); }));
-    choices.push_back(*quality);
+    const auto moving = std::ranges::count_if(trims_of(sweep, c),
+                                              [&](TrimId trim) { return sweep.is_moving(trim); });
+    choices.push_back({.combination = c,
+                       .moving = static_cast<std::size_t>(moving),
+                       .error_mean_mm = quality->error_mean_mm,
+                       .lap_s = quality->lap_s,
+                       .generated_max = quality->generated_max});
   }
   std::ranges::stable_sort(choices, {}, [](const TrimsQuality& one) {
     return std::tuple(one.moving, one.error_mean_mm);

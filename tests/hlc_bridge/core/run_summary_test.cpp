@@ -101,6 +101,11 @@ TEST_F(RunSummaryTest, ErrorsAndLapAreThoseOfTheMotion) {
   EXPECT_EQ(result.trace_sha256.size(), 64U);
 }
 
+TEST_F(RunSummaryTest, TheFirstStepInWhichAllStandIsNoPartOfTheLap) {
+  report(1, 0).report.planned_pose = report(1, 1).report.planned_pose;
+  EXPECT_NEAR(summary().vehicles[0].lap_s.value(), 2.0 * kPi / 0.8, 1e-3);
+}
+
 // One car drives straight on at 0.8 m/s and is 5 mm beside its plan at one tick between two steps.
 TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   reports_.clear();

@@ -103,9 +103,15 @@ TEST(Sweep, WhatCannotBeDrivenFailsWithItsReasonAndStopsNobody) {
 TEST(Sweep, FlyingLapLeavesTheStartOut) {
   const Sweep sweep =
       built_sweep("subgraphs: [B]\nsteps: 120\nsettings: {lap: [standing, flying]}");
-  const std::vector<RunFigures> runs = driven(sweep);
-  ASSERT_TRUE(runs[0].lap_s && runs[1].lap_s);
-  EXPECT_GT(*runs[0].lap_s, *runs[1].lap_s + 0.1);  // it stood at the start
+  const DrivenRun run = drive_run(sweep.scenario_of(0), {});
+  const RunSummary whole = result_of(run, std::nullopt).summary;
+  const RunSummary flying = result_of(run, std::nullopt, kFlyingStep).summary;
+  EXPECT_EQ(whole.vehicles[0].steps, 120U);
+  EXPECT_EQ(flying.vehicles[0].steps, 120U - kFlyingStep);
+  EXPECT_EQ(sweep.drive(0).trace_sha256, whole.trace_sha256);
+  EXPECT_EQ(sweep.drive(1).trace_sha256, flying.trace_sha256);
+  EXPECT_EQ(sweep.drive(1).figures.lap_s, flying.vehicles[0].lap_s);
+  EXPECT_NE(flying.vehicles[0].lap_s, whole.vehicles[0].lap_s);
 }
 
 TEST(SweepReport, CsvHasOneRowPerRunWithItsSettings) {
@@ -144,6 +150,44 @@ TEST(SweepReport, SaysWhichSettingsAreNearestToThePaper) {
   EXPECT_THAT(text, HasSubstr("2 of 3 combinations are as good as the best"));
   EXPECT_THAT(text, HasSubstr("| width_m | 0.09 | 1 | 1.414 | 1.414 | 0 |"));
   EXPECT_THAT(text, HasSubstr("| paper_red_alone | D | lap_s | 16.0 | 16.0 | 1.00 |"));
+}
+
+TEST(SweepReport, SaysWhichSubgraphIsMoreAccurateAndWhen) {
+  const Sweep sweep = built_sweep(
+      "subgraphs: [C, D]\nstarts: 2\nsettings: {drivable: [lanes, everywhere], width_m: [0.1, "
+      "0.11]}");
+  // By combination: the errors of C and of D, each from two starts.
+  const std::vector<double> errors_mm{20, 22, 19, 19,  // lanes, 0.1: 19 / 21
+                                      20, 22, 21, 21,  // lanes, 0.11: equal
+                                      20, 20, 30, 30,  // everywhere, 0.1: 30 / 20
+                                      20, 20, 5,  5};  // everywhere, 0.11: D without lap
+  std::vector<RunFigures> runs;
+  for (std::size_t i = 0; i < errors_mm.size(); ++i) {
+    RunFigures run = sweep.heading_of(i);
+    run.error_mean_mm = errors_mm[i];
+    if (i != 15) run.lap_s = 16.0;
+    runs.push_back(run);
+  }
+  const std::string text = sweep_markdown(sweep, runs, {});
+  EXPECT_THAT(text, HasSubstr("| setting | value | D against C |\n|---|---|---|\n"));
+  EXPECT_THAT(text, HasSubstr("| all |  | 1 of 3, 1.00 |"));
+  EXPECT_THAT(text, HasSubstr("| drivable | lanes | 1 of 2, 1.00 |"));
+  EXPECT_THAT(text, HasSubstr("| drivable | everywhere | 0 of 1, 1.50 |"));
+  EXPECT_THAT(text, HasSubstr("| width_m | 0.1 | 1 of 2, 1.50 |"));
+}
+
+TEST(SweepReport, NamesAReasonOnceWithTheRangeOfItsNumbers) {
+  const Sweep sweep = built_sweep("subgraphs: [A]\nstarts: 4\nsettings: {width_m: [0.1]}");
+  std::vector<RunFigures> runs;
+  for (std::size_t i = 0; i < 4; ++i) runs.push_back(sweep.heading_of(i));
+  runs[0].failure = "vehicle 1 was away in 12 steps by 0.5 mm";
+  runs[1].failure = "vehicle 1 was away in 7 steps by 1.25 mm";
+  runs[2].failure = "vehicle 1 was away in 104 steps by 0.5 mm";
+  runs[3].failure = "something else";
+  const std::string text = sweep_markdown(sweep, runs, {});
+  EXPECT_THAT(text, HasSubstr("Runs that do not count: 4\n"));
+  EXPECT_THAT(text, HasSubstr("* 3 times subgraph A: vehicle 1 was away in 7 … 104 steps by 0.5 … "
+                              "1.25 mm\n* 1 times subgraph A: something else\n"));
 }
 
 TEST(TrimsFront, HoldsWhatNothingBeats) {
