@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/support/temporary_folder.hpp"
+#include "vehicle_sim/campaign/sweep.hpp"
 
 namespace hlc {
 namespace {
@@ -83,6 +84,20 @@ TEST(SweepPlan, SubsetsAreAllChoicesOfMovingTrimsWithStandstill) {
 TEST(SweepPlan, TrimsOfTheFileAreSortedAndHaveStandstill) {
   const SweepPlan plan = plan_of(file_with("{trims: [[12, 2, 7]]}"));
   EXPECT_EQ(plan.axes[0].values[0].text, "1 2 7 12");
+}
+
+TEST(SweepPlan, EveryShippedStudyCanBeDriven) {
+  std::size_t studies = 0;
+  for (const auto& file :
+       std::filesystem::directory_iterator(HLC_SOURCE_DIR "/launch_scripts/sweeps")) {
+    if (file.path().extension() != ".yaml") continue;
+    SCOPED_TRACE(file.path());
+    ++studies;
+    SweepPlan plan;
+    ASSERT_NO_THROW(plan = read_sweep(file.path()));
+    EXPECT_NO_THROW(const Sweep sweep(plan));
+  }
+  EXPECT_GE(studies, 6U);
 }
 
 TEST(SweepPlan, ShippedStudyOfTheTableHasAtLeast10000RunsAndThatOfTrimsAllSubsets) {
