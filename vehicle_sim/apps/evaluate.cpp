@@ -10,11 +10,10 @@
 
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
-#include "planner/apps/parallel.hpp"
-#include "planner/apps/progress_line.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
+#include "vehicle_sim/apps/missing_runs.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
@@ -52,34 +51,21 @@ hlc::Nanoseconds wall_clock() {
 /// Drives what is missing. Returns the number of failed runs.
 std::size_t drive(const hlc::Campaign& campaign, const Choices& choices,
                   hlc::EvaluationFiles& files) {
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < campaign.runs().size(); ++i) {
-    if (!files.has(i)) missing.push_back(i);
-  }
-  if (files.size() > 0) {
-    std::cerr << "evaluate: " << files.size() << " of " << campaign.runs().size()
-              << " runs are there already\n";
-  }
-  const hlc::ProgressLine progress("run", missing.size());
-  hlc::run_parallel(
-      missing.size(), choices.jobs,
-      [&](std::size_t i) {
-        const std::size_t run = missing[i];
-        try {
-          const hlc::DrivenRun driven = campaign.drive(run, wall_clock);
-          if (choices.keep_runs) {
-            hlc::write_run_folder(choices.out / "runs" / std::to_string(run), driven.scenario,
-                                  driven.experiment);
-          }
-          files.add(run, campaign.result_of(driven));
-        } catch (const std::exception& error) {
-          files.add_failure(run, error.what());
-        }
-      },
-      [&](std::size_t done) { progress.show(done); });
-  const std::vector<hlc::RunFigures> figures = files.figures();
-  return static_cast<std::size_t>(std::ranges::count_if(
-      figures, [](const hlc::RunFigures& run) { return !run.failure.empty(); }));
+  const std::vector<std::size_t> missing =
+      hlc::missing_runs(campaign.runs().size(), [&](std::size_t run) { return files.has(run); });
+  hlc::for_each_number(missing, "run", choices.jobs, [&](std::size_t run) {
+    try {
+      const hlc::DrivenRun driven = campaign.drive(run, wall_clock);
+      if (choices.keep_runs) {
+        hlc::write_run_folder(choices.out / "runs" / std::to_string(run), driven.scenario,
+                              driven.experiment);
+      }
+      files.add(run, campaign.result_of(driven));
+    } catch (const std::exception& error) {
+      files.add_failure(run, error.what());
+    }
+  });
+  return hlc::num_failed(files.figures());
 }
 
 std::string command_line(int argc, char** argv) {

@@ -26,7 +26,6 @@ class SweepFiles {
   SweepFiles(std::filesystem::path folder, const Sweep& sweep);
 
   [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
-  [[nodiscard]] std::size_t size() const { return log_.size(); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written
   void add(std::size_t run, const SweepResult& result);
