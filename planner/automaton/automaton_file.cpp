@@ -36,12 +36,12 @@ std::string row(const State& x) {
 std::string row(const Point& p) { return row({p.x(), p.y()}); }
 
 /// A literal block: one row per line.
-template <class T>
-void append_table(std::string& text, const char* key, const std::vector<T>& rows) {
+template <class Rows>
+void append_table(std::string& text, const char* key, const Rows& rows) {
   text += "    ";
   text += key;
   text += ": |\n";
-  for (const T& one : rows) text += "      " + row(one) + "\n";
+  for (const auto& one : rows) text += "      " + row(one) + "\n";
 }
 
 std::string map_of(const std::vector<CriterionValue>& values) {

@@ -1,6 +1,7 @@
 #include "planner/automaton/deviation.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "planner/geometry/footprint.hpp"
 
@@ -15,7 +16,7 @@ double distance_to_segment_m(const Point& point, const Point& from, const Point&
 
 double distance_to_area_m(const Point& point, const ConvexPolygon& area) {
   if (contains(area, point)) return 0.0;
-  const std::vector<Point>& vertices = area.vertices_m;
+  const ConvexPolygon::Vertices& vertices = area.vertices_m;
   double result = (point - vertices.front()).norm();
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     result = std::min(
@@ -31,10 +32,8 @@ double footprint_deviation_m(const Pose& measured, const State& planned,
                              const IdentifiedVehicle& identified) {
   Pose turned = planned.pose;
   turned.heading_rad += yaw_minus_heading_rad(planned.steering_rad, vehicle, identified);
-  std::vector<Point> corners = footprint_area(vehicle.footprint, planned.pose).vertices_m;
-  const std::vector<Point> more = footprint_area(vehicle.footprint, turned).vertices_m;
-  corners.insert(corners.end(), more.begin(), more.end());
-  const ConvexPolygon hull = convex_hull(std::move(corners));
+  const ConvexPolygon hull = convex_hull(std::array{
+      footprint_area(vehicle.footprint, planned.pose), footprint_area(vehicle.footprint, turned)});
   double result = 0.0;
   for (const Point& corner : footprint_area(vehicle.footprint, measured).vertices_m) {
     result = std::max(result, distance_to_area_m(corner, hull));

@@ -77,9 +77,11 @@ std::vector<Point> standing_area_m(const UniversalAutomaton& automaton, TrimId t
                                                automaton.vehicle, automaton.identified);
   const Footprint& footprint = automaton.vehicle.footprint;
   const double margin_m = automaton.vehicle.safety_margin_m;
-  std::vector<Point> points_m = footprint_area(footprint, {}, margin_m).vertices_m;
-  const ConvexPolygon turned = footprint_area(footprint, {0.0, 0.0, yaw_rad}, margin_m);
-  points_m.insert(points_m.end(), turned.vertices_m.begin(), turned.vertices_m.end());
+  std::vector<Point> points_m;
+  for (const double heading_rad : {0.0, yaw_rad}) {
+    const ConvexPolygon area = footprint_area(footprint, {0.0, 0.0, heading_rad}, margin_m);
+    points_m.insert(points_m.end(), area.vertices_m.begin(), area.vertices_m.end());
+  }
   return hull_vertices(std::move(points_m));
 }
 

@@ -365,7 +365,7 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
 bool Controller::is_candidate_free() const {
   const std::uint64_t next = step_.observation.step.value + 1;
   const auto is_in_reach = [this](const ConvexPolygon& area) {
-    return contains(step_.traffic.reachable_area_m, area.vertices_m, kReachRounding_m);
+    return contains(step_.traffic.reachable_area_m, area.corners_m(), kReachRounding_m);
   };
   if (!std::ranges::all_of(step_.candidate_areas_m.areas_m, is_in_reach) ||
       !is_in_reach(step_.candidate_areas_m.final_area_m)) {

@@ -70,9 +70,8 @@ PlanWatch PlanInForce::watch(const MeasuredVehicle* own, StepIndex now) {
 bool PlanInForce::is_inside_told(const Pose& measured, StepIndex step, double reserve_m) const {
   if (step < told_.first) return false;
   const Footprint& footprint = automaton_->vehicle.footprint;
-  const std::vector<Point> corners = footprint_area(footprint, measured, reserve_m).vertices_m;
-  return std::ranges::all_of(
-      corners, [&](const Point& corner) { return contains(told_.during(step), corner); });
+  const ConvexPolygon area = footprint_area(footprint, measured, reserve_m);
+  return contains(told_.during(step), area.corners_m());
 }
 
 /// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.

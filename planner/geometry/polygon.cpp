@@ -111,7 +111,7 @@ struct EdgeRemoval {
   double added_area_m2{std::numeric_limits<double>::infinity()};  ///< infinite: they do not meet
 };
 
-EdgeRemoval edge_removal(const std::vector<Point>& vertices, std::size_t i) {
+EdgeRemoval edge_removal(const ConvexPolygon::Vertices& vertices, std::size_t i) {
   const std::size_t n = vertices.size();
   const Point& from = vertices[i];
   const Point& to = vertices[next(i, n)];
@@ -162,11 +162,11 @@ std::vector<Point> hull_vertices(std::vector<Point> points_m) {
 }
 
 ConvexPolygon convex_hull(std::vector<Point> points_m) {
-  ConvexPolygon hull{hull_vertices(std::move(points_m))};
-  if (hull.vertices_m.size() < 3) {
+  const std::vector<Point> hull_m = hull_vertices(std::move(points_m));
+  if (hull_m.size() < 3) {
     return {};
   }
-  return hull;
+  return {{hull_m.begin(), hull_m.end()}};
 }
 
 ConvexPolygon convex_hull(std::span<const ConvexPolygon> areas) {
@@ -200,7 +200,7 @@ ConvexPolygon simplified_outwards(const ConvexPolygon& polygon, std::size_t max_
   if (polygon.vertices_m.size() <= max_vertices) {
     return polygon;
   }
-  std::vector<Point> vertices = polygon.vertices_m;
+  ConvexPolygon::Vertices vertices = polygon.vertices_m;
   // With five or more edges there is always one whose neighbours meet: the sum of the outer angles
   // at its ends is below pi for at least one edge, because all outer angles add up to 2 pi.
   while (vertices.size() > max_vertices) {
@@ -237,8 +237,8 @@ bool contains(const ConvexPolygon& polygon, std::span<const Point> points_m, dou
 }
 
 bool intersects(const ConvexPolygon& a, const ConvexPolygon& b) {
-  return !a.empty() && !b.empty() && !has_separating_edge(a, b.vertices_m) &&
-         !has_separating_edge(b, a.vertices_m);
+  return !a.empty() && !b.empty() && !has_separating_edge(a, b.corners_m()) &&
+         !has_separating_edge(b, a.corners_m());
 }
 
 bool intersects(const ConvexPolygon& polygon, const Segment& segment) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <span>
 #include <vector>
 
@@ -10,9 +11,16 @@ namespace hlc {
 /// A convex polygon: vertices counter-clockwise, no three in a row on a line, not closed (the last
 /// vertex is not repeated). At least 3 vertices, or 0: the empty polygon, which holds no point.
 struct ConvexPolygon {
-  std::vector<Point> vertices_m;
+  /// As many corners as a swept area has lie in the polygon itself: areas are made, copied and
+  /// thrown away by the hundred in every step, and asking for memory would cost more than the rest.
+  using Vertices = boost::container::small_vector<Point, 8>;
+
+  Vertices vertices_m;
 
   [[nodiscard]] bool empty() const { return vertices_m.empty(); }
+  [[nodiscard]] std::span<const Point> corners_m() const {
+    return {vertices_m.data(), vertices_m.size()};
+  }
   friend bool operator==(const ConvexPolygon&, const ConvexPolygon&) = default;
 };
 

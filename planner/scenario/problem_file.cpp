@@ -64,7 +64,7 @@ Point read_point(const JsonPlace& place) {
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double signed_area_m2(const std::vector<Point>& vertices_m) {
+double signed_area_m2(const ConvexPolygon::Vertices& vertices_m) {
   double twice_m2 = 0.0;
   for (std::size_t i = 2; i < vertices_m.size(); ++i) {
     twice_m2 += cross(vertices_m[i - 1] - vertices_m[0], vertices_m[i] - vertices_m[0]);
@@ -73,7 +73,7 @@ double signed_area_m2(const std::vector<Point>& vertices_m) {
 }
 
 /// Turns left at every vertex, and once around altogether. @pre counter-clockwise
-bool is_convex(const std::vector<Point>& vertices_m) {
+bool is_convex(const ConvexPolygon::Vertices& vertices_m) {
   const std::size_t n = vertices_m.size();
   double turned_rad = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -88,7 +88,7 @@ bool is_convex(const std::vector<Point>& vertices_m) {
 
 ConvexPolygon read_polygon(const JsonPlace& place) {
   ConvexPolygon area_m;
-  std::vector<Point>& vertices = area_m.vertices_m;
+  ConvexPolygon::Vertices& vertices = area_m.vertices_m;
   for (const JsonPlace& vertex : place.list("a list of vertices [x, y]")) {
     vertices.push_back(read_point(vertex));
   }

@@ -95,7 +95,7 @@ TEST(LargeMessage, OfSeveralDatagramsArrives) {
   Traffic traffic;
   traffic.vehicle = {1};
   traffic.running.areas_m.assign(
-      50, ConvexPolygon{std::vector<Point>(200, Point{1.0, 2.0})});  // 160 kB
+      50, ConvexPolygon{ConvexPolygon::Vertices(200, Point{1.0, 2.0})});  // 160 kB
   for (std::size_t i = 0; i < kDepth; ++i) {
     traffic.step = {i};
     ASSERT_TRUE(writer.write(traffic));

@@ -126,7 +126,8 @@ TEST(ReachableSets, SweptAreasHoldThoseOfAllPathsAndAreTight) {
                                                    area.vertices_m.begin(), area.vertices_m.end());
                      }
                    });
-    std::vector<Point> until_m = sets_b().swept_area_m(start, 0).vertices_m;
+    const auto& first_m = sets_b().swept_area_m(start, 0).vertices_m;
+    std::vector<Point> until_m(first_m.begin(), first_m.end());
     for (std::size_t step = 1; step <= kSteps; ++step) {
       const ConvexPolygon& area = sets_b().swept_area_m(start, step);
       const ConvexPolygon& until = sets_b().swept_area_until_m(start, step);

@@ -120,7 +120,7 @@ TEST(ConvexHull, OfAGridAreItsFourCorners) {
     }
   }
   const ConvexPolygon hull = convex_hull(points);
-  EXPECT_EQ(hull.vertices_m, (std::vector<Point>{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}));
+  EXPECT_EQ(hull, (ConvexPolygon{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}}));
 }
 
 TEST(ConvexHull, HoldsAllPointsAndIsStrictlyConvexAlsoWithDuplicatesAndCollinearPoints) {
