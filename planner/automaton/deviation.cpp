@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "planner/geometry/footprint.hpp"
 
@@ -32,13 +33,25 @@ double footprint_deviation_m(const Pose& measured, const State& planned,
                              const IdentifiedVehicle& identified) {
   Pose turned = planned.pose;
   turned.heading_rad += yaw_minus_heading_rad(planned.steering_rad, vehicle, identified);
-  const ConvexPolygon hull = convex_hull(std::array{
-      footprint_area(vehicle.footprint, planned.pose), footprint_area(vehicle.footprint, turned)});
+  const ConvexPolygon hull = convex_hull(std::array{footprint_area(vehicle.footprint, planned.pose),
+                                                    footprint_area(vehicle.footprint, turned)});
   double result = 0.0;
   for (const Point& corner : footprint_area(vehicle.footprint, measured).vertices_m) {
     result = std::max(result, distance_to_area_m(corner, hull));
   }
   return result;
+}
+
+bool deviates(const Pose& measured, const State& planned, double limit_m,
+              const VehicleParameters& vehicle, const IdentifiedVehicle& identified) {
+  const double radius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m);
+  const double off_m = (measured.position_m() - planned.pose.position_m()).norm();
+  const double turn_rad = measured.heading_rad - planned.pose.heading_rad;
+  const double offset_rad = yaw_minus_heading_rad(planned.steering_rad, vehicle, identified);
+  const double least_turn_rad =
+      std::min(std::abs(wrap_angle(turn_rad)), std::abs(wrap_angle(turn_rad - offset_rad)));
+  if (off_m + radius_m * least_turn_rad < limit_m) return false;
+  return footprint_deviation_m(measured, planned, vehicle, identified) > limit_m;
 }
 
 Pose pose_of_measured(const Pose& measured, double steering_rad, const VehicleParameters& vehicle,

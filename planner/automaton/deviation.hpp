@@ -28,6 +28,13 @@ namespace hlc {
                                            const VehicleParameters& vehicle,
                                            const IdentifiedVehicle& identified);
 
+/// True if footprint_deviation_m is larger than `limit_m`, decided at once where the vehicle is
+/// clearly near: a point of the footprint at distance r from its middle is off by at most |p - p'|
+/// + r |psi - psi'|, where p and psi are measured, p' and psi' the planned position and either
+/// heading of H.
+[[nodiscard]] bool deviates(const Pose& measured, const State& planned, double limit_m,
+                            const VehicleParameters& vehicle, const IdentifiedVehicle& identified);
+
 /// The planner's pose of a vehicle that was measured at `measured` (yaw) while it steers as
 /// planned: same course, hence heading = yaw - yaw_minus_heading_rad. Exact for a vehicle in steady
 /// state; one whose steering has just changed turns to that yaw within some 0.1 s.

@@ -164,8 +164,11 @@ Traffic Controller::observe(const Observation& observation) {
   std::vector<ConvexPolygon> reach{
       transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
                   traffic.next_pose)};
-  reach.insert(reach.end(), traffic.running.areas_m.begin(), traffic.running.areas_m.end());
-  reach.push_back(traffic.running.final_area_m);
+  const auto add = [&reach](const ConvexPolygon& area) {  // most lie within the first
+    if (!contains(reach.front(), area.corners_m())) reach.push_back(area);
+  };
+  std::ranges::for_each(traffic.running.areas_m, add);
+  add(traffic.running.final_area_m);
   traffic.reachable_area_m = convex_hull(reach);
   for (const VehicleId other : observation.active) {
     if (other == options_.vehicle) continue;
@@ -177,7 +180,7 @@ Traffic Controller::observe(const Observation& observation) {
 
 void Controller::couple(std::span<const Traffic> heard) {
   const StepIndex now = step_.observation.step;
-  std::vector<Traffic> traffic{step_.traffic};
+  std::vector<const Traffic*> traffic{&step_.traffic};
   for (const VehicleId other : step_.observation.active) {
     if (other == options_.vehicle) continue;
     const Traffic* message = find_message(heard, other, now);
@@ -185,9 +188,8 @@ void Controller::couple(std::span<const Traffic> heard) {
       step_.report.missing.push_back(other);
       continue;
     }
-    step_.heard[other] = *message;
+    traffic.push_back(&(step_.heard[other] = *message));
     last_heard_[other] = now;
-    traffic.push_back(*message);
   }
   note_who_lives();
   note_who_stands();
@@ -367,8 +369,9 @@ bool Controller::is_candidate_free() const {
   const auto is_in_reach = [this](const ConvexPolygon& area) {
     return contains(step_.traffic.reachable_area_m, area.corners_m(), kReachRounding_m);
   };
-  if (!std::ranges::all_of(step_.candidate_areas_m.areas_m, is_in_reach) ||
-      !is_in_reach(step_.candidate_areas_m.final_area_m)) {
+  if (in_force_->may_drift(*step_.candidate) &&
+      !(std::ranges::all_of(step_.candidate_areas_m.areas_m, is_in_reach) &&
+        is_in_reach(step_.candidate_areas_m.final_area_m))) {
     return false;
   }
   const auto& obstacles_m = step_.problems.back().obstacles_m;

@@ -91,8 +91,7 @@ OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& s
       return instant.step != step;
     });
     const bool drifts = std::any_of(begin, end, [&](const PredictedInstant& instant) {
-      return footprint_deviation_m(instant.pose, instant.planned, vehicle, automaton.identified) >
-             tolerated_m;
+      return deviates(instant.pose, instant.planned, tolerated_m, vehicle, automaton.identified);
     });
     if (step >= from && drifts) {
       const std::size_t i = step.value - from.value;

@@ -24,7 +24,11 @@ PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
             standstill),
       told_(plan_.areas_from(step)),
       last_seen_(measured),
-      seen_{.step = step, .time_s = 0.0, .pose = measured} {}
+      seen_{.step = step, .time_s = 0.0, .pose = measured} {
+  for (const Trim& trim : automaton_->trims) {
+    is_at_limit_.push_back(is_at_steering_limit(trim, automaton_->vehicle, automaton_->identified));
+  }
+}
 
 PlanWatch PlanInForce::watch(const MeasuredVehicle* own, StepIndex now) {
   const VehicleParameters& vehicle = automaton_->vehicle;
@@ -88,11 +92,11 @@ bool PlanInForce::stays_inside_told(const Plan& plan, StepIndex now) const {
 /// on beside its plan as it is, and what lies between all these. So too of a vehicle that is not
 /// seen any more: it may have stopped on the way.
 OccupiedAreas PlanInForce::areas_to_tell(StepIndex from) const {
-  OccupiedAreas areas = plan_.areas_from(from);
-  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
-    areas.areas_m[i] = told_.during({from.value + i});
+  OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = told_.final_area_m};
+  if (from < plan_.end()) areas.areas_m.reserve(plan_.end().value - from.value);
+  for (StepIndex step = from; step < plan_.end(); ++step.value) {
+    areas.areas_m.push_back(told_.during(step));
   }
-  areas.final_area_m = told_.final_area_m;
   if (astray_m_.empty()) return areas;
   const OccupiedAreas beside = moved_->areas_from(from);
   const auto join = [this](ConvexPolygon& area, const ConvexPolygon& other) {
@@ -105,18 +109,21 @@ OccupiedAreas PlanInForce::areas_to_tell(StepIndex from) const {
   return areas;
 }
 
-/// A plan that only uses trims with steering to spare is followed within the margin by a vehicle
-/// that is on it; for any other the drive is predicted.
-OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const {
-  const VehicleParameters& vehicle = automaton_->vehicle;
-  const double tolerated_m = rules_.tolerated_drift_share * vehicle.safety_margin_m;
-  bool may_drift = deviation_m_ > tolerated_m;
-  for (StepIndex step = seen_.step; step <= candidate.end() && !may_drift; ++step.value) {
-    may_drift = is_at_steering_limit(automaton_->trims[candidate.trim_at(step).index], vehicle,
-                                     automaton_->identified);
+double PlanInForce::tolerated_m() const {
+  return rules_.tolerated_drift_share * automaton_->vehicle.safety_margin_m;
+}
+
+bool PlanInForce::may_drift(const Plan& candidate) const {
+  if (deviation_m_ > tolerated_m()) return true;
+  for (StepIndex step = seen_.step; step <= candidate.end(); ++step.value) {
+    if (is_at_limit_[candidate.trim_at(step).index]) return true;
   }
-  if (!may_drift) return candidate.areas_from(next);
-  return areas_with_drift(candidate, next, seen_, *automaton_, tolerated_m);
+  return false;
+}
+
+OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const {
+  if (!may_drift(candidate)) return candidate.areas_from(next);
+  return areas_with_drift(candidate, next, seen_, *automaton_, tolerated_m());
 }
 
 void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {

@@ -75,6 +75,10 @@ class PlanInForce {
   /// is the step of `watch` or the next
   [[nodiscard]] OccupiedAreas areas_to_tell(StepIndex from) const;
 
+  /// False if a vehicle that drives `candidate`, a plan that continues `base()`, is sure to stay
+  /// within the margin: it is on it, and all trims have steering to spare. Valid after `watch`.
+  [[nodiscard]] bool may_drift(const Plan& candidate) const;
+
   /// Areas of a plan that continues `base()`, from t(next) on, with its drift (rule 2).
   [[nodiscard]] OccupiedAreas areas_of(const Plan& candidate, StepIndex next) const;
 
@@ -84,11 +88,13 @@ class PlanInForce {
  private:
   [[nodiscard]] bool is_inside_told(const Pose& measured, StepIndex step,
                                     double reserve_m = 0.0) const;
+  [[nodiscard]] double tolerated_m() const;
   [[nodiscard]] bool stays_inside_told(const Plan& plan, StepIndex now) const;
 
   std::shared_ptr<const UniversalAutomaton> automaton_;
   const Maneuver* standstill_;
   DeviationRules rules_;
+  std::vector<bool> is_at_limit_;  ///< of each trim, is_at_steering_limit
   Plan plan_;
   OccupiedAreas told_;  ///< areas of the plan as the others know them, and a step before
   Pose last_seen_;      ///< measured; heading_rad is the yaw

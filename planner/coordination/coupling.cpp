@@ -5,13 +5,13 @@
 
 namespace hlc {
 
-CouplingGraph::CouplingGraph(std::vector<Traffic> traffic) {
-  std::ranges::sort(traffic, {}, &Traffic::vehicle);
+CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic) {
+  std::ranges::sort(traffic, {}, [](const Traffic* one) { return one->vehicle; });
   neighbours_.resize(traffic.size());
-  for (const Traffic& one : traffic) vehicles_.push_back(one.vehicle);
+  for (const Traffic* one : traffic) vehicles_.push_back(one->vehicle);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     for (std::size_t j = i + 1; j < traffic.size(); ++j) {
-      if (intersects(traffic[i].reachable_area_m, traffic[j].reachable_area_m)) {
+      if (intersects(traffic[i]->reachable_area_m, traffic[j]->reachable_area_m)) {
         neighbours_[i].push_back(j);
         neighbours_[j].push_back(i);
       }

@@ -11,8 +11,8 @@ namespace hlc {
 /// intersects (undirected). The answer is the same in every controller that heard the same traffic.
 class CouplingGraph {
  public:
-  /// @param traffic  of the same step, every vehicle once; sorted by vehicle on return
-  explicit CouplingGraph(std::vector<Traffic> traffic);
+  /// @param traffic  of the same step, every vehicle once; not kept
+  explicit CouplingGraph(std::vector<const Traffic*> traffic);
 
   [[nodiscard]] const std::vector<VehicleId>& vehicles() const { return vehicles_; }
   [[nodiscard]] bool are_coupled(VehicleId a, VehicleId b) const;

@@ -37,6 +37,7 @@ State Plan::state_at(StepIndex step, double time_s, const VehicleParameters& veh
 
 OccupiedAreas Plan::areas_from(StepIndex from) const {
   OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = {}};
+  if (from < end()) areas.areas_m.reserve(end().value - from.value);
   for (StepIndex step = from; step < end(); ++step.value) {
     areas.areas_m.push_back(transformed(maneuver_during(step).swept_area_m, pose_at(step)));
   }

@@ -155,6 +155,7 @@ std::vector<Point> hull_vertices(std::vector<Point> points_m) {
     return points_m;
   }
   std::vector<Point> hull_m;
+  hull_m.reserve(points_m.size() + 1);  // the last of the lower half is the first of the upper
   append_half_hull(points_m, hull_m);
   std::reverse(points_m.begin(), points_m.end());
   append_half_hull(points_m, hull_m);
@@ -170,7 +171,10 @@ ConvexPolygon convex_hull(std::vector<Point> points_m) {
 }
 
 ConvexPolygon convex_hull(std::span<const ConvexPolygon> areas) {
+  std::size_t num_points = 0;
+  for (const ConvexPolygon& area : areas) num_points += area.vertices_m.size();
   std::vector<Point> points;
+  points.reserve(num_points);
   for (const ConvexPolygon& area : areas) {
     points.insert(points.end(), area.vertices_m.begin(), area.vertices_m.end());
   }

@@ -3,16 +3,29 @@
 #include <set>
 
 namespace hlc {
+namespace {
+
+/// What one controller hears. It ignores its own message, which may be there.
+template <class Message>
+struct Heard {
+  std::vector<Message> copy;  ///< without the lost ones; not used if none can be lost
+  std::span<const Message> messages;
+};
+
+}  // namespace
 
 std::vector<Report> joint_step(std::span<Controller* const> controllers,
                                const Observation& observation, const JointStepRules& rules) {
-  const auto heard = [&](MessageKind kind, const auto& messages, const Controller& receiver) {
+  const auto heard = [&]<class Message>(MessageKind kind, const std::vector<Message>& messages,
+                                        const Controller& receiver) {
+    Heard<Message> result{.copy = {}, .messages = messages};
+    if (!rules.is_lost) return result;
     const VehicleId to = receiver.options().vehicle;
-    auto result = messages;
-    std::erase_if(result, [&](const auto& message) {
-      return message.vehicle == to ||
-             (rules.is_lost && rules.is_lost({kind, observation.step, message.vehicle, to}));
+    result.copy = messages;
+    std::erase_if(result.copy, [&](const Message& message) {
+      return message.vehicle != to && rules.is_lost({kind, observation.step, message.vehicle, to});
     });
+    result.messages = result.copy;
     return result;
   };
 
@@ -24,15 +37,18 @@ std::vector<Report> joint_step(std::span<Controller* const> controllers,
     traffic.push_back(one->observe(observation));
     if (rules.told) rules.told(*one, traffic.back());
   }
-  for (Controller* one : controllers) one->couple(heard(MessageKind::kTraffic, traffic, *one));
+  for (Controller* one : controllers) {
+    one->couple(heard(MessageKind::kTraffic, traffic, *one).messages);
+  }
   std::set<const Controller*> late;
   for (Controller* one : controllers) {
     if (rules.is_late && rules.is_late(*one)) {
       late.insert(one);
       continue;
     }
-    const std::vector<Prediction> of_others = heard(MessageKind::kPrediction, predictions, *one);
-    predictions.push_back(rules.plan ? rules.plan(*one, of_others) : one->plan(of_others));
+    const Heard<Prediction> so_far = heard(MessageKind::kPrediction, predictions, *one);
+    predictions.push_back(rules.plan ? rules.plan(*one, so_far.messages)
+                                     : one->plan(so_far.messages));
   }
   for (Controller* one : controllers) {
     if (!late.contains(one)) outcomes.push_back(one->vote());
@@ -42,8 +58,8 @@ std::vector<Report> joint_step(std::span<Controller* const> controllers,
       reports.push_back(one->give_up(FallbackReason::kLate));
       continue;
     }
-    reports.push_back(one->settle(heard(MessageKind::kPrediction, predictions, *one),
-                                  heard(MessageKind::kOutcome, outcomes, *one)));
+    reports.push_back(one->settle(heard(MessageKind::kPrediction, predictions, *one).messages,
+                                  heard(MessageKind::kOutcome, outcomes, *one).messages));
   }
   return reports;
 }

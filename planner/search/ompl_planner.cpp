@@ -87,7 +87,8 @@ RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si
     : Planner(si, "RecedingHorizonPlanner"),
       subgraph_(subgraph),
       reachable_(reachable),
-      options_(options) {
+      options_(options),
+      state_(si) {
   specs_.optimizingPaths = true;
   specs_.approximateSolutions = true;
   specs_.directed = true;
@@ -144,26 +145,21 @@ ob::PlannerStatus RecedingHorizonPlanner::solve(const ob::PlannerTerminationCond
   return ob::PlannerStatus::ABORT;
 }
 
-bool RecedingHorizonPlanner::starts_where_problem_starts(const HorizonProblem& problem) const {
+bool RecedingHorizonPlanner::starts_where_problem_starts(const HorizonProblem& problem) {
   if (pdef_->getStartStateCount() != 1) return false;
-  ob::State* start = si_->allocState();
-  write_state({problem.start, problem.start_trim, 0}, *start);
-  const bool same = si_->equalStates(start, pdef_->getStartState(0));
-  si_->freeState(start);
-  return same;
+  write_state({problem.start, problem.start_trim, 0}, *state_.get());
+  return si_->equalStates(state_.get(), pdef_->getStartState(0));
 }
 
 ob::PlannerStatus RecedingHorizonPlanner::add_solution(const HorizonProblem& problem) {
   const auto controls = std::dynamic_pointer_cast<oc::SpaceInformation>(si_);
   path_ = controls ? make_control_path(controls, problem, result_)
                    : make_geometric_path(si_, problem, result_, std::move(former_path_));
-  ob::State* last = si_->allocState();
   const std::size_t n = problem.horizon_steps();
   write_state(n == 0 ? HorizonState{problem.start, problem.start_trim, 0}
                      : HorizonState{result_.poses.back(), result_.maneuvers.back()->to, n},
-              *last);
-  const bool is_exact = pdef_->getGoal()->isSatisfied(last);
-  si_->freeState(last);
+              *state_.get());
+  const bool is_exact = pdef_->getGoal()->isSatisfied(state_.get());
 
   ob::PlannerSolution solution(path_);
   solution.setOptimized(pdef_->getOptimizationObjective(), ob::Cost(result_.cost),

@@ -2,6 +2,7 @@
 
 #include <ompl/base/Path.h>
 #include <ompl/base/Planner.h>
+#include <ompl/base/ScopedState.h>
 
 #include <memory>
 #include <string>
@@ -82,7 +83,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
  private:
   void declare_parameters();
   void forget();
-  [[nodiscard]] bool starts_where_problem_starts(const HorizonProblem& problem) const;
+  [[nodiscard]] bool starts_where_problem_starts(const HorizonProblem& problem);
   ompl::base::PlannerStatus add_solution(const HorizonProblem& problem);
 
   const Subgraph& subgraph_;
@@ -90,6 +91,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   SearchOptions options_;
   std::unique_ptr<SearchEngine> engine_;
   SearchResult result_;
+  ompl::base::ScopedState<> state_;  ///< for what is asked of one state: making one takes long
   ompl::base::PathPtr path_;
   ompl::base::PathPtr former_path_;  ///< to be written anew, if nobody else has it
 };

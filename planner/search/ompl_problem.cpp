@@ -105,8 +105,7 @@ HorizonProblemDefinition::HorizonProblemDefinition(const ob::SpaceInformationPtr
     : ProblemDefinition(si) {
   ob::State* start = si->allocState();
   write_state({problem.start, problem.start_trim, 0}, *start);
-  addStartState(start);
-  si->freeState(start);
+  startStates_.push_back(start);  // addStartState would make a copy, which takes as long again
   setGoal(std::make_shared<StandstillGoal>(si, subgraph, problem));
   setOptimizationObjective(std::make_shared<SquaredDistanceObjective>(si, problem.reference_m));
 }

@@ -14,10 +14,16 @@ Traffic reaching(std::uint8_t vehicle, double x) {
   return traffic;
 }
 
+CouplingGraph graph_of(const std::vector<Traffic>& traffic) {
+  std::vector<const Traffic*> pointers;
+  for (const Traffic& one : traffic) pointers.push_back(&one);
+  return CouplingGraph(std::move(pointers));
+}
+
 using Vehicles = std::vector<VehicleId>;
 
 TEST(CouplingGraph, VehiclesWhoseReachMeetsAreCoupledBothWays) {
-  const CouplingGraph graph({reaching(1, 0.0), reaching(2, 0.9), reaching(3, 5.0)});
+  const CouplingGraph graph = graph_of({reaching(1, 0.0), reaching(2, 0.9), reaching(3, 5.0)});
   EXPECT_TRUE(graph.are_coupled({1}, {2}));
   EXPECT_TRUE(graph.are_coupled({2}, {1}));
   EXPECT_FALSE(graph.are_coupled({1}, {3}));
@@ -25,8 +31,8 @@ TEST(CouplingGraph, VehiclesWhoseReachMeetsAreCoupledBothWays) {
 }
 
 TEST(CouplingGraph, TheOrderOfMessagesDoesNotMatter) {
-  const CouplingGraph one({reaching(1, 0.0), reaching(2, 0.9), reaching(3, 1.8)});
-  const CouplingGraph other({reaching(3, 1.8), reaching(1, 0.0), reaching(2, 0.9)});
+  const CouplingGraph one = graph_of({reaching(1, 0.0), reaching(2, 0.9), reaching(3, 1.8)});
+  const CouplingGraph other = graph_of({reaching(3, 1.8), reaching(1, 0.0), reaching(2, 0.9)});
   EXPECT_EQ(one.vehicles(), other.vehicles());
   for (std::uint8_t id = 1; id <= 3; ++id) {
     EXPECT_EQ(one.neighbours({id}), other.neighbours({id}));
@@ -35,8 +41,8 @@ TEST(CouplingGraph, TheOrderOfMessagesDoesNotMatter) {
 }
 
 TEST(CouplingGraph, AComponentHangsTogetherOverSeveralCouplings) {
-  const CouplingGraph graph(
-      {reaching(1, 0.0), reaching(2, 0.9), reaching(3, 1.8), reaching(4, 9.0)});
+  const CouplingGraph graph =
+      graph_of({reaching(1, 0.0), reaching(2, 0.9), reaching(3, 1.8), reaching(4, 9.0)});
   EXPECT_FALSE(graph.are_coupled({1}, {3}));
   EXPECT_EQ(graph.component({1}), (Vehicles{{1}, {2}, {3}}));
   EXPECT_EQ(graph.component({4}), Vehicles{{4}});

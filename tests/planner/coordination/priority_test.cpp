@@ -17,6 +17,12 @@ Traffic reaching(std::uint8_t vehicle, double x, double y) {
   return traffic;
 }
 
+CouplingGraph graph_of(const std::vector<Traffic>& traffic) {
+  std::vector<const Traffic*> pointers;
+  for (const Traffic& one : traffic) pointers.push_back(&one);
+  return CouplingGraph(std::move(pointers));
+}
+
 TEST(Priority, TheSmallerIdPlansEarlier) {
   EXPECT_TRUE(plans_before({1}, {2}));
   EXPECT_FALSE(plans_before({2}, {1}));
@@ -24,7 +30,7 @@ TEST(Priority, TheSmallerIdPlansEarlier) {
 }
 
 TEST(Priority, PredecessorsAreTheCoupledVehiclesThatPlanEarlier) {
-  const CouplingGraph graph(
+  const CouplingGraph graph = graph_of(
       {reaching(1, 0.0, 0.0), reaching(2, 0.5, 0.0), reaching(3, 1.0, 0.5), reaching(4, 9.0, 9.0)});
   EXPECT_EQ(predecessors(graph, {1}), std::vector<VehicleId>{});
   EXPECT_EQ(predecessors(graph, {2}), std::vector<VehicleId>{{1}});
@@ -42,7 +48,7 @@ TEST(Priority, EveryPredecessorIsOnALowerLevel) {
       const double x = place(random);
       traffic.push_back(reaching(id, x, place(random)));
     }
-    const CouplingGraph graph(traffic);
+    const CouplingGraph graph = graph_of(traffic);
     for (const VehicleId vehicle : graph.vehicles()) {
       const std::uint32_t level = computation_level(graph, vehicle);
       std::uint32_t expected = 0;
