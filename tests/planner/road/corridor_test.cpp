@@ -41,16 +41,27 @@ TEST(Corridor, PieceIsGivenIfAndOnlyIfOneOfItsRepetitionsMeetsTheWindow) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const double length_m = std::uniform_real_distribution(1.0, 10.0)(random);
-    const double from = std::uniform_real_distribution(-0.2, length_m)(random);
-    const double to = from + std::uniform_real_distribution(0.0, 0.3)(random);
     const double window_from = std::uniform_real_distribution(-15.0, 15.0)(random);
     const double window_to = window_from + std::uniform_real_distribution(0.0, length_m)(random);
-    bool expected = false;
-    for (int k = -40; k <= 40; ++k) {
-      expected = expected || (from + k * length_m <= window_to && to + k * length_m >= window_from);
+    std::vector<Corridor::Piece> pieces;
+    std::vector<double> expected;
+    double from = std::uniform_real_distribution(-0.2, length_m)(random);
+    for (int i = 0; i < 40; ++i) {  // one after the other but for a jump now and then
+      if (i % 7 == 6) from = std::uniform_real_distribution(-0.2, length_m)(random);
+      const double to = from + std::uniform_real_distribution(0.0, 0.3)(random);
+      pieces.push_back(piece(from, to));
+      bool meets = false;
+      for (int k = -40; k <= 40; ++k) {
+        meets = meets || (from + k * length_m <= window_to && to + k * length_m >= window_from);
+      }
+      if (meets) expected.push_back(from);
+      from = to < length_m ? to : to - length_m;
     }
-    const Corridor corridor({piece(from, to)}, length_m);
-    EXPECT_EQ(corridor.boundary_m(window_from, window_to).size(), expected ? 1U : 0U);
+    std::vector<double> given;
+    for (const Segment& segment : Corridor(pieces, length_m).boundary_m(window_from, window_to)) {
+      given.push_back(segment.from_m.x());
+    }
+    EXPECT_EQ(given, expected);
   }
 }
 
