@@ -165,7 +165,7 @@ Traffic Controller::observe(const Observation& observation) {
       transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
                   traffic.next_pose)};
   const auto add = [&reach](const ConvexPolygon& area) {  // most lie within the first
-    if (!contains(reach.front(), area.corners_m())) reach.push_back(area);
+    if (!contains(reach.front(), area)) reach.push_back(area);
   };
   std::ranges::for_each(traffic.running.areas_m, add);
   add(traffic.running.final_area_m);
@@ -296,6 +296,7 @@ HorizonProblem Controller::pose_problem() {
 /// where planning starts. Not with the cost-to-go of 2022, whose counts are to be the paper's.
 std::vector<const Maneuver*> Controller::incumbent() const {
   std::vector<const Maneuver*> maneuvers;
+  maneuvers.reserve(options_.horizon_steps);
   if (in_force_->is_moved() || options_.search.cost_to_go == CostToGo::k2022) return maneuvers;
   const std::uint64_t now = step_.observation.step.value;
   for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
@@ -367,7 +368,7 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
 bool Controller::is_candidate_free() const {
   const std::uint64_t next = step_.observation.step.value + 1;
   const auto is_in_reach = [this](const ConvexPolygon& area) {
-    return contains(step_.traffic.reachable_area_m, area.corners_m(), kReachRounding_m);
+    return contains(step_.traffic.reachable_area_m, area, kReachRounding_m);
   };
   if (in_force_->may_drift(*step_.candidate) &&
       !(std::ranges::all_of(step_.candidate_areas_m.areas_m, is_in_reach) &&

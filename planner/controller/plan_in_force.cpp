@@ -75,7 +75,7 @@ bool PlanInForce::is_inside_told(const Pose& measured, StepIndex step, double re
   if (step < told_.first) return false;
   const Footprint& footprint = automaton_->vehicle.footprint;
   const ConvexPolygon area = footprint_area(footprint, measured, reserve_m);
-  return contains(told_.during(step), area.corners_m());
+  return contains(told_.during(step), area);
 }
 
 /// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.

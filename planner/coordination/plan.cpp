@@ -50,6 +50,9 @@ Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continu
   const StepIndex keep_from{
       std::max(first_.value, step.value < 2 ? std::uint64_t{0} : step.value - 2)};
   Plan result(keep_from, pose_at(keep_from), standstill);
+  const std::size_t size = step.value - keep_from.value + continuation.size();
+  result.maneuvers_.reserve(size);
+  result.poses_.reserve(size + 1);
   const auto append = [&result](const Maneuver& maneuver) {
     result.maneuvers_.push_back(&maneuver);
     result.poses_.push_back(compose(result.poses_.back(), maneuver.displacement));

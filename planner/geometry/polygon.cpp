@@ -43,7 +43,8 @@ void append_half_hull(std::span<const Point> sorted_m, std::vector<Point>& hull_
 
 /// True if no point of `b` lies beyond an edge line of `a` towards a's inside: that edge separates
 /// them.
-bool has_separating_edge(const ConvexPolygon& a, std::span<const Point> b_m) {
+template <class Points>
+bool has_separating_edge(const ConvexPolygon& a, const Points& b_m) {
   const auto& vertices = a.vertices_m;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Point& from = vertices[i];
@@ -225,24 +226,36 @@ ConvexPolygon simplified_outwards(const ConvexPolygon& polygon, std::size_t max_
 }
 
 bool contains(const ConvexPolygon& polygon, const Point& point_m, double tolerance_m) {
-  return contains(polygon, std::span(&point_m, 1), tolerance_m);
+  return contains(polygon, ConvexPolygon{{point_m}}, tolerance_m);
 }
 
-bool contains(const ConvexPolygon& polygon, std::span<const Point> points_m, double tolerance_m) {
+bool contains(const ConvexPolygon& polygon, const ConvexPolygon& other, double tolerance_m) {
   const auto& vertices = polygon.vertices_m;
+  const auto& corners = other.vertices_m;
+  if (polygon.empty() || other.empty()) return !polygon.empty();
+  std::size_t farthest = 0;  // outside, of the corners
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Point& from = vertices[i];
     const Point edge = vertices[next(i, vertices.size())] - from;
-    double inwards = 0.0;  // of the point farthest outside
-    for (const Point& point : points_m) inwards = std::min(inwards, cross(edge, point - from));
+    if (i == 0) {
+      for (std::size_t k = 1; k < corners.size(); ++k) {
+        if (cross(edge, corners[k] - corners[farthest]) < 0.0) farthest = k;
+      }
+    }
+    for (std::size_t tries = 1; tries < corners.size(); ++tries) {
+      const std::size_t k = next(farthest, corners.size());
+      if (cross(edge, corners[k] - corners[farthest]) >= 0.0) break;
+      farthest = k;
+    }
+    const double inwards = cross(edge, corners[farthest] - from);
     if (inwards < 0.0 && inwards < -tolerance_m * edge.norm()) return false;
   }
-  return !polygon.empty();
+  return true;
 }
 
 bool intersects(const ConvexPolygon& a, const ConvexPolygon& b) {
-  return !a.empty() && !b.empty() && !has_separating_edge(a, b.corners_m()) &&
-         !has_separating_edge(b, a.corners_m());
+  return !a.empty() && !b.empty() && !has_separating_edge(a, b.vertices_m) &&
+         !has_separating_edge(b, a.vertices_m);
 }
 
 bool intersects(const ConvexPolygon& polygon, const Segment& segment) {

@@ -18,9 +18,6 @@ struct ConvexPolygon {
   Vertices vertices_m;
 
   [[nodiscard]] bool empty() const { return vertices_m.empty(); }
-  [[nodiscard]] std::span<const Point> corners_m() const {
-    return {vertices_m.data(), vertices_m.size()};
-  }
   friend bool operator==(const ConvexPolygon&, const ConvexPolygon&) = default;
 };
 
@@ -79,8 +76,9 @@ inline constexpr double kRoundingAllowance_m = 1e-12;
 /// True if the point lies in the polygon or on its border, with `tolerance_m` to spare outside.
 [[nodiscard]] bool contains(const ConvexPolygon& polygon, const Point& point_m,
                             double tolerance_m = 0.0);
-/// True if that holds for all of the points.
-[[nodiscard]] bool contains(const ConvexPolygon& polygon, std::span<const Point> points_m,
+/// True if that holds for all corners of `other`, O(m + n): from edge to edge of `polygon` the
+/// corner that is farthest outside only moves on. @pre no two corners in a row are equal
+[[nodiscard]] bool contains(const ConvexPolygon& polygon, const ConvexPolygon& other,
                             double tolerance_m = 0.0);
 
 /// Separating axis test: true if the two share a point that is inside at least one of them

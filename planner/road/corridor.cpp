@@ -10,6 +10,7 @@ Corridor::Corridor(std::vector<Piece> pieces, double route_length_m)
 
 std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const {
   std::vector<Segment> boundary;
+  boundary.reserve(pieces_.size());
   if (route_length_m_ <= 0.0) {
     for (const Piece& piece : pieces_) {
       if (piece.from_s_m <= to_s_m && piece.to_s_m >= from_s_m) boundary.push_back(piece.segment);

@@ -61,7 +61,7 @@ double common_area_m2(ConvexPolygon polygon, const ConvexPolygon& window) {
   for (std::size_t i = 0; i < window.vertices_m.size(); ++i) {
     const Point& from = window.vertices_m[i];
     const Point edge = window.vertices_m[(i + 1) % window.vertices_m.size()] - from;
-    std::vector<Point> kept;
+    ConvexPolygon::Vertices kept;
     for (std::size_t j = 0; j < polygon.vertices_m.size(); ++j) {
       const Point& a = polygon.vertices_m[j];
       const Point& b = polygon.vertices_m[(j + 1) % polygon.vertices_m.size()];
@@ -285,6 +285,29 @@ TEST(Contains, CountsTheBorderAndTheTolerance) {
   EXPECT_TRUE(contains(kSquare, {1.0 + 1e-9, 0.5}, 2e-9));
   EXPECT_FALSE(contains(kSquare, {-0.1, 0.5}, 0.05));
   EXPECT_FALSE(contains(ConvexPolygon{}, {0.0, 0.0}, 1.0));
+}
+
+TEST(Contains, APolygonIsInsideIfAllItsCornersAre) {
+  int inside = 0;
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const ConvexPolygon polygon = random_polygon(random);
+    ConvexPolygon other = random_polygon(random, random_point_of(polygon, random));
+    const double scale = std::pow(10.0, uniform(random, -3.0, 0.0));
+    const Point centre_m = other.vertices_m.front();
+    for (Point& corner : other.vertices_m) corner = centre_m + scale * (corner - centre_m);
+    for (const double tolerance_m : {0.0, 0.1}) {
+      const bool expected = std::ranges::all_of(other.vertices_m, [&](const Point& corner) {
+        return contains(polygon, corner, tolerance_m);
+      });
+      EXPECT_EQ(contains(polygon, other, tolerance_m), expected);
+      inside += expected ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_TRUE(contains(kSquare, ConvexPolygon{}));
+  EXPECT_FALSE(contains(ConvexPolygon{}, kSquare));
 }
 
 TEST(Intersects, AgreesWithTheAreaThatTwoPolygonsShare) {
