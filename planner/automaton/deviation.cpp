@@ -46,11 +46,13 @@ bool deviates(const Pose& measured, const State& planned, double limit_m,
               const VehicleParameters& vehicle, const IdentifiedVehicle& identified) {
   const double radius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m);
   const double off_m = (measured.position_m() - planned.pose.position_m()).norm();
-  const double turn_rad = measured.heading_rad - planned.pose.heading_rad;
-  const double offset_rad = yaw_minus_heading_rad(planned.steering_rad, vehicle, identified);
-  const double least_turn_rad =
-      std::min(std::abs(wrap_angle(turn_rad)), std::abs(wrap_angle(turn_rad - offset_rad)));
-  if (off_m + radius_m * least_turn_rad < limit_m) return false;
+  const double turn_rad = wrap_angle(measured.heading_rad - planned.pose.heading_rad);
+  const auto is_near = [&](double heading_rad) {
+    return off_m + radius_m * std::abs(turn_rad - heading_rad) < limit_m;
+  };
+  if (is_near(0.0) || is_near(yaw_minus_heading_rad(planned.steering_rad, vehicle, identified))) {
+    return false;
+  }
   return footprint_deviation_m(measured, planned, vehicle, identified) > limit_m;
 }
 
