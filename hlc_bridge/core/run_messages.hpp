@@ -10,7 +10,7 @@ namespace hlc {
 /// A controller's report with what its process measured by the clock.
 struct ReportRecord {
   Report report;
-  Nanoseconds planning_ns{};  ///< time that the search took
+  Nanoseconds planning_ns{};  ///< wall time of Controller::plan, see there
   bool deadline_missed{};     ///< an answer of this step came after its deadline
   Nanoseconds late_ns{};      ///< by how much
 };

@@ -95,7 +95,9 @@ class Controller {
   [[nodiscard]] Traffic observe(const Observation& observation);
   /// Second phase. `heard` may hold messages of other steps and senders: they are ignored.
   void couple(std::span<const Traffic> heard);
-  /// Third phase. Needs the predictions of `predecessors`.
+  /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
+  /// the drift, checks what was found, and searches again if the drift leads into something:
+  /// planning time is the time that all this takes.
   [[nodiscard]] Prediction plan(std::span<const Prediction> heard);
   /// Fourth phase, settle rule `agreed` only: what the others need to know before they settle.
   [[nodiscard]] Outcome vote() const;
