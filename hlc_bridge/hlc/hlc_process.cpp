@@ -12,6 +12,7 @@
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/observation.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/time/precedence.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "hlc_bridge/view/lab_map.hpp"
 
@@ -217,6 +218,11 @@ HlcProcess::Event HlcProcess::wait_for_event() {
 }
 
 int HlcProcess::run() {
+  // Not earlier: only this thread plans.
+  if (!take_precedence()) {
+    spdlog::info("{}: no real-time priority (ulimit -r): others may interrupt a plan",
+                 options_.node_id);
+  }
   while (true) {
     switch (wait_for_event()) {
       case Event::kStop:
