@@ -19,10 +19,10 @@ void put_all(std::ostream& out, const Values&... values) {
   out << "}";
 }
 
-template <class Value>
-void put_list(std::ostream& out, const std::vector<Value>& values) {
+template <class Values>
+void put_list(std::ostream& out, const Values& values) {
   out << "[";
-  for (const Value& value : values) {
+  for (const auto& value : values) {
     put(out, value);
   }
   out << "]";

@@ -30,10 +30,13 @@ Corners corners_at(const Maneuver& maneuver, const Vehicle& vehicle, double time
   Pose driven = state.pose;
   driven.heading_rad += yaw_minus_heading_rad(state.steering_rad, p, vehicle.identified);
   Corners corners;
-  corners.lane_m = footprint_area(p.footprint, state.pose).vertices_m;
-  corners.swept_m = footprint_area(p.footprint, state.pose, p.safety_margin_m).vertices_m;
-  const auto turned = footprint_area(p.footprint, driven, p.safety_margin_m).vertices_m;
-  corners.swept_m.insert(corners.swept_m.end(), turned.begin(), turned.end());
+  const auto add = [&p](std::vector<Point>& all_m, const Pose& pose, double margin_m) {
+    const ConvexPolygon area = footprint_area(p.footprint, pose, margin_m);
+    all_m.insert(all_m.end(), area.vertices_m.begin(), area.vertices_m.end());
+  };
+  add(corners.lane_m, state.pose, 0.0);
+  add(corners.swept_m, state.pose, p.safety_margin_m);
+  add(corners.swept_m, driven, p.safety_margin_m);
   return corners;
 }
 

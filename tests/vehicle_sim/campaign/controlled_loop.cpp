@@ -11,7 +11,7 @@ namespace hlc::controlled_loop {
 namespace {
 
 /// How far the farthest of the points is outside the area, measured across its edges.
-double outside_m(const ConvexPolygon& area, const std::vector<Point>& points) {
+double outside_m(const ConvexPolygon& area, const ConvexPolygon::Vertices& points) {
   double result = 0.0;
   for (const Point& point : points) {
     for (std::size_t i = 0; i < area.vertices_m.size(); ++i) {
