@@ -68,7 +68,8 @@ std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& se
   drive.push_back({at.step, planned, vehicle_at.pose});
   while (at.step < until) {
     const Instant then = at.next(automaton.step_s);
-    const State planned_then = plan.state_at(then.step, then.time_s, vehicle);
+    const State planned_then =  // standing, it stays what it is
+        at.step < plan.end() ? plan.state_at(then.step, then.time_s, vehicle) : planned;
     vehicle_at = driven(vehicle_at, planned.pose.position_m(), planned_then.pose.position_m(),
                         automaton.identified);
     if (then.step != at.step) drive.push_back({at.step, planned_then, vehicle_at.pose});
@@ -90,10 +91,12 @@ OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& s
     const auto end = std::find_if(begin, drive.end(), [step](const PredictedInstant& instant) {
       return instant.step != step;
     });
-    const bool drifts = std::any_of(begin, end, [&](const PredictedInstant& instant) {
-      return deviates(instant.pose, instant.planned, tolerated_m, vehicle, automaton.identified);
-    });
-    if (step >= from && drifts) {
+    const bool drifts =
+        step >= from && std::any_of(begin, end, [&](const PredictedInstant& instant) {
+          return deviates(instant.pose, instant.planned, tolerated_m, vehicle,
+                          automaton.identified);
+        });
+    if (drifts) {
       const std::size_t i = step.value - from.value;
       ConvexPolygon& area = i < areas.areas_m.size() ? areas.areas_m[i] : areas.final_area_m;
       std::vector<ConvexPolygon> covered{area};
