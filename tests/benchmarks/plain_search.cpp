@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <queue>
+#include <span>
 
 namespace hlc::test {
 namespace {
@@ -18,7 +19,7 @@ Point turned(const Point& vector, const Point& turn) {
 
 /// True if all of `points_m` lie outside one edge of the convex polygon `corners_m`.
 template <class Points>
-bool is_beyond_an_edge(const std::vector<Point>& corners_m, const Points& points_m) {
+bool is_beyond_an_edge(std::span<const Point> corners_m, const Points& points_m) {
   const Point* from = &corners_m.back();
   for (const Point& to : corners_m) {
     const Point edge = to - *from;
@@ -29,11 +30,11 @@ bool is_beyond_an_edge(const std::vector<Point>& corners_m, const Points& points
   return false;
 }
 
-bool meet(const std::vector<Point>& a_m, const std::vector<Point>& b_m) {
+bool meet(std::span<const Point> a_m, std::span<const Point> b_m) {
   return !is_beyond_an_edge(a_m, b_m) && !is_beyond_an_edge(b_m, a_m);
 }
 
-bool meet(const std::vector<Point>& corners_m, const Segment& segment) {
+bool meet(std::span<const Point> corners_m, const Segment& segment) {
   const Point along = segment.to_m - segment.from_m;
   const auto side = [&](const Point& corner) { return cross(along, corner - segment.from_m); };
   // A segment of one point has no sides; only the edges can keep it out.
@@ -49,7 +50,7 @@ bool meet(const std::vector<Point>& corners_m, const Segment& segment) {
 
 struct Obstacle {
   Box box;
-  const std::vector<Point>* corners_m;
+  std::span<const Point> corners_m;
 };
 
 struct BoundaryPiece {
@@ -119,7 +120,9 @@ PlainRun::PlainRun(const PlainSearch& search, const HorizonProblem& problem)
   for (const auto& areas_m : problem.obstacles_m) {
     auto& obstacles = obstacles_.emplace_back();
     for (const ConvexPolygon& area_m : areas_m) {
-      if (!area_m.empty()) obstacles.push_back({bounding_box(area_m), &area_m.vertices_m});
+      if (area_m.empty()) continue;
+      obstacles.push_back(
+          {bounding_box(area_m), {area_m.vertices_m.data(), area_m.vertices_m.size()}});
     }
   }
   for (const Segment& segment : problem.boundary_m) {
@@ -202,7 +205,7 @@ bool PlainRun::incoming_edge_is_free(const Vertex& vertex) {
   if (!obstacles_.empty() && !obstacles_[vertex.depth - 1].empty()) {
     const Box box = place(maneuver.swept_area_m, *vertex.parent);
     for (const Obstacle& obstacle : obstacles_[vertex.depth - 1]) {
-      if (overlap(box, obstacle.box) && meet(placed_m_, *obstacle.corners_m)) return false;
+      if (overlap(box, obstacle.box) && meet(placed_m_, obstacle.corners_m)) return false;
     }
   }
   if (!boundary_.empty()) {

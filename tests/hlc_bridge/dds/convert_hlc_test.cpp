@@ -85,7 +85,7 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
       {{Point{0, 0}, Point{1, 0}}},
       {{Point{0, 0}, Point{1, 0}, Point{kNan, 1}}},
       {{Point{0, 0}, Point{1, 0}, Point{1, std::numeric_limits<double>::infinity()}}},
-      {std::vector<Point>(1001, Point{0, 0})}};
+      {ConvexPolygon::Vertices(1001, Point{0, 0})}};
   for (const ConvexPolygon& polygon : bad) {
     auto traffic = good<Traffic>();
     traffic.reachable_area_m = polygon;
