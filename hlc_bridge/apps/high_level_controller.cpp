@@ -16,6 +16,7 @@
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/hlc/hlc_process.hpp"
+#include "hlc_bridge/time/precedence.hpp"
 #include "planner/scenario/problem_dump.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -29,6 +30,8 @@ struct Flags {
   std::optional<int> controller_domain;
   std::vector<std::string> controller_peers;
   std::optional<std::filesystem::path> problem_folder;
+  int thread_priority{1};
+  std::optional<int> core;
   std::string dds_initial_peer;
   hlc::ScenarioChoices scenario;
 };
@@ -71,6 +74,12 @@ void declare(CLI::App& app, Flags& flags) {
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
       "written after a step's command; what is planned stays the same, but in real time "
       "a slow disk may make the next step late");
+  app.add_option("--thread_priority", flags.thread_priority,
+                 "real-time priority of the thread that plans, where the system allows it; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, hlc::kMaxThreadPriority));
+  app.add_option("--core", flags.core, "processor core on which it plans; default: any")
+      ->check(CLI::NonNegativeNumber);
   flags.network.declare(app);
   app.footer(
       "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "
@@ -106,6 +115,8 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   options.discovery_server = network.discovery_server();
   hlc::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
+  options.thread_priority = flags.thread_priority;
+  options.core = flags.core;
   options.logical_time = network.simulated_time;
   options.startup_timeout = network.startup_timeout();
   return options;

@@ -217,12 +217,19 @@ HlcProcess::Event HlcProcess::wait_for_event() {
   }
 }
 
-int HlcProcess::run() {
-  // Not earlier: only this thread plans.
-  if (!take_precedence()) {
+void HlcProcess::prepare_thread() const {
+  if (options_.thread_priority > 0 && !take_precedence(options_.thread_priority)) {
     spdlog::info("{}: no real-time priority (ulimit -r): others may interrupt a plan",
                  options_.node_id);
   }
+  if (options_.core && !stay_on_core(*options_.core)) {
+    spdlog::warn("{}: --core = {}: this machine has no such core for it", options_.node_id,
+                 *options_.core);
+  }
+}
+
+int HlcProcess::run() {
+  prepare_thread();  // not earlier: only this thread plans
   while (true) {
     switch (wait_for_event()) {
       case Event::kStop:

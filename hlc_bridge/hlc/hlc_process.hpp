@@ -44,6 +44,8 @@ struct HlcProcessOptions {
       controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
   bool logical_time{};
   std::chrono::seconds startup_timeout{30};
+  int thread_priority{1};   ///< of the thread that plans (time/precedence); 0: an ordinary one
+  std::optional<int> core;  ///< on which it stays
   StepDeadlines deadlines;
   /// Called with the controller after the command of a step has been sent. What it throws is logged
   /// once, and it is not called again.
@@ -75,6 +77,7 @@ class HlcProcess {
   [[nodiscard]] Event wait_for_event();
   void watch_lab_control();
   void check_plan_fits_commands() const;
+  void prepare_thread() const;
   void send_ready_now_and_then();
   void send_copy_when_due();
   [[nodiscard]] bool has_everybody() const;

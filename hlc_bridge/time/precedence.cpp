@@ -3,12 +3,24 @@
 #include <sched.h>
 
 namespace hlc {
+namespace {
 
-bool take_precedence() {
-  constexpr pid_t kThisThread = 0;
+constexpr pid_t kThisThread = 0;
+
+}  // namespace
+
+bool take_precedence(int priority) {
   sched_param parameters{};
-  parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
+  parameters.sched_priority = priority;
   return sched_setscheduler(kThisThread, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
+}
+
+bool stay_on_core(int core) {
+  if (core < 0 || core >= CPU_SETSIZE) return false;
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(static_cast<unsigned>(core), &cores);
+  return sched_setaffinity(kThisThread, sizeof cores, &cores) == 0;
 }
 
 }  // namespace hlc

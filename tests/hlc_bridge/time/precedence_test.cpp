@@ -16,13 +16,27 @@ TEST(Precedence, IsOfOneThreadAloneAndOnlyWhereItIsAllowed) {
   int inherited = -1;
   bool allowed = false;
   std::thread([&] {
-    allowed = take_precedence();
+    allowed = take_precedence(1);
     within = policy();
     std::thread([&] { inherited = policy(); }).join();
   }).join();
   EXPECT_EQ(within, allowed ? SCHED_FIFO : before);
   EXPECT_EQ(inherited, SCHED_OTHER);
   EXPECT_EQ(policy(), before);
+}
+
+TEST(Precedence, AThreadStaysOnTheCoreThatItIsGiven) {
+  std::thread([] {
+    cpu_set_t allowed;
+    ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+    int core = 0;
+    while (CPU_ISSET(static_cast<unsigned>(core), &allowed) == 0) ++core;
+    EXPECT_TRUE(stay_on_core(core));
+    EXPECT_EQ(sched_getcpu(), core);
+    EXPECT_FALSE(stay_on_core(-1));
+    EXPECT_FALSE(stay_on_core(CPU_SETSIZE));
+    EXPECT_EQ(sched_getcpu(), core);
+  }).join();
 }
 
 }  // namespace
