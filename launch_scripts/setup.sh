@@ -8,7 +8,7 @@ packages=(
   libeigen3-dev libnlopt-dev libnlopt-cxx-dev libompl-dev libboost-dev
   libspdlog-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev libssl-dev
   libgtest-dev libgmock-dev python3-venv
-  procps util-linux
+  procps util-linux iproute2
 )
 
 usage() {

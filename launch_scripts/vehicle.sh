@@ -20,6 +20,9 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
                           not be one that a run of run_lab.sh or a test uses at the moment
   --middleware_domain N   local domain of this vehicle (default: lab domain + id)
   --controller_domain N   domain of the controllers (default: lab domain + 50)
+  --discovery_mode MODE   simple (default: multicast) or client, with the address of the lab domain's discovery server:
+                          --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
+  --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
   --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
   --noise_seed N          measurement noise from this seed (default: none)
@@ -35,6 +38,7 @@ fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
 id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" cars=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
+discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
 noise_seed="" gains_scale="" out="" bin=$root/build/release/bin startup_timeout_s=30
 while (($#)); do
   case "$1" in
@@ -50,6 +54,7 @@ while (($#)); do
   [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
     id | scenario | profile | engine | dump_problems | subgraph | map | cars | simulated_time | transport | \
+      discovery_mode | discovery_server_id | discovery_server_ip | discovery_server_port | controller_peers | \
       dds_domain | middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
       startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
@@ -96,11 +101,15 @@ fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
   --startup_timeout_s="$startup_timeout_s")
+for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port; do
+  [[ -z ${!name} ]] || common+=("--$name=${!name}")
+done
 vehicle=(--vehicle_id="$id" --pose="$pose" --record="$out/vehicle_$id.csv")
 [[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
 controller=("${choices[@]}")
 [[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
+[[ -z $controller_peers ]] || controller+=(--controller_peers="$controller_peers")
 [[ -z $dump_problems ]] || controller+=(--dump-problems="$dump_problems")
 
 declare -A names=() # of those that have not ended, by pid
