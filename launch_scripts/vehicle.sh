@@ -38,6 +38,7 @@ fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
 id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" cars=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
+# shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
 noise_seed="" gains_scale="" out="" bin=$root/build/release/bin startup_timeout_s=30
 while (($#)); do
