@@ -13,9 +13,9 @@ namespace {
 
 struct Flags {
   int dds_domain{0};
-  std::string id{"44.53.00.5f.45.50.52.4f.53.49.4d.41"};
+  std::string id{hlc::kDiscoveryServerId};
   std::string ip;
-  std::string port{"11811"};
+  std::string port{hlc::kDiscoveryServerPort};
   std::string transport{"lab"};
 };
 

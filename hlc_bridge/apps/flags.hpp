@@ -16,6 +16,10 @@ namespace hlc {
 
 [[nodiscard]] inline CLI::Range vehicle_id_range() { return {1, static_cast<int>(kMaxVehicleId)}; }
 
+/// The lab's own.
+inline constexpr const char* kDiscoveryServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
+inline constexpr const char* kDiscoveryServerPort = "11811";
+
 /// Who is asked on the controllers' domain where multicast does not pass.
 inline void declare_controller_peers(CLI::App& app, std::vector<std::string>& peers) {
   app.add_option("--controller_peers", peers,
@@ -49,15 +53,22 @@ struct NetworkFlags {
     app.add_option("--dds_domain", dds_domain, "lab domain")->capture_default_str();
     app.add_option("--transport", transport, "lab or loopback")->capture_default_str();
     app.add_option("--discovery_mode", discovery_mode, "simple or client");
-    app.add_option("--discovery_server_id", discovery_server_id, "GUID prefix");
+    app.add_option("--discovery_server_id", discovery_server_id,
+                   std::string("GUID prefix; default, as in the lab: ") + kDiscoveryServerId);
     app.add_option("--discovery_server_ip", discovery_server_ip, "IPv4 address");
-    app.add_option("--discovery_server_port", discovery_server_port, "port");
+    app.add_option("--discovery_server_port", discovery_server_port,
+                   std::string("port; default, as in the lab: ") + kDiscoveryServerPort);
   }
 
   /// @throws std::invalid_argument naming the flag
   [[nodiscard]] std::optional<DiscoveryServer> discovery_server() const {
-    return discovery_from_flags(discovery_mode, discovery_server_id, discovery_server_ip,
-                                discovery_server_port);
+    const bool is_client = discovery_mode == "client";
+    const auto given = [is_client](const std::string& value, const char* otherwise) {
+      return is_client && value.empty() ? std::string(otherwise) : value;
+    };
+    return discovery_from_flags(discovery_mode, given(discovery_server_id, kDiscoveryServerId),
+                                discovery_server_ip,
+                                given(discovery_server_port, kDiscoveryServerPort));
   }
   [[nodiscard]] std::chrono::seconds startup_timeout() const {
     return std::chrono::seconds{startup_timeout_s};

@@ -41,7 +41,7 @@ Finding of_vehicle(int id, const Heard& heard) {
   if (found == heard.vehicles.end()) {
     return {Verdict::kBad, name + "no state",
             "start it (vehicle_sim, or the car), with the same --dds_domain; between machines "
-            "multicast must pass, or use --discovery_mode=client"};
+            "multicast must pass, or all must reach the same discovery server"};
   }
   const HeardVehicle& vehicle = found->second;
   const double rate_hz = static_cast<double>(vehicle.states) / heard.listened_s.count();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <limits>
@@ -62,6 +64,22 @@ inline CLI::Validator within(double min, double max) {
       allowed);
 }
 
+/// For flags with whole numbers: digits alone. CLI11 takes "-5" for a large unsigned number, and
+/// one that is too large for the largest.
+inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
+  const std::string allowed = std::to_string(min) + " ... " + std::to_string(max);
+  return CLI::Validator(
+      [min, max, allowed](std::string& text) {
+        std::uint64_t value{};
+        const char* const end = text.data() + text.size();
+        const auto [read_until, error] = std::from_chars(text.data(), end, value);
+        const bool is_good = error == std::errc{} && read_until == end;
+        if (is_good && value >= min && value <= max) return std::string{};
+        return one_line(text) + ", allowed " + allowed;
+      },
+      allowed);
+}
+
 /// The same for every finite number.
 inline CLI::Validator finite() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -77,7 +95,8 @@ inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
                  "profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
-  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)");
+  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)")
+      ->check(whole(1, 30));
 }
 
 }  // namespace hlc

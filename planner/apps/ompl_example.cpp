@@ -18,12 +18,14 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
+#include "planner/automaton/atomic_write.hpp"
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/ompl_control.hpp"
@@ -61,7 +63,7 @@ struct Flags {
   unsigned runs{5};
   double radius_m{0.5};
   unsigned seed{1};
-  std::optional<std::filesystem::path> log;
+  hlc::OutputFile log{"--log", {}};
 };
 
 void declare(CLI::App& app, Flags& flags) {
@@ -69,7 +71,7 @@ void declare(CLI::App& app, Flags& flags) {
                  std::string("planning problem (JSON, see plan_problem), for example ") + kShipped)
       ->required();
   app.add_option("--seconds", flags.seconds, "that each planner has per run")
-      ->check(CLI::Range(0.001, 3600.0))
+      ->check(hlc::within(0.001, 3600.0))
       ->capture_default_str();
   app.add_option("--runs", flags.runs, "of each planner")
       ->check(CLI::Range(1, 10000))
@@ -77,12 +79,12 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--radius_m", flags.radius_m,
                  "of the goal: standing after the last step, not farther than this from the last "
                  "reference point")
-      ->check(CLI::Range(0.0, 1e4))
+      ->check(hlc::within(0.0, 1e4))
       ->capture_default_str();
   app.add_option("--seed", flags.seed, "of OMPL's random numbers")->check(CLI::Range(1, 1 << 30));
-  app.add_option("--log", flags.log,
-                 "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
-  app.footer("Exit codes: 0 good, 1 the log cannot be written, 2 bad input.");
+  hlc::declare_output(app, flags.log,
+                      "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
+  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
 }
 
 /// KPIECE covers this plane with cells.
@@ -157,7 +159,9 @@ double bare_solve_us(ob::Planner& planner, const ob::ProblemDefinitionPtr& defin
 }
 
 int run(const Flags& flags) {
+  hlc::check_output_files({flags.log}, {flags.file});
   const hlc::ProblemFile file = hlc::read_problem_file(flags.file);
+  hlc::check_output_files({flags.log}, {file.automaton_file});
   const hlc::HorizonProblem& problem = file.problem;
   const hlc::ReachableSets reachable(*file.subgraph, problem.horizon_steps());
 
@@ -201,9 +205,10 @@ int run(const Flags& flags) {
     std::printf("%s alone: %.1f us\n", planner->getName().c_str(),
                 bare_solve_us(*planner, setup.getProblemDefinition()));
   }
-  if (flags.log && !benchmark.saveResultsToFile(flags.log->c_str())) {
-    std::cerr << "ompl_example: --log = " << flags.log->string() << " cannot be written\n";
-    return 1;
+  if (flags.log.file) {
+    std::ostringstream log;
+    benchmark.saveResultsToStream(log);
+    hlc::write_atomically(log.str(), *flags.log.file);
   }
   return 0;
 }

@@ -26,6 +26,7 @@ constexpr int kExitFallback = 1;
 /// The shortest of several calls is told: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
 constexpr double kEnough_us = 2e4;
+constexpr std::uint64_t kMostExpansions = 1'000'000'000'000;
 
 struct Flags {
   std::filesystem::path file;
@@ -51,7 +52,8 @@ void declare(CLI::App& app, Flags& flags) {
                  "branch_and_bound or best_first (default: the file's, else as the planner's)");
   app.add_option("--cost_to_go", flags.cost_to_go,
                  "reachable, straight_line or 2022; the last two with best_first");
-  app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1");
+  app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1")
+      ->check(hlc::whole(1, kMostExpansions));
   app.add_flag("--json", flags.json,
                "print one JSON object: status (optimal, budget, fallback), reason (of a fallback: "
                "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
@@ -112,6 +114,12 @@ Json to_json(const Solved& solved) {
   return json;
 }
 
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
 void print(const hlc::ProblemFile& file, const Solved& solved) {
   const hlc::SearchResult& result = solved.result;
   const hlc::HorizonProblem& problem = file.problem;
@@ -122,8 +130,11 @@ void print(const hlc::ProblemFile& file, const Solved& solved) {
   std::printf("status           %s%s\n", hlc::to_string(result.status),
               has_plan ? "" : (std::string(": ") + hlc::to_string(result.reason)).c_str());
   if (has_plan) {
-    std::printf("cost             %.9g m^2, no plan costs less than %.9g m^2\n", result.cost,
-                result.lower_bound);
+    const bool may_overestimate = file.search.cost_to_go == hlc::CostToGo::k2022;
+    const std::string bound =
+        may_overestimate ? "the cost-to-go of 2022 may overestimate: a better plan may exist"
+                         : "no plan costs less than " + number(result.lower_bound) + " m^2";
+    std::printf("cost             %.9g m^2, %s\n", result.cost, bound.c_str());
   }
   std::printf("vertices         %zu generated, %zu expanded\n", result.generated, result.expanded);
   std::printf("planning time    %.1f us\n", solved.planning_us);
@@ -145,6 +156,7 @@ void print(const hlc::ProblemFile& file, const Solved& solved) {
 int run(const Flags& flags) {
   hlc::check_output_files({flags.plot}, {flags.file});
   const hlc::ProblemFile file = read(flags);
+  hlc::check_output_files({flags.plot}, {flags.file, file.automaton_file});
   const Solved solved = solve(file);
   if (flags.json) {
     std::cout << to_json(solved).dump() << '\n';

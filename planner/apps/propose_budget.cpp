@@ -45,10 +45,10 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("scenario", flags.scenario.file, "scenario file (YAML)")->required();
   app.add_option("--deadline_ms", flags.deadline_ms, "that a plan may take")
       ->required()
-      ->check(CLI::Range(0.001, 1e6));
+      ->check(hlc::within(0.001, 1e6));
   app.add_option("--safety", flags.safety,
                  "factor: the search is expected to need 1 / safety of the deadline")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(hlc::within(1.0, 1000.0))
       ->capture_default_str();
   app.add_option("--profile", flags.scenario.profile, "rules: default or 2022")
       ->capture_default_str();

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
+#include "planner/automaton/atomic_write.hpp"
 #include "tests/benchmarks/contestants.hpp"
 #include "tests/benchmarks/problem_sets.hpp"
 #include "tests/benchmarks/search_report.hpp"
@@ -17,7 +18,7 @@
 namespace {
 
 struct Choices {
-  std::string json_file;
+  hlc::OutputFile json{"--json", {}};
   std::vector<std::string> sets;
   std::size_t problems{};  ///< 0: all
   std::string only;
@@ -68,11 +69,7 @@ void list() {
 
 /// True if every engine's every plan was a best one.
 bool run(const Choices& choices) {
-  std::ofstream json;
-  if (!choices.json_file.empty()) {
-    json.open(choices.json_file);
-    if (!json) throw std::invalid_argument("--json: cannot write " + choices.json_file);
-  }
+  hlc::check_output_files({choices.json});
   hlc::test::ProblemSets sets;
   std::vector<hlc::test::SetReport> reports;
   for (const std::string& name : choices.sets) {
@@ -82,7 +79,9 @@ bool run(const Choices& choices) {
     print(reports.back(), std::cout);
     std::cout.flush();
   }
-  if (json.is_open()) json << to_json(reports).dump(2) << '\n';
+  if (choices.json.file) {
+    hlc::write_atomically(to_json(reports).dump(2) + '\n', *choices.json.file);
+  }
   bool is_optimal = true;
   for (const hlc::test::SetReport& report : reports) {
     for (const hlc::test::EngineReport& engine : report.engines) {
@@ -100,7 +99,7 @@ bool run(const Choices& choices) {
 int main(int argc, char** argv) {
   CLI::App app{"Measures the search engines against a plain reference search.", "search_benchmark"};
   Choices choices{.sets = all_sets()};
-  app.add_option("--json", choices.json_file, "also write the figures to this file");
+  hlc::declare_output(app, choices.json, "also write the figures to this file (JSON)");
   app.add_option("--sets", choices.sets, "problem sets, separated by commas (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember(all_sets()));

@@ -195,9 +195,7 @@ TEST_F(OverNetwork, MachinesFindEachOtherWithoutMulticast) {
   const Network network(false);
   if (!network.is_made()) GTEST_SKIP() << "network namespaces need root and iproute2";
   const TemporaryFolder folder;
-  const std::string address =
-      " --discovery_server_id=44.53.00.5f.45.50.52.4f.53.49.4d.41 --discovery_server_ip=" +
-      Network::address(kMachines) + " --discovery_server_port=11811";
+  const std::string address = " --discovery_server_ip=" + Network::address(kMachines);
   ChildProcess server(network.on(kMachines, kBin + "discovery_server --dds_domain=1" + address),
                       folder / "server");
   LabOverNetwork lab(network, 20, " --discovery_mode=client" + address, true);

@@ -127,6 +127,7 @@ TEST_F(ProblemPrograms, BadInputIsOneLineAndExitCode2) {
   for (const std::string& flags :
        {std::string("/nowhere.json"), unknown, kShipped + " --engine fast",
         kShipped + " --engine branch_and_bound --cost_to_go 2022", kShipped + " --max_expansions 0",
+        kShipped + " --max_expansions -5", kShipped + " --max_expansions 99999999999999999999999",
         kShipped + " --automaton /nowhere.yaml", kShipped + " --unknown", std::string()}) {
     const Outcome outcome = run_program("plan_problem " + flags);
     EXPECT_EQ(outcome.exit_code, 2) << flags;
@@ -160,6 +161,23 @@ TEST_F(ProblemPrograms, APictureNeverTakesThePlaceOfItsProblem) {
   EXPECT_EQ(fs::file_size(problem), size);
 }
 
+TEST_F(ProblemPrograms, NorThatOfTheAutomatonThatIsReadForIt) {
+  const std::string automaton = (folder_ / "automaton.yaml").string();
+  fs::copy_file(kLaunch + "automata/paper.yaml", automaton);
+  const auto size = fs::file_size(automaton);
+  for (const std::string& command :
+       {"plan_problem " + kShipped + " --automaton " + automaton + " --plot " + automaton,
+        "plan_problem " + changed(kLaunch + "automata/paper.yaml", automaton) + " --plot " +
+            automaton,
+        "ompl_example " + changed(kLaunch + "automata/paper.yaml", automaton) + " --log " +
+            automaton}) {
+    const Outcome outcome = run_program(command);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("allowed a file other than the input"));
+    EXPECT_EQ(fs::file_size(automaton), size);
+  }
+}
+
 TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
   const std::string command =
       "propose_budget " + kLaunch + "scenarios/paper_red_alone.yaml --steps 3 --engine best_first";
@@ -172,7 +190,9 @@ TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
   ASSERT_NE(at, std::string::npos) << outcome.output;
   EXPECT_GT(std::stoul(outcome.output.substr(at + key.size())), 100U);
   EXPECT_EQ(run_program(command + " --deadline_ms 0.001 --safety 1000").exit_code, 1);
-  EXPECT_EQ(run_program(command + " --deadline_ms never").exit_code, 2);
+  for (const char* bad : {"never", "nan", "inf"}) {
+    EXPECT_EQ(run_program(command + " --deadline_ms " + bad).exit_code, 2) << bad;
+  }
   EXPECT_EQ(run_program(command).exit_code, 2);
 }
 
@@ -189,6 +209,8 @@ TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold
   EXPECT_EQ(run_program(command + " --log " + log.string()).exit_code, 0);
   EXPECT_GT(fs::file_size(log), 1000U);
   EXPECT_EQ(run_program("ompl_example /nowhere.json").exit_code, 2);
+  EXPECT_EQ(run_program(command + " --log " + (folder_ / "missing/log").string()).exit_code, 2);
+  EXPECT_EQ(run_program("ompl_example " + kShipped + " --seconds nan").exit_code, 2);
 }
 
 }  // namespace
