@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/geometry/footprint.hpp"
+#include "tests/planner/coordination/coupling_graph.hpp"
 
 namespace hlc {
 namespace {
@@ -12,12 +13,6 @@ Traffic reaching(std::uint8_t vehicle, double x) {
   traffic.vehicle = {vehicle};
   traffic.reachable_area_m = footprint_area({1.0, 1.0}, {x, 0.0, 0.0});
   return traffic;
-}
-
-CouplingGraph graph_of(const std::vector<Traffic>& traffic) {
-  std::vector<const Traffic*> pointers;
-  for (const Traffic& one : traffic) pointers.push_back(&one);
-  return CouplingGraph(std::move(pointers));
 }
 
 using Vehicles = std::vector<VehicleId>;

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planner/geometry/footprint.hpp"
+#include "tests/planner/coordination/coupling_graph.hpp"
 #include "tests/support/num_seeds.hpp"
 
 namespace hlc {
@@ -15,12 +16,6 @@ Traffic reaching(std::uint8_t vehicle, double x, double y) {
   traffic.vehicle = {vehicle};
   traffic.reachable_area_m = footprint_area({1.0, 1.0}, {x, y, 0.0});
   return traffic;
-}
-
-CouplingGraph graph_of(const std::vector<Traffic>& traffic) {
-  std::vector<const Traffic*> pointers;
-  for (const Traffic& one : traffic) pointers.push_back(&one);
-  return CouplingGraph(std::move(pointers));
 }
 
 TEST(Priority, TheSmallerIdPlansEarlier) {
