@@ -40,11 +40,17 @@ if $long; then export HLC_TEST_LONG=1; fi # tests/support/num_seeds.hpp
 run() {
   local preset=$1
   shift
-  ctest --preset "$preset" -j "$(nproc)" "${select[@]}" "$@" || code=1
+  ctest --preset "$preset" -j "$(nproc)" "${select[@]}" "$@" && return
+  code=1
+  local name
+  while IFS= read -r name; do
+    failed+=("$preset: ${name#*:}")
+  done < <(cat "build/$preset/Testing/Temporary/LastTestsFailed.log" 2>/dev/null)
 }
 
 ./launch_scripts/setup.sh || exit 1
 code=0
+failed=() # said again at the end: the sanitizers' output is long
 for preset in "${presets[@]}"; do
   if [[ $preset == tsan ]]; then
     # Fast DDS is not built for the thread sanitizer and the planner has no threads (tests/README.md).
@@ -65,4 +71,5 @@ for preset in "${presets[@]}"; do
     fi
   fi
 done
+((${#failed[@]} == 0)) || printf 'failed: %s\n' "${failed[@]}" >&2
 exit "$code"
