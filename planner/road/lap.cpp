@@ -36,15 +36,15 @@ Progress progress_along(const ReferencePath& path, std::span<const Point> positi
 }
 
 std::optional<double> lap_s(const ReferencePath& path, const Progress& progress,
-                            std::span<const double> times_s) {
+                            std::span<const double> times_s, std::size_t first) {
   if (!path.is_closed()) {
     return std::nullopt;
   }
-  for (std::size_t i = 1; i < progress.s_m.size(); ++i) {
-    const double goal_m = progress.s_m.front() + path.length_m();
+  for (std::size_t i = first + 1; i < progress.s_m.size(); ++i) {
+    const double goal_m = progress.s_m[first] + path.length_m();
     if (progress.s_m[i] >= goal_m) {
       const double part = (goal_m - progress.s_m[i - 1]) / (progress.s_m[i] - progress.s_m[i - 1]);
-      return times_s[i - 1] + part * (times_s[i] - times_s[i - 1]) - times_s.front();
+      return times_s[i - 1] + part * (times_s[i] - times_s[i - 1]) - times_s[first];
     }
   }
   return std::nullopt;

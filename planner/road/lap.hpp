@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,11 +24,15 @@ struct Progress {
 [[nodiscard]] Progress progress_along(const ReferencePath& path,
                                       std::span<const Point> positions_m);
 
-/// Time from the first position until the progress has reached s_0 + length, linear between
+/// Time from position `first` until the progress has reached s_first + length, linear between
 /// positions [s]; nothing if it does not get there, or if the path is not closed.
 /// @param times_s  time of each position, increasing
 /// @pre as many times as positions
 [[nodiscard]] std::optional<double> lap_s(const ReferencePath& path, const Progress& progress,
-                                          std::span<const double> times_s);
+                                          std::span<const double> times_s, std::size_t first = 0);
+
+/// Where a lap that starts with a run begins: in step 0 every vehicle stands, whatever it plans;
+/// its first plan is driven from step 1 on.
+inline constexpr std::size_t kFirstStepDriven = 1;
 
 }  // namespace hlc

@@ -7,11 +7,11 @@
 
 namespace hlc {
 
-/// How the reference points of a plan are spaced (`k2022`: the rule under which the paper's numbers
-/// arose).
+/// How the reference points of a plan are spaced: by the rule under which the paper's numbers
+/// arose, or by its authors' later one.
 enum class ReferenceRule {
-  kDefault,  ///< first step with the mean of current and reference speed, then the reference speed
-  k2022,     ///< reference speed for all steps but the last, which is halved; current speed ignored
+  kLater,  ///< first step with the mean of current and reference speed, then the reference speed
+  k2022,   ///< reference speed for all steps but the last, which is halved; current speed ignored
 };
 
 /// Reference of one plan: r_1 ... r_n and the speed that belongs to each step.

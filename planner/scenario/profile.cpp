@@ -7,7 +7,7 @@ namespace hlc {
 Profile profile_from_name(const std::string& name) {
   if (name == "default") {
     return {.name = name,
-            .reference_rule = ReferenceRule::kDefault,
+            .reference_rule = ReferenceRule::k2022,
             .engine = Engine::kBranchAndBound,
             .cost_to_go = CostToGo::kReachable,
             .settle_rule = SettleRule::kStrict};

@@ -19,8 +19,8 @@ struct Profile {
 
 /// |                           | `default`                       | `2022`                       |
 /// |---------------------------|---------------------------------|------------------------------|
-/// | reference points          | first step with the mean of     | last step halved, as when    |
-/// |                           | current and reference speed     | the paper's numbers arose    |
+/// | reference points          | at reference speed, last step   | the same                     |
+/// |                           | halved, as in 2022              |                              |
 /// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
 /// | new plans come into force | strict: safe whatever is lost   | agreed: as the authors did   |

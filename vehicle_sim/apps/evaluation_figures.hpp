@@ -11,17 +11,17 @@ namespace hlc {
 
 /// Names of the figures that an evaluation can draw:
 ///
-/// | name            | shows                                                    | one for each |
-/// |-----------------|----------------------------------------------------------|--------------------|
-/// | `pareto_set`    | the paper's Fig. 1                                       | campaign | |
-/// `automaton`     | its Fig. 2                                               | automaton | |
-/// `scenario`      | its Fig. 3                                               | scenario | |
-/// `paths`         | its Fig. 4: driven paths of the first vehicle            | scenario, profile |
-/// | `error`         | its reference error over arc length                      | scenario, profile
-/// | | `vertices`      | generated and expanded over time                         | scenario,
-/// profile  | | `planning_time` | the distribution of planning times                       |
-/// scenario, profile  | | `distance`      | distances between vehicles over time, if there are any
-/// | scenario, profile  |
+/// * `pareto_set`: the paper's Fig. 1, one for each campaign
+/// * `automaton`: its Fig. 2, one for each automaton
+/// * `scenario`: its Fig. 3, one for each scenario
+///
+/// and for each scenario and profile:
+///
+/// * `paths`: its Fig. 4, driven paths of the first vehicle
+/// * `error`: its reference error over arc length
+/// * `vertices`: generated and expanded over time
+/// * `planning_time`: the distribution of planning times
+/// * `distance`: distances between vehicles over time, if there are any
 ///
 /// The last five are of the first start (where the scenario has the cars) and have a line or a
 /// panel for every subgraph.

@@ -16,9 +16,7 @@ namespace hlc {
 namespace {
 
 void write_configuration(const std::filesystem::path& folder, const Scenario& scenario) {
-  std::vector<std::filesystem::path> files{scenario.file, scenario.automaton_file};
-  if (scenario.map_file) files.push_back(*scenario.map_file);
-  keep_configuration(folder, files);
+  keep_configuration(folder, files_of(scenario));
   const ScenarioChoices choices{.file = scenario.file,
                                 .profile = scenario.profile.name,
                                 .engine = to_string(scenario.search.engine),

@@ -12,8 +12,7 @@ namespace hlc {
 /// The folder of a sweep:
 ///
 ///     runs.jsonl             first line: files of sweep, scenarios and automaton with their
-///     hashes,
-///                            revision; then a line per run, once driven
+///                            hashes, revision; then a line per run, once driven
 ///     sweep.csv, sweep.md    see sweep_report.hpp
 ///
 /// A run's record: "run" (its number), "failure" (null, or why it does not count), and, if it was

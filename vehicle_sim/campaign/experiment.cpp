@@ -133,28 +133,33 @@ class Lab {
                                            settings_.vehicle_ids.end());
     states_.forget_before(t_now);
     const VehicleStateList list = compose_state_list(states_, t_now, settings_.period, active);
-    step_controllers(list);
-    for (Member& member : members_) {
+    std::vector<ReportRecord> reports = step_controllers(list);
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      Member& member = members_[i];
       const AnswerToList answer = member.hlc.answer(list);
       carry(answer.command, t_now, member);
       if (answer.copy) carry(*answer.copy, t_now, member);
+      reports[i].report = with_answer(std::move(reports[i].report), answer);
+      report(reports[i]);
     }
   }
 
-  void step_controllers(const VehicleStateList& list) {
+  /// In the order of the members.
+  std::vector<ReportRecord> step_controllers(const VehicleStateList& list) {
     Observation observation;
     bool begins = true;
     for (Member& member : members_) {
       observation = member.hlc.observe(list).value();
-      if (!member.hlc.has_begun()) member.hlc.note(list);
+      if (!member.hlc.has_begun()) member.hlc.note(list, observation);
       begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
     }
     observation.present = observation.active;
+    std::vector<ReportRecord> records;
     if (!begins) {
       for (Member& member : members_) {
-        report({.report = member.hlc.controller().stand_by(observation)});
+        records.push_back({.report = member.hlc.controller().stand_by(observation)});
       }
-      return;
+      return records;
     }
     std::vector<Controller*> controllers;
     for (Member& member : members_) controllers.push_back(&member.hlc.controller());
@@ -173,10 +178,11 @@ class Lab {
     for (std::size_t i = 0; i < reports.size(); ++i) {
       const Nanoseconds planning = planning_ns[controllers[i]];  // 0 if it was late
       planning_s += 1e-9 * static_cast<double>(planning);
-      report({.report = reports[i], .planning_ns = planning});
+      records.push_back({.report = reports[i], .planning_ns = planning});
     }
     experiment_.wall.planning_s += planning_s;
     experiment_.wall.coordination_s += step_s - planning_s;
+    return records;
   }
 
   void report(const ReportRecord& record) {

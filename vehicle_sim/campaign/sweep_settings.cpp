@@ -29,11 +29,11 @@ const std::vector<SweepSetting>& sweep_settings() {
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
       {"reference_rule",
        false,
-       one_of({"default", "2022"}),
+       one_of({"2022", "later"}),
        {},
        [](const Value& value, Scenario& scenario) {
          scenario.profile.reference_rule =
-             value.text == "2022" ? ReferenceRule::k2022 : ReferenceRule::kDefault;
+             value.text == "2022" ? ReferenceRule::k2022 : ReferenceRule::kLater;
        }},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
       {"reference_speed_mps",

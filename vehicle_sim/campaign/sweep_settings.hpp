@@ -22,7 +22,7 @@ struct SweepValue {
 /// | name                  | value                                                               |
 /// |-----------------------|---------------------------------------------------------------------|
 /// | `profile`             | `default`, `2022`; the next two replace single rules of it          |
-/// | `reference_rule`      | `default`, `2022`: spacing of the reference points                  |
+/// | `reference_rule`      | `2022`, `later`: spacing of the reference points                    |
 /// | `search`              | `branch_and_bound`, `best_first` (both optimal), `2022` (the        |
 /// |                       | authors' cost-to-go, inadmissible)                                  |
 /// | `reference_speed_mps` | > 0                                                                 |

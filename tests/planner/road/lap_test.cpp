@@ -65,6 +65,16 @@ TEST(Lap, CountsTimeNotRows) {
               1e-4);
 }
 
+TEST(Lap, CountsFromWhereTheCarFirstMoves) {
+  const ReferencePath path = circle(1.0);
+  std::vector<Point> positions_m{{1.0, 0.0}};
+  for (int i = 0; i <= 60; ++i) positions_m.emplace_back(std::cos(0.16 * i), std::sin(0.16 * i));
+  const Progress progress = progress_along(path, positions_m);
+  const std::vector<double> times_s = times(positions_m.size(), 0.2);
+  EXPECT_NEAR(lap_s(path, progress, times_s).value(), 2.0 * kPi / 0.8 + 0.2, 1e-4);
+  EXPECT_NEAR(lap_s(path, progress, times_s, 1).value(), 2.0 * kPi / 0.8, 1e-4);
+}
+
 TEST(Lap, IsNotCompletedAMillimetreBeforeTheStart) {
   const ReferencePath path = circle(1.0);
   std::vector<Point> positions_m;
