@@ -20,6 +20,9 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --simulated_time BOOL   true: logical time, as fast as the machine can (default); false: real time
   --noise_seed N          measurement noise of the simulated cars from this seed (default: none)
   --gains_scale X         gains of the simulated cars' followers (default 1)
+  --on_death WHAT         stop (default): when a process dies, the others drive out their plans and the run ends;
+                          continue (real time): it goes on, and a controller that was killed may be started again
+                          (launch_scripts/vehicle.sh --id N --only hlc --out DIR)
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain; the vehicles take the next ones, the controllers N + 50
                           (default: a free block)
@@ -39,7 +42,7 @@ TEXT
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
 scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" map="" cars="" steps=""
-simulated_time=true noise_seed="" gains_scale="" transport=loopback dds_domain="" out="" preset=release
+simulated_time=true noise_seed="" gains_scale="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true
 startup_timeout_s=20
 while (($#)); do
@@ -57,13 +60,15 @@ while (($#)); do
   [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | map | cars | steps | simulated_time | \
-      noise_seed | gains_scale | transport | dds_domain | out | preset | bin | \
+      noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
       startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
 [[ $simulated_time == true || $simulated_time == false ]] ||
   fail "--simulated_time = $simulated_time, allowed true, false"
+[[ $on_death == stop || ($on_death == continue && $simulated_time == false) ]] ||
+  fail "--on_death = $on_death, allowed stop, and in real time continue"
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
 for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
@@ -161,6 +166,7 @@ steps: $steps
 simulated_time: $simulated_time
 noise_seed: ${noise_seed:-null}
 gains_scale: ${gains_scale:-1}
+on_death: $on_death
 transport: $transport
 dds_domain: $dds_domain
 startup_timeout_s: $startup_timeout_s
@@ -204,7 +210,7 @@ trap end_children EXIT # also when this script fails
 
 flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
 for id in "${ids[@]}"; do
-  vehicle=("${flags[@]}" --id "$id" --bin "$bin" "${choices[@]}" --startup_timeout_s $((startup_timeout_s + 10))
+  vehicle=("${flags[@]}" --on_death "$on_death" --id "$id" --bin "$bin" "${choices[@]}" --startup_timeout_s $((startup_timeout_s + 10))
     --pose "$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")")
   [[ -z $noise_seed ]] || vehicle+=(--noise_seed $((noise_seed + id)))
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
@@ -214,12 +220,16 @@ for id in "${ids[@]}"; do
 done
 vehicles=("${children[@]}")
 with_me "$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
-  --startup_timeout_s "$startup_timeout_s" </dev/null &
+  --on_death "$on_death" --startup_timeout_s "$startup_timeout_s" </dev/null &
 children+=($!)
 lab_control=$!
 
 # Lab control is the last to end, or nearly so: when it outlives all vehicles by far, it hangs.
-while any_runs "$lab_control" && any_runs "${vehicles[@]}"; do wait -n "${children[@]}" 2>/dev/null; done
+while any_runs "$lab_control" && any_runs "${vehicles[@]}"; do
+  wait -n "${children[@]}" 2>/dev/null
+  # Who has refused its input does not appear any more: nobody need wait for it.
+  ! grep -qs '^2 ' "$out/logs/failures" || { kill -TERM "${children[@]}" 2>/dev/null; break; }
+done
 any_runs "$lab_control" && wait_until $((SECONDS + startup_timeout_s + 15))
 if ! any_runs "${vehicles[@]}" && any_runs "$lab_control"; then
   echo "lab_control hangs" >&2

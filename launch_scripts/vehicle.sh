@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # One vehicle: its simulated car, its middleware and its high-level controller, as one machine of the lab
-# runs them. Ends when all three have ended.
+# runs them. Ends when all three have ended. With --only one of them, for a run that is under way.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -27,6 +27,9 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
   --noise_seed N          measurement noise from this seed (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
+  --on_death WHAT         stop (default): a controller that is killed fails the run; continue: it may be started again
+  --only NAME             start one alone, again: hlc, middleware or vehicle. Flags that are not given are those with
+                          which the vehicle of the run in --out was started
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
   --bin DIR               folder of the programs (default: build/release/bin)
   --startup_timeout_s N   how long to wait for the others (default 30)
@@ -40,27 +43,40 @@ id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" 
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-noise_seed="" gains_scale="" out="" bin=$root/build/release/bin startup_timeout_s=30
-while (($#)); do
-  case "$1" in
-    -h | --help) usage; exit 0 ;;
-    --*=*) name=${1%%=*} value=${1#*=} ;;
-    --*) name=$1 value=${2-}
-      (($# >= 2)) || fail "$1 needs a value"
-      shift ;;
-    *) fail "unexpected argument $1 (see --help)" ;;
-  esac
-  shift
-  name=${name#--}
-  [[ $name != dump-problems ]] || name=dump_problems
-  case "$name" in
-    id | scenario | profile | engine | dump_problems | subgraph | map | cars | simulated_time | transport | \
-      discovery_mode | discovery_server_id | discovery_server_ip | discovery_server_port | controller_peers | \
-      dds_domain | middleware_domain | controller_domain | pose | noise_seed | gains_scale | out | bin | \
-      startup_timeout_s) printf -v "$name" '%s' "$value" ;;
-    *) fail "unknown flag --$name (see --help)" ;;
-  esac
-done
+noise_seed="" gains_scale="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only=""
+kept_flags=(id scenario profile engine dump_problems subgraph map cars simulated_time transport discovery_mode
+  discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
+  controller_domain pose noise_seed gains_scale on_death bin startup_timeout_s)
+take_flags() {
+  local name value
+  while (($#)); do
+    case "$1" in
+      -h | --help) usage; exit 0 ;;
+      --*=*) name=${1%%=*} value=${1#*=} ;;
+      --*) name=$1 value=${2-}
+        (($# >= 2)) || fail "$1 needs a value"
+        shift ;;
+      *) fail "unexpected argument $1 (see --help)" ;;
+    esac
+    shift
+    name=${name#--}
+    [[ $name != dump-problems ]] || name=dump_problems
+    [[ $name == out || $name == only || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
+    printf -v "$name" '%s' "$value"
+  done
+}
+take_flags "$@"
+flags_file=$out/logs/vehicle_$id.flags
+if [[ -n $only && -n $out && -e $flags_file ]]; then
+  mapfile -t former <"$flags_file"
+  take_flags "${former[@]}"
+  take_flags "$@"
+fi
+case "$only" in
+  "" | hlc | middleware | vehicle) ;;
+  *) fail "--only = $only, allowed hlc, middleware, vehicle" ;;
+esac
+[[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, allowed stop, continue"
 [[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, allowed 1 ... 30"
 id=$((10#$id))
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
@@ -81,12 +97,13 @@ share_domain() { # flag, domain
     fail "$1 = $2: a run on this machine uses it"
   fi
 }
-if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} ]]; then
+if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; then
   share_domain --dds_domain "$((10#$dds_domain))"
   share_domain --middleware_domain "$((10#$middleware_domain))"
 fi
 [[ -n $out ]] || out=$root/runs/vehicle_$id
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
+out=$(cd "$out" && pwd)
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
 choices=(--scenario "$scenario" --profile "$profile")
@@ -94,10 +111,10 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
-if [[ -z $pose ]]; then
+if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
   pose=$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
-  [[ -n $pose ]] || fail "--id = $id, allowed $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts")"
+  [[ -n $pose ]] || fail "--id = $id, allowed $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
 fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
@@ -113,6 +130,24 @@ controller=("${choices[@]}")
 [[ -z $controller_peers ]] || controller+=(--controller_peers="$controller_peers")
 [[ -z $dump_problems ]] || controller+=(--dump-problems="$dump_problems")
 
+# Of two that command one car the car would follow now the one, now the other.
+if [[ -n $only ]]; then
+  case "$only" in
+    hlc) former=high_level_controller_$id ;;
+    *) former=${only}_$id ;;
+  esac
+  pid=$(awk -v name="$former" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_$id.pids" 2>/dev/null)
+  program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)")
+  [[ ! $program =~ ^(vehicle_sim|middleware|high_level_controller)$ ]] ||
+    fail "--only = $only: $former still runs, end it first: kill -9 $pid"
+fi
+
+scenario=$(realpath "$scenario") bin=$(realpath "$bin")
+[[ -z $map ]] || map=$(realpath "$map")
+[[ -n $only ]] || for name in "${kept_flags[@]}"; do
+  [[ -z ${!name} ]] || echo "--$name=${!name}"
+done >"$out/logs/vehicle_$id.flags"
+
 declare -A names=() # of those that have not ended, by pid
 is_ending=false
 # shellcheck disable=SC2317 # called by the trap
@@ -127,20 +162,23 @@ end_all() {
 }
 trap end_all INT TERM HUP EXIT
 
-start() { # name, program and flags
-  local name=$1
-  shift
+start() { # what --only calls it, name, program and flags
+  local name=$2
+  [[ -z $only || $only == "$1" ]] || return 0
+  shift 2
   # Told to end when this script is gone, even by SIGKILL.
-  setpriv --pdeathsig TERM -- "$@" >"$out/logs/$name.log" 2>&1 </dev/null &
+  [[ -n $only ]] || : >"$out/logs/$name.log"
+  setpriv --pdeathsig TERM -- "$@" >>"$out/logs/$name.log" 2>&1 </dev/null &
   names[$!]=$name
 }
-start "vehicle_$id" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
-start "middleware_$id" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
+[[ -n $only ]] || : >"$out/logs/vehicle_$id.pids"
+start vehicle "vehicle_$id" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
+start middleware "middleware_$id" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
   --middleware_domain="$middleware_domain"
-start "high_level_controller_$id" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$id" \
+start hlc "high_level_controller_$id" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$id" \
   --middleware_domain="$middleware_domain" "${controller[@]}"
 printf '%s\n' "${!names[@]}" | while read -r pid; do echo "$pid ${names[$pid]}"; done \
-  >"$out/logs/vehicle_$id.pids"
+  >>"$out/logs/vehicle_$id.pids"
 ! $is_ending || end_all # told so in the middle of starting
 
 first=0
@@ -149,7 +187,9 @@ while true; do
     kill -0 "$pid" 2>/dev/null && continue
     wait "$pid"
     code=$?
-    if ((code != 0)); then
+    if ((code > 128)) && [[ $on_death == continue && ${names[$pid]} == high_level_controller_$id ]]; then
+      echo "${names[$pid]} was killed; again: $0 --id $id --only hlc --out $out" >&2
+    elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code
       # For run_lab.sh, which cannot see the order among processes of several vehicles.

@@ -137,6 +137,7 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
   std::printf("# limits of %s: %g ... %g m/s, +-%g rad", car.name.c_str(), limits.speed_min_mps,
               limits.speed_max_mps, limits.steering_max_rad);
   if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
+  if (limits.curvature_max_per_m) std::printf(", curvature %g 1/m", *limits.curvature_max_per_m);
   std::printf("; wheelbase %g m\n", car.vehicle.wheelbase_m);
   std::printf("# Trims that stand for %s; the share of the drive that each stands for.\ntrims:\n",
               drive.filename().c_str());

@@ -68,6 +68,10 @@ hlc::ProblemFile read(const Flags& flags) {
   try {
     if (flags.engine) file.search.engine = hlc::engine_from_name(*flags.engine);
     if (flags.cost_to_go) file.search.cost_to_go = hlc::cost_to_go_from_name(*flags.cost_to_go);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("--") + error.what());
+  }
+  try {
     if (flags.max_expansions) file.search.max_expansions = *flags.max_expansions;
     hlc::check_can_be_searched(file);
   } catch (const std::invalid_argument& error) {

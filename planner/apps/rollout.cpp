@@ -41,7 +41,8 @@ void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_
     sum_m += distance_m;
     max_m = std::max(max_m, distance_m);
   }
-  const std::optional<double> lap_s = hlc::lap_s(vehicle.path, progress, times_s);
+  const std::optional<double> lap_s =
+      hlc::lap_s(vehicle.path, progress, times_s, hlc::kFirstStepDriven);
   char lap[16] = "-";
   if (lap_s) std::snprintf(lap, sizeof(lap), "%.2f", *lap_s);
   std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n", vehicle.name.c_str(), lap,

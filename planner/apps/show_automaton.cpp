@@ -33,6 +33,7 @@ void print_head(const AutomatonFile& file, const std::string& path) {
               limits.acceleration_mps2, limits.steering_rate_radps, limits.speed_min_mps,
               limits.speed_max_mps, limits.steering_max_rad);
   if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
+  if (limits.curvature_max_per_m) std::printf(", curvature %g 1/m", *limits.curvature_max_per_m);
   std::printf("\n");
   std::printf("step       %g s\n", automaton.step_s);
 }

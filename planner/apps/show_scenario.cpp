@@ -19,6 +19,8 @@ void print_table(const hlc::Scenario& scenario) {
               scenario.map_file ? scenario.map_file->c_str() : "none (no lanes)");
   std::printf("automaton  %s, subgraph %s\n", scenario.automaton_file.c_str(),
               scenario.subgraph->spec().name.c_str());
+  std::printf("lab        %s\n",
+              scenario.lab_file ? scenario.lab_file->c_str() : "none (no limits)");
   std::printf("profile    %s\n", scenario.profile.name.c_str());
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
               "y [m]");
@@ -58,6 +60,7 @@ int main(int argc, char** argv) {
     if (choices.map_file) inputs.push_back(*choices.map_file);
     hlc::check_output_files({plot}, inputs);
     const hlc::Scenario scenario = hlc::read_scenario(choices);
+    hlc::check_output_files({plot}, hlc::files_of(scenario));
     if (plot.file) {
       hlc::write_atomically(hlc::scenario_plot(scenario, hlc::map_of(scenario)), *plot.file);
     }

@@ -6,6 +6,7 @@
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
+#include "planner/vehicle/path_curvature.hpp"
 
 namespace hlc {
 namespace {
@@ -68,6 +69,10 @@ std::string fault_of_bounds(const Maneuver& m, const UniversalAutomaton& automat
     if (!is_within_friction(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
         !is_within_friction(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
       return "it exceeds the friction circle in interval " + std::to_string(k + 1);
+    }
+    if (!is_within_curvature(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
+        !is_within_curvature(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
+      return "its path bends more than the limit in interval " + std::to_string(k + 1);
     }
   }
   return "";

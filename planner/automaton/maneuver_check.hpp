@@ -13,8 +13,7 @@ namespace hlc {
 ///   and end in the trim it goes to (1e-9 m/s, or of the largest speed if that is more than 1; 1e-9
 ///   rad), its displacement being its last pose;
 /// * respect the bounds on inputs and states (1e-9, relative to the bound if that is more than 1)
-/// and the friction circle
-///   (1e-6) at both ends of each interval;
+///   and, at both ends of each interval, the friction circle and the limit on the curvature (1e-6);
 /// * obey the model: integrated again from each state with ten times finer steps, it meets the next
 ///   state to 1e-6 (of position in m and heading in rad, relative to what it covers if that is more
 ///   than 1); a trim's own step follows the exact arc to 1e-9;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "planner/vehicle/lateral_acceleration.hpp"
+#include "planner/vehicle/path_curvature.hpp"
 
 namespace hlc {
 namespace {
@@ -24,7 +25,8 @@ bool holds_twice(const std::vector<T>& list, const T& value) {
 }
 
 /// True if constant inputs that make the change within one step are within the limits. Without a
-/// friction circle there are none otherwise: v and delta are linear in the inputs.
+/// friction circle and a limit on the curvature there are none otherwise: v and delta are linear in
+/// the inputs.
 bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle,
                   const VehicleLimits& limits, double step_s) {
   constexpr double kRounding = 1.0 + 1e-9;
@@ -42,7 +44,10 @@ bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle
     const State state{{},
                       std::lerp(a.speed_mps, b.speed_mps, share),
                       std::lerp(a.steering_rad, b.steering_rad, share)};
-    if (!is_within_friction(state, input, vehicle, limits)) return false;
+    if (!is_within_friction(state, input, vehicle, limits) ||
+        !is_within_curvature(state, input, vehicle, limits)) {
+      return false;
+    }
   }
   return true;
 }

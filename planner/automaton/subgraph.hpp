@@ -22,7 +22,7 @@ struct TrimPair {
 enum class EdgeRule {
   kChain,  ///< every equilibrium trim to and from every trim, and neighbours in their order
   /// All pairs that the bounds on acceleration and steering rate allow in one step. With a friction
-  /// circle: those that constant inputs connect within it.
+  /// circle or a limit on the curvature: those that constant inputs connect within it.
   kReachable,
 };
 

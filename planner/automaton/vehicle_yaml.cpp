@@ -5,6 +5,7 @@
 
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
+#include "planner/vehicle/path_curvature.hpp"
 
 namespace hlc {
 namespace {
@@ -14,7 +15,7 @@ using Field = std::pair<const char*, double>;
 // Beyond these no wheeled vehicle is meant, but another unit.
 constexpr double kLongest_m = 100.0;
 constexpr double kFastest_mps = 1000.0;
-constexpr double kStrongest = 1e4;  // m/s^2, rad/s
+constexpr double kStrongest = 1e4;  // m/s^2, rad/s, 1/m
 
 std::string fields(std::initializer_list<Field> list) {
   std::string text;
@@ -72,6 +73,9 @@ VehicleLimits read_limits(const YamlNode& limits) {
   if (limits.has("friction_mps2")) {
     l.friction_mps2 = limits.required<double>("friction_mps2", above(0.0, kStrongest));
   }
+  if (limits.has("curvature_max_per_m")) {
+    l.curvature_max_per_m = limits.required<double>("curvature_max_per_m", above(0.0, kStrongest));
+  }
   limits.check_no_unknown_keys();
   return l;
 }
@@ -85,6 +89,9 @@ Trim read_trim(const YamlNode& trim, const VehicleParameters& vehicle,
       "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
   if (!is_within_friction({{}, result.speed_mps, result.steering_rad}, {}, vehicle, limits)) {
     trim.fail("speed_mps", "less with this steering: the friction circle is exceeded");
+  }
+  if (!is_within_curvature({{}, result.speed_mps, result.steering_rad}, {}, vehicle, limits)) {
+    trim.fail("steering_rad", "less: its path bends more than limits.curvature_max_per_m");
   }
   return result;
 }
@@ -112,15 +119,17 @@ std::string to_yaml(const VehicleParameters& vehicle, const IdentifiedVehicle& i
 }
 
 std::string to_yaml(const VehicleLimits& limits) {
-  const std::string friction =
-      limits.friction_mps2 ? ", " + fields({{"friction_mps2", *limits.friction_mps2}}) : "";
+  const auto if_any = [](const char* key, const std::optional<double>& value) {
+    return value ? ", " + fields({{key, *value}}) : "";
+  };
   return "{" +
          fields({{"acceleration_mps2", limits.acceleration_mps2},
                  {"steering_rate_radps", limits.steering_rate_radps},
                  {"speed_min_mps", limits.speed_min_mps},
                  {"speed_max_mps", limits.speed_max_mps},
                  {"steering_max_rad", limits.steering_max_rad}}) +
-         friction + "}";
+         if_any("friction_mps2", limits.friction_mps2) +
+         if_any("curvature_max_per_m", limits.curvature_max_per_m) + "}";
 }
 
 }  // namespace hlc

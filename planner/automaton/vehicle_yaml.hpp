@@ -17,8 +17,8 @@ namespace hlc {
                                                 const VehicleParameters& parameters,
                                                 const VehicleLimits& limits);
 
-/// Keys as the members of VehicleLimits, all required but friction_mps2. At most 1000 m/s, 1e4
-/// m/s², 1e4 rad/s, 1.5 rad.
+/// Keys as the members of VehicleLimits, all required but friction_mps2 and curvature_max_per_m. At
+/// most 1000 m/s, 1e4 m/s², 1e4 rad/s, 1.5 rad, 1e4 1/m.
 [[nodiscard]] VehicleLimits read_limits(const YamlNode& limits);
 
 /// Keys speed_mps, steering_rad, within the limits. Others are not checked.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/automaton/deviation.hpp"
+#include "planner/controller/trajectory.hpp"
 #include "planner/coordination/priority.hpp"
 
 namespace hlc {
@@ -18,6 +20,9 @@ constexpr double kBoundaryReserve_m = 0.4;
 
 /// Swept areas are rounded outwards on the way to the reachable area.
 constexpr double kReachRounding_m = 1e-5;
+
+/// A route that the vehicle fits is better than any that it does not.
+constexpr double kFitsNot_m = 1e6;
 
 /// Over all maneuvers: another vehicle may drive on any subgraph.
 double top_speed_mps(const UniversalAutomaton& automaton) {
@@ -78,27 +83,37 @@ bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
 }  // namespace
 
 Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-                       ReferencePath path, Corridor corridor)
-    : Controller(options, subgraph, std::move(path), std::move(corridor),
+                       std::vector<DrivableRoute> routes)
+    : Controller(options, subgraph,
+                 std::make_shared<const std::vector<DrivableRoute>>(std::move(routes)),
                  std::make_shared<const ReachableSets>(*subgraph, options.horizon_steps + 1)) {}
 
 Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-                       ReferencePath path, Corridor corridor,
+                       ReferencePath path, Corridor corridor)
+    : Controller(options, std::move(subgraph),
+                 {{.name = "", .path = std::move(path), .corridor = std::move(corridor)}}) {}
+
+Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
+                       std::shared_ptr<const std::vector<DrivableRoute>> routes,
                        std::shared_ptr<const ReachableSets> reachable)
     : options_(options),
       subgraph_(std::move(subgraph)),
-      path_(std::move(path)),
-      corridor_(std::move(corridor)),
+      routes_(std::move(routes)),
       reachable_(std::move(reachable)),
       planner_(make_horizon_planner(*subgraph_, *reachable_, options.search)),
       standstill_(own_step(subgraph_->automaton(), subgraph_->standstill())),
-      missing_rules_(rules_for_missing(subgraph_->automaton())) {}
+      missing_rules_(rules_for_missing(subgraph_->automaton())) {
+  assert(!routes_->empty());
+}
 
 std::unique_ptr<Controller> Controller::clone() const {
-  std::unique_ptr<Controller> result(
-      new Controller(options_, subgraph_, path_, corridor_, reachable_));
+  std::unique_ptr<Controller> result(new Controller(options_, subgraph_, routes_, reachable_));
   result->in_force_ = in_force_;
+  result->route_ = route_;
+  result->placement_ = placement_;
   result->path_s_m_ = path_s_m_;
+  result->joining_ = joining_;
+  result->sets_out_ = sets_out_;
   result->last_heard_ = last_heard_;
   result->last_sign_of_life_ = last_sign_of_life_;
   result->last_not_standing_ = last_not_standing_;
@@ -118,6 +133,7 @@ void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
   subgraph_ = std::move(subgraph);
   reachable_ = std::move(reachable);
   standstill_ = own_step(subgraph_->automaton(), subgraph_->standstill());
+  sets_out_ = sets_out_ || !joining_.is_possible;
 }
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
@@ -132,14 +148,36 @@ Report Controller::stand_by(const Observation& observation) {
   if (const MeasuredVehicle* own = measured(options_.vehicle)) {
     in_force_.emplace(subgraph_->shared_automaton(), *standstill_, options_.deviation, own->pose,
                       observation.step);
-    path_s_m_.reset();
+    take_route(own->pose);
   }
   Report report{.vehicle = options_.vehicle, .step = observation.step};
+  if (placement_ && !fits_route()) {
+    report.reason = FallbackReason::kOffRoute;
+    report.deviation_m = std::max(0.0, placement_->beyond_m());
+  }
   if (in_force_) {
     report.planned_pose = plan_in_force().pose_at(observation.step);
     report.planned_trim = plan_in_force().trim_at(observation.step);
   }
   return report;
+}
+
+/// The route that the vehicle fits best, and its place there.
+void Controller::take_route(const Pose& measured) {
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const Pose pose = pose_of_measured(measured, 0.0, automaton.vehicle, automaton.identified);
+  std::optional<double> best_m;
+  for (std::size_t i = 0; i < routes_->size(); ++i) {
+    const DrivableRoute& route = (*routes_)[i];
+    const Placement placement = placement_on(route, pose, automaton.vehicle.footprint);
+    const double off_m = misfit_m(placement) + (fits(placement, route) ? 0.0 : kFitsNot_m);
+    if (best_m && off_m >= *best_m) continue;
+    best_m = off_m;
+    route_ = i;
+    placement_ = placement;
+  }
+  path_s_m_ = placement_->s_m;
+  sets_out_ = true;
 }
 
 Traffic Controller::observe(const Observation& observation) {
@@ -151,6 +189,7 @@ Traffic Controller::observe(const Observation& observation) {
   const PlanWatch watched = in_force_->watch(measured(options_.vehicle), now);
   step_.report.deviation_m = watched.deviation_m;
   if (watched.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
+  sets_out_ = sets_out_ || watched.is_anchored_anew;
   step_.report.planned_pose = plan_in_force().pose_at(now);
   step_.report.planned_trim = plan_in_force().trim_at(now);
 
@@ -266,28 +305,63 @@ void Controller::add_missing_obstacles(HorizonProblem& problem) const {
   }
 }
 
-HorizonProblem Controller::pose_problem() {
+double Controller::project(const Point& position_m) const {
+  const ReferencePath& path = route().path;
+  if (!path_s_m_) return path.project(position_m).s_m;
+  const double reach_m =
+      reachable_->max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0);
+  return path
+      .project_within(position_m, *path_s_m_ - kProjectionBack_m,
+                      *path_s_m_ + reach_m + kProjectionBack_m)
+      .s_m;
+}
+
+/// Without the other vehicles.
+HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
   const UniversalAutomaton& automaton = subgraph_->automaton();
   const Traffic& own = step_.traffic;
   const double reach_m = reachable_->max_distance_m(own.next_trim, options_.horizon_steps, 0);
-  const Point position = own.next_pose.position_m();
-  const auto projection = path_s_m_ ? path_.project_within(position, *path_s_m_ - kProjectionBack_m,
-                                                           *path_s_m_ + reach_m + kProjectionBack_m)
-                                    : path_.project(position);
-  path_s_m_ = projection.s_m;
-
   HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
   Reference reference =
-      reference_points(path_, projection.s_m, automaton.trims[own.next_trim.index].speed_mps,
+      reference_points(route().path, *path_s_m_, automaton.trims[own.next_trim.index].speed_mps,
                        options_.reference_speed_mps, options_.horizon_steps, automaton.step_s,
                        options_.reference_rule);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
+  problem.boundary_m = corridor.boundary_m(*path_s_m_ - kBoundaryReserve_m,
+                                           *path_s_m_ + reach_m + kBoundaryReserve_m);
+  return problem;
+}
+
+/// Where the vehicle may drive: at the start in an area that leads into its lanes, if need be, and
+/// in them as soon as the plan in force lies there.
+void Controller::look_at_lanes() {
+  const StepIndex next{step_.observation.step.value + 1};
+  const Plan& base = in_force_->base();
+  const auto lies_in_lanes = [&] {
+    return keeps_to(base, next, problem_alone(route().corridor).boundary_m);
+  };
+  const bool stands = base.end() <= next;
+  if (stands && (sets_out_ || (joining_.is_possible && !joining_.area && !lies_in_lanes()))) {
+    const UniversalAutomaton& automaton = subgraph_->automaton();
+    const Placement placement =
+        placement_on(route(), step_.traffic.next_pose, automaton.vehicle.footprint);
+    path_s_m_ = placement.s_m;
+    joining_ = join(
+        route(), placement, step_.traffic.next_pose,
+        [this](const Corridor& corridor) { return problem_alone(corridor); }, *planner_);
+    sets_out_ = false;
+  }
+  if (!joining_.is_possible) step_.obstacle = FallbackReason::kOffRoute;
+  // A vehicle that stands in its lanes may need the area to drive off.
+  if (joining_.area && !stands && lies_in_lanes()) joining_.area.reset();
+}
+
+HorizonProblem Controller::pose_problem() {
+  HorizonProblem problem = problem_alone(joining_.area ? *joining_.area : route().corridor);
   problem.obstacles_m.resize(options_.horizon_steps);
   add_coupled_obstacles(problem);
   add_missing_obstacles(problem);
-  problem.boundary_m = corridor_.boundary_m(projection.s_m - kBoundaryReserve_m,
-                                            projection.s_m + reach_m + kBoundaryReserve_m);
   problem.incumbent = incumbent();
   return problem;
 }
@@ -322,10 +396,23 @@ void Controller::search_candidate(StepIndex next) {
   step_.candidate = in_force_->base().continued(
       next, result.maneuvers, *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
   step_.candidate_areas_m = in_force_->areas_of(*step_.candidate, next);
-  if (!is_candidate_free()) {
+  if (!is_candidate_drivable()) {
+    step_.candidate.reset();
+    step_.obstacle = FallbackReason::kUndrivable;
+  } else if (!is_candidate_free()) {
     step_.candidate.reset();
     step_.obstacle = FallbackReason::kConflict;
   }
+}
+
+/// The command that the plan would become is looked at before anybody is told of it.
+bool Controller::is_candidate_drivable() const {
+  if (!options_.lab) return true;
+  const UniversalAutomaton& automaton = subgraph_->automaton();
+  return !trajectory_fault(
+      sample_trajectory(*step_.candidate, step_.observation.step, options_.lab->point_interval_s,
+                        0.0, automaton.step_s, automaton.vehicle),
+      options_.lab);
 }
 
 Prediction Controller::plan(std::span<const Prediction> heard) {
@@ -343,6 +430,10 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
       subgraph_->distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
     step_.obstacle =
         FallbackReason::kInfeasible;  // a trim that is off, with no way out or a long one
+  }
+  if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
+    path_s_m_ = project(step_.traffic.next_pose.position_m());
+    look_at_lanes();
   }
   if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
     step_.problems.push_back(pose_problem());

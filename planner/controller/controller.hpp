@@ -8,6 +8,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
+#include "planner/controller/joining.hpp"
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/controller/report.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -16,9 +17,11 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/coordination/settle.hpp"
 #include "planner/road/corridor.hpp"
+#include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
 #include "planner/road/reference_points.hpp"
 #include "planner/search/planner.hpp"
+#include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc {
 
@@ -26,10 +29,12 @@ struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
   double reference_speed_mps{0.8};
-  ReferenceRule reference_rule{ReferenceRule::kDefault};
+  ReferenceRule reference_rule{ReferenceRule::k2022};
   SettleRule settle_rule{SettleRule::kStrict};
   SearchOptions search;
   DeviationRules deviation;
+  /// What the vehicle can follow: a plan beyond it does not come into force. Absent: anything.
+  std::optional<LabLimits> lab;
 };
 
 /// What a state list tells a controller at step k.
@@ -56,8 +61,17 @@ struct Observation {
 /// The plan of step k is for what happens from t(k+1) on: the search starts where the plan in force
 /// will be then. If no new plan comes into force, the one in force stays: every plan ends in
 /// standstill. What is done where the vehicle is not on its plan: plan_in_force.hpp.
+///
+/// The vehicle starts from where it stands. Of the routes that it may take it takes the one that it
+/// fits best, from its place there on (placement.hpp); beside its lanes it drives in an area that
+/// leads into them (joining.hpp). A vehicle that fits none, or cannot get onto its route, stands
+/// and says so in its report.
 class Controller {
  public:
+  /// @param routes  those that the vehicle may take, at least one
+  Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
+             std::vector<DrivableRoute> routes);
+  /// With a single route.
   /// @param path      what the vehicle shall follow
   /// @param corridor  where it may drive
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
@@ -116,6 +130,17 @@ class Controller {
   /// the first plan would have drifted into something. Valid until the next step.
   [[nodiscard]] std::span<const HorizonProblem> problems() const { return step_.problems; }
 
+  /// Those that the vehicle may take.
+  [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return *routes_; }
+  /// The route taken; before the first measurement the first of all.
+  [[nodiscard]] const DrivableRoute& route() const { return (*routes_)[route_]; }
+  /// Where the vehicle stood on it in the last `stand_by` that saw it.
+  [[nodiscard]] const std::optional<Placement>& placement() const { return placement_; }
+  /// True if it did, and fits. @see fits
+  [[nodiscard]] bool fits_route() const { return placement_ && fits(*placement_, route()); }
+  /// The area in which it comes into its lanes (joining.hpp), while it does.
+  [[nodiscard]] const std::optional<Corridor>& joining_area() const { return joining_.area; }
+
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
   [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
 
@@ -138,14 +163,20 @@ class Controller {
   };
 
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-             ReferencePath path, Corridor corridor, std::shared_ptr<const ReachableSets> reachable);
+             std::shared_ptr<const std::vector<DrivableRoute>> routes,
+             std::shared_ptr<const ReachableSets> reachable);
 
+  void take_route(const Pose& measured);
+  void look_at_lanes();
+  [[nodiscard]] double project(const Point& position_m) const;
   void search_candidate(StepIndex next);
   [[nodiscard]] bool is_candidate_free() const;
+  [[nodiscard]] bool is_candidate_drivable() const;
   void note_who_lives();
   void note_who_stands();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
   [[nodiscard]] HorizonProblem pose_problem();
+  [[nodiscard]] HorizonProblem problem_alone(const Corridor& corridor) const;
   [[nodiscard]] std::vector<const Maneuver*> incumbent() const;
   void add_coupled_obstacles(HorizonProblem& problem) const;
   void add_missing_obstacles(HorizonProblem& problem) const;
@@ -155,15 +186,18 @@ class Controller {
 
   ControllerOptions options_;
   std::shared_ptr<const Subgraph> subgraph_;
-  ReferencePath path_;
-  Corridor corridor_;
+  std::shared_ptr<const std::vector<DrivableRoute>> routes_;
   std::shared_ptr<const ReachableSets> reachable_;
   std::unique_ptr<HorizonPlanner> planner_;
   const Maneuver* standstill_;
   MissingVehicleRules missing_rules_;
 
   std::optional<PlanInForce> in_force_;
+  std::size_t route_{};  ///< index of the one taken
+  std::optional<Placement> placement_;
   std::optional<double> path_s_m_;  ///< where the vehicle was on its path
+  Joining joining_;
+  bool sets_out_{false};  ///< stands where it was measured, and has not been looked at yet
   std::map<VehicleId, StepIndex> last_heard_;
   std::map<VehicleId, StepIndex>
       last_sign_of_life_;  ///< last step in which it was heard or present

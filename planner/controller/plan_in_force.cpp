@@ -59,7 +59,7 @@ PlanWatch PlanInForce::watch(const MeasuredVehicle* own, StepIndex now) {
   if (is_astray && stands) {
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
     deviation_m_ = result.deviation_m;
-    return {.deviation_m = deviation_m_, .is_disturbed = false};
+    return {.deviation_m = deviation_m_, .is_disturbed = false, .is_anchored_anew = true};
   }
   moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
                                                       automaton_->identified));

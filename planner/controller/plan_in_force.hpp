@@ -22,8 +22,9 @@ struct DeviationRules {
 
 /// What one look at the vehicle says of its plan.
 struct PlanWatch {
-  double deviation_m{};      ///< footprint_deviation_m, at the time of the measurement
-  bool is_disturbed{false};  ///< rule 4 below: nothing new may be planned
+  double deviation_m{};          ///< footprint_deviation_m, at the time of the measurement
+  bool is_disturbed{false};      ///< rule 4 below: nothing new may be planned
+  bool is_anchored_anew{false};  ///< rule 4: the plan is to stand where the vehicle stands
 };
 
 /// The plan that a vehicle drives, what the others have been told of it, and where the vehicle

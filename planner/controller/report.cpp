@@ -34,6 +34,10 @@ const char* to_string(FallbackReason reason) {
       return "deviation";
     case FallbackReason::kLate:
       return "late";
+    case FallbackReason::kUndrivable:
+      return "undrivable";
+    case FallbackReason::kOffRoute:
+      return "off_route";
   }
   return "unknown";
 }

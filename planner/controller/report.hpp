@@ -23,6 +23,10 @@ enum class FallbackReason : std::uint8_t {
   kNeighbour,   ///< settle rule `agreed`: a vehicle of the same component fell back
   kDeviation,   ///< the own vehicle is too far from its planned pose, or not seen
   kLate,        ///< a deadline of the step had passed
+  kUndrivable,  ///< the new plan or its command is beyond what the vehicle can follow
+  /// The vehicle stands where it fits no route (status `standby`), or from where it cannot get onto
+  /// its route (joining.hpp).
+  kOffRoute,
 };
 
 /// How good the plan is that the search found in this step, whether it came into force or not.
@@ -52,7 +56,9 @@ struct Report {
   std::uint32_t level{};           ///< computation level, 0 plans first
   std::vector<VehicleId> coupled;  ///< vehicles coupled with this one
   std::vector<VehicleId> missing;  ///< vehicles that said nothing
-  double deviation_m{};            ///< footprint_deviation_m, at the time of the measured state
+  /// footprint_deviation_m, at the time of the measured state; of a vehicle that fits no route, how
+  /// far its footprint reaches beyond the lanes of the nearest.
+  double deviation_m{};
 };
 
 }  // namespace hlc

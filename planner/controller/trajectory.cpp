@@ -5,29 +5,18 @@
 #include <cmath>
 
 namespace hlc {
-namespace {
-
-TrajectorySample to_sample(double time_s, const State& state, const VehicleParameters& vehicle) {
-  const double course = state.pose.heading_rad + slip_angle_rad(state.steering_rad, vehicle);
-  return {.time_s = time_s,
-          .position_m = state.pose.position_m(),
-          .velocity_mps = state.speed_mps * Eigen::Vector2d(std::cos(course), std::sin(course))};
-}
-
-}  // namespace
-
-std::vector<TrajectorySample> sample_trajectory(const Plan& plan, StepIndex step, double interval_s,
-                                                double until_s, double step_s,
-                                                const VehicleParameters& vehicle) {
+std::vector<TimedPoint> sample_trajectory(const Plan& plan, StepIndex step, double interval_s,
+                                          double until_s, double step_s,
+                                          const VehicleParameters& vehicle) {
   const auto per_step = static_cast<std::int64_t>(std::llround(step_s / interval_s));
   assert(per_step > 0);
-  std::vector<TrajectorySample> samples;
+  std::vector<TimedPoint> samples;
   if (step > plan.first()) {
     const StepIndex before{step.value - 1};
     samples.push_back(
-        to_sample(-interval_s, plan.state_at(before, step_s - interval_s, vehicle), vehicle));
+        timed_point(-interval_s, plan.state_at(before, step_s - interval_s, vehicle), vehicle));
   } else {
-    TrajectorySample sample = to_sample(-interval_s, plan.state_at(step, 0.0, vehicle), vehicle);
+    TimedPoint sample = timed_point(-interval_s, plan.state_at(step, 0.0, vehicle), vehicle);
     sample.position_m -= interval_s * sample.velocity_mps;
     samples.push_back(sample);
   }
@@ -37,8 +26,8 @@ std::vector<TrajectorySample> sample_trajectory(const Plan& plan, StepIndex step
   for (std::int64_t i = 0; i <= count; ++i) {
     const StepIndex at{step.value + static_cast<std::uint64_t>(i / per_step)};
     const double rest_s = static_cast<double>(i % per_step) * interval_s;
-    samples.push_back(to_sample(static_cast<double>(i) * interval_s,
-                                plan.state_at(at, rest_s, vehicle), vehicle));
+    samples.push_back(timed_point(static_cast<double>(i) * interval_s,
+                                  plan.state_at(at, rest_s, vehicle), vehicle));
   }
   return samples;
 }

@@ -9,6 +9,7 @@
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/automaton/swept_area.hpp"
 #include "planner/maneuver_design/criteria.hpp"
+#include "planner/maneuver_design/curvature_limit.hpp"
 #include "planner/maneuver_design/friction_circle.hpp"
 #include "planner/maneuver_design/unit_cost.hpp"
 #include "planner/maneuver_design/weighted_sum.hpp"
@@ -246,6 +247,12 @@ ManeuverProblem problem_between(const Trim& from, const Trim& to,
   if (const auto friction_mps2 = configuration.limits.friction_mps2) {
     problem.path_constraints.push_back(
         std::make_shared<FrictionCircle>(*friction_mps2, configuration.vehicle));
+  }
+  if (const auto curvature_per_m = configuration.limits.curvature_max_per_m) {
+    for (const auto side : {CurvatureLimit::Side::kLeft, CurvatureLimit::Side::kRight}) {
+      problem.path_constraints.push_back(
+          std::make_shared<CurvatureLimit>(side, *curvature_per_m, configuration.vehicle));
+    }
   }
   return problem;
 }

@@ -8,6 +8,7 @@
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
+#include "planner/vehicle/path_curvature.hpp"
 
 namespace hlc {
 namespace {
@@ -43,7 +44,8 @@ std::vector<double> increasing_numbers(const YamlNode& map, const std::string& k
   return numbers;
 }
 
-/// Standstill, then every speed with every steering angle that the friction circle allows it.
+/// Standstill, then every speed with every steering angle that friction circle and limit on the
+/// curvature allow it.
 std::vector<Trim> grid_trims(const YamlNode& file, const VehicleParameters& vehicle,
                              const VehicleLimits& limits) {
   const YamlNode grid = file.map("trims");
@@ -55,7 +57,8 @@ std::vector<Trim> grid_trims(const YamlNode& file, const VehicleParameters& vehi
   std::vector<Trim> trims{{}};
   for (const double speed_mps : speeds) {
     for (const double steering_rad : steering) {
-      if (is_within_friction({{}, speed_mps, steering_rad}, {}, vehicle, limits)) {
+      if (is_within_friction({{}, speed_mps, steering_rad}, {}, vehicle, limits) &&
+          is_within_curvature({{}, speed_mps, steering_rad}, {}, vehicle, limits)) {
         trims.push_back({speed_mps, steering_rad});
       }
     }

@@ -74,10 +74,11 @@ struct AutomatonConfiguration {
 ///                  safety_margin_m (default 0.010),
 ///                  identified: {... (see IdentifiedVehicle), all optional}, or kinematic}
 ///     limits:     {acceleration_mps2, steering_rate_radps, speed_min_mps, speed_max_mps,
-///                  steering_max_rad, friction_mps2 (default: no friction circle)}
+///                  steering_max_rad, friction_mps2 (default: no friction circle),
+///                  curvature_max_per_m of the path (default: no limit)}
 ///     trims:      list of {speed_mps, steering_rad}, or a grid {speeds_mps: [...], steering_rad:
-///                  [...]}: standstill, then every speed > 0 with every angle, without what the
-///                  friction circle forbids. Numbers count from 1 in this order
+///                  [...]}: standstill, then every speed > 0 with every angle, without what
+///                  friction circle and curvature forbid. Numbers count from 1 in this order
 ///     step_s      at most 100
 ///     horizon_steps  (default 8)
 ///     intervals   (default 20)

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "planner/vehicle/lateral_acceleration.hpp"
+#include "planner/vehicle/path_curvature.hpp"
 
 namespace hlc {
 namespace {
@@ -136,6 +137,10 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
     if (!is_within_friction({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle, limits)) {
       throw std::invalid_argument(
           "the vehicle was driven beyond the friction circle of the limits");
+    }
+    if (!is_within_curvature({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle,
+                             limits)) {
+      throw std::invalid_argument("the vehicle was driven beyond the curvature of the limits");
     }
   }
   const auto same = std::ranges::adjacent_find(moving, {}, &ChosenTrim::trim);

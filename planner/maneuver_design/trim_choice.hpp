@@ -52,7 +52,7 @@ struct ChosenTrim {
 /// then by speed.
 ///
 /// @throws std::invalid_argument if the drive has fewer than count - 1 different ways of moving, or
-/// if a trim exceeds the friction circle of the limits
+/// if a trim exceeds the friction circle or the curvature of the limits
 /// @pre count >= 2
 [[nodiscard]] std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive,
                                                    std::size_t count,

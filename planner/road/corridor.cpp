@@ -4,9 +4,32 @@
 #include <utility>
 
 namespace hlc {
+namespace {
+
+/// Points closer than this are one point [m]; far below what a footprint could slip through.
+constexpr double kShortestSegment_m = 1e-6;
+/// A boundary piece also counts this far before and after the arc length that it projects to [m].
+constexpr double kPieceOverlap_m = 0.05;
+
+void append_pieces(std::vector<Corridor::Piece>& pieces, const Corridor::Bound& bound) {
+  for (std::size_t i = 0; i + 1 < bound.points_m.size(); ++i) {
+    const Segment segment{.from_m = bound.points_m[i], .to_m = bound.points_m[i + 1]};
+    if ((segment.to_m - segment.from_m).norm() <= kShortestSegment_m) continue;
+    pieces.push_back({.segment = segment,
+                      .from_s_m = bound.s_m[i] - kPieceOverlap_m,
+                      .to_s_m = bound.s_m[i + 1] + kPieceOverlap_m});
+  }
+}
+
+}  // namespace
 
 Corridor::Corridor(std::vector<Piece> pieces, double route_length_m)
     : pieces_(std::move(pieces)), route_length_m_(route_length_m) {}
+
+Corridor::Corridor(std::vector<Bound> bounds, double route_length_m, const Box& ground_m)
+    : bounds_(std::move(bounds)), route_length_m_(route_length_m), ground_m_(ground_m) {
+  for (const Bound& bound : bounds_) append_pieces(pieces_, bound);
+}
 
 std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const {
   std::vector<Segment> boundary;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "planner/geometry/polygon.hpp"
 
 namespace hlc {
+
+enum class Side { kLeft, kRight };
 
 /// The drivable area along a route as its boundary: straight pieces left and right of the route,
 /// each with the piece of the route's arc length that it belongs to. Where a neighbour lane begins
@@ -19,11 +22,27 @@ class Corridor {
     double to_s_m{};  ///< >= from_s_m
   };
 
+  /// One side of the area as a line along the route, and the arc length on the route's path that
+  /// each of its points belongs to, not descending. On a closed route the last point is the first
+  /// one again, a length later.
+  struct Bound {
+    Side side{};
+    std::vector<Point> points_m;
+    std::vector<double> s_m;
+  };
+
   Corridor() = default;  ///< no boundary: everything is drivable
   /// @param route_length_m  arc length after which s repeats; 0 for an open route
   Corridor(std::vector<Piece> pieces, double route_length_m);
+  /// The pieces are those of the bounds.
+  /// @param ground_m  the map: beyond it the area must not be widened (placement.hpp)
+  Corridor(std::vector<Bound> bounds, double route_length_m, const Box& ground_m);
 
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Empty for a corridor that was made of pieces.
+  [[nodiscard]] const std::vector<Bound>& bounds() const { return bounds_; }
+  [[nodiscard]] const Box& ground_m() const { return ground_m_; }
+  [[nodiscard]] double route_length_m() const { return route_length_m_; }
   /// The pieces that belong to s in [from_s_m, to_s_m] (wrapped on a closed route), each once, in
   /// the order of pieces(): only what lies along the way counts, a strand of the same route that
   /// passes close by does not. s is that of a point on the route: for a footprint, extend the
@@ -32,7 +51,9 @@ class Corridor {
 
  private:
   std::vector<Piece> pieces_;
+  std::vector<Bound> bounds_;
   double route_length_m_{};
+  Box ground_m_;
 };
 
 }  // namespace hlc

@@ -214,6 +214,22 @@ void write_adjacent(std::ostream& xml, const char* name,
 
 }  // namespace
 
+Box ground_m(const LaneletMap& map) {
+  constexpr double kBesideLanes_m = 0.03;
+  Box box;
+  for (const auto& [id, lanelet] : map.lanelets) {
+    for (const auto* bound : {&lanelet.left_m, &lanelet.right_m}) {
+      for (const Point& point : *bound) {
+        box.min_m = box.min_m.cwiseMin(point);
+        box.max_m = box.max_m.cwiseMax(point);
+      }
+    }
+  }
+  box.min_m.array() -= kBesideLanes_m;
+  box.max_m.array() += kBesideLanes_m;
+  return box;
+}
+
 std::vector<Point> centre_line_m(const Lanelet& lanelet) {
   std::vector<Point> points_m;
   points_m.reserve(lanelet.left_m.size());

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/geometry/pose.hpp"
+#include "planner/geometry/polygon.hpp"
 
 namespace hlc {
 
@@ -43,6 +43,10 @@ struct LaneletMap {
 
   friend bool operator==(const LaneletMap&, const LaneletMap&) = default;
 };
+
+/// The ground that vehicles may use: the box of all lanelets and 30 mm around it. For the lab's map
+/// that is its floor, 4.5 m x 4.0 m, to a millimetre.
+[[nodiscard]] Box ground_m(const LaneletMap& map);
 
 /// Reads the lanelets of a CommonRoad 2020a file. Everything else in it (intersections, signs,
 /// obstacles, ...) is skipped, so an id that a lanelet shares with another kind of element does no

@@ -10,8 +10,6 @@ namespace {
 
 /// Points closer than this are one point [m]; far below what a footprint could slip through.
 constexpr double kSamePoint_m = 1e-6;
-/// A boundary piece also counts this far before and after the arc length that it projects to [m].
-constexpr double kPieceOverlap_m = 0.05;
 
 std::string in_millimetres(double distance_m) {
   char text[32];
@@ -51,8 +49,6 @@ std::vector<Point> clean_centre_line(const Lanelet& lanelet) {
   }
   return points;
 }
-
-enum class Side { kLeft, kRight };
 
 bool same_place(const Point& a, const Point& b) { return (a - b).norm() <= kMaxJointGap_m; }
 
@@ -101,10 +97,8 @@ const std::vector<Point>& outer_bound(const LaneletMap& map, const Lanelet& lane
 }
 
 /// The boundary on one side of the route: the bounds of all lanelets, joined into one line.
-void append_boundary(std::vector<Corridor::Piece>& pieces, const LaneletMap& map,
-                     const Route& route, Side side) {
-  std::vector<Point> line;
-  std::vector<double> line_s;  // arc length of each point on the path, ascending
+Corridor::Bound bound_of(const LaneletMap& map, const Route& route, Side side) {
+  Corridor::Bound bound{.side = side, .points_m = {}, .s_m = {}};
   for (std::size_t i = 0; i < route.lanelets.size(); ++i) {
     double s = route.lanelet_s_m[i];
     for (const Point& point : outer_bound(map, find_lanelet(map, route.lanelets[i]), side)) {
@@ -113,21 +107,15 @@ void append_boundary(std::vector<Corridor::Piece>& pieces, const LaneletMap& map
       if (s < from - kSamePoint_m) {
         s += route.path.length_m();  // the end of a circuit projects to 0
       }
-      line.push_back(point);
-      line_s.push_back(s);
+      bound.points_m.push_back(point);
+      bound.s_m.push_back(s);
     }
   }
   if (route.path.is_closed()) {
-    line.push_back(line.front());
-    line_s.push_back(line_s.front() + route.path.length_m());
+    bound.points_m.push_back(bound.points_m.front());
+    bound.s_m.push_back(bound.s_m.front() + route.path.length_m());
   }
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    if ((line[i + 1] - line[i]).norm() > kSamePoint_m) {
-      pieces.push_back({.segment = {.from_m = line[i], .to_m = line[i + 1]},
-                        .from_s_m = line_s[i] - kPieceOverlap_m,
-                        .to_s_m = line_s[i + 1] + kPieceOverlap_m});
-    }
-  }
+  return bound;
 }
 
 }  // namespace
@@ -166,10 +154,8 @@ Route build_route(const LaneletMap& map, const std::vector<LaneletId>& lanelets,
   }
   route.lanelet_s_m.push_back(route.path.length_m());
 
-  std::vector<Corridor::Piece> pieces;
-  append_boundary(pieces, map, route, Side::kLeft);
-  append_boundary(pieces, map, route, Side::kRight);
-  route.corridor = Corridor(std::move(pieces), closed ? route.path.length_m() : 0.0);
+  route.corridor = Corridor({bound_of(map, route, Side::kLeft), bound_of(map, route, Side::kRight)},
+                            closed ? route.path.length_m() : 0.0, ground_m(map));
   return route;
 }
 

@@ -6,9 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/automaton/lab_check.hpp"
 #include "planner/automaton/yaml_reader.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
+#include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/starts.hpp"
 #include "planner/search/search_options.hpp"
@@ -17,6 +19,9 @@ namespace hlc {
 namespace {
 
 constexpr std::size_t kMaxCars = 20;
+/// A car may be started so far off its place, to see what becomes of it.
+constexpr double kMostBeside_m = 10.0;
+constexpr double kMostTurned_rad = std::numbers::pi;
 
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
   return (file.parent_path() / path).lexically_normal();
@@ -63,17 +68,26 @@ void read_vehicles(const YamlNode& node, const ScenarioChoices& choices, Scenari
   static_cast<void>(node.optional<std::string>("map", ""));
   const std::map<std::string, Route> routes =
       read_routes(node, read_lanelet_map(*scenario.map_file));
+  for (const auto& [name, route] : routes) {
+    scenario.routes.push_back({.name = name, .path = route.path, .corridor = route.corridor});
+  }
   for (const YamlNode& entry : node.list("vehicles")) {
     const VehicleId id = vehicle_id(entry);
     const auto route = routes.find(entry.required<std::string>("route"));
     if (route == routes.end()) entry.fail("route", "the name of an entry of `routes`");
     const double start_m =
         entry.required<double>("start_m", between(0.0, route->second.path.length_m()));
-    const Point position = route->second.path.at(start_m);
+    const double left_m =
+        entry.optional<double>("start_left_m", 0.0, between(-kMostBeside_m, kMostBeside_m));
+    const double turned_rad =
+        entry.optional<double>("start_turned_rad", 0.0, between(-kMostTurned_rad, kMostTurned_rad));
+    const double heading_rad = route->second.path.heading_rad_at(start_m);
+    const Point position = route->second.path.at(start_m) +
+                           left_m * Point(-std::sin(heading_rad), std::cos(heading_rad));
     scenario.vehicles.push_back(
         {.id = id,
          .name = entry.optional<std::string>("name", "vehicle " + std::to_string(id.value)),
-         .start = {position.x(), position.y(), route->second.path.heading_rad_at(start_m)},
+         .start = {position.x(), position.y(), wrap_angle(heading_rad + turned_rad)},
          .start_s_m = start_m,
          .path = route->second.path,
          .corridor = route->second.corridor});
@@ -109,6 +123,8 @@ void read_circle(const YamlNode& node, const ScenarioChoices& choices, Scenario&
          .start_s_m = 0.0,
          .path = ReferencePath({start, centre - offset}, false),
          .corridor = {}});
+    const ScenarioVehicle& car = scenario.vehicles.back();
+    scenario.routes.push_back({.name = car.name, .path = car.path, .corridor = car.corridor});
   }
 }
 
@@ -122,6 +138,18 @@ void check_standstill_is_near(const YamlNode& node, const Scenario& scenario) {
                   std::to_string(trim.index + 1) + " of subgraph " +
                   scenario.subgraph->spec().name + " to standstill");
   }
+}
+
+/// What the lab's vehicles can follow, if the scenario is for a lab.
+void read_lab_of(const YamlNode& node, const ScenarioChoices& choices, Scenario& scenario) {
+  if (!node.has("lab")) return;
+  scenario.lab_file = beside(choices.file, node.required<std::string>("lab"));
+  scenario.lab = read_lab(*scenario.lab_file, scenario.subgraph->automaton().step_s);
+  const std::string fault = lab_fault_of(*scenario.subgraph, *scenario.lab);
+  if (fault.empty()) return;
+  throw std::invalid_argument(scenario.automaton_file.string() + ": subgraph " +
+                              scenario.subgraph->spec().name + ", " + fault + " by " +
+                              scenario.lab_file->string());
 }
 
 void check_vehicles(const YamlNode& node, const Scenario& scenario) {
@@ -192,6 +220,7 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.search = read_search(node, choices, scenario.profile);
   scenario.subgraph = std::move(subgraph);
   check_standstill_is_near(node, scenario);
+  read_lab_of(node, choices, scenario);
   if (node.has("circle")) {
     read_circle(node, choices, scenario);
   } else {
@@ -223,6 +252,13 @@ Scenario read_scenario(const ScenarioChoices& choices,
   return read_with(node, choices, std::make_shared<Subgraph>(std::move(automaton), spec));
 }
 
+std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
+  std::vector<std::filesystem::path> files{scenario.file, scenario.automaton_file};
+  if (scenario.map_file) files.push_back(*scenario.map_file);
+  if (scenario.lab_file) files.push_back(*scenario.lab_file);
+  return files;
+}
+
 const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
   const auto found = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (found != scenario.vehicles.end()) return *found;
@@ -235,15 +271,20 @@ const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
 }
 
 std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id) {
-  const ScenarioVehicle& vehicle = vehicle_of(scenario, id);
+  std::vector<DrivableRoute> routes = scenario.routes;
+  const auto named = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
+  if (named != scenario.vehicles.end()) {
+    routes = {{.name = named->name, .path = named->path, .corridor = named->corridor}};
+  }
   return std::make_unique<Controller>(
       ControllerOptions{.vehicle = id,
                         .horizon_steps = scenario.horizon_steps,
                         .reference_speed_mps = scenario.reference_speed_mps,
                         .reference_rule = scenario.profile.reference_rule,
                         .settle_rule = scenario.profile.settle_rule,
-                        .search = scenario.search},
-      scenario.subgraph, vehicle.path, vehicle.corridor);
+                        .search = scenario.search,
+                        .lab = scenario.lab},
+      scenario.subgraph, std::move(routes));
 }
 
 Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle) {

@@ -9,6 +9,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/controller/controller.hpp"
 #include "planner/road/corridor.hpp"
+#include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
 #include "planner/scenario/profile.hpp"
 
@@ -19,7 +20,7 @@ struct ScenarioVehicle {
   VehicleId id;
   std::string name;
   Pose start;          ///< planned pose at the start, standing
-  double start_s_m{};  ///< its arc length on the path
+  double start_s_m{};  ///< arc length on the path at which it stands, or beside which
   ReferencePath path;  ///< closed: a lap can be driven
   Corridor corridor;
 };
@@ -30,6 +31,8 @@ struct Scenario {
   std::filesystem::path file;
   std::filesystem::path automaton_file;
   std::optional<std::filesystem::path> map_file;  ///< none: open ground without lanes
+  std::optional<std::filesystem::path> lab_file;  ///< none: nothing is said of what can be followed
+  std::optional<LabLimits> lab;
   std::size_t steps{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
@@ -37,6 +40,9 @@ struct Scenario {
   SearchOptions search;  ///< engine: the command line's, else the file's, else the profile's
   std::shared_ptr<const Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
+  /// For vehicles that the scenario does not name: its routes by name, or on a circle those of its
+  /// cars.
+  std::vector<DrivableRoute> routes;
 };
 
 /// What the command line chooses instead of the file.
@@ -53,7 +59,7 @@ struct ScenarioChoices {
 /// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
 /// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved);
 /// and checks that it can be driven: routes exist and close, start poses do not overlap, standstill
-/// is within the horizon.
+/// is within the horizon, and the lab's vehicles, if it names a lab, can follow the automaton.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is
 /// allowed
 [[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices);
@@ -63,10 +69,14 @@ struct ScenarioChoices {
                                      std::shared_ptr<const UniversalAutomaton> automaton,
                                      const std::vector<SubgraphSpec>& subgraphs);
 
+/// The files that a scenario was read from: its own, automaton, map, lab.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const Scenario& scenario);
+
 /// @throws std::invalid_argument if the scenario has no such vehicle
 [[nodiscard]] const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id);
 
-/// The controller of one vehicle of the scenario.
+/// The controller of one vehicle. One that the scenario names takes its own route; any other takes
+/// the route of the scenario that it fits best where it stands.
 [[nodiscard]] std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id);
 
 /// Yaw of the vehicle that stands at a planned pose (the lab's vehicles point a little aside of

@@ -39,6 +39,13 @@ double steering_for_curvature_rad(double curvature_per_m, const VehicleParameter
   return std::atan(curvature_per_m * vehicle.wheelbase_m / std::sqrt(1.0 - slip_sine * slip_sine));
 }
 
+TimedPoint timed_point(double time_s, const State& state, const VehicleParameters& vehicle) {
+  const double course = state.pose.heading_rad + slip_angle_rad(state.steering_rad, vehicle);
+  return {.time_s = time_s,
+          .position_m = state.pose.position_m(),
+          .velocity_mps = state.speed_mps * Eigen::Vector2d(std::cos(course), std::sin(course))};
+}
+
 StateVector derivative(const StateVector& x, const Input& u, const VehicleParameters& vehicle) {
   const double psi = x(2);
   const double v = x(3);

@@ -5,6 +5,7 @@
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/geometry/pose.hpp"
+#include "planner/geometry/timed_curve.hpp"
 
 namespace hlc {
 
@@ -44,6 +45,9 @@ struct VehicleLimits {
   double steering_max_rad{0.62};
   /// Friction circle: u_v^2 + a_lat^2 <= friction^2 (lateral_acceleration.hpp); absent: none.
   std::optional<double> friction_mps2{};
+  /// Largest curvature of the path that is driven, to either side (path_curvature.hpp); absent:
+  /// what the steering gives.
+  std::optional<double> curvature_max_per_m{};
 };
 
 using StateVector = Eigen::Matrix<double, 5, 1>;
@@ -62,6 +66,10 @@ using InputJacobian = Eigen::Matrix<double, 5, 2>;
 /// The steering with that curvature [rad]. @pre |curvature| l_r < 1
 [[nodiscard]] double steering_for_curvature_rad(double curvature_per_m,
                                                 const VehicleParameters& vehicle);
+
+/// A state as a point to follow: v in the direction of the course, heading + beta.
+[[nodiscard]] TimedPoint timed_point(double time_s, const State& state,
+                                     const VehicleParameters& vehicle);
 
 /// f(x, u) of the paper, Eq. 1.
 [[nodiscard]] StateVector derivative(const StateVector& x, const Input& u,

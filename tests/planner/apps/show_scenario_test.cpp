@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <sstream>
 
 #include "tests/support/program.hpp"
@@ -25,6 +26,22 @@ TEST(ShowScenario, DrawsTheScenarioWhereAskedTo) {
   text << std::ifstream(plot).rdbuf();
   EXPECT_TRUE(text.str().starts_with("<svg"));
   EXPECT_THAT(text.str(), HasSubstr(">vehicle 3: green<"));
+}
+
+TEST(ShowScenario, DoesNotDrawOverAFileThatTheScenarioNames) {
+  const TemporaryFolder folder;
+  const std::string shipped = HLC_SOURCE_DIR "/launch_scripts";
+  const std::string lab = (folder / "lab.yaml").string();
+  std::filesystem::copy_file(shipped + "/labs/cpm_lab.yaml", lab);
+  const std::string scenario = (folder / "own.yaml").string();
+  put(scenario, "name: own\nsteps: 10\nautomaton: " + shipped +
+                    "/automata/lab.yaml\nlab: lab.yaml\nsubgraph: B\ncircle: {cars: 2, "
+                    "radius_m: 1.5, centre_x_m: 2.25, centre_y_m: 2.0}\n");
+  EXPECT_THAT(run_program("show_scenario --scenario " + scenario).output,
+              HasSubstr("lab        " + lab));
+  const Outcome refused = run_program("show_scenario --scenario " + scenario + " --plot " + lab);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("--plot = "));
 }
 
 TEST(ShowScenario, DoesNotDrawOverItsInput) {

@@ -19,7 +19,7 @@ Plan driving_plan() {
       .continued({11}, {&edge(1, 9), &edge(9, 9), &edge(9, 10), &edge(10, 1)});
 }
 
-std::vector<TrajectorySample> sample(const Plan& plan, StepIndex step, double until_s = 1.0) {
+std::vector<TimedPoint> sample(const Plan& plan, StepIndex step, double until_s = 1.0) {
   return sample_trajectory(plan, step, kInterval_s, until_s, kStep_s, paper_automaton()->vehicle);
 }
 
@@ -35,7 +35,7 @@ TEST(Trajectory, TimesIncreaseFromOneIntervalBefore) {
 
 TEST(Trajectory, PassesThroughThePlannedPosesAndEndsStanding) {
   const Plan plan = driving_plan();
-  for (const TrajectorySample& one : sample(plan, {11})) {
+  for (const TimedPoint& one : sample(plan, {11})) {
     const double steps = one.time_s / kStep_s;
     if (one.time_s < 0.0 || std::abs(steps - std::round(steps)) > 1e-9) continue;
     const StepIndex step{11 + static_cast<std::uint64_t>(std::lround(steps))};
@@ -67,7 +67,7 @@ TEST(Trajectory, VelocitiesAreTheDerivativesOfThePositions) {
 TEST(Trajectory, AStandingPlanIsHeldAsLongAsAsked) {
   const auto samples = sample(Plan({10}, {1.0, 2.0, 0.5}, edge(1, 1)), {10}, 2.0);
   EXPECT_GE(samples.back().time_s, 2.0);
-  for (const TrajectorySample& one : samples) {
+  for (const TimedPoint& one : samples) {
     EXPECT_EQ(one.position_m, Point(1.0, 2.0));
     EXPECT_EQ(one.velocity_mps.norm(), 0.0);
   }

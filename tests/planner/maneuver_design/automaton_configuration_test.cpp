@@ -266,7 +266,7 @@ TEST(AutomatonConfiguration, RefusesWhatIsWrongNamingLineKeyValueAndRule) {
   EXPECT_EQ(
       message("steering_max_rad: 0.62", "steering_max_rad: 0.62\n  jerk: 1"),
       "FILE:8: limits.jerk = 1, unknown key, allowed keys acceleration_mps2, steering_rate_radps, "
-      "speed_min_mps, speed_max_mps, steering_max_rad, friction_mps2");
+      "speed_min_mps, speed_max_mps, steering_max_rad, friction_mps2, curvature_max_per_m");
   EXPECT_EQ(message("step_s: 0.2", "step_s: 0"),
             "FILE:11: step_s = 0, allowed a number > 0 and <= 100");
   EXPECT_EQ(message("step_s: 0.2\n", ""),

@@ -183,6 +183,7 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
       {"step_s: 0.2", "step_s: 0.2\nedges: all"},
       {"step_s: 0.2", "step_s: 0.2\nintervals: 21"},
       {"steering_max_rad: 0.62", "steering_max_rad: 0.62, friction_mps2: 90"},
+      {"steering_max_rad: 0.62", "steering_max_rad: 0.62, curvature_max_per_m: 900"},
       {"J1: 1,", "J1: 2,"},
       {"normalised: true", "normalised: false"},
       {"name: B", "name: C"},

@@ -10,21 +10,6 @@
 namespace hlc {
 namespace {
 
-/// g in the place of a cost, to check its gradient.
-class AsCost final : public RunningCost {
- public:
-  explicit AsCost(const PathConstraint& constraint) : constraint_(constraint) {}
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override {
-    return constraint_.value(x, u);
-  }
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override {
-    return constraint_.gradient(x, u);
-  }
-
- private:
-  const PathConstraint& constraint_;
-};
-
 TEST(FrictionCircle, IsZeroWhereTheAccelerationIsJustAllowed) {
   const VehicleParameters vehicle;
   const FrictionCircle circle(5.0, vehicle);
@@ -38,7 +23,7 @@ TEST(FrictionCircle, IsZeroWhereTheAccelerationIsJustAllowed) {
 }
 
 TEST(FrictionCircle, HasAnExactGradient) {
-  expect_exact_gradient(AsCost(FrictionCircle(10.0, VehicleParameters{})), 109);
+  expect_exact_gradient(FrictionCircle(10.0, VehicleParameters{}), 109);
 }
 
 }  // namespace

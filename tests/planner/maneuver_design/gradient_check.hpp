@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "planner/maneuver_design/path_constraint.hpp"
 #include "planner/maneuver_design/running_cost.hpp"
 
 namespace hlc {
@@ -33,6 +34,26 @@ inline void expect_exact_gradient(const RunningCost& cost, unsigned seed) {
     compare(gradient.input.x(), with(kStep, 0.0), with(-kStep, 0.0));
     compare(gradient.input.y(), with(0.0, kStep), with(0.0, -kStep));
   }
+}
+
+/// g in the place of a cost.
+class AsCost final : public RunningCost {
+ public:
+  explicit AsCost(const PathConstraint& constraint) : constraint_(constraint) {}
+  [[nodiscard]] double value(const StateVector& x, const Input& u) const override {
+    return constraint_.value(x, u);
+  }
+  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override {
+    return constraint_.gradient(x, u);
+  }
+
+ private:
+  const PathConstraint& constraint_;
+};
+
+/// The same for a g.
+inline void expect_exact_gradient(const PathConstraint& constraint, unsigned seed) {
+  expect_exact_gradient(AsCost(constraint), seed);
 }
 
 }  // namespace hlc

@@ -96,7 +96,7 @@ Course drive(const Scenario& scenario) {
   }
   const ReferencePath& path = scenario.vehicles.front().path;
   const Progress progress = progress_along(path, positions_m);
-  course.lap_s = lap_s(path, progress, times_s);
+  course.lap_s = lap_s(path, progress, times_s, kFirstStepDriven);
   for (const double distance_m : progress.distance_m) {
     course.mean_error_mm += 1e3 * distance_m / static_cast<double>(scenario.steps);
   }

@@ -118,6 +118,44 @@ TEST(Scenario, CarsOnACircleStandApartAndHeadForTheOppositePoint) {
   }
 }
 
+TEST_F(ScenarioErrors, AStartMayBeBesideThePathAndTurned) {
+  EXPECT_EQ(error_of("route: green, start_m: 1.5",
+                     "route: green, start_m: 1.5, start_left_m: 0.1, start_turned_rad: 0.3"),
+            "");
+  EXPECT_THAT(error_of("start_m: 1.5", "start_m: 1.5, start_left_m: 11"),
+              HasSubstr("start_left_m = 11, allowed"));
+  EXPECT_THAT(error_of("start_m: 1.5", "start_m: 1.5, start_turned_rad: 4"),
+              HasSubstr("start_turned_rad = 4, allowed"));
+}
+
+/// A controller that sees its vehicle standing there.
+std::unique_ptr<Controller> controller_at(const Scenario& scenario, VehicleId id,
+                                          const Pose& measured) {
+  std::unique_ptr<Controller> controller = make_controller(scenario, id);
+  static_cast<void>(controller->stand_by(
+      {.step = {1}, .active = {id}, .states = {{.vehicle = id, .pose = measured}}, .present = {}}));
+  return controller;
+}
+
+TEST(Scenario, AVehicleTakesItsOwnRouteAndOneThatIsNotNamedTheRouteThatItFits) {
+  const Scenario scenario = read_scenario({.file = kFolder + "scenarios/paper_three_cars.yaml"});
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    const Point beside = vehicle.path.at(5.0);
+    const Pose pose =
+        compose({beside.x(), beside.y(), vehicle.path.heading_rad_at(5.0)}, {0.0, 0.02, 0.1});
+    EXPECT_TRUE(controller_at(scenario, vehicle.id, pose)->fits_route());
+    const auto guest = controller_at(scenario, {17}, pose);
+    EXPECT_TRUE(guest->fits_route());
+    EXPECT_LE(misfit_m(*guest->placement()),
+              misfit_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
+    EXPECT_EQ(guest->routes().size(), 3U);
+  }
+  const Pose green = measured_start(scenario, scenario.vehicles[2]);
+  EXPECT_EQ(controller_at(scenario, {17}, green)->route().name, "green");
+  const auto red = controller_at(scenario, {1}, measured_start(scenario, scenario.vehicles[1]));
+  EXPECT_EQ(red->route().name, "red");
+}
+
 TEST(Scenario, CarsAreRefusedWhereVehiclesHaveNames) {
   const ScenarioChoices choices{.file = kFolder + "scenarios/paper_red_alone.yaml", .cars = 3};
   EXPECT_THROW(static_cast<void>(read_scenario(choices)), std::invalid_argument);

@@ -1,0 +1,46 @@
+#include "planner/automaton/lab_check.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace hlc {
+namespace {
+
+std::vector<TimedPoint> points_of(const Maneuver& maneuver, double interval_s,
+                                  const VehicleParameters& vehicle) {
+  const auto count = static_cast<int>(std::lround(maneuver.duration_s / interval_s));
+  std::vector<TimedPoint> points;
+  for (int i = 0; i <= count; ++i) {
+    const double time_s = static_cast<double>(i) * interval_s;
+    points.push_back(timed_point(time_s, state_at(maneuver, time_s, vehicle), vehicle));
+  }
+  return points;
+}
+
+std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
+
+}  // namespace
+
+std::string lab_fault_of(const Subgraph& subgraph, const LabLimits& limits) {
+  const UniversalAutomaton& automaton = subgraph.automaton();
+  // A trim explains its maneuvers: first the trims.
+  for (const bool own_steps : {true, false}) {
+    for (const TrimId trim : subgraph.starts()) {
+      for (const Edge& edge : subgraph.successors(trim)) {
+        const Maneuver& m = *edge.maneuver;
+        if ((m.from == m.to) != own_steps) continue;
+        const std::vector<TimedPoint> points =
+            points_of(m, limits.point_interval_s, automaton.vehicle);
+        const auto found = curve_fault(points, limits);
+        if (!found) continue;
+        const std::string who = own_steps ? "trim " + number_of(trim)
+                                          : "maneuver " + number_of(m.from) + " -> " +
+                                                number_of(m.to) + " (" + m.label + ")";
+        return who + ": " + to_text(*found, limits);
+      }
+    }
+  }
+  return "";
+}
+
+}  // namespace hlc

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "planner/coordination/plan.hpp"
+#include "planner/road/placement.hpp"
+#include "planner/search/planner.hpp"
+
+namespace hlc {
+
+/// Where a vehicle may drive that stands beside its lanes, or so askew in them that no plan which
+/// stays in them drives off, until it is in them.
+///
+/// No plan from beside the lanes stays in them, since not even its begin does. So the area is the
+/// route's corridor, widened (placement.hpp) from kJoiningBack_m behind the vehicle to
+/// kJoiningAhead_m before it, on each side by
+///
+///     max(0, how far the footprint reaches beyond that side now) + e,
+///
+/// with the smallest e of 0, 25, 50, 75 and 100 mm for which a plan exists that, without any other
+/// vehicle, drives off and ends with its footprint in the lanes. (Its front goes farther out while
+/// a vehicle that points outwards turns back.) If there is none for any e, the automaton cannot get
+/// from beside the lanes onto the route: the vehicle stays where it is. In its lanes it has the
+/// plain corridor then.
+///
+/// The area is fixed when the vehicle sets out, and is as hard a constraint as the corridor, so
+/// every plan in it can be driven to its end. It is given up for the plain corridor as soon as the
+/// plan in force lies in that from the next step on. It lies on the map; other vehicles count as
+/// ever.
+struct Joining {
+  bool is_possible{true};
+  std::optional<Corridor> area;  ///< none: the plain corridor
+};
+
+inline constexpr double kJoiningBack_m = 0.5;
+inline constexpr double kJoiningAhead_m = 0.8;
+
+/// @param start         standing; its `placement` on the route
+/// @param pose_problem  the search problem from there in a corridor, without other vehicles
+[[nodiscard]] Joining join(const DrivableRoute& route, const Placement& placement,
+                           const Pose& start,
+                           const std::function<HorizonProblem(const Corridor&)>& pose_problem,
+                           HorizonPlanner& planner);
+
+/// True if the plan's footprints from t(from) on cross none of the boundary's pieces.
+[[nodiscard]] bool keeps_to(const Plan& plan, StepIndex from, std::span<const Segment> boundary_m);
+
+}  // namespace hlc

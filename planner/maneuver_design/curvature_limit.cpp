@@ -1,0 +1,29 @@
+#include "planner/maneuver_design/curvature_limit.hpp"
+
+#include <sstream>
+
+#include "planner/vehicle/path_curvature.hpp"
+
+namespace hlc {
+
+double CurvatureLimit::value(const StateVector& x, const Input& u) const {
+  return factor() * course_rate(x, u, vehicle_).value_radps - turning_speed(x(3)).value_mps;
+}
+
+CostGradient CurvatureLimit::gradient(const StateVector& x, const Input& u) const {
+  const CourseRate rate = course_rate(x, u, vehicle_);
+  CostGradient gradient;
+  gradient.state(3) = factor() * rate.by_speed - turning_speed(x(3)).by_speed;
+  gradient.state(4) = factor() * rate.by_steering;
+  gradient.input.y() = factor() * rate.by_steering_rate;
+  return gradient;
+}
+
+std::string CurvatureLimit::name() const {
+  std::ostringstream text;
+  text << "curvature of " << curvature_max_per_m_ << " 1/m to the "
+       << (side_ == Side::kLeft ? "left" : "right");
+  return text.str();
+}
+
+}  // namespace hlc

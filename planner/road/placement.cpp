@@ -1,0 +1,150 @@
+#include "planner/road/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace hlc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A pose is compared with the path this far around its place.
+constexpr double kAround_m = 0.4;
+/// The distance of two points at which a footprint's outline is compared with the bounds.
+constexpr double kOutline_m = 0.01;
+constexpr double kFront_m = 0.1;
+
+Point along(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+
+/// Across the direction of travel, outwards on that side.
+Point outwards(double heading_rad, Side side) {
+  const Point direction = along(heading_rad);
+  const Point left(-direction.y(), direction.x());
+  return side == Side::kLeft ? left : Point(-left);
+}
+
+/// True if s + k * length lies in [from, to] for a whole number k (k = 0 on an open route).
+bool is_in_window(double s_m, double from_s_m, double to_s_m, double length_m) {
+  if (length_m <= 0.0) return s_m >= from_s_m && s_m <= to_s_m;
+  const double turns = std::ceil((from_s_m - s_m) / length_m);
+  return s_m + turns * length_m <= to_s_m;
+}
+
+/// Distance of the bound from the path at s, along the normal there; infinite if there is none.
+double bound_m(const Corridor& corridor, Side side, double s_m, const Point& origin_m,
+               double heading_rad) {
+  const Point direction = along(heading_rad);
+  const Point normal = outwards(heading_rad, side);
+  double nearest_m = kInfinity;
+  for (const Corridor::Bound& bound : corridor.bounds()) {
+    if (bound.side != side) continue;
+    for (std::size_t i = 0; i + 1 < bound.points_m.size(); ++i) {
+      const double middle_s_m = (bound.s_m[i] + bound.s_m[i + 1]) / 2.0;
+      const double reach_m = (bound.s_m[i + 1] - bound.s_m[i]) / 2.0 + kAround_m / 4.0;
+      if (!is_in_window(middle_s_m, s_m - reach_m, s_m + reach_m, corridor.route_length_m())) {
+        continue;
+      }
+      const Point from = bound.points_m[i] - origin_m;
+      const Point to = bound.points_m[i + 1] - origin_m;
+      const double a = direction.dot(from);
+      const double b = direction.dot(to);
+      if (a * b > 0.0 || a == b) continue;
+      const double t = a / (a - b);
+      const double across_m = normal.dot((1.0 - t) * from + t * to);
+      if (across_m > 0.0) nearest_m = std::min(nearest_m, across_m);
+    }
+  }
+  return nearest_m;
+}
+
+std::vector<Point> outline(const ConvexPolygon& area) {
+  std::vector<Point> points;
+  const auto& corners = area.vertices_m;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point edge = corners[(i + 1) % corners.size()] - corners[i];
+    const auto parts = static_cast<int>(std::ceil(edge.norm() / kOutline_m));
+    for (int k = 0; k < parts; ++k) points.emplace_back(corners[i] + edge * k / parts);
+  }
+  return points;
+}
+
+double beyond_m(const DrivableRoute& route, double s_m, Side side,
+                const std::vector<Point>& outline_m) {
+  double result = -kInfinity;
+  for (const Point& point : outline_m) {
+    const double at_s_m = route.path.project_within(point, s_m - kAround_m, s_m + kAround_m).s_m;
+    const Point origin_m = route.path.at(at_s_m);
+    const double heading_rad = route.path.heading_rad_at(at_s_m);
+    const double across_m = outwards(heading_rad, side).dot(point - origin_m);
+    result =
+        std::max(result, across_m - bound_m(route.corridor, side, at_s_m, origin_m, heading_rad));
+  }
+  return result;
+}
+
+/// Of every segment of the path the nearest point; the best of them all.
+Placement best_place(const ReferencePath& path, const Pose& pose) {
+  Placement best{.distance_m = kInfinity};
+  const std::vector<double>& joints = path.joints_s_m();
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const double heading_rad = path.heading_rad_at((joints[i] + joints[i + 1]) / 2.0);
+    const auto projection = path.project_within(pose.position_m(), joints[i], joints[i + 1]);
+    const Placement one{.s_m = projection.s_m,
+                        .distance_m = projection.distance_m,
+                        .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
+    if (misfit_m(one) < misfit_m(best)) best = one;
+  }
+  return best;
+}
+
+}  // namespace
+
+double Placement::beyond_m() const { return std::max(beyond_left_m, beyond_right_m); }
+
+double misfit_m(const Placement& placement) {
+  return placement.distance_m + kFront_m * std::abs(placement.turned_rad);
+}
+
+bool fits(const Placement& placement, const DrivableRoute& route) {
+  if (route.corridor.bounds().empty()) return true;
+  return placement.is_on_ground && placement.beyond_m() <= kFitsBeyond_m &&
+         std::abs(placement.turned_rad) <= kFitsTurned_rad;
+}
+
+Placement placement_on(const DrivableRoute& route, const Pose& pose, const Footprint& footprint) {
+  Placement placement = best_place(route.path, pose);
+  const ConvexPolygon area = footprint_area(footprint, pose);
+  const std::vector<Point> points_m = outline(area);
+  placement.beyond_left_m = beyond_m(route, placement.s_m, Side::kLeft, points_m);
+  placement.beyond_right_m = beyond_m(route, placement.s_m, Side::kRight, points_m);
+  if (!route.corridor.bounds().empty()) {
+    const Box box = bounding_box(area);
+    const Box& ground = route.corridor.ground_m();
+    placement.is_on_ground = (box.min_m.array() >= ground.min_m.array()).all() &&
+                             (box.max_m.array() <= ground.max_m.array()).all();
+  }
+  return placement;
+}
+
+Corridor widened(const DrivableRoute& route, const Widening& widening) {
+  const Corridor& corridor = route.corridor;
+  const Box& ground = corridor.ground_m();
+  std::vector<Corridor::Bound> bounds = corridor.bounds();
+  for (Corridor::Bound& bound : bounds) {
+    const double by_m = bound.side == Side::kLeft ? widening.left_m : widening.right_m;
+    for (std::size_t i = 0; i < bound.points_m.size(); ++i) {
+      if (!is_in_window(bound.s_m[i], widening.from_s_m, widening.to_s_m,
+                        corridor.route_length_m())) {
+        continue;
+      }
+      Point& point = bound.points_m[i];
+      const Point moved =
+          point + by_m * outwards(route.path.heading_rad_at(bound.s_m[i]), bound.side);
+      point = moved.cwiseMax(ground.min_m.cwiseMin(point)).cwiseMin(ground.max_m.cwiseMax(point));
+    }
+  }
+  return {std::move(bounds), corridor.route_length_m(), ground};
+}
+
+}  // namespace hlc

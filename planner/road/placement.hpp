@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+
+#include "planner/geometry/footprint.hpp"
+#include "planner/road/corridor.hpp"
+#include "planner/road/reference_path.hpp"
+
+namespace hlc {
+
+/// A route that a vehicle may take: what it follows and where it may drive.
+struct DrivableRoute {
+  std::string name;
+  ReferencePath path;
+  Corridor corridor;
+};
+
+/// Where and how a vehicle stands on a route.
+struct Placement {
+  double s_m{};         ///< arc length of its place on the path
+  double distance_m{};  ///< of its position to the path
+  double turned_rad{};  ///< its heading minus the path's there, in (-pi, pi]
+  /// How far its footprint reaches beyond the corridor on each side; negative: so much room is
+  /// left. Minus infinity where the corridor has no bounds.
+  double beyond_left_m{};
+  double beyond_right_m{};
+  bool is_on_ground{true};  ///< the whole footprint lies on the map
+
+  /// On the side where it reaches farthest.
+  [[nodiscard]] double beyond_m() const;
+};
+
+/// A placement fits if the footprint reaches at most kFitsBeyond_m beyond the drivable lanes and is
+/// on the map, and the heading differs from the lane's by at most kFitsTurned_rad. On open ground,
+/// which has no lanes, every pose fits.
+///
+/// 0.15 m is a lane's width, so that a car that stands between two routes fits the nearer one;
+/// 0.6 rad is what a car can correct within a lane's width or two.
+inline constexpr double kFitsBeyond_m = 0.15;
+inline constexpr double kFitsTurned_rad = 0.6;
+[[nodiscard]] bool fits(const Placement& placement, const DrivableRoute& route);
+
+/// The place on the route that suits the pose best: the one with the smallest
+///
+///     distance + 0.1 m * |turned|,
+///
+/// the mean of what position and front are off. Where two strands cross or run side by side in
+/// opposite directions it is the one that the vehicle points along.
+/// @param pose  the planner's (heading, not yaw)
+[[nodiscard]] Placement placement_on(const DrivableRoute& route, const Pose& pose,
+                                     const Footprint& footprint);
+
+/// The measure by which places are compared, above [m].
+[[nodiscard]] double misfit_m(const Placement& placement);
+
+/// By how much the drivable area is widened on each side, and where.
+struct Widening {
+  double from_s_m{};
+  double to_s_m{};  ///< >= from_s_m; both meant modulo the length of a closed route
+  double left_m{};
+  double right_m{};
+};
+
+/// The route's corridor with every point of its bounds that belongs to s in [from, to] moved
+/// outwards, across the path's direction at its s, by the side's width, but not beyond the ground:
+/// an area that holds the corridor, is closed like it and lies on the map where that does.
+[[nodiscard]] Corridor widened(const DrivableRoute& route, const Widening& widening);
+
+}  // namespace hlc

@@ -1,0 +1,138 @@
+#include "planner/vehicle/lab_limits.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <sstream>
+
+namespace hlc {
+namespace {
+
+constexpr int kParts = 10;
+
+// All comparisons are written so that a NaN is a fault.
+
+std::optional<FoundFault> segment_fault(const TimedPoint& a, const TimedPoint& b,
+                                        const LabLimits& limits) {
+  const double duration_s = b.time_s - a.time_s;
+  const Eigen::Vector2d mismatch =
+      (b.position_m - a.position_m) / duration_s - 0.5 * (a.velocity_mps + b.velocity_mps);
+  if (!(mismatch.norm() <= limits.velocity_mismatch_max_mps)) {
+    return FoundFault{TrajectoryFault::kMismatch, a.time_s, mismatch.norm()};
+  }
+  for (int i = 0; i <= kParts; ++i) {
+    const double share = static_cast<double>(i) / kParts;
+    const CurveSample at = interpolated(a, b, duration_s, share);
+    const double time_s = a.time_s + share * duration_s;
+    if (!(at.acceleration_mps2.norm() <= limits.acceleration_max_mps2)) {
+      return FoundFault{TrajectoryFault::kAcceleration, time_s, at.acceleration_mps2.norm()};
+    }
+    if (at.velocity_mps.norm() <= kMinSpeedForCurvature_mps) continue;
+    const double curvature_per_m = at.curvature_per_m();
+    if (!(limits.curvature_min_per_m <= curvature_per_m &&
+          curvature_per_m <= limits.curvature_max_per_m)) {
+      return FoundFault{TrajectoryFault::kCurvature, time_s, curvature_per_m};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<FoundFault> outside(const Point& position_m, double time_s, const LabLimits& limits) {
+  const auto is_within = [](double value, double min, double max) {
+    return min <= value && value <= max;
+  };
+  if (!is_within(position_m.x(), limits.x_min_m, limits.x_max_m)) {
+    return FoundFault{TrajectoryFault::kOutside, time_s, position_m.x()};
+  }
+  if (!is_within(position_m.y(), limits.y_min_m, limits.y_max_m)) {
+    return FoundFault{TrajectoryFault::kOutside, time_s, position_m.y()};
+  }
+  return std::nullopt;
+}
+
+/// Of the points and of the curve between them.
+std::optional<FoundFault> area_fault(std::span<const TimedPoint> points, const LabLimits& limits) {
+  if (const auto found = outside(points.front().position_m, points.front().time_s, limits)) {
+    return found;
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const TimedPoint& a = points[i - 1];
+    const double duration_s = points[i].time_s - a.time_s;
+    for (int part = 1; part <= kParts; ++part) {
+      const double share = static_cast<double>(part) / kParts;
+      const CurveSample at = interpolated(a, points[i], duration_s, share);
+      if (const auto found = outside(at.position_m, a.time_s + share * duration_s, limits)) {
+        return found;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<FoundFault> curve_fault(std::span<const TimedPoint> points, const LabLimits& limits) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (const auto found = segment_fault(points[i - 1], points[i], limits)) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<FoundFault> trajectory_fault(std::span<const TimedPoint> points,
+                                           const std::optional<LabLimits>& limits) {
+  assert(!points.empty());
+  const auto is_finite = [](const TimedPoint& point) {
+    return std::isfinite(point.time_s) && point.position_m.allFinite() &&
+           point.velocity_mps.allFinite();
+  };
+  for (const TimedPoint& point : points) {
+    if (!is_finite(point)) return FoundFault{TrajectoryFault::kNotFinite, point.time_s, 0.0};
+  }
+  const auto is_not_later = [](const TimedPoint& a, const TimedPoint& b) {
+    return b.time_s <= a.time_s;
+  };
+  if (const auto at = std::ranges::adjacent_find(points, is_not_later); at != points.end()) {
+    return FoundFault{TrajectoryFault::kTimesNotIncreasing, at->time_s, 0.0};
+  }
+  if (points.back().velocity_mps != Eigen::Vector2d::Zero()) {
+    return FoundFault{TrajectoryFault::kNotStanding, points.back().time_s,
+                      points.back().velocity_mps.norm()};
+  }
+  if (!limits) return std::nullopt;
+  if (const auto found = area_fault(points, *limits)) return found;
+  return curve_fault(points, *limits);
+}
+
+std::string to_text(const FoundFault& found, const LabLimits& limits) {
+  std::ostringstream text;
+  switch (found.fault) {
+    case TrajectoryFault::kNotFinite:
+      text << "a coordinate, velocity or time is not a finite number";
+      break;
+    case TrajectoryFault::kTimesNotIncreasing:
+      text << "times of the points do not increase strictly";
+      break;
+    case TrajectoryFault::kNotStanding:
+      text << "speed at the end = " << found.value << " m/s, allowed 0";
+      break;
+    case TrajectoryFault::kOutside:
+      text << "coordinate = " << found.value << " m, allowed " << limits.x_min_m << " ... "
+           << limits.x_max_m << " in x, " << limits.y_min_m << " ... " << limits.y_max_m << " in y";
+      break;
+    case TrajectoryFault::kMismatch:
+      text << "velocity by positions and by velocities differ by " << found.value
+           << " m/s, allowed " << limits.velocity_mismatch_max_mps;
+      break;
+    case TrajectoryFault::kAcceleration:
+      text << "acceleration = " << found.value << " m/s^2, allowed "
+           << limits.acceleration_max_mps2;
+      break;
+    case TrajectoryFault::kCurvature:
+      text << "curvature = " << found.value << " 1/m, allowed " << limits.curvature_min_per_m
+           << " ... " << limits.curvature_max_per_m;
+      break;
+  }
+  return text.str();
+}
+
+}  // namespace hlc
