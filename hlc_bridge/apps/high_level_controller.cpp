@@ -36,8 +36,8 @@ struct Flags {
   hlc::ScenarioChoices scenario;
 };
 
-/// What is driven if nobody says what.
-constexpr const char* kDefaultScenario = "paper_three_cars";
+/// What is driven if nobody says what, as the lab control centre does not.
+constexpr const char* kDefaultScenario = "lab_three_cars";
 
 /// A file as it is; a name means scenarios/<name>.yaml beside the program, where installing puts
 /// them.
@@ -84,15 +84,6 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "
       "died.");
-}
-
-void check_ids(std::vector<int> ids) {
-  std::ranges::sort(ids);
-  const auto twice = std::ranges::adjacent_find(ids);
-  if (twice != ids.end()) {
-    throw std::invalid_argument("--vehicle_ids: " + std::to_string(*twice) +
-                                " twice, allowed every id once");
-  }
 }
 
 hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
@@ -145,7 +136,7 @@ int main(int argc, char** argv) {
   const std::string program = "high_level_controller";
   std::optional<hlc::Scenario> scenario;
   const int code = hlc::exit_code_of(program.c_str(), [&] {
-    check_ids(flags.vehicle_ids);
+    hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
     flags.scenario.file = scenario_file(flags.scenario.file);
     scenario = hlc::read_scenario(flags.scenario);
   });

@@ -42,21 +42,22 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->check(CLI::Range(20, 10000));
   app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
-  app.add_option("--on_death", flags.on_death, "stop: drive out the plans, then end the run")
+  app.add_option(
+         "--on_death", flags.on_death,
+         "stop: drive out the plans, then end the run; continue (real time): go on, and who "
+         "died may be started again")
       ->capture_default_str()
-      ->check(CLI::IsMember({"stop"}));
+      ->check(CLI::IsMember({"stop", "continue"}));
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 somebody died during the run, "
-      "130 interrupted.");
+      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 somebody died during the run "
+      "(--on_death continue: and was not back at its end), 130 interrupted.");
 }
 
 hlc::LabControlOptions process_options(const Flags& flags) {
   hlc::LabControlOptions options;
+  hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
   std::vector<int> ids = flags.vehicle_ids;
-  std::sort(ids.begin(), ids.end());
-  if (std::adjacent_find(ids.begin(), ids.end()) != ids.end()) {
-    throw std::invalid_argument("--vehicle_ids: each id once, allowed 1 ... 30");
-  }
+  std::ranges::sort(ids);
   for (const int id : ids) {
     options.run.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
   }
@@ -64,6 +65,15 @@ hlc::LabControlOptions process_options(const Flags& flags) {
   options.run.steps = flags.steps;
   options.run.startup_timeout =
       static_cast<hlc::Nanoseconds>(flags.network.startup_timeout_s) * hlc::kNanosecondsPerSecond;
+  if (flags.on_death == "continue") {
+    if (flags.network.simulated_time) {
+      throw std::invalid_argument(
+          "--on_death = continue with --simulated_time = true, allowed stop: logical time waits "
+          "for "
+          "everybody");
+    }
+    options.run.on_death = hlc::OnDeath::kContinue;
+  }
   options.transport = hlc::transport_from_name(flags.network.transport);
   options.lab_domain = flags.network.dds_domain;
   hlc::check_domain_id("--dds_domain", options.lab_domain);

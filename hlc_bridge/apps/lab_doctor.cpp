@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
   std::atomic<bool> stop{false};
   bool is_good = true;
   const int code = hlc::exit_code_of("lab_doctor", [&] {
+    hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
     const hlc::ListenOptions options = listen_options(flags);
     std::vector<hlc::Finding> findings{{hlc::Verdict::kGood,
                                         "this program: revision " + hlc::program_revision() +

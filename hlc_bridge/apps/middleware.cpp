@@ -1,4 +1,4 @@
-// The middleware of one vehicle's controller. Flags as in the lab.
+// The middleware of one vehicle's controller, or of several. Flags as in the lab.
 #include "hlc_bridge/middleware/middleware_process.hpp"
 
 #include <spdlog/spdlog.h>
@@ -16,6 +16,7 @@ struct Flags {
   hlc::NetworkFlags network;
   std::string node_id;
   std::vector<int> vehicle_ids;
+  bool keep_running{false};
   int middleware_domain{1};
   hlc::Nanoseconds offset_nanoseconds{hlc::kListOffset};
   bool wait_for_start{false};
@@ -25,10 +26,10 @@ void declare(CLI::App& app, Flags& flags) {
   flags.network.declare(app);
   app.add_option("--node_id", flags.node_id,
                  "name in the log and of the timer in logical time; default: middleware_<id>");
-  app.add_option("--vehicle_ids", flags.vehicle_ids, "the controller's vehicle (one id)")
+  app.add_option("--vehicle_ids,--vehicle_id", flags.vehicle_ids,
+                 "the controllers' vehicles, such as 1,2 (under our lab_control: one)")
       ->delimiter(',')
       ->required()
-      ->expected(1)
       ->check(hlc::vehicle_id_range());
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
@@ -38,14 +39,20 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--wait_for_start", flags.wait_for_start,
                  "only false: lists come from the first period on")
       ->capture_default_str();
+  app.add_flag("--keep_running", flags.keep_running,
+               "wait for the next experiment after a stop (real time)");
   app.footer("Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died.");
 }
 
 hlc::MiddlewareOptions process_options(const Flags& flags) {
   hlc::MiddlewareOptions options;
-  options.vehicle_id = static_cast<std::uint8_t>(flags.vehicle_ids.front());
+  hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
+  for (const int id : flags.vehicle_ids) {
+    options.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
+  }
   options.node_id =
-      flags.node_id.empty() ? hlc::middleware_name(options.vehicle_id) : flags.node_id;
+      flags.node_id.empty() ? hlc::middleware_name(options.vehicle_ids.front()) : flags.node_id;
+  options.keep_running = flags.keep_running;
   options.transport = hlc::transport_from_name(flags.network.transport);
   options.lab_domain = flags.network.dds_domain;
   options.local_domain = flags.middleware_domain;
@@ -60,6 +67,9 @@ hlc::MiddlewareOptions process_options(const Flags& flags) {
   options.startup_timeout = flags.network.startup_timeout();
   if (flags.wait_for_start) {
     throw std::invalid_argument("--wait_for_start = true, allowed false");
+  }
+  if (options.logical_time && options.keep_running) {
+    throw std::invalid_argument("--keep_running needs --simulated_time=false");
   }
   if (options.logical_time && options.offset != hlc::kListOffset) {
     throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +

@@ -67,11 +67,7 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
   hlc::write_file(run / "steps.csv", hlc::steps_csv(rows));
   hlc::write_file(run / "timing.csv", hlc::timing_csv(rows));
   hlc::write_file(run / "summary.json", hlc::summary_json(summary));
-  std::vector<std::filesystem::path> files{scenario.file, scenario.automaton_file};
-  if (scenario.map_file) {
-    files.push_back(*scenario.map_file);
-  }
-  hlc::keep_configuration(run, files);
+  hlc::keep_configuration(run, hlc::files_of(scenario));
   std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
   if (is_well_driven(summary)) return hlc::kExitGood;
   std::cerr << "summarize: a vehicle left its plan or touched another one\n";

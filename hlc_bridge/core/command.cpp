@@ -2,26 +2,24 @@
 
 #include <cmath>
 
-#include "planner/controller/trajectory.hpp"
-
 namespace hlc {
 namespace {
 
-constexpr double kPointInterval_s = 0.05;
 /// The copy is usable until kCopyDelay + kCommandLifetime, and the vehicle looks 360 ms ahead.
 constexpr double kReach_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime) + 0.45;
 
 }  // namespace
 
 TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step, Nanoseconds t_now,
-                             Nanoseconds period, const VehicleParameters& parameters) {
+                             Nanoseconds period, const VehicleParameters& parameters,
+                             double interval_s) {
   TrajectoryCommand command{
       .vehicle_id = vehicle.value, .create_stamp = t_now, .valid_after_stamp = t_now};
   if (plan == nullptr) return command;
   const auto step_start = static_cast<std::int64_t>(step.value * period);
   const double step_s = 1e-9 * static_cast<double>(period);
-  for (const TrajectorySample& sample :
-       sample_trajectory(*plan, step, kPointInterval_s, kReach_s, step_s, parameters)) {
+  for (const TimedPoint& sample :
+       sample_trajectory(*plan, step, interval_s, kReach_s, step_s, parameters)) {
     const std::int64_t t = step_start + std::llround(1e9 * sample.time_s);
     if (t < 0) continue;  // logical time starts at 0
     command.points.push_back({.t = static_cast<Nanoseconds>(t),

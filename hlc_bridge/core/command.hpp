@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "hlc_bridge/core/messages.hpp"
+#include "planner/controller/trajectory.hpp"
 #include "planner/coordination/plan.hpp"
 
 namespace hlc {
@@ -12,12 +13,13 @@ namespace hlc {
 inline constexpr Nanoseconds kCopyDelay = 800'000'000;
 
 /// The plan as the lab's timed trajectory command, in answer to the state list of `t_now` and valid
-/// at once: points every 50 ms from one before t(step), standing at the end, long enough for the
-/// vehicle's look-ahead of 360 ms as long as the copy is usable. Without a plan: no points, which
-/// no vehicle follows.
+/// at once: points every `interval_s` (which divides the period) from one before t(step), standing
+/// at the end, long enough for the vehicle's look-ahead as long as the copy is usable. Without a
+/// plan: no points, which no vehicle follows.
 [[nodiscard]] TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step,
                                            Nanoseconds t_now, Nanoseconds period,
-                                           const VehicleParameters& parameters);
+                                           const VehicleParameters& parameters,
+                                           double interval_s = kPointInterval_s);
 
 /// The same command again, usable after the first has expired: same create_stamp, valid_after later
 /// by kCopyDelay.

@@ -45,27 +45,35 @@ const char* to_string(CommandFault fault) {
   return "?";
 }
 
+CommandVerdict check_header(std::uint8_t vehicle_id, Nanoseconds create_stamp, Nanoseconds t_now,
+                            Nanoseconds newest_list, std::span<const std::uint8_t> vehicle_ids) {
+  CommandVerdict verdict;
+  if (std::find(vehicle_ids.begin(), vehicle_ids.end(), vehicle_id) == vehicle_ids.end()) {
+    verdict.forward = false;
+    verdict.faults.push_back(CommandFault::kNotAssigned);
+  }
+  if (create_stamp > t_now) {
+    verdict.faults.push_back(CommandFault::kFromTheFuture);
+  }
+  if (create_stamp < newest_list) {
+    verdict.faults.push_back(CommandFault::kMissedPeriod);
+  }
+  return verdict;
+}
+
 CommandVerdict check_command(const TrajectoryCommand& command, Nanoseconds t_now,
                              Nanoseconds newest_list, std::span<const std::uint8_t> vehicle_ids) {
-  CommandVerdict verdict;
+  CommandVerdict verdict =
+      check_header(command.vehicle_id, command.create_stamp, t_now, newest_list, vehicle_ids);
   const auto keep_back = [&](CommandFault fault) {
     verdict.forward = false;
     verdict.faults.push_back(fault);
   };
-  if (std::find(vehicle_ids.begin(), vehicle_ids.end(), command.vehicle_id) == vehicle_ids.end()) {
-    keep_back(CommandFault::kNotAssigned);
-  }
   if (!all_finite(command)) {
     keep_back(CommandFault::kNotFinite);
   }
   if (!times_increase(command)) {
     keep_back(CommandFault::kTimesNotIncreasing);
-  }
-  if (command.create_stamp > t_now) {
-    verdict.faults.push_back(CommandFault::kFromTheFuture);
-  }
-  if (command.create_stamp < newest_list) {
-    verdict.faults.push_back(CommandFault::kMissedPeriod);
   }
   if (command.points.empty()) {
     return verdict;

@@ -28,9 +28,15 @@ struct CommandVerdict {
   std::vector<CommandFault> faults;  ///< empty for a command without fault
 };
 
+/// Of any command: to whom, and when.
 /// @param t_now       the clock when the command arrived
 /// @param newest_list t_now of the last list that was written
 /// @param vehicle_ids the vehicles that the middleware is responsible for
+[[nodiscard]] CommandVerdict check_header(std::uint8_t vehicle_id, Nanoseconds create_stamp,
+                                          Nanoseconds t_now, Nanoseconds newest_list,
+                                          std::span<const std::uint8_t> vehicle_ids);
+
+/// The same and the trajectory.
 [[nodiscard]] CommandVerdict check_command(const TrajectoryCommand& command, Nanoseconds t_now,
                                            Nanoseconds newest_list,
                                            std::span<const std::uint8_t> vehicle_ids);

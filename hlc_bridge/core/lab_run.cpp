@@ -102,6 +102,7 @@ LabRunActions LabRun::advance(Nanoseconds now) {
   if (phase_ == Phase::kGathering || finished()) {
     return actions;
   }
+  notice_returns(actions);
   notice_deaths(actions);
   leave_running_phases(actions);
   if (phase_ == Phase::kBraking && clock() >= phase_end()) {
@@ -147,6 +148,28 @@ std::vector<std::string> LabRun::unreached_timers() const {
   return names;
 }
 
+bool LabRun::is_back(const std::string& process) const {
+  if (alive_.count(process) == 0 || lost_.count(process) != 0) return false;
+  for (const std::uint8_t id : settings_.vehicle_ids) {
+    if (process == controller_name(id)) return last_heard(id) > died_at_.at(process);
+  }
+  return true;
+}
+
+void LabRun::notice_returns(LabRunActions& actions) {
+  if (settings_.on_death != OnDeath::kContinue || phase_ != Phase::kRunning) {
+    return;
+  }
+  const std::set<std::string> gone = dropped_;
+  for (const std::string& process : gone) {
+    if (is_back(process)) {
+      dropped_.erase(process);
+      welcome(process);
+      actions.returns.push_back(process);
+    }
+  }
+}
+
 void LabRun::notice_deaths(LabRunActions& actions) {
   for (const std::string& process : processes_) {
     if (lost_.count(process) != 0) {
@@ -176,6 +199,10 @@ void LabRun::bury(const std::string& process, const std::string& sign, LabRunAct
   }
   actions.deaths.push_back({process, sign});
   record_death({process, sign});
+  died_at_[process] = now_;
+  if (settings_.on_death == OnDeath::kContinue) {
+    return;
+  }
   fail(kExitDied, "");
   if (phase_ == Phase::kRunning) {
     phase_ = Phase::kDriveOut;
@@ -205,6 +232,12 @@ void LabRun::leave_running_phases(LabRunActions& actions) {
   } else if (clock() >= phase_end()) {
     if (phase_ == Phase::kRunning && !result_.first_step) {
       fail(kExitMissing, standby_line());
+    }
+    if (phase_ == Phase::kRunning && driving_.size() < settings_.vehicle_ids.size()) {
+      fail(kExitMissing, "still on standby at the end: " + join(on_standby()) + "; see its log");
+    }
+    if (settings_.on_death == OnDeath::kContinue && !dropped_.empty()) {
+      fail(kExitDied, "died and not back: " + join({dropped_.begin(), dropped_.end()}));
     }
     stop(actions);
   }
@@ -299,6 +332,14 @@ std::string LabRun::waiting_for() const {
     line += (absent.empty() ? "" : "; ") + ("not ready: " + join(waiting));
   }
   return line;
+}
+
+std::vector<std::string> LabRun::on_standby() const {
+  std::vector<std::string> names;
+  for (const std::uint8_t id : settings_.vehicle_ids) {
+    if (!has_left_standby(id)) names.push_back(controller_name(id));
+  }
+  return names;
 }
 
 std::string LabRun::standby_line() const {

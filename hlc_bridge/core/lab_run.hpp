@@ -14,11 +14,18 @@
 
 namespace hlc {
 
+/// What becomes of a run in which a process dies.
+enum class OnDeath : std::uint8_t {
+  kStop,      ///< the others drive out their plans, and the run ends
+  kContinue,  ///< it goes on, and who died may come back (real time only)
+};
+
 struct LabRunSettings {
   std::vector<std::uint8_t> vehicle_ids;
   Nanoseconds period{200'000'000};
   std::uint64_t steps{150};
   Nanoseconds startup_timeout{20 * kNanosecondsPerSecond};
+  OnDeath on_death{OnDeath::kStop};
 };
 
 /// After a death the others drive out their plans for this long before the stop symbol.
@@ -37,6 +44,7 @@ inline constexpr Nanoseconds kInterruptTime = 700'000'000;
 /// What the lab control has to do now, in this order.
 struct LabRunActions {
   std::vector<Death> deaths;          ///< to be told: log, operator
+  std::vector<std::string> returns;   ///< who died and is back; to be told, too
   std::optional<RunPhase> run_state;  ///< to be published
   std::vector<Nanoseconds> triggers;  ///< SystemTriggers to be sent, in this order
 };
@@ -60,10 +68,15 @@ struct LabRunResult {
 ///         │                       ├──somebody died──► drive out ──3 s──► braking ──► finished (4)
 ///         └──timeout──► finished (3)    nobody leaves standby for 10 s ► braking ──► finished (3)
 ///
+/// With OnDeath::kContinue a death is recorded, and the run goes on. Who died is back when it is
+/// there again, a controller when it reports again; a run in whose end somebody is not back has
+/// failed (4).
+///
 /// Step k0 is the first that a controller reports as not standby. The run goes on one period after
 /// the last of its `steps` steps has ended, so that the pose which that step led to is recorded
-/// too. An interruption or a controller's stop request leads from anywhere to braking. How time
-/// goes on is said by the two kinds of run, LogicalRun and RealTimeRun.
+/// too; a run in whose end a controller has never left standby has failed (3). An interruption or a
+/// controller's stop request leads from anywhere to braking. How time goes on is said by the two
+/// kinds of run, LogicalRun and RealTimeRun.
 class LabRun {
  public:
   enum class Phase : std::uint8_t { kGathering, kRunning, kDriveOut, kBraking, kFinished };
@@ -122,6 +135,8 @@ class LabRun {
   [[nodiscard]] virtual std::vector<std::string> owing() const { return {}; }
   /// The process is gone. Before the beginning it may come back and starts anew then.
   virtual void drop(const std::string& /*process*/) {}
+  /// The process, dropped before, is back.
+  virtual void welcome(const std::string& /*process*/) {}
   /// Wall time at which clock() itself reaches `t`; kNever if that takes an answer.
   [[nodiscard]] virtual Nanoseconds wall_time_of(Nanoseconds /*t*/) const { return kNever; }
 
@@ -142,11 +157,14 @@ class LabRun {
   void gather(LabRunActions& actions);
   [[nodiscard]] std::vector<std::string> unreached_timers() const;
   void notice_deaths(LabRunActions& actions);
+  void notice_returns(LabRunActions& actions);
+  [[nodiscard]] bool is_back(const std::string& process) const;
   void bury(const std::string& process, const std::string& sign, LabRunActions& actions);
   void record_death(const Death& death);
   void leave_running_phases(LabRunActions& actions);
   void stop(LabRunActions& actions);
   void fail(int exit_code, const std::string& reason);
+  [[nodiscard]] std::vector<std::string> on_standby() const;
   [[nodiscard]] std::string standby_line() const;
   /// Time of the run at which the present phase ends; kNever if an answer decides.
   [[nodiscard]] Nanoseconds phase_end() const;
@@ -158,6 +176,7 @@ class LabRun {
   std::set<std::string> alive_;
   std::set<std::string> lost_;
   std::set<std::string> dropped_;
+  std::map<std::string, Nanoseconds> died_at_;          ///< wall
   std::map<std::uint8_t, std::uint64_t> last_reports_;  ///< step, by vehicle
   std::map<std::uint8_t, Nanoseconds> last_heard_;      ///< wall, by vehicle
   std::set<std::uint8_t> just_heard_;                   ///< reported since the last advance

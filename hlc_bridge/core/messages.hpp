@@ -73,6 +73,36 @@ struct TrajectoryCommand {
   std::vector<TrajectoryPoint> points;
 };
 
+struct PathPoint {
+  Pose pose;
+  double s_m{};  ///< arc length from the path's begin
+};
+
+/// A path, closed if it ends where it begins, and how fast to drive it.
+struct PathTrackingCommand {
+  std::uint8_t vehicle_id{};
+  Nanoseconds create_stamp{};
+  Nanoseconds valid_after_stamp{};
+  std::vector<PathPoint> path;
+  double speed_mps{};
+};
+
+struct SpeedCurvatureCommand {
+  std::uint8_t vehicle_id{};
+  Nanoseconds create_stamp{};
+  Nanoseconds valid_after_stamp{};
+  double speed_mps{};
+  double curvature_per_m{};  ///< positive to the left
+};
+
+struct DirectCommand {
+  std::uint8_t vehicle_id{};
+  Nanoseconds create_stamp{};
+  Nanoseconds valid_after_stamp{};
+  double motor_throttle{};  ///< in [-1, 1]
+  double steering_servo{};  ///< in [-1, 1], positive to the left
+};
+
 struct ReadyStatus {
   std::string source_id;
   Nanoseconds next_start{};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "hlc_bridge/core/messages.hpp"
@@ -27,9 +29,17 @@ inline constexpr const char* kLabControlName = "lab_control";
   return "hlc_" + std::to_string(vehicle_id);
 }
 
-/// source_id with which a middleware tells the lab control that its controller is ready.
+/// source_id with which a middleware tells the lab control that its controllers are ready.
+[[nodiscard]] inline std::string middleware_ready_id(std::span<const std::uint8_t> vehicle_ids) {
+  std::string ids;
+  for (const std::uint8_t id : vehicle_ids) {
+    ids += (ids.empty() ? "" : ", ") + std::to_string(id);
+  }
+  return "MW for muCars " + ids + " ready.";
+}
+
 [[nodiscard]] inline std::string middleware_ready_id(std::uint8_t vehicle_id) {
-  return "MW for muCars " + std::to_string(vehicle_id) + " ready.";
+  return middleware_ready_id(std::span{&vehicle_id, 1});
 }
 
 }  // namespace hlc

@@ -54,6 +54,14 @@ void RealTimeRun::drop(const std::string& process) {
   }
 }
 
+void RealTimeRun::welcome(const std::string& process) {
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    if (process == controller_name(id)) {
+      silenced_.erase(id);
+    }
+  }
+}
+
 Nanoseconds RealTimeRun::report_due(std::uint8_t vehicle_id) const {
   if (!start_ || silenced_.count(vehicle_id) != 0) {
     return kNever;

@@ -33,6 +33,7 @@ class RealTimeRun : public LabRun {
   void go_on(LabRunActions& actions) override;
   [[nodiscard]] Nanoseconds clock() const override { return now(); }
   void drop(const std::string& process) override;
+  void welcome(const std::string& process) override;
   [[nodiscard]] std::vector<Death> overdue() const override;
   [[nodiscard]] Nanoseconds next_overdue() const override;
   [[nodiscard]] Nanoseconds wall_time_of(Nanoseconds t) const override { return t; }

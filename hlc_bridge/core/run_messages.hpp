@@ -23,6 +23,9 @@ enum class RunPhase : std::uint8_t {
 /// Said by lab control to all controllers.
 struct RunState {
   RunPhase phase{RunPhase::kRunning};
+  /// Real time: next_start of the start trigger, for controllers that were not there when it was
+  /// sent. 0: none.
+  Nanoseconds start{};
 };
 
 }  // namespace hlc

@@ -29,13 +29,10 @@ void add_route(const VehicleDescription& vehicle, std::span<const StepRecord* co
     positions_m.push_back(row->record.report.planned_pose.position_m());
     times_s.push_back(static_cast<double>(row->step) * step_s);
   }
-  Progress progress = progress_along(*vehicle.route, positions_m);
+  const Progress progress = progress_along(*vehicle.route, positions_m);
   summary.reference_error_m = statistics(progress.distance_m);
-  if (!rows.empty() && rows.front()->step == 0) {
-    progress.s_m.erase(progress.s_m.begin());
-    times_s.erase(times_s.begin());
-  }
-  summary.lap_s = lap_s(*vehicle.route, progress, times_s);
+  const bool from_the_start = !rows.empty() && rows.front()->step == 0;
+  summary.lap_s = lap_s(*vehicle.route, progress, times_s, from_the_start ? kFirstStepDriven : 0);
 }
 
 void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleSummary& summary) {
@@ -46,6 +43,7 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
   std::size_t budget = 0;
   for (const StepRecord* row : rows) {
     summary.fallback_steps += row->record.report.status == StepStatus::kFallback ? 1U : 0U;
+    summary.undrivable_steps += row->record.report.reason == FallbackReason::kUndrivable ? 1U : 0U;
     summary.deadline_misses += row->record.deadline_missed ? 1U : 0U;
     found += row->record.report.quality != PlanQuality::kNone ? 1U : 0U;
     budget += row->record.report.quality == PlanQuality::kBudget ? 1U : 0U;

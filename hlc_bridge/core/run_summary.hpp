@@ -34,7 +34,8 @@ struct VehicleSummary {
   /// budget.
   std::optional<double> budget_share;
   std::size_t fallback_steps{};
-  std::size_t deadline_misses{};  ///< late, or (real time) without a report: list not answered
+  std::size_t undrivable_steps{};  ///< steps whose new plan or command was beyond the lab's limits
+  std::size_t deadline_misses{};   ///< late, or (real time) without a report: list not answered
 };
 
 struct Host {

@@ -44,7 +44,7 @@ class StateBuffer {
 /// `active_vehicle_ids`. A vehicle without any valid state is present as a default-constructed
 /// state (vehicle_id 0): the reader must skip it, not take it for a vehicle at the origin (wire
 /// contract, trap 5). Observations are left empty: the states already contain the vehicles' own
-/// estimate.
+/// estimate, and our controller needs no other.
 [[nodiscard]] VehicleStateList compose_state_list(const StateBuffer& buffer, Nanoseconds t_now,
                                                   Nanoseconds period,
                                                   std::span<const std::int32_t> active_vehicle_ids);

@@ -72,6 +72,11 @@ std::string summary_table(const RunSummary& summary) {
                 ? print("%.1f mm", *summary.min_footprint_distance_m * kMillimetresPerMetre).c_str()
                 : "-");
   text += print("  collisions                                   %zu\n", summary.collisions);
+  std::size_t undrivable = 0;
+  for (const VehicleSummary& vehicle : summary.vehicles) undrivable += vehicle.undrivable_steps;
+  if (undrivable > 0) {
+    text += print("  commands not sent: beyond the lab's limits   %zu\n", undrivable);
+  }
   text += print("  wall time, real-time factor                  %.2f s, %.1f\n", summary.wall_s,
                 summary.realtime_factor);
   text += print("  planned and driven poses, SHA-256  %s\n", summary.trace_sha256.c_str());

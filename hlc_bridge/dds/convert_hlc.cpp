@@ -121,6 +121,8 @@ bool is_known(FallbackReason reason) {
     case FallbackReason::kNeighbour:
     case FallbackReason::kDeviation:
     case FallbackReason::kLate:
+    case FallbackReason::kUndrivable:
+    case FallbackReason::kOffRoute:
       return true;
   }
   return false;
@@ -270,13 +272,14 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
 }
 
 void to_wire(const RunState& message, RunStateMessage& wire) {
-  const auto& [phase] = message;
+  const auto& [phase, start] = message;
   wire.phase(static_cast<std::uint8_t>(phase));
+  wire.start(start);
 }
 
 Incoming<RunState> from_wire(const RunStateMessage& wire) {
   const auto phase = static_cast<RunPhase>(wire.phase());
-  return valid_if(is_known(phase), RunState{phase});
+  return valid_if(is_known(phase), RunState{phase, wire.start()});
 }
 
 }  // namespace hlc

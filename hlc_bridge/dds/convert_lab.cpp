@@ -177,6 +177,70 @@ Incoming<TrajectoryCommand> from_wire(const ::VehicleCommandTrajectory& wire) {
   return valid_if(valid, message);
 }
 
+void to_wire(const PathTrackingCommand& message, ::VehicleCommandPathTracking& wire) {
+  const auto& [vehicle_id, create_stamp, valid_after_stamp, path, speed_mps] = message;
+  wire.vehicle_id(vehicle_id);
+  wire.header(header(create_stamp, valid_after_stamp));
+  wire.path().clear();
+  for (const auto& [pose, s_m] : path) {
+    ::PathPoint point;
+    point.pose(pose_to_wire(pose));
+    point.s(s_m);
+    wire.path().push_back(point);
+  }
+  wire.speed(speed_mps);
+}
+
+Incoming<PathTrackingCommand> from_wire(const ::VehicleCommandPathTracking& wire) {
+  if (wire.path().size() > kMaxEntries) {
+    return {std::nullopt, 1};
+  }
+  PathTrackingCommand message{wire.vehicle_id(),
+                              wire.header().create_stamp().nanoseconds(),
+                              wire.header().valid_after_stamp().nanoseconds(),
+                              {},
+                              wire.speed()};
+  for (const ::PathPoint& point : wire.path()) {
+    message.path.push_back({pose_from_wire(point.pose()), point.s()});
+  }
+  const bool valid = std::isfinite(message.speed_mps) &&
+                     std::ranges::all_of(message.path, [](const PathPoint& point) {
+                       return is_finite(point.pose) && std::isfinite(point.s_m);
+                     });
+  return valid_if(valid, message);
+}
+
+void to_wire(const SpeedCurvatureCommand& message, ::VehicleCommandSpeedCurvature& wire) {
+  const auto& [vehicle_id, create_stamp, valid_after_stamp, speed_mps, curvature_per_m] = message;
+  wire.vehicle_id(vehicle_id);
+  wire.header(header(create_stamp, valid_after_stamp));
+  wire.speed(speed_mps);
+  wire.curvature(curvature_per_m);
+}
+
+Incoming<SpeedCurvatureCommand> from_wire(const ::VehicleCommandSpeedCurvature& wire) {
+  const SpeedCurvatureCommand message{wire.vehicle_id(), wire.header().create_stamp().nanoseconds(),
+                                      wire.header().valid_after_stamp().nanoseconds(), wire.speed(),
+                                      wire.curvature()};
+  return valid_if(all_finite(message.speed_mps, message.curvature_per_m), message);
+}
+
+void to_wire(const DirectCommand& message, ::VehicleCommandDirect& wire) {
+  const auto& [vehicle_id, create_stamp, valid_after_stamp, motor_throttle, steering_servo] =
+      message;
+  wire.vehicle_id(vehicle_id);
+  wire.header(header(create_stamp, valid_after_stamp));
+  wire.motor_throttle(motor_throttle);
+  wire.steering_servo(steering_servo);
+}
+
+Incoming<DirectCommand> from_wire(const ::VehicleCommandDirect& wire) {
+  const DirectCommand message{wire.vehicle_id(), wire.header().create_stamp().nanoseconds(),
+                              wire.header().valid_after_stamp().nanoseconds(),
+                              wire.motor_throttle(), wire.steering_servo()};
+  return valid_if(all_finite(message.motor_throttle, message.steering_servo), message);
+}
+
 void to_wire(const ReadyStatus& message, ::ReadyStatus& wire) {
   const auto& [source_id, next_start] = message;
   wire.source_id(source_id);

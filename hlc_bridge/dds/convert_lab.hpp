@@ -7,6 +7,9 @@
 #include <ReadyStatus.h>
 #include <StopRequest.h>
 #include <SystemTrigger.h>
+#include <VehicleCommandDirect.h>
+#include <VehicleCommandPathTracking.h>
+#include <VehicleCommandSpeedCurvature.h>
 #include <VehicleCommandTrajectory.h>
 #include <VehicleObservation.h>
 #include <VehicleState.h>
@@ -29,6 +32,9 @@ void to_wire(const VehicleState& message, ::VehicleState& wire);
 void to_wire(const VehicleObservation& message, ::VehicleObservation& wire);
 void to_wire(const VehicleStateList& message, ::VehicleStateList& wire);
 void to_wire(const TrajectoryCommand& message, ::VehicleCommandTrajectory& wire);
+void to_wire(const PathTrackingCommand& message, ::VehicleCommandPathTracking& wire);
+void to_wire(const SpeedCurvatureCommand& message, ::VehicleCommandSpeedCurvature& wire);
+void to_wire(const DirectCommand& message, ::VehicleCommandDirect& wire);
 void to_wire(const ReadyStatus& message, ::ReadyStatus& wire);
 void to_wire(const SystemTrigger& message, ::SystemTrigger& wire);
 void to_wire(const Parameter& message, ::Parameter& wire);
@@ -42,6 +48,9 @@ void to_wire(const Visualization& message, ::Visualization& wire);
 [[nodiscard]] Incoming<VehicleObservation> from_wire(const ::VehicleObservation& wire);
 [[nodiscard]] Incoming<VehicleStateList> from_wire(const ::VehicleStateList& wire);
 [[nodiscard]] Incoming<TrajectoryCommand> from_wire(const ::VehicleCommandTrajectory& wire);
+[[nodiscard]] Incoming<PathTrackingCommand> from_wire(const ::VehicleCommandPathTracking& wire);
+[[nodiscard]] Incoming<SpeedCurvatureCommand> from_wire(const ::VehicleCommandSpeedCurvature& wire);
+[[nodiscard]] Incoming<DirectCommand> from_wire(const ::VehicleCommandDirect& wire);
 [[nodiscard]] Incoming<ReadyStatus> from_wire(const ::ReadyStatus& wire);
 [[nodiscard]] Incoming<SystemTrigger> from_wire(const ::SystemTrigger& wire);
 [[nodiscard]] Incoming<Parameter> from_wire(const ::Parameter& wire);

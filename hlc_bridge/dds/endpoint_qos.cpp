@@ -38,13 +38,13 @@ constexpr auto kLabTable = std::to_array<LabRow>({
     // clang-format off
     // topic                        domain              lab writer             lab reader            loopback: w, r, late
     {TopicId::kVehicleStateList,    DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffort,        16,   16, false},
-    {TopicId::kTrajectoryCommand,   DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffort,        16,   16, false},
+    {TopicId::kVehicleCommand,     DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffort,        16,   16, false},
     {TopicId::kReadyStatus,         DomainRole::kLocal, Lab::kReliable,        Lab::kReliableAll,       16,   64, false},
     {TopicId::kSystemTrigger,       DomainRole::kLocal, Lab::kReliable,        Lab::kReliable,         512,  512, false},
 
     {TopicId::kVehicleState,        DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffortAll,     64,   64, false},
     {TopicId::kVehicleObservation,  DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffortAll,     64,   64, false},
-    {TopicId::kTrajectoryCommand,   DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffortAll,     16,   16, false},
+    {TopicId::kVehicleCommand,     DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffortAll,     16,   16, false},
     {TopicId::kReadyStatus,         DomainRole::kLab,   Lab::kReliable,        Lab::kReliableAll,       16, 1024, false},
     {TopicId::kSystemTrigger,       DomainRole::kLab,   Lab::kReliable,        Lab::kReliableAll,      512,  512, false},
     {TopicId::kStopRequest,         DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffort,        16,   64, false},

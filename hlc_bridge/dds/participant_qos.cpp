@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kRealTimeLease = 2s;
 constexpr auto kLogicalTimeLease = 10s;
-constexpr int kAnnouncementsPerLease = 4;
+constexpr int kAnnouncementsPerLease = 8;
 constexpr std::uint32_t kParticipantsPerMachine = 32;     // of one domain, that a peer is asked for
 constexpr const char* kMulticastAddress = "239.255.0.1";  // the standard's
 constexpr std::uint32_t kSocketBufferBytes = 1U << 20U;   // the system may grant less

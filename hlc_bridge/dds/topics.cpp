@@ -7,6 +7,17 @@ std::string of_vehicle(std::uint8_t vehicle_id, const char* name) {
   return "vehicle/" + std::to_string(vehicle_id) + "/" + name;
 }
 
+template <class Command>
+constexpr const char* kCommandName = nullptr;
+template <>
+constexpr const char* kCommandName<TrajectoryCommand> = "vehicleCommandTrajectory";
+template <>
+constexpr const char* kCommandName<PathTrackingCommand> = "vehicleCommandPathTracking";
+template <>
+constexpr const char* kCommandName<SpeedCurvatureCommand> = "vehicleCommandSpeedCurvature";
+template <>
+constexpr const char* kCommandName<DirectCommand> = "vehicleCommandDirect";
+
 }  // namespace
 
 Topic<VehicleState> vehicle_state(std::uint8_t vehicle_id) {
@@ -17,17 +28,27 @@ Topic<VehicleObservation> vehicle_observation(std::uint8_t vehicle_id) {
   return {TopicId::kVehicleObservation, of_vehicle(vehicle_id, "vehicleObservation")};
 }
 
-Topic<TrajectoryCommand> vehicle_command(std::uint8_t vehicle_id) {
-  return {TopicId::kTrajectoryCommand, of_vehicle(vehicle_id, "vehicleCommandTrajectory")};
+template <class Command>
+Topic<Command> vehicle_command(std::uint8_t vehicle_id) {
+  return {TopicId::kVehicleCommand, of_vehicle(vehicle_id, kCommandName<Command>)};
 }
+template Topic<TrajectoryCommand> vehicle_command(std::uint8_t vehicle_id);
+template Topic<PathTrackingCommand> vehicle_command(std::uint8_t vehicle_id);
+template Topic<SpeedCurvatureCommand> vehicle_command(std::uint8_t vehicle_id);
+template Topic<DirectCommand> vehicle_command(std::uint8_t vehicle_id);
 
 Topic<VehicleStateList> vehicle_state_list() {
   return {TopicId::kVehicleStateList, "vehicleStateList"};
 }
 
-Topic<TrajectoryCommand> command() {
-  return {TopicId::kTrajectoryCommand, "vehicleCommandTrajectory"};
+template <class Command>
+Topic<Command> command() {
+  return {TopicId::kVehicleCommand, kCommandName<Command>};
 }
+template Topic<TrajectoryCommand> command();
+template Topic<PathTrackingCommand> command();
+template Topic<SpeedCurvatureCommand> command();
+template Topic<DirectCommand> command();
 
 Topic<ReadyStatus> ready_status() { return {TopicId::kReadyStatus, "readyStatus"}; }
 

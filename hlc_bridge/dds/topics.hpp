@@ -14,7 +14,7 @@ enum class TopicId : std::uint8_t {
   kVehicleState,
   kVehicleObservation,
   kVehicleStateList,
-  kTrajectoryCommand,
+  kVehicleCommand,  ///< whichever of the four
   kReadyStatus,
   kSystemTrigger,
   kParameter,
@@ -39,14 +39,18 @@ struct Topic {
 
 namespace topics {
 
+// `Command` below: TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand or DirectCommand.
+
 // Lab domain, one topic per vehicle: vehicle/<id>/...
 [[nodiscard]] Topic<VehicleState> vehicle_state(std::uint8_t vehicle_id);
 [[nodiscard]] Topic<VehicleObservation> vehicle_observation(std::uint8_t vehicle_id);
-[[nodiscard]] Topic<TrajectoryCommand> vehicle_command(std::uint8_t vehicle_id);
+template <class Command = TrajectoryCommand>
+[[nodiscard]] Topic<Command> vehicle_command(std::uint8_t vehicle_id);
 
 // Local domain
 [[nodiscard]] Topic<VehicleStateList> vehicle_state_list();
-[[nodiscard]] Topic<TrajectoryCommand> command();
+template <class Command = TrajectoryCommand>
+[[nodiscard]] Topic<Command> command();
 
 // Lab and local domain
 [[nodiscard]] Topic<ReadyStatus> ready_status();

@@ -14,6 +14,9 @@
 #include <StopRequestPubSubTypes.h>
 #include <SystemTriggerPubSubTypes.h>
 #include <TrafficMessagePubSubTypes.h>
+#include <VehicleCommandDirectPubSubTypes.h>
+#include <VehicleCommandPathTrackingPubSubTypes.h>
+#include <VehicleCommandSpeedCurvaturePubSubTypes.h>
 #include <VehicleCommandTrajectoryPubSubTypes.h>
 #include <VehicleObservationPubSubTypes.h>
 #include <VehicleStateListPubSubTypes.h>
@@ -52,6 +55,9 @@ template <> struct Wire<VehicleState> : LabWire<::VehicleState, VehicleStatePubS
 template <> struct Wire<VehicleObservation> : LabWire<::VehicleObservation, VehicleObservationPubSubType> {};
 template <> struct Wire<VehicleStateList> : LabWire<::VehicleStateList, VehicleStateListPubSubType> {};
 template <> struct Wire<TrajectoryCommand> : LabWire<::VehicleCommandTrajectory, VehicleCommandTrajectoryPubSubType> {};
+template <> struct Wire<PathTrackingCommand> : LabWire<::VehicleCommandPathTracking, VehicleCommandPathTrackingPubSubType> {};
+template <> struct Wire<SpeedCurvatureCommand> : LabWire<::VehicleCommandSpeedCurvature, VehicleCommandSpeedCurvaturePubSubType> {};
+template <> struct Wire<DirectCommand> : LabWire<::VehicleCommandDirect, VehicleCommandDirectPubSubType> {};
 template <> struct Wire<ReadyStatus> : LabWire<::ReadyStatus, ReadyStatusPubSubType> {};
 template <> struct Wire<SystemTrigger> : LabWire<::SystemTrigger, SystemTriggerPubSubType> {};
 template <> struct Wire<Parameter> : LabWire<::Parameter, ParameterPubSubType> {};

@@ -11,6 +11,7 @@
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/observation.hpp"
+#include "hlc_bridge/core/placement_line.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/time/precedence.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
@@ -25,6 +26,7 @@ constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kCopyPause{50};
 constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
+constexpr Nanoseconds kLateBegin = 2;                // steps after the trigger's time
 constexpr Nanoseconds kDrawnPeriods = 3;             // how long a step's drawings stay on the map
 
 ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
@@ -52,6 +54,8 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       core_(std::move(controller)),
       vehicle_(core_.controller().options().vehicle),
       middleware_(middleware_name(vehicle_.value)),
+      step_ns_(static_cast<Nanoseconds>(
+          std::llround(1e9 * core_.controller().subgraph().automaton().step_s))),
       started_at_(Clock::now()),
       lab_(on_domain(options_, vehicle_, options_.domains.lab, DomainRole::kLab),
            [this] { signal_.notify(); }),
@@ -74,6 +78,7 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
                         signal_.post([&] {
                           traffic_inbox_.put(message);
                           given_up_.erase(message.vehicle);
+                          if (!start_) last_traffic_[message.vehicle] = message.step;
                         });
                       }),
       prediction_reader_(controllers_, topics::prediction(),
@@ -85,7 +90,10 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
           [this](const Outcome& message) { signal_.post([&] { outcome_inbox_.put(message); }); }),
       run_state_reader_(controllers_, topics::run_state(),
                         [this](const RunState& state) {
-                          signal_.post([&] { drive_out_ |= state.phase == RunPhase::kDriveOut; });
+                          signal_.post([&] {
+                            drive_out_ |= state.phase == RunPhase::kDriveOut;
+                            if (!start_ && state.start != 0) start_ = state.start;
+                          });
                         }),
       trigger_reader_(local_, topics::system_trigger(),
                       [this](const SystemTrigger& trigger) {
@@ -144,9 +152,13 @@ bool HlcProcess::has_everybody() const {
          reaches(outcome_writer_);
 }
 
+/// Into an experiment that runs a controller comes back alone: whoever is not there is missing, as
+/// in any step.
 void HlcProcess::note_who_is_there() {
   had_middleware_ = had_middleware_ || command_writer_.matched() > 0;
-  is_ready_ = is_ready_ || has_everybody();
+  const bool joins = !options_.logical_time && !active_.empty() && command_writer_.matched() > 0 &&
+                     signal_.locked([this] { return start_.has_value(); });
+  is_ready_ = is_ready_ || joins || has_everybody();
 }
 
 /// Others on the local domain may come and go: in the lab it holds all controllers of a computer.
@@ -176,12 +188,21 @@ bool HlcProcess::wait_for_everybody() {
 
 void HlcProcess::send_ready_now_and_then() {
   const bool triggered = signal_.locked([this] { return start_.has_value(); });
-  if (!is_ready_ || triggered || Clock::now() < next_ready_at_) return;
+  const Controller& controller = core_.controller();
+  const bool is_misplaced = controller.placement() && !controller.fits_route();
+  const bool is_unseen = !options_.logical_time && !controller.placement();
+  if (!is_ready_ || is_misplaced || is_unseen || triggered || Clock::now() < next_ready_at_) {
+    return;
+  }
+  if (next_ready_at_ == Clock::time_point{} && !options_.logical_time) {
+    spdlog::info("{}: ready, waits for a trigger", options_.node_id);
+  }
   ready_writer_.write({.source_id = controller_ready_id(vehicle_.value)});
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
 void HlcProcess::send_copy_when_due() {
+  if (signal_.locked([this] { return stop_; })) copy_due_.reset();
   if (!copy_due_ || Clock::now() < copy_due_->first) return;
   command_writer_.write(copy_due_->second);
   copy_due_.reset();
@@ -275,7 +296,10 @@ void HlcProcess::answer(const VehicleStateList& list) {
   active_ = observation->active;
   if (options_.logical_time && !wait_for_everybody()) return;
 
-  if (!core_.has_begun()) core_.note(list);
+  if (!core_.has_begun()) {
+    core_.note(list, *observation);
+    join_if_others_drive(*observation);
+  }
   signal_.locked([&] {
     traffic_inbox_.begin(observation->step);
     prediction_inbox_.begin(observation->step);
@@ -283,15 +307,67 @@ void HlcProcess::answer(const VehicleStateList& list) {
   });
   const std::optional<Nanoseconds> trigger = signal_.locked([this] { return start_; });
   ReportRecord record;
+  const bool had_begun = core_.has_begun();
   if (is_ready_ && core_.begins(list, *observation, options_.logical_time, trigger)) {
+    if (!had_begun) tell_begin(list, trigger);
     record = run_step(list, *observation);
-  } else {
+    tell_if_stuck(record.report);
+  } else if (options_.logical_time || core_.may_stand_by(*observation)) {
     record.report = core_.controller().stand_by(*observation);
-    send_answer(list);
+    tell_placement();
+    send_answer(list, record.report);
+  } else {
+    return;
   }
   report_writer_.write(record);
   draw(record.report, list);
   if (core_.has_begun()) look_back();
+}
+
+/// Only who drives tells its traffic: the trigger has been, and is not repeated. Who takes no part,
+/// or speaks of another time, says nothing about this experiment.
+void HlcProcess::join_if_others_drive(const Observation& observation) {
+  const std::uint64_t now = observation.step.value;
+  signal_.locked([&] {
+    if (start_) return;
+    for (const VehicleId vehicle : others(observation)) {
+      const auto told = last_traffic_.find(vehicle);
+      if (told == last_traffic_.end() || told->second.value + 1 < now ||
+          told->second.value > now + 1) {
+        continue;
+      }
+      start_ = told->second.value * step_ns_;
+      joins_ = true;
+    }
+  });
+}
+
+/// Once it stands where it fits, and once whenever that changes.
+void HlcProcess::tell_placement() {
+  const Controller& controller = core_.controller();
+  if (!controller.placement() || told_placed_ == controller.fits_route()) return;
+  told_placed_ = controller.fits_route();
+  const std::string line = placement_line(controller);
+  if (*told_placed_) {
+    spdlog::info("{}: {}", options_.node_id, line);
+  } else {
+    spdlog::error("{}: {}", options_.node_id, line);
+  }
+}
+
+void HlcProcess::tell_begin(const VehicleStateList& list,
+                            std::optional<Nanoseconds> trigger) const {
+  const bool joins = signal_.locked([this] { return joins_; });
+  if (options_.logical_time || (!joins && list.t_now < *trigger + kLateBegin * step_ns_)) return;
+  spdlog::info("{}: joins the experiment, which runs", options_.node_id);
+}
+
+void HlcProcess::tell_if_stuck(const Report& report) {
+  const bool is_stuck = report.reason == FallbackReason::kOffRoute;
+  if (is_stuck && !told_stuck_) {
+    spdlog::error("{}: {}", options_.node_id, stuck_line(core_.controller()));
+  }
+  told_stuck_ = is_stuck;
 }
 
 void HlcProcess::look_back() {
@@ -384,15 +460,23 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
   } else {
     record.report = controller.settle(predictions, outcomes);
   }
-  send_answer(list);
+  send_answer(list, record.report);
   return record;
 }
 
-void HlcProcess::send_answer(const VehicleStateList& list) {
+void HlcProcess::send_answer(const VehicleStateList& list, Report& report) {
+  // After the stop symbol the vehicle brakes, and then it listens again: it must hear nothing.
+  if (signal_.locked([this] { return stop_; })) return;
   if (copy_due_) command_writer_.write(copy_due_->second);
   copy_due_.reset();
   const AnswerToList answer = core_.answer(list);
   command_writer_.write(answer.command);
+  if (!answer.fault.empty() && answer.fault != last_fault_) {
+    spdlog::error("{}: the command of step {} is not sent, the last good one is: {}",
+                  options_.node_id, step_of(list).value, answer.fault);
+  }
+  last_fault_ = answer.fault;
+  report = with_answer(std::move(report), answer);
   if (!answer.copy) return;
   if (options_.transport == Transport::kLoopback) {
     command_writer_.write(*answer.copy);

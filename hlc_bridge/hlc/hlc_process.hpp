@@ -4,6 +4,7 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -56,6 +57,12 @@ struct HlcProcessOptions {
 /// exchanges messages with the other controllers between its phases, answers every list with a
 /// command.
 ///
+/// Real time: the start trigger is sent once. A controller that comes later, or again after its
+/// death, learns from the others' traffic that the experiment runs, or from the lab control if it
+/// is ours. It waits until its vehicle has been seen standing for a horizon, begins with a plan to
+/// stand there, and takes part from the next list on. Until then nothing is commanded: the vehicle
+/// drives what it was left (HlcCore::may_stand_by).
+///
 /// All waiting is in this class, and every wait ends: at a deadline (real time), when whom it waits
 /// for is gone from the domain, or after 10 s of silence (logical time).
 class HlcProcess {
@@ -95,15 +102,21 @@ class HlcProcess {
                 const VehicleStateList& list, double deadline_share);
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
+  void join_if_others_drive(const Observation& observation);
+  void tell_placement();
+  void tell_begin(const VehicleStateList& list, std::optional<Nanoseconds> trigger) const;
+  void tell_if_stuck(const Report& report);
   void look_back();
   void draw(const Report& report, const VehicleStateList& list);
-  void send_answer(const VehicleStateList& list);
+  /// Sends it and notes in the report if it is not the plan.
+  void send_answer(const VehicleStateList& list, Report& report);
   [[nodiscard]] std::vector<VehicleId> others(const Observation& observation) const;
 
   HlcProcessOptions options_;
   HlcCore core_;
   VehicleId vehicle_;
   std::string middleware_;  ///< its name, if it is one of ours
+  Nanoseconds step_ns_;
   std::chrono::steady_clock::time_point started_at_;
 
   Signal signal_;
@@ -112,9 +125,12 @@ class HlcProcess {
   StepMailbox<Traffic> traffic_inbox_;
   StepMailbox<Prediction> prediction_inbox_;
   StepMailbox<Outcome> outcome_inbox_;
-  std::optional<Nanoseconds> start_;  ///< next_start of the trigger
+  /// next_start of the trigger; of an experiment that was running before, a time since which it is.
+  std::optional<Nanoseconds> start_;
+  bool joins_{};  ///< learnt of the start by the others' traffic
   bool stop_{};
   bool drive_out_{};
+  std::map<VehicleId, StepIndex> last_traffic_;  ///< of each sender, until the start is known
   std::set<VehicleId> given_up_;  ///< silent for 10 s in logical time: not waited for until heard
 
   Participant lab_;
@@ -135,6 +151,9 @@ class HlcProcess {
   bool had_middleware_{};
   bool is_ready_{};
   bool has_bad_period_{};
+  std::string last_fault_;           ///< of the last answer: told once, not every step
+  std::optional<bool> told_placed_;  ///< whether the vehicle fits, as was told last
+  bool told_stuck_{};
   std::chrono::steady_clock::time_point next_ready_at_{};
   std::optional<std::pair<std::chrono::steady_clock::time_point, TrajectoryCommand>> copy_due_;
 

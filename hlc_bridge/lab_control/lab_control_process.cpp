@@ -202,9 +202,16 @@ void LabControlProcess::perform(const LabRunActions& actions) {
                        .stamp = real_time_now(),
                        .level = 1});
   }
+  for (const std::string& process : actions.returns) {
+    progress_.end_line();
+    spdlog::info("{} is back", process);
+  }
   if (actions.run_state) {
     signal_.locked([this] { is_gathering_ = false; });
-    run_state_writer_.write({.phase = *actions.run_state});
+    if (!options_.logical_time && start_ == 0 && !actions.triggers.empty()) {
+      start_ = actions.triggers.front();
+    }
+    run_state_writer_.write({.phase = *actions.run_state, .start = start_});
   }
   for (const Nanoseconds trigger : actions.triggers) {
     if (began_ == 0) {

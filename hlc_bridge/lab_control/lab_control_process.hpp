@@ -71,6 +71,7 @@ class LabControlProcess {
   std::optional<ReportFile> reports_;
   ProgressLine progress_;
   Nanoseconds began_{};  ///< wall time of the first trigger
+  Nanoseconds start_{};  ///< real time: next_start of that trigger
 
   Signal signal_;  // guards what follows, down to the next blank line
   std::vector<Mail> mail_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ constexpr std::chrono::milliseconds kLeaveTime{500};
 
 ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
   const bool lab = role == DomainRole::kLab;
-  return {.name = middleware_name(options.vehicle_id),
+  return {.name = middleware_name(options.vehicle_ids.front()),
           .domain_id = lab ? options.lab_domain : options.local_domain,
           .role = role,
           .transport = options.transport,
@@ -31,14 +32,59 @@ ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) 
 
 }  // namespace
 
+struct MiddlewareProcess::Vehicle {
+  Vehicle(MiddlewareProcess& process, std::uint8_t id)
+      : trajectory{process.lab_, topics::vehicle_command(id),
+                   [&process] { process.signal_.notify(); }} {
+    if (process.options_.transport == Transport::kLab) {
+      path_tracking.emplace(process.lab_, topics::vehicle_command<PathTrackingCommand>(id));
+      speed_curvature.emplace(process.lab_, topics::vehicle_command<SpeedCurvatureCommand>(id));
+      direct.emplace(process.lab_, topics::vehicle_command<DirectCommand>(id));
+    }
+  }
+
+  void write(const TrajectoryCommand& command) { trajectory.write(command); }
+  void write(const PathTrackingCommand& command) { path_tracking->write(command); }
+  void write(const SpeedCurvatureCommand& command) { speed_curvature->write(command); }
+  void write(const DirectCommand& command) { direct->write(command); }
+
+  Writer<TrajectoryCommand> trajectory;
+  std::optional<Writer<PathTrackingCommand>> path_tracking;
+  std::optional<Writer<SpeedCurvatureCommand>> speed_curvature;
+  std::optional<Writer<DirectCommand>> direct;
+};
+
+struct MiddlewareProcess::LabEndpoints {
+  explicit LabEndpoints(MiddlewareProcess& process)
+      : path_tracking{reader<PathTrackingCommand>(process)},
+        speed_curvature{reader<SpeedCurvatureCommand>(process)},
+        direct{reader<DirectCommand>(process)} {}
+
+  template <class Command>
+  static Reader<Command> reader(MiddlewareProcess& process) {
+    return Reader<Command>{process.local_, topics::command<Command>(),
+                           [&process](const Command& command) {
+                             process.mail_.post([&] { process.to_carry_.emplace_back(command); });
+                           },
+                           [&process] { process.signal_.notify(); }};
+  }
+
+  [[nodiscard]] std::size_t matched() const {
+    return std::max({path_tracking.matched(), speed_curvature.matched(), direct.matched()});
+  }
+
+  Reader<PathTrackingCommand> path_tracking;
+  Reader<SpeedCurvatureCommand> speed_curvature;
+  Reader<DirectCommand> direct;
+  std::map<std::uint8_t, Reader<VehicleObservation>> observations;
+};
+
 MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
     : options_(std::move(options)),
       lab_(on_domain(options_, DomainRole::kLab), [this] { signal_.notify(); }),
       local_(on_domain(options_, DomainRole::kLocal), [this] { signal_.notify(); }),
       list_writer_(local_, topics::vehicle_state_list(), [this] { signal_.notify(); }),
       trigger_writer_(local_, topics::system_trigger(), [this] { signal_.notify(); }),
-      command_writer_(lab_, topics::vehicle_command(options_.vehicle_id),
-                      [this] { signal_.notify(); }),
       ready_writer_(lab_, topics::ready_status(), [this] { signal_.notify(); }),
       request_writer_(lab_, topics::parameter_request()),
       parameter_reader_(lab_, topics::parameter(),
@@ -57,11 +103,22 @@ MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
       ready_reader_(
           local_, topics::ready_status(),
           [this](const ReadyStatus& status) {
-            if (status.source_id == controller_ready_id(options_.vehicle_id)) {
-              signal_.post([this] { controller_ready_ = true; });
+            for (const std::uint8_t id : options_.vehicle_ids) {
+              if (status.source_id == controller_ready_id(id)) {
+                signal_.post([&] { ready_controllers_.insert(id); });
+              }
             }
           },
-          [this] { signal_.notify(); }) {}
+          [this] { signal_.notify(); }) {
+  for (const std::uint8_t id : options_.vehicle_ids) {
+    vehicles_.emplace(id, std::make_unique<Vehicle>(*this, id));
+    newest_answers_[id] = 0;
+  }
+  if (options_.transport == Transport::kLab) {
+    lab_endpoints_ = std::make_unique<LabEndpoints>(*this);
+    silent_controllers_.insert(options_.vehicle_ids.begin(), options_.vehicle_ids.end());
+  }
+}
 
 MiddlewareProcess::~MiddlewareProcess() = default;
 
@@ -94,7 +151,7 @@ int MiddlewareProcess::run() {
     code = keep_period();
   }
   if (signal_.locked([this] { return stop_symbol_; })) {
-    let_controller_leave();
+    let_controllers_leave();
   }
   return code;
 }
@@ -137,10 +194,14 @@ void MiddlewareProcess::watch_lab_control(Nanoseconds t_now) {
   }
 }
 
-/// The controller gets the stop symbol before its middleware is gone, and so leaves without alarm.
-void MiddlewareProcess::let_controller_leave() const {
+/// The controllers get the stop symbol before their middleware is gone, and so leave without alarm.
+void MiddlewareProcess::let_controllers_leave() const {
   static_cast<void>(signal_.wait_until(Clock::now() + kLeaveTime,
-                                       [this] { return command_reader_.matched() == 0; }));
+                                       [this] { return controllers_that_command() == 0; }));
+}
+
+std::size_t MiddlewareProcess::controllers_that_command() const {
+  return std::max(command_reader_.matched(), lab_endpoints_ ? lab_endpoints_->matched() : 0);
 }
 
 // --- start --------------------------------------------------------------------------------------
@@ -161,11 +222,14 @@ std::string MiddlewareProcess::parameter_problem() const {
                        parameters_.period() / kNanosecondsPerMillisecond, options_.offset);
   }
   const auto is_wrong = [](std::int32_t id) { return id < 1 || id > 255; };
+  const auto is_active_once = [this](std::uint8_t id) {
+    return std::ranges::count(parameters_.active_ids(), id) == 1;
+  };
   if (std::ranges::any_of(parameters_.active_ids(), is_wrong) ||
-      std::ranges::count(parameters_.active_ids(), options_.vehicle_id) != 1) {
+      !std::ranges::all_of(options_.vehicle_ids, is_active_once)) {
     return fmt::format("{} = {}, must be in 1 ... 255 and hold --vehicle_ids = {} once",
                        kActiveIdsParameter, fmt::join(parameters_.active_ids(), ","),
-                       options_.vehicle_id);
+                       fmt::join(options_.vehicle_ids, ","));
   }
   return {};
 }
@@ -182,6 +246,16 @@ void MiddlewareProcess::listen_to_vehicles() {
           });
         },
         [this] { signal_.notify(); });
+    if (lab_endpoints_) {
+      lab_endpoints_->observations.try_emplace(id, lab_, topics::vehicle_observation(id),
+                                               [this, id](const VehicleObservation& seen) {
+                                                 signal_.post([&] {
+                                                   VehicleObservation& newest = observations_[id];
+                                                   if (seen.create_stamp >= newest.create_stamp)
+                                                     newest = seen;
+                                                 });
+                                               });
+    }
   }
 }
 
@@ -218,11 +292,12 @@ std::string MiddlewareProcess::who_is_missing() const {
     missing.emplace_back(kLabControlName);
   }
   if (list_writer_.matched() == 0 || trigger_writer_.matched() == 0 ||
-      command_reader_.matched() == 0 || ready_reader_.matched() == 0) {
-    missing.push_back(controller_name(options_.vehicle_id));
+      controllers_that_command() == 0 || ready_reader_.matched() == 0) {
+    missing.push_back(controller_name(options_.vehicle_ids.front()));
   }
   for (const auto& [id, reader] : state_readers_) {
-    const bool commanded = id != options_.vehicle_id || command_writer_.matched() > 0;
+    const auto vehicle = vehicles_.find(id);
+    const bool commanded = vehicle == vehicles_.end() || vehicle->second->trajectory.matched() > 0;
     if (reader.matched() == 0 || !commanded) {
       missing.push_back(vehicle_name(id));
     }
@@ -270,15 +345,21 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
   const auto [list, tell_ready] = signal_.locked([&] {
     newest_list_ = t_now;
     states_.forget_before(t_now);
-    return std::pair{
-        compose_state_list(states_, t_now, parameters_.period(), parameters_.active_ids()),
-        controller_ready_ && !triggered_};
+    VehicleStateList composed =
+        compose_state_list(states_, t_now, parameters_.period(), parameters_.active_ids());
+    if (lab_endpoints_) {
+      for (const std::int32_t id : parameters_.active_ids()) {
+        composed.observations.push_back(observations_[static_cast<std::uint8_t>(id)]);
+      }
+    }
+    return std::pair{std::move(composed),
+                     ready_controllers_.size() == options_.vehicle_ids.size() && !triggered_};
   });
   list_writer_.write(list);
   if (options_.logical_time) {
     wait_for_answer(t_now);
   } else if (tell_ready) {
-    ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_id)});
+    ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_ids)});
   }
 }
 
@@ -308,23 +389,33 @@ void MiddlewareProcess::wait_for_states(Nanoseconds t_now) {
 }
 
 void MiddlewareProcess::wait_for_answer(Nanoseconds t_now) {
+  const auto has_answered = [&](std::uint8_t id) {
+    return newest_answers_.at(id) >= t_now || silent_controllers_.contains(id) ||
+           local_.is_lost(controller_name(id));
+  };
   if (signal_.wait_until(Clock::now() + kSilence, [&] {
-        return stop_ || newest_answer_ >= t_now || controller_silent_ ||
-               command_reader_.matched() == 0;
+        return stop_ || controllers_that_command() == 0 ||
+               std::ranges::all_of(options_.vehicle_ids, has_answered);
       })) {
     return;
   }
-  spdlog::warn("{}: {} has said nothing for {} s and is not waited for any more", options_.node_id,
-               controller_name(options_.vehicle_id), kMessageTimeout / kNanosecondsPerSecond);
-  signal_.locked([this] { controller_silent_ = true; });
+  for (const std::uint8_t id : options_.vehicle_ids) {
+    if (signal_.locked(
+            [&] { return !has_answered(id) && silent_controllers_.insert(id).second; })) {
+      spdlog::warn("{}: {} has said nothing for {} s and is not waited for any more",
+                   options_.node_id, controller_name(id), kMessageTimeout / kNanosecondsPerSecond);
+    }
+  }
 }
 
 void MiddlewareProcess::tell_missed_answer() {
-  const bool missed = signal_.locked(
-      [this] { return triggered_ && newest_list_ != 0 && newest_answer_ < newest_list_; });
-  if (missed && missed_answers_++ == 0) {
-    spdlog::warn("{}: {} has missed the list of {} ns", options_.node_id,
-                 controller_name(options_.vehicle_id), newest_list_);
+  for (const std::uint8_t id : options_.vehicle_ids) {
+    const bool missed = signal_.locked(
+        [&] { return triggered_ && newest_list_ != 0 && newest_answers_.at(id) < newest_list_; });
+    if (missed && missed_answers_++ == 0) {
+      spdlog::warn("{}: {} has missed the list of {} ns", options_.node_id, controller_name(id),
+                   newest_list_);
+    }
   }
 }
 
@@ -341,13 +432,15 @@ void MiddlewareProcess::take(const SystemTrigger& trigger) {
     mail_.post([&] { to_carry_.emplace_back(trigger); });
   }
   signal_.post([&] {
-    triggered_ = true;
-    stop_symbol_ = stop_symbol_ || is_stop;
+    between_experiments_ = options_.keep_running && is_stop;
+    triggered_ = !between_experiments_;
+    if (between_experiments_) ready_controllers_.clear();
+    stop_symbol_ = stop_symbol_ || (is_stop && !options_.keep_running);
     if (logical_timer_ != nullptr) {
       logical_timer_->on_trigger(trigger.next_start);
     }
   });
-  if (is_stop) {
+  if (is_stop && !options_.keep_running) {
     stop();
   }
 }
@@ -371,26 +464,36 @@ void MiddlewareProcess::carry_everything() {
 
 void MiddlewareProcess::carry_on(const SystemTrigger& trigger) { trigger_writer_.write(trigger); }
 
-void MiddlewareProcess::carry_on(const TrajectoryCommand& command) {
-  const Nanoseconds newest_list = signal_.locked([this] { return newest_list_; });
+template <class Command>
+void MiddlewareProcess::carry_on(const Command& command) {
+  const auto [newest_list, is_kept_back] = signal_.locked([this] {
+    return std::pair{newest_list_, between_experiments_ || stop_symbol_};
+  });
   const Nanoseconds t_now = options_.logical_time ? newest_list : real_time_now();
-  const std::vector<std::uint8_t> ids{options_.vehicle_id};
-  const CommandVerdict verdict = check_command(command, t_now, newest_list, ids);
-  if (verdict.forward) {
-    command_writer_.write(command);
+  CommandVerdict verdict;
+  if constexpr (std::is_same_v<Command, TrajectoryCommand>) {
+    verdict = check_command(command, t_now, newest_list, options_.vehicle_ids);
+  } else {
+    verdict = check_header(command.vehicle_id, command.create_stamp, t_now, newest_list,
+                           options_.vehicle_ids);
   }
-  tell_faults(verdict);
+  if (verdict.forward && !is_kept_back) {
+    vehicles_.at(command.vehicle_id)->write(command);
+  }
+  tell_faults(verdict, command.vehicle_id);
   signal_.post([&] {
-    newest_answer_ = std::max(newest_answer_, command.create_stamp);
-    controller_silent_ = false;
+    const auto answer = newest_answers_.find(command.vehicle_id);
+    if (answer == newest_answers_.end()) return;  // of somebody else's controller
+    answer->second = std::max(answer->second, command.create_stamp);
+    silent_controllers_.erase(command.vehicle_id);
   });
 }
 
-void MiddlewareProcess::tell_faults(const CommandVerdict& verdict) {
+void MiddlewareProcess::tell_faults(const CommandVerdict& verdict, std::uint8_t vehicle_id) {
   for (const CommandFault fault : verdict.faults) {
     if (told_faults_.insert(fault).second) {
       spdlog::warn("{}: command of {}: {}{} (told once)", options_.node_id,
-                   controller_name(options_.vehicle_id), to_string(fault),
+                   controller_name(vehicle_id), to_string(fault),
                    verdict.forward ? "" : "; not forwarded");
     }
   }

@@ -28,42 +28,53 @@ struct MiddlewareOptions {
   /// For the log, and in logical time the source_id of the timer's ready status (wire contract,
   /// 5.3). On the domains the process always bears its vehicle's name (core/node_names).
   std::string node_id;
-  std::uint8_t vehicle_id{};
+  std::vector<std::uint8_t> vehicle_ids;  ///< of its controllers; at least one
   Transport transport{Transport::kLab};
   int lab_domain{};
   int local_domain{};
   std::optional<DiscoveryServer> discovery_server;
   bool logical_time{};
   Nanoseconds offset{kListOffset};  ///< of the lists in a period
+  /// After the stop symbol wait for the next experiment instead of ending (real time).
+  bool keep_running{};
   std::chrono::seconds startup_timeout{30};
 };
 
-/// Stands between a controller (local domain) and the vehicles (lab domain).
+/// Stands between controllers (local domain; one, or those of several vehicles) and the vehicles
+/// (lab domain).
 ///
 /// Every period, at t_now = k P + offset, it writes a VehicleStateList with the newest valid state
-/// of every active vehicle. Commands of the controller go on to the vehicle as soon as they come,
-/// after a check (check_command); triggers of the lab control go on to the controller
+/// of every active vehicle. Commands of a controller go on to its vehicle as soon as they come,
+/// after a check (check_command); triggers of the lab control go on to the controllers
 /// (loopback in logical time: only the first one and the stop symbol).
+///
+/// On the lab's transport, where controllers of others may be: commands of all four kinds, and
+/// lists with the camera system's observations. On loopback: trajectories, which is what ours
+/// sends.
 ///
 /// Two threads: `run` keeps the period; a carrier forwards commands and triggers, so that neither
 /// waits for the other.
 ///
-/// Real time: lists come from the first period on, whoever is there. When the controller is ready,
-/// the lab control is told every period until its first trigger.
+/// Real time: lists come from the first period on, whoever is there. When all controllers are
+/// ready, the lab control is told every period until its first trigger. With `keep_running` the
+/// stop symbol ends the experiment, not the process: lists go on, commands are kept back until the
+/// next trigger, and controllers must say anew that they are ready.
 ///
 /// Logical time: before its first tick all its endpoints are matched. A tick waits for the state of
-/// every active vehicle that must be in the list, writes the list, and waits until the controller's
-/// answer to it has been carried on: only then the next tick is asked for. Whoever is gone is not
-/// waited for, nor who has been silent for 10 s, until he is heard again.
+/// every active vehicle that must be in the list, writes the list, and waits until every
+/// controller's answer to it has been carried on: only then the next tick is asked for. Whoever is
+/// gone is not waited for, nor who has been silent for 10 s, until he is heard again; nor, on the
+/// lab's transport, who has not been heard yet, since the lab's controllers do not answer before
+/// the start.
 class MiddlewareProcess {
  public:
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit MiddlewareProcess(MiddlewareOptions options);
   ~MiddlewareProcess();
 
-  /// Until the stop symbol has come, or `stop` is called. The exit code: 0 good, 2 if the lab
-  /// control's parameters do not fit, 3 if somebody needed did not appear, 4 if the lab control is
-  /// lost, or (logical time) sends no trigger any more.
+  /// Until the stop symbol has come (see keep_running), or `stop` is called. The exit code: 0 good,
+  /// 2 if the lab control's parameters do not fit, 3 if somebody needed did not appear, 4 if the
+  /// lab control is lost, or (logical time) sends no trigger any more.
   [[nodiscard]] int run();
 
   /// Ends `run` soon. From any thread.
@@ -71,7 +82,12 @@ class MiddlewareProcess {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Carried = std::variant<TrajectoryCommand, SystemTrigger>;
+  using Carried = std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand,
+                               DirectCommand, SystemTrigger>;
+  /// What goes out to one vehicle.
+  struct Vehicle;
+  /// What only the lab's programs say and hear: on its transport.
+  struct LabEndpoints;
 
   [[nodiscard]] int keep_period();
   [[nodiscard]] int prepare();
@@ -80,6 +96,7 @@ class MiddlewareProcess {
   [[nodiscard]] std::string parameter_problem() const;
   void listen_to_vehicles();
   [[nodiscard]] bool is_connected() const;
+  [[nodiscard]] std::size_t controllers_that_command() const;
   [[nodiscard]] std::string who_is_missing() const;
   void make_timer();
   void send_ready(Nanoseconds next_tick);
@@ -90,10 +107,11 @@ class MiddlewareProcess {
   void tell_missed_answer();
 
   void carry_everything();
-  void carry_on(const TrajectoryCommand& command);
   void carry_on(const SystemTrigger& trigger);
-  void tell_faults(const CommandVerdict& verdict);
-  void let_controller_leave() const;
+  template <class Command>
+  void carry_on(const Command& command);
+  void tell_faults(const CommandVerdict& verdict, std::uint8_t vehicle_id);
+  void let_controllers_leave() const;
   void watch_lab_control(Nanoseconds t_now);
 
   MiddlewareOptions options_;
@@ -101,11 +119,13 @@ class MiddlewareProcess {
   Signal signal_;  // guards what follows, down to the next blank line; the period waits for it
   StateBuffer states_;
   std::set<std::uint8_t> silent_vehicles_;
+  std::map<std::uint8_t, VehicleObservation> observations_;  ///< newest of each vehicle
   Nanoseconds newest_list_{};
-  Nanoseconds newest_answer_{};  ///< largest create_stamp carried on
-  bool controller_silent_{};
-  bool controller_ready_{};
+  std::map<std::uint8_t, Nanoseconds> newest_answers_;  ///< of its vehicles: largest create_stamps
+  std::set<std::uint8_t> silent_controllers_;
+  std::set<std::uint8_t> ready_controllers_;
   bool triggered_{};
+  bool between_experiments_{};  ///< the stop symbol has come, and no trigger since
   bool stop_{};
   bool stop_symbol_{};
   Timer* timer_in_use_{};
@@ -130,7 +150,7 @@ class MiddlewareProcess {
   Participant local_;
   Writer<VehicleStateList> list_writer_;
   Writer<SystemTrigger> trigger_writer_;
-  Writer<TrajectoryCommand> command_writer_;
+  std::map<std::uint8_t, std::unique_ptr<Vehicle>> vehicles_;  ///< of the controllers
   Writer<ReadyStatus> ready_writer_;
   Writer<ParameterRequest> request_writer_;
   Reader<Parameter> parameter_reader_;
@@ -138,6 +158,7 @@ class MiddlewareProcess {
   Reader<TrajectoryCommand> command_reader_;
   Reader<ReadyStatus> ready_reader_;
   std::map<std::uint8_t, Reader<VehicleState>> state_readers_;
+  std::unique_ptr<LabEndpoints> lab_endpoints_;
 };
 
 }  // namespace hlc

@@ -45,6 +45,7 @@ Json vehicle_json(const VehicleSummary& vehicle) {
   json["deadline_misses"] = vehicle.deadline_misses;
   json["budget_share"] = or_null(vehicle.budget_share);
   json["overlong_plans"] = vehicle.overlong_plans;
+  json["undrivable_steps"] = vehicle.undrivable_steps;
   return json;
 }
 

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 
-#include "planner/geometry/footprint.hpp"
+#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/record/drive_file.hpp"
+#include "tests/integration/driven_plan.hpp"
 #include "tests/integration/lab_processes.hpp"
 
 namespace hlc::test {
@@ -18,64 +18,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct DrivenPose {
-  Pose pose;
-  double speed_mps{};
-};
+Drives drives_of(const LabProcesses& lab) { return read_drives(lab.folder(), {1, 2, 3}); }
 
-/// The vehicles' own records: time -> pose. Columns: t_ns, x_m, y_m, yaw_rad, speed_mps, ...
-std::map<std::uint64_t, DrivenPose> read_drive(const std::filesystem::path& file) {
-  std::map<std::uint64_t, DrivenPose> drive;
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  while (std::getline(stream, line)) {
-    std::ranges::replace(line, ',', ' ');
-    std::istringstream fields(line);
-    std::uint64_t t = 0;
-    DrivenPose one;
-    if (fields >> t >> one.pose.x_m >> one.pose.y_m >> one.pose.heading_rad >> one.speed_mps) {
-      drive[t] = one;
-    }
-  }
-  return drive;
-}
-
-std::vector<std::map<std::uint64_t, DrivenPose>> read_drives(const LabProcesses& lab) {
-  std::vector<std::map<std::uint64_t, DrivenPose>> drives;
-  for (const char* id : {"1", "2", "3"}) {
-    drives.push_back(read_drive(lab.folder() / (std::string("vehicle_") + id + ".csv")));
-  }
-  return drives;
-}
-
-/// A vehicle whose record has ended stands where it was seen last: it can still be hit. But not
-/// `dead`, whose own process was killed: that it stops within no time is on nobody's plan, so it
-/// counts as long as its record lasts.
-void expect_no_touch(const std::vector<std::map<std::uint64_t, DrivenPose>>& drives,
-                     std::optional<std::size_t> dead = std::nullopt) {
-  constexpr Footprint kCar{0.220, 0.107};
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    for (std::size_t j = 0; j < drives.size(); ++j) {
-      for (const auto& [t, one] : drives[i]) {
-        const auto after = drives[j].upper_bound(t);
-        if (i == j || after == drives[j].begin()) continue;
-        if (j == dead && after == drives[j].end()) break;
-        ASSERT_FALSE(intersects(footprint_area(kCar, one.pose),
-                                footprint_area(kCar, std::prev(after)->second.pose)))
-            << "vehicles " << i + 1 << " and " << j + 1 << " at " << t;
-      }
-    }
-  }
+std::size_t num_collisions(const LabProcesses& lab, const std::set<std::uint8_t>& ended = {}) {
+  const auto vehicles = describe(lab.scenario(), std::nullopt).vehicles;
+  return driven_encounters(vehicles, drives_of(lab), ended).collisions;
 }
 
 /// The vehicle stood when the stop symbol came: so the plan stopped it, not the braking. It brakes
 /// for the last SimulatedVehicle::kBrakingTicks rows, whatever the time.
-void expect_stood_before_the_stop(const std::map<std::uint64_t, DrivenPose>& drive,
-                                  const std::string& id) {
-  constexpr int kBrakingTicks = 50;
-  ASSERT_GT(drive.size(), static_cast<std::size_t>(kBrakingTicks)) << "vehicle " << id;
-  const DrivenPose& at_stop = std::prev(drive.end(), kBrakingTicks + 1)->second;
+void expect_stood_before_the_stop(const Drive& drive, const std::string& id) {
+  constexpr std::size_t kBrakingTicks = 50;
+  ASSERT_GT(drive.size(), kBrakingTicks) << "vehicle " << id;
+  const DrivenSample& at_stop = drive[drive.size() - 1 - kBrakingTicks];
   EXPECT_LT(std::abs(at_stop.speed_mps), 0.05) << "vehicle " << id;
 }
 
@@ -124,18 +79,19 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
   if (death.signal == SIGSTOP) lab[death.victim].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(30s), testing::IsEmpty());
 
-  const std::vector<std::map<std::uint64_t, DrivenPose>> drives = read_drives(lab);
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    const std::string id = std::to_string(i + 1);
-    ASSERT_FALSE(drives[i].empty());
-    if (death.victim != "vehicle_" + id) expect_stood_before_the_stop(drives[i], id);
+  const Drives drives = drives_of(lab);
+  ASSERT_EQ(drives.size(), 3U);
+  for (const auto& [number, drive] : drives) {
+    const std::string id = std::to_string(number);
+    if (death.victim != "vehicle_" + id) expect_stood_before_the_stop(drive, id);
   }
   for (const char* survivor : {"1", "3"}) {
     EXPECT_GT(count_drive_out_rows(lab.folder() / "reports.csv", survivor), 0U)
         << "vehicle " << survivor;
   }
-  expect_no_touch(drives,
-                  death.victim == "vehicle_2" ? std::optional<std::size_t>{1} : std::nullopt);
+  const bool is_vehicle = death.victim == "vehicle_2";
+  EXPECT_EQ(num_collisions(lab, is_vehicle ? std::set<std::uint8_t>{2} : std::set<std::uint8_t>{}),
+            0U);
   EXPECT_GT(count_lines(lab.folder() / "reports.csv"), 30U) << "results so far are kept";
 }
 
@@ -161,11 +117,11 @@ TEST_P(LabControlDeath, EndsEveryProcess) {
   ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
   lab["lab_control"].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
-  const std::vector<std::map<std::uint64_t, DrivenPose>> drives = read_drives(lab);
-  expect_no_touch(drives);
+  EXPECT_EQ(num_collisions(lab), 0U);
   if (GetParam()) return;  // without the lab control logical time stands still, and so do the cars
-  for (const auto& drive : drives) {
-    EXPECT_LT(std::abs(drive.rbegin()->second.speed_mps), 0.05);
+  for (const auto& [id, drive] : drives_of(lab)) {
+    ASSERT_FALSE(drive.empty());
+    EXPECT_LT(std::abs(drive.back().speed_mps), 0.05);
   }
 }
 

@@ -28,6 +28,11 @@ std::filesystem::path new_folder() {
   return folder;
 }
 
+std::filesystem::path scenario_file(const std::string& scenario) {
+  if (scenario.ends_with(".yaml")) return scenario;
+  return std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" + scenario + ".yaml";
+}
+
 std::vector<std::string> scenario_flags(const ScenarioChoices& choices) {
   std::vector<std::string> flags{"--scenario=" + choices.file.string(),
                                  "--profile=" + choices.profile};
@@ -40,15 +45,13 @@ std::vector<std::string> scenario_flags(const ScenarioChoices& choices) {
 LabProcesses::LabProcesses(const LabOptions& options)
     : domains_(1 + kLargestVehicles),
       folder_(new_folder()),
-      choices_{.file = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" +
-                       options.scenario + ".yaml",
-               .profile = options.profile} {
+      choices_{.file = scenario_file(options.scenario), .profile = options.profile} {
   if (!options.map_file.empty()) choices_.map_file = options.map_file;
-  const Scenario scenario = read_scenario(choices_);
+  scenario_ = read_scenario(choices_);
   const int lab = domains_.first();
   const auto common = [&](const std::string& program) {
     return std::vector<std::string>{
-        kBin + program, "--dds_domain=" + std::to_string(lab), "--transport=loopback",
+        kBin + program, "--dds_domain=" + std::to_string(lab), "--transport=" + options.transport,
         std::string("--simulated_time=") + (options.simulated_time ? "true" : "false"),
         "--startup_timeout_s=" +
             std::to_string(options.startup_timeout_s + (program == "lab_control" ? 0 : 10))};
@@ -60,11 +63,11 @@ LabProcesses::LabProcesses(const LabOptions& options)
     commands_[name] = std::move(command);
   };
   std::string ids;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+  for (const ScenarioVehicle& vehicle : scenario_.vehicles) {
     const std::string id = std::to_string(vehicle.id.value);
     const std::string local = "--middleware_domain=" + std::to_string(lab + vehicle.id.value);
     ids += (ids.empty() ? "" : ",") + id;
-    const Pose pose = measured_start(scenario, vehicle);
+    const Pose pose = measured_start(scenario_, vehicle);
     auto car = common("vehicle_sim");
     car.insert(car.end(), {"--vehicle_id=" + id,
                            "--pose=" + number(pose.x_m) + "," + number(pose.y_m) + "," +
@@ -85,12 +88,16 @@ LabProcesses::LabProcesses(const LabOptions& options)
   lab_control.insert(lab_control.end(),
                      {"--vehicle_ids=" + ids, "--steps=" + std::to_string(options.steps),
                       "--out=" + folder_.string()});
-  add("lab_control", lab_control, {});
+  add("lab_control", lab_control, options.lab_control_flags);
+  if (options.records_commands) {
+    add("command_recorder", common("command_recorder"),
+        {"--vehicle_ids=" + ids, "--out=" + commands_file().string()});
+  }
 }
 
 LabProcesses::~LabProcesses() {
   running_.clear();
-  if (!testing::Test::HasFailure()) {
+  if (!keeps_folder_ && !testing::Test::HasFailure()) {
     std::filesystem::remove_all(folder_);
   } else {
     std::cerr << "the run's files are in " << folder_ << '\n';
@@ -111,15 +118,13 @@ void LabProcesses::start_all() {
   for (const std::string& name : names()) start(name);
 }
 
+void LabProcesses::start_again(const std::string& name) {
+  running_.erase(name);
+  start(name);
+}
+
 std::vector<std::string> LabProcesses::still_running_after(std::chrono::seconds time) {
-  const auto deadline = std::chrono::steady_clock::now() + time;
-  std::vector<std::string> late;
-  for (auto& [name, process] : running_) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        deadline - std::chrono::steady_clock::now());
-    if (!process.wait_for(std::max(left, std::chrono::milliseconds(1)))) late.push_back(name);
-  }
-  return late;
+  return still_running(running_, time);
 }
 
 int LabProcesses::summarize() {

@@ -201,6 +201,33 @@ TEST_F(Scripts, ProcessesThatDieAtOnceEndTheRunWithCode4) {
       << "somebody of the run is still there";
 }
 
+TEST_F(Scripts, AControllerThatWasKilledIsStartedAgainByOneCommand) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab(
+      {"--simulated_time=false", "--on_death", "continue", "--steps", "60", "--out", out.string()});
+  ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 8000; }))
+      << output();
+  const pid_t pid = pid_of(out, "high_level_controller_2");
+  ASSERT_GT(pid, 0);
+  ASSERT_EQ(::kill(pid, SIGKILL), 0);
+  ASSERT_TRUE(eventually(10s, [&] {
+    return output().find("high_level_controller_2 died") != std::string::npos;
+  })) << output();
+  ChildProcess again({kScripts + "vehicle.sh", "--id", "2", "--only", "hlc", "--out", out.string()},
+                     folder_ / "again");
+  EXPECT_EQ(run.wait_for(120s), 0) << output();
+  EXPECT_EQ(again.wait_for(30s), 0) << read_text(folder_ / "again");
+  EXPECT_NE(output().find("high_level_controller_2 is back"), std::string::npos) << output();
+  EXPECT_NE(read_text(out / "logs" / "high_level_controller_2.log").find("joins the experiment"),
+            std::string::npos);
+}
+
+TEST_F(Scripts, LogicalTimeDoesNotGoOnAfterADeath) {
+  ChildProcess run = run_lab({"--on_death", "continue", "--out", (folder_ / "run").string()});
+  EXPECT_EQ(run.wait_for(60s), 2);
+  EXPECT_NE(output().find("--on_death = continue, allowed stop"), std::string::npos) << output();
+}
+
 TEST_F(Scripts, ALabControlThatHangsIsEnded) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab({"--steps", "5000", "--out", out.string()});

@@ -1,9 +1,11 @@
 #include "tests/support/child_process.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -21,6 +23,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
   if (pid_ > 0) return;
   // In the child: only calls that are safe after fork.
   ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // not even a stopped one outlives a killed test
   for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);  // whoever started the test
   const int out = ::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   const int in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -53,6 +56,18 @@ std::optional<int> ChildProcess::wait_for(std::chrono::milliseconds time) {
 
 void ChildProcess::send(int signal) const {
   if (!exit_code_) ::kill(pid_, signal);
+}
+
+std::vector<std::string> still_running(std::map<std::string, ChildProcess>& processes,
+                                       std::chrono::seconds time) {
+  const auto deadline = std::chrono::steady_clock::now() + time;
+  std::vector<std::string> late;
+  for (auto& [name, process] : processes) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    if (!process.wait_for(std::max(left, std::chrono::milliseconds(1)))) late.push_back(name);
+  }
+  return late;
 }
 
 std::string read_text(const std::filesystem::path& file) {

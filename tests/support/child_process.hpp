@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ class ChildProcess {
   pid_t pid_{-1};
   std::optional<int> exit_code_;
 };
+
+/// Waits for all of them. Names of those that still run at the deadline.
+[[nodiscard]] std::vector<std::string> still_running(std::map<std::string, ChildProcess>& processes,
+                                                     std::chrono::seconds time);
 
 /// The whole file; empty if there is none.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);

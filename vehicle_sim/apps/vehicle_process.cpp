@@ -47,6 +47,8 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
       vehicle_(options_.vehicle),
       recorder_(options_.record_file.empty() ? std::nullopt
                                              : std::optional<DriveRecorder>(options_.record_file)),
+      // The lab's controllers do not answer before the start. Ours is heard soon enough.
+      gave_up_waiting_(options_.transport == Transport::kLab),
       timer_(make_timer()),
       lab_({.name = name_,
             .domain_id = options_.lab_domain,
@@ -61,13 +63,7 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
       request_writer_(lab_, topics::parameter_request()),
       command_reader_(
           lab_, topics::vehicle_command(options_.vehicle.vehicle_id),
-          [this](const TrajectoryCommand& command) {
-            signal_.post([&] {
-              newest_answer_ = std::max(newest_answer_, command.create_stamp);
-              gave_up_waiting_ = false;
-              inbox_.push_back(command);
-            });
-          },
+          [this](const TrajectoryCommand& command) { take(command); },
           [this] { signal_.notify(); }),
       parameter_reader_(lab_, topics::parameter(),
                         [this](const Parameter& parameter) {
@@ -82,7 +78,44 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
               logical_timer_->on_trigger(trigger.next_start);
             }
           },
-          [this] { signal_.notify(); }) {}
+          [this] { signal_.notify(); }) {
+  if (options_.transport == Transport::kLab) {
+    lab_endpoints_ = std::make_unique<LabEndpoints>(*this);
+  }
+}
+
+VehicleProcess::~VehicleProcess() = default;
+
+struct VehicleProcess::LabEndpoints {
+  explicit LabEndpoints(VehicleProcess& process)
+      : observation_writer{process.lab_,
+                           topics::vehicle_observation(process.options_.vehicle.vehicle_id)},
+        path_tracking_reader{reader<PathTrackingCommand>(process)},
+        speed_curvature_reader{reader<SpeedCurvatureCommand>(process)},
+        direct_reader{reader<DirectCommand>(process)} {}
+
+  template <class Received>
+  static Reader<Received> reader(VehicleProcess& process) {
+    return Reader<Received>{process.lab_,
+                            topics::vehicle_command<Received>(process.options_.vehicle.vehicle_id),
+                            [&process](const Received& command) { process.take(command); }};
+  }
+
+  Writer<VehicleObservation> observation_writer;
+  Reader<PathTrackingCommand> path_tracking_reader;
+  Reader<SpeedCurvatureCommand> speed_curvature_reader;
+  Reader<DirectCommand> direct_reader;
+};
+
+/// On a DDS thread.
+template <class Received>
+void VehicleProcess::take(const Received& command) {
+  signal_.post([&] {
+    newest_answer_ = std::max(newest_answer_, command.create_stamp);
+    gave_up_waiting_ = false;
+    inbox_.emplace_back(command);
+  });
+}
 
 std::unique_ptr<Timer> VehicleProcess::make_timer() {
   if (!options_.logical_time) {
@@ -139,7 +172,12 @@ bool VehicleProcess::learn_parameters(Clock::time_point deadline) {
 }
 
 /// A state or a command of the run that nobody hears is lost, and then a tick would wait for it.
+/// On the lab's transport, where the lab's own middleware bears another name: of anybody's.
 bool VehicleProcess::is_connected() const {
+  if (options_.transport == Transport::kLab) {
+    return state_writer_.matched() > 0 && command_reader_.matched() > 0 &&
+           ready_writer_.matched() > 0 && trigger_reader_.matched() > 0;
+  }
   const std::set<std::string> hearers = state_writer_.matched_names();
   const bool all_middlewares_hear =
       std::ranges::all_of(parameters_.active_ids(), [&](std::int32_t id) {
@@ -230,6 +268,7 @@ bool VehicleProcess::tick(Nanoseconds t_now) {
   }
   const SimulatedVehicle::Tick done = step(t_now);
   state_writer_.write(done.state);
+  if (lab_endpoints_) lab_endpoints_->observation_writer.write(done.observation);
   tell_why_it_stops(done);
   last_tick_ = t_now;
   if (is_stopping_ && !vehicle_.is_braking()) {
@@ -267,8 +306,8 @@ void VehicleProcess::make_up_for_missed_ticks(Nanoseconds t_now) {
 }
 
 SimulatedVehicle::Tick VehicleProcess::step(Nanoseconds t_now) {
-  for (TrajectoryCommand& command : signal_.locked([this] { return std::exchange(inbox_, {}); })) {
-    vehicle_.receive(std::move(command));
+  for (Command& command : signal_.locked([this] { return std::exchange(inbox_, {}); })) {
+    std::visit([this](auto& received) { vehicle_.receive(std::move(received)); }, command);
   }
   SimulatedVehicle::Tick done = vehicle_.tick(t_now);
   if (recorder_) {

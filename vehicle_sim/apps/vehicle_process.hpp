@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "hlc_bridge/core/exit_codes.hpp"
@@ -45,6 +46,7 @@ class VehicleProcess {
  public:
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit VehicleProcess(VehicleProcessOptions options);
+  ~VehicleProcess();
 
   /// Until the stop symbol has come and the vehicle has braked, or `stop` is called. The exit code:
   /// also 3 if somebody needed did not appear, and 4 if the lab control dies.
@@ -54,10 +56,18 @@ class VehicleProcess {
   void stop();
 
  private:
+  using Command =
+      std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand, DirectCommand>;
+  /// What only the lab's programs say and hear: on its transport.
+  struct LabEndpoints;
+
   // Under the signal's lock:
   [[nodiscard]] bool is_ending() const { return stop_ || stop_symbol_; }
   [[nodiscard]] bool is_connected() const;
   [[nodiscard]] bool is_answered(Nanoseconds list) const;
+
+  template <class Received>
+  void take(const Received& command);
 
   [[nodiscard]] bool is_ending_now() const {
     return signal_.locked([this] { return is_ending(); });
@@ -93,7 +103,7 @@ class VehicleProcess {
 
   Signal signal_;
   // Guarded by the signal:
-  std::vector<TrajectoryCommand> inbox_;
+  std::vector<Command> inbox_;
   Nanoseconds newest_answer_{};  ///< largest create_stamp heard
   bool gave_up_waiting_{};
   bool stop_{};
@@ -111,6 +121,7 @@ class VehicleProcess {
   Reader<TrajectoryCommand> command_reader_;
   Reader<Parameter> parameter_reader_;
   Reader<SystemTrigger> trigger_reader_;
+  std::unique_ptr<LabEndpoints> lab_endpoints_;
 };
 
 }  // namespace hlc

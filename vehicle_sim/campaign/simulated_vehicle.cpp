@@ -46,23 +46,62 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
   const VehicleMotion estimate =
       estimator_.update(measured.pose, measured.speed_mps, follower_.acted());
 
-  const TrajectoryCommand* command = is_braking() ? nullptr : commands_.usable_at(t_now);
-  const Follower::Output output = follower_.tick(t_now, estimate, command);
-  const bool follows = output.status == FollowerStatus::kFollowing;
-  Tick result{.state = state_message(vehicle_id_, t_now, estimate, measured, output.input),
+  const Decision decision = decide(t_now, estimate);
+  const bool follows = decision.status == FollowerStatus::kFollowing;
+  Tick result{.state = state_message(vehicle_id_, t_now, estimate, measured, decision.input),
+              .observation = {.vehicle_id = vehicle_id_,
+                              .create_stamp = t_now,
+                              .valid_after_stamp = t_now,
+                              .pose = measured.pose},
               .driven = {.t = t_now,
                          .pose = truth.pose,
                          .speed_mps = truth.speed_mps,
-                         .throttle = output.input.throttle,
-                         .steering = output.input.steering,
-                         .command_create = follows ? command->create_stamp : 0},
-              .status = output.status};
+                         .throttle = decision.input.throttle,
+                         .steering = decision.input.steering,
+                         .command_create = follows ? decision.command_create : 0},
+              .status = decision.status};
 
-  plant_.step(output.input);
+  follower_.give(decision.input);
+  plant_.step(decision.input);
   if (is_braking() && --braking_ticks_left_ == 0) {
-    commands_.clear();
+    std::apply([](auto&... buffers) { (buffers.clear(), ...); }, commands_);
   }
   return result;
+}
+
+SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
+                                                    const VehicleMotion& estimate) {
+  // All of them are asked at every tick: a command that is not looked at while it is valid would
+  // count as new when one of higher rank has run out.
+  const auto usable = std::apply(
+      [&](auto&... buffers) { return std::tuple{buffers.usable_at(t_now)...}; }, commands_);
+  const auto& [direct, speed_curvature, trajectory, path] = usable;
+  const Follower::Output followed =
+      follower_.decide(t_now, estimate, is_braking() ? nullptr : trajectory);
+  const bool has_estimate = followed.status != FollowerStatus::kNoEstimate;
+  if (has_estimate && !is_braking()) {
+    if (direct != nullptr) {
+      speed_control_.reset();
+      return {direct_input(*direct), FollowerStatus::kFollowing, direct->create_stamp};
+    }
+    if (speed_curvature != nullptr) {
+      return {{.throttle = speed_control_.tick(speed_curvature->speed_mps, estimate.speed_mps),
+               .steering = steering_for_curvature(speed_curvature->curvature_per_m)},
+              FollowerStatus::kFollowing,
+              speed_curvature->create_stamp};
+    }
+    if (trajectory == nullptr && path != nullptr) {
+      if (const auto steering = steering_for_path(*path, estimate)) {
+        return {{.throttle = speed_control_.tick(path->speed_mps, estimate.speed_mps),
+                 .steering = *steering},
+                FollowerStatus::kFollowing,
+                path->create_stamp};
+      }
+    }
+  }
+  speed_control_.reset();
+  return {followed.input, followed.status,
+          trajectory != nullptr ? trajectory->create_stamp : Nanoseconds{}};
 }
 
 }  // namespace hlc

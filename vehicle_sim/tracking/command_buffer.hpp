@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "hlc_bridge/core/messages.hpp"
 
 namespace hlc {
 
-/// The trajectory commands that a vehicle has received, and which of them it follows.
+/// The commands of one kind that a vehicle has received, and which of them it follows.
 ///
 /// The lab's rule: of the commands with valid_after <= t_now the one with the largest create_stamp
 /// is active, of equal ones the later arrival. It is usable while t_now - valid_after <
@@ -18,26 +20,51 @@ namespace hlc {
 ///
 /// At most `kCapacity` commands wait for their time; beyond that the earliest arrival makes room.
 /// The active one never has to.
+template <class Command>
 class CommandBuffer {
  public:
   static constexpr std::size_t kCapacity = 100;
 
   /// Calls must follow the order of arrival.
-  void add(TrajectoryCommand command);
+  void add(Command command) {
+    if (waiting_.size() == kCapacity) {
+      waiting_.pop_front();
+    }
+    waiting_.push_back({.command = std::move(command), .number = arrivals_++});
+  }
 
   /// The command to follow at `t_now`, or nullptr. Valid until the next call. `t_now` must not
   /// decrease.
-  [[nodiscard]] const TrajectoryCommand* usable_at(Nanoseconds t_now);
+  [[nodiscard]] const Command* usable_at(Nanoseconds t_now) {
+    for (Arrival& arrival : waiting_) {
+      const bool is_valid = arrival.command.valid_after_stamp <= t_now;
+      if (is_valid && (!active_ || arrival.replaces(*active_))) {
+        active_ = std::move(arrival);
+      }
+    }
+    // Whatever was valid has either been taken or is older than what is active.
+    std::erase_if(waiting_, [&](const Arrival& arrival) {
+      return arrival.command.valid_after_stamp <= t_now;
+    });
+    const bool is_usable = active_ && t_now - active_->command.valid_after_stamp < kCommandLifetime;
+    return is_usable ? &active_->command : nullptr;
+  }
 
   /// Forgets everything, as after a stop.
-  void clear();
+  void clear() {
+    active_.reset();
+    waiting_.clear();
+  }
 
  private:
   struct Arrival {
-    TrajectoryCommand command;
+    Command command;
     std::uint64_t number{};  ///< counts arrivals
 
-    [[nodiscard]] bool replaces(const Arrival& other) const;
+    [[nodiscard]] bool replaces(const Arrival& other) const {
+      return std::tie(command.create_stamp, number) >
+             std::tie(other.command.create_stamp, other.number);
+    }
   };
 
   std::uint64_t arrivals_{};

@@ -29,15 +29,19 @@ FollowerGains scaled(const FollowerGains& gains, double factor) {
 
 Follower::Output Follower::tick(Nanoseconds t_now, const VehicleMotion& estimate,
                                 const TrajectoryCommand* command) {
-  const Output output = decided(t_now, estimate, command);
-  acted_ = under_way_.front();
-  std::shift_left(under_way_.begin(), under_way_.end(), 1);
-  under_way_.back() = output.input;
+  const Output output = decide(t_now, estimate, command);
+  give(output.input);
   return output;
 }
 
-Follower::Output Follower::decided(Nanoseconds t_now, const VehicleMotion& estimate,
-                                   const TrajectoryCommand* command) const {
+void Follower::give(const ActuatorInput& input) {
+  acted_ = under_way_.front();
+  std::shift_left(under_way_.begin(), under_way_.end(), 1);
+  under_way_.back() = input;
+}
+
+Follower::Output Follower::decide(Nanoseconds t_now, const VehicleMotion& estimate,
+                                  const TrajectoryCommand* command) const {
   if (!is_finite(estimate)) {
     return {.input = {}, .status = FollowerStatus::kNoEstimate};
   }
@@ -59,8 +63,7 @@ Follower::Output Follower::decided(Nanoseconds t_now, const VehicleMotion& estim
       std::max(t_now + kInputDelayTicks * kVehiclePeriod, command->points.front().t);
   Reference reference;
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    const std::optional<ReferenceSample> wanted =
-        sample(command->points, t_start + i * kVehiclePeriod);
+    const std::optional<CurveSample> wanted = sample(command->points, t_start + i * kVehiclePeriod);
     if (!wanted) {
       return {.input = stop, .status = FollowerStatus::kNotFollowable};
     }

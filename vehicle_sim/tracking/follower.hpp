@@ -66,20 +66,26 @@ class Follower {
     FollowerStatus status{FollowerStatus::kNoCommand};
   };
 
-  /// The input to give at `t_now`. Call it once per tick: it remembers the inputs under way.
+  /// The input to give at `t_now`.
   /// @param estimate  present pose and speed
   /// @param command   the command to follow or nullptr
+  [[nodiscard]] Output decide(Nanoseconds t_now, const VehicleMotion& estimate,
+                              const TrajectoryCommand* command) const;
+
+  /// The input that is given at this tick, whoever decided on it: to be told once per tick, since
+  /// it will be under way at the next ones.
+  void give(const ActuatorInput& input);
+
+  /// Both at once.
   Output tick(Nanoseconds t_now, const VehicleMotion& estimate, const TrajectoryCommand* command);
 
-  /// The input that acts from the last tick to this one; before `tick` is called for this one.
+  /// The input that acts from the last tick to this one; before `give` is called for this one.
   [[nodiscard]] const ActuatorInput& acted() const { return acted_; }
 
  private:
   /// Reference positions at t_a, t_a + T and t_a + 2 T.
   using Reference = std::array<Point, 3>;
 
-  [[nodiscard]] Output decided(Nanoseconds t_now, const VehicleMotion& estimate,
-                               const TrajectoryCommand* command) const;
   [[nodiscard]] double steering_for(const Reference& reference, const VehicleMotion& start) const;
   [[nodiscard]] double throttle_for(const Reference& reference, const VehicleMotion& start,
                                     double steering) const;

@@ -12,6 +12,7 @@
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
@@ -42,7 +43,8 @@ bool runs(pid_t pid) {
   return (file >> id >> name >> state) && state != "Z";
 }
 
-/// The program for vehicles 1 and 2, on a middleware's domain of which the test is the middleware.
+/// The program for vehicles 1 and 2, on a middleware's domain of which the test is the middleware;
+/// both stand where the scenario has them.
 class TwoControllers : public testing::Test {
  protected:
   TwoControllers()
@@ -60,11 +62,18 @@ class TwoControllers : public testing::Test {
   template <class Condition>
   [[nodiscard]] bool write_until(Condition condition) {
     return Signal{}.repeat_until(soon(), 50ms, condition, [this] {
-      lists_.write({.t_now = next_on_grid(real_time_now(), kPeriod, kListOffset),
-                    .period_ms = 200,
-                    .states = {},
-                    .observations = {},
-                    .active_vehicle_ids = {1, 2}});
+      VehicleStateList list{.t_now = next_on_grid(real_time_now(), kPeriod, kListOffset),
+                            .period_ms = 200,
+                            .states = {},
+                            .observations = {},
+                            .active_vehicle_ids = {1, 2}};
+      for (const std::uint8_t id : {std::uint8_t{1}, std::uint8_t{2}}) {
+        list.states.push_back({.vehicle_id = id,
+                               .create_stamp = list.t_now - kStateDelay,
+                               .valid_after_stamp = list.t_now,
+                               .pose = measured_start(scenario_, vehicle_of(scenario_, {id}))});
+      }
+      lists_.write(list);
     });
   }
   [[nodiscard]] bool are_ready() {
@@ -79,6 +88,7 @@ class TwoControllers : public testing::Test {
         std::ranges::count(commands_.wait_for(0), vehicle, &TrajectoryCommand::vehicle_id));
   }
 
+  const Scenario scenario_ = read_scenario({.file = kScenario});
   TemporaryFolder folder_;
   DomainReservation domains_{2};
   Participant participant_;
@@ -129,13 +139,30 @@ TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
     return std::pair{code, read_text(folder / "output")};
   };
   const auto [missing, nobody] =
-      start("--scenario=circle --dds_initial_peer=rtps@udpv4://10.0.0.1");
+      start("--scenario=lab_circle --dds_initial_peer=rtps@udpv4://10.0.0.1");
   EXPECT_EQ(missing, kExitMissing) << nobody;
   EXPECT_NE(nobody.find("--dds_initial_peer"), std::string::npos) << nobody;
-  EXPECT_EQ(start("").first, kExitMissing) << "without a name it drives the paper's three cars";
+  EXPECT_EQ(start("").first, kExitMissing) << "without a name it drives the lab's three cars";
   const auto [bad, unknown] = start("--scenario=nowhere");
   EXPECT_EQ(bad, kExitBadInput);
   EXPECT_NE(unknown.find("/lab/scenarios/nowhere.yaml"), std::string::npos) << unknown;
+}
+
+TEST(ControllerProgram, RefusesAnAutomatonThatTheLabsVehiclesCannotFollow) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "too_tight.yaml").string();
+  const std::string shipped = HLC_SOURCE_DIR "/launch_scripts";
+  std::ofstream(file) << "name: too_tight\nsteps: 10\nautomaton: " << shipped
+                      << "/automata/paper.yaml\nlab: " << shipped
+                      << "/labs/cpm_lab.yaml\nsubgraph: B\ncircle: {cars: 2, radius_m: 1.5, "
+                         "centre_x_m: 2.25, centre_y_m: 2.0}\n";
+  const Outcome outcome = run_program("high_level_controller --vehicle_ids=1 --scenario=" + file);
+  EXPECT_EQ(outcome.exit_code, kExitBadInput);
+  EXPECT_NE(outcome.output.find("paper.yaml: subgraph B, trim 2: curvature = -4.3"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("allowed -3.96 ... 4.316"), std::string::npos) << outcome.output;
+  EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
 }
 
 TEST(ControllerProgram, RefusesAVehicleThatIsNamedTwice) {

@@ -127,6 +127,85 @@ TEST_F(RealTimeRunTest, StopsOnePeriodAfterTheLastStepAndFinishesAfterBraking) {
   EXPECT_EQ(run_.result().first_step, k0);
 }
 
+class OnDeathContinue : public RealTimeRunTest {
+ protected:
+  OnDeathContinue() {
+    run_.presence(kAll, {});
+    run_.trigger_readers(timers_of({1, 2}));
+  }
+  /// Advances period by period; controller 2 reports only if it `lives`.
+  LabRunActions drive(std::uint64_t from, std::uint64_t to, bool lives) {
+    LabRunActions all;
+    for (std::uint64_t step = from; step < to; ++step) {
+      run_.report(report(1, step, StepStatus::kPlanned));
+      if (lives) run_.report(report(2, step, StepStatus::kPlanned));
+      const LabRunActions actions = run_.advance(step * kPeriod);
+      std::ranges::copy(actions.deaths, std::back_inserter(all.deaths));
+      std::ranges::copy(actions.returns, std::back_inserter(all.returns));
+      std::ranges::copy(actions.triggers, std::back_inserter(all.triggers));
+      if (actions.run_state) all.run_state = actions.run_state;
+    }
+    return all;
+  }
+  void begin() {
+    for (const std::uint8_t id : settings().vehicle_ids) {
+      for (const VehicleState& state : second_of_states(id)) run_.state(state);
+      run_.ready({middleware_ready_id(id), 0});
+    }
+    EXPECT_EQ(run_.advance(kStart).triggers.size(), 1U);
+  }
+  void lose_controller_2() {
+    std::set<std::string> others = kAll;
+    others.erase(controller_name(2));
+    run_.presence(others, {controller_name(2)});
+  }
+
+  static LabRunSettings long_run() {
+    LabRunSettings settings = hlc::settings();
+    settings.steps = 40;
+    settings.on_death = OnDeath::kContinue;
+    return settings;
+  }
+  RealTimeRun run_{long_run()};
+  std::uint64_t k0_{step_at(kStart + kSecond, kPeriod)};
+};
+
+TEST_F(OnDeathContinue, TheRunGoesOnAndEndsWellIfWhoDiedIsBack) {
+  begin();
+  (void)drive(k0_, k0_ + 10, true);
+  lose_controller_2();
+  const LabRunActions death = drive(k0_ + 10, k0_ + 25, false);
+  ASSERT_EQ(death.deaths.size(), 1U);
+  EXPECT_EQ(death.deaths.front().process, controller_name(2));
+  EXPECT_EQ(death.run_state, std::nullopt) << "nobody drives out";
+  EXPECT_THAT(death.triggers, IsEmpty());
+  run_.presence(kAll, {});
+  EXPECT_THAT(drive(k0_ + 25, k0_ + 26, false).returns, IsEmpty()) << "it does not report yet";
+  EXPECT_THAT(drive(k0_ + 26, k0_ + 41, true).returns, ElementsAre(controller_name(2)));
+  EXPECT_THAT(drive(k0_ + 41, k0_ + 42, true).triggers, ElementsAre(kStopSymbol));
+  EXPECT_EQ(run_.result().exit_code, kExitGood);
+  EXPECT_EQ(run_.result().deaths.size(), 1U) << "it is recorded nevertheless";
+}
+
+TEST_F(OnDeathContinue, TheRunHasFailedIfWhoDiedIsNotBackAtItsEnd) {
+  begin();
+  (void)drive(k0_, k0_ + 10, true);
+  lose_controller_2();
+  EXPECT_THAT(drive(k0_ + 10, k0_ + 42, false).triggers, ElementsAre(kStopSymbol));
+  EXPECT_EQ(run_.result().exit_code, kExitDied);
+  EXPECT_THAT(run_.result().reason, HasSubstr(controller_name(2)));
+}
+
+TEST_F(OnDeathContinue, WhoIsBackAndDiesAgainIsNamedAgain) {
+  begin();
+  (void)drive(k0_, k0_ + 10, true);
+  lose_controller_2();
+  (void)drive(k0_ + 10, k0_ + 12, false);
+  run_.presence(kAll, {});
+  (void)drive(k0_ + 12, k0_ + 14, true);
+  EXPECT_EQ(drive(k0_ + 14, k0_ + 30, false).deaths.size(), 1U) << "it does not report";
+}
+
 TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   make_ready();
   (void)run_.advance(kStart);

@@ -143,6 +143,23 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   EXPECT_EQ(summary().vehicles.at(0).astray_steps, 1U);
 }
 
+TEST_F(RunSummaryTest, StepsWhosePlanOrCommandIsNotSentAreCountedAndTold) {
+  EXPECT_EQ(summary().vehicles.at(0).undrivable_steps, 0U);
+  EXPECT_EQ(summary_table(summary()).find("commands not sent"), std::string::npos);
+  for (ReportRecord& record : reports_) {
+    if (record.report.vehicle.value == 1 && record.report.step.value % 4 == 0) {
+      record.report.status = StepStatus::kFallback;
+      record.report.reason = FallbackReason::kUndrivable;
+    }
+  }
+  const std::size_t counted = summary().vehicles.at(0).undrivable_steps;
+  EXPECT_GT(counted, 3U);
+  EXPECT_EQ(summary().vehicles.at(0).fallback_steps, counted);
+  EXPECT_NE(summary_table(summary()).find("commands not sent: beyond the lab's limits   " +
+                                          std::to_string(counted) + "\n"),
+            std::string::npos);
+}
+
 // A car that drives its plan exactly, with the two maneuvers between two trims in turn.
 TEST_F(RunSummaryTest, OfSeveralManeuversBetweenTwoTrimsTheOneThatWasPlannedIsComparedWith) {
   reports_.clear();

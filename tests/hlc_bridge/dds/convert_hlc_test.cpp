@@ -127,7 +127,7 @@ TEST(OwnConversionRefuses, UnknownEnumerationValues) {
   report.status(4);
   EXPECT_FALSE(from_wire(report).message.has_value());
   report.status(0);
-  report.reason(8);
+  report.reason(10);
   EXPECT_FALSE(from_wire(report).message.has_value());
   report.reason(0);
   report.quality(3);

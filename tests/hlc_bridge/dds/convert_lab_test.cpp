@@ -16,9 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Message>
 class LabConversion : public testing::Test {};
-using LabMessages = testing::Types<VehicleState, VehicleObservation, VehicleStateList,
-                                   TrajectoryCommand, ReadyStatus, SystemTrigger, Parameter,
-                                   ParameterRequest, StopRequest, Log, LogLevel>;
+using LabMessages =
+    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
+                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
+                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel>;
 TYPED_TEST_SUITE(LabConversion, LabMessages);
 
 TYPED_TEST(LabConversion, EveryFieldSurvivesTheWayOverTheWire) {
@@ -82,6 +83,23 @@ TEST(LabConversionRefuses, CommandsWithNumbersThatAreNotFiniteOrTooManyPoints) {
   TrajectoryCommand long_one;
   long_one.points.resize(1001);
   EXPECT_TRUE(is_refused(long_one));
+  PathTrackingCommand long_path;
+  EXPECT_FALSE(is_refused(long_path));
+  long_path.path.resize(1001);
+  EXPECT_TRUE(is_refused(long_path));
+
+  PathTrackingCommand bent;
+  bent.path.resize(3);
+  EXPECT_FALSE(is_refused(bent));
+  bent.path[1].pose.x_m = kNan;
+  EXPECT_TRUE(is_refused(bent));
+  bent.path[1] = {.pose = {}, .s_m = kInfinity};
+  EXPECT_TRUE(is_refused(bent));
+  EXPECT_TRUE(is_refused(PathTrackingCommand{.speed_mps = kNan}));
+  EXPECT_TRUE(is_refused(SpeedCurvatureCommand{.speed_mps = kNan}));
+  EXPECT_TRUE(is_refused(SpeedCurvatureCommand{.curvature_per_m = kInfinity}));
+  EXPECT_TRUE(is_refused(DirectCommand{.motor_throttle = kNan}));
+  EXPECT_TRUE(is_refused(DirectCommand{.steering_servo = kNan}));
 }
 
 TEST(LabConversionRefuses, ListsWithoutPeriodOrWithStrangeIds) {

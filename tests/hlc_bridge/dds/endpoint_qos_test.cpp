@@ -19,7 +19,7 @@ const std::vector<Place> kOwn{{TopicId::kTraffic, DomainRole::kController},
 
 const std::vector<Place> kOfTheLab{{TopicId::kVehicleState, DomainRole::kLab},
                                    {TopicId::kVehicleObservation, DomainRole::kLab},
-                                   {TopicId::kTrajectoryCommand, DomainRole::kLab},
+                                   {TopicId::kVehicleCommand, DomainRole::kLab},
                                    {TopicId::kReadyStatus, DomainRole::kLab},
                                    {TopicId::kSystemTrigger, DomainRole::kLab},
                                    {TopicId::kParameter, DomainRole::kLab},
@@ -29,7 +29,7 @@ const std::vector<Place> kOfTheLab{{TopicId::kVehicleState, DomainRole::kLab},
                                    {TopicId::kLogLevel, DomainRole::kLab},
                                    {TopicId::kVisualization, DomainRole::kLab},
                                    {TopicId::kVehicleStateList, DomainRole::kLocal},
-                                   {TopicId::kTrajectoryCommand, DomainRole::kLocal},
+                                   {TopicId::kVehicleCommand, DomainRole::kLocal},
                                    {TopicId::kReadyStatus, DomainRole::kLocal},
                                    {TopicId::kSystemTrigger, DomainRole::kLocal}};
 
@@ -115,7 +115,7 @@ TEST(TopicQos, LabTransportIsTheContract) {
   EXPECT_EQ(state.writer.reliability, Reliability::kBestEffort);
   EXPECT_EQ(state.writer.history_depth, 1);
   EXPECT_EQ(state.reader.history_depth, 0);
-  const auto command = lab(TopicId::kTrajectoryCommand, DomainRole::kLocal);
+  const auto command = lab(TopicId::kVehicleCommand, DomainRole::kLocal);
   EXPECT_EQ(command.reader.history_depth, 1);
   EXPECT_EQ(command.reader.reliability, Reliability::kBestEffort);
   EXPECT_EQ(lab(TopicId::kParameterRequest, DomainRole::kLab).reader.reliability,

@@ -42,6 +42,10 @@ class Mailbox {
     return signal_.locked([&] { return messages_; });
   }
 
+  [[nodiscard]] std::vector<Message> now() const {
+    return signal_.locked([&] { return messages_; });
+  }
+
   /// For conditions on the reader's matches.
   template <class Condition>
   [[nodiscard]] bool wait_until(Condition condition) const {

@@ -21,6 +21,9 @@ template <> struct Place<VehicleState> { static auto topic() { return topics::ve
 template <> struct Place<VehicleObservation> { static auto topic() { return topics::vehicle_observation(3); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<VehicleStateList> { static auto topic() { return topics::vehicle_state_list(); } static constexpr auto kRole = DomainRole::kLocal; };
 template <> struct Place<TrajectoryCommand> { static auto topic() { return topics::command(); } static constexpr auto kRole = DomainRole::kLocal; };
+template <> struct Place<PathTrackingCommand> { static auto topic() { return topics::command<PathTrackingCommand>(); } static constexpr auto kRole = DomainRole::kLocal; };
+template <> struct Place<SpeedCurvatureCommand> { static auto topic() { return topics::vehicle_command<SpeedCurvatureCommand>(3); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<DirectCommand> { static auto topic() { return topics::vehicle_command<DirectCommand>(3); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<ReadyStatus> { static auto topic() { return topics::ready_status(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<SystemTrigger> { static auto topic() { return topics::system_trigger(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Parameter> { static auto topic() { return topics::parameter(); } static constexpr auto kRole = DomainRole::kLab; };
@@ -40,8 +43,9 @@ template <class Message>
 class RoundTrip : public testing::Test {};
 using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
-                   ReadyStatus, SystemTrigger, Parameter, ParameterRequest, StopRequest, Log,
-                   LogLevel, Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
+                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
+                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
 TYPED_TEST_SUITE(RoundTrip, Messages);
 
 TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {
@@ -166,8 +170,8 @@ TEST(LateJoiner, GetsEveryReportAndTheLastRunState) {
     record.report.vehicle = {2};
     ASSERT_TRUE(blue.write(record));
   }
-  ASSERT_TRUE(run_state.write({RunPhase::kRunning}));
-  ASSERT_TRUE(run_state.write({RunPhase::kDriveOut}));
+  ASSERT_TRUE(run_state.write({RunPhase::kRunning, 7}));
+  ASSERT_TRUE(run_state.write({RunPhase::kDriveOut, 7}));
 
   Participant late{on_loopback("late", domain.first(), DomainRole::kController)};
   Mailbox<ReportRecord> reports{late, topics::report()};

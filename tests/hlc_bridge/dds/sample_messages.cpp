@@ -41,6 +41,7 @@ void put_message(std::ostream& out, const OccupiedAreas& value) {
   const auto& [first, areas_m, final_area_m] = value;
   put_all(out, first, areas_m, final_area_m);
 }
+void put_message(std::ostream& out, const PathPoint& value) { put_all(out, value.pose, value.s_m); }
 void put_message(std::ostream& out, const TrajectoryPoint& value) {
   const auto& [t, x_m, y_m, vx_mps, vy_mps] = value;
   put_all(out, t, x_m, y_m, vx_mps, vy_mps);
@@ -60,6 +61,18 @@ void put_message(std::ostream& out, const VehicleStateList& value) {
 void put_message(std::ostream& out, const TrajectoryCommand& value) {
   const auto& [a, b, c, d] = value;
   put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const PathTrackingCommand& value) {
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e);
+}
+void put_message(std::ostream& out, const SpeedCurvatureCommand& value) {
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e);
+}
+void put_message(std::ostream& out, const DirectCommand& value) {
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e);
 }
 void put_message(std::ostream& out, const ReadyStatus& value) {
   const auto& [a, b] = value;
@@ -105,7 +118,7 @@ void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d] = value;
   put_all(out, a, b, c, d);
 }
-void put_message(std::ostream& out, const RunState& value) { put_all(out, value.phase); }
+void put_message(std::ostream& out, const RunState& value) { put_all(out, value.phase, value.start); }
 template <class Value>
 void put_message(std::ostream& out, const std::vector<Value>& values) {
   put_list(out, values);
@@ -224,6 +237,28 @@ TrajectoryCommand sample(Random& random) {
 }
 
 template <>
+PathTrackingCommand sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255)), random(), random(),
+          list(random, 60,
+               [](Random& r) {
+                 return PathPoint{pose(r), number(r)};
+               }),
+          number(random)};
+}
+
+template <>
+SpeedCurvatureCommand sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255)), random(), random(), number(random),
+          number(random)};
+}
+
+template <>
+DirectCommand sample(Random& random) {
+  return {static_cast<std::uint8_t>(whole(random, 255)), random(), random(), number(random),
+          number(random)};
+}
+
+template <>
 ReadyStatus sample(Random& random) {
   return {words(random), random()};
 }
@@ -316,7 +351,7 @@ ReportRecord sample(Random& random) {
   const Report report{vehicle(random),
                       {random()},
                       static_cast<StepStatus>(whole(random, 3)),
-                      static_cast<FallbackReason>(whole(random, 7)),
+                      static_cast<FallbackReason>(whole(random, 9)),
                       pose(random),
                       {whole(random, 100)},
                       number(random),
@@ -333,13 +368,16 @@ ReportRecord sample(Random& random) {
 
 template <>
 RunState sample(Random& random) {
-  return {static_cast<RunPhase>(whole(random, 1))};
+  return {static_cast<RunPhase>(whole(random, 1)), random()};
 }
 
 std::string text(const VehicleState& message) { return text_of(message); }
 std::string text(const VehicleObservation& message) { return text_of(message); }
 std::string text(const VehicleStateList& message) { return text_of(message); }
 std::string text(const TrajectoryCommand& message) { return text_of(message); }
+std::string text(const PathTrackingCommand& message) { return text_of(message); }
+std::string text(const SpeedCurvatureCommand& message) { return text_of(message); }
+std::string text(const DirectCommand& message) { return text_of(message); }
 std::string text(const ReadyStatus& message) { return text_of(message); }
 std::string text(const SystemTrigger& message) { return text_of(message); }
 std::string text(const Parameter& message) { return text_of(message); }

@@ -19,6 +19,9 @@ template <class Message>
 [[nodiscard]] std::string text(const VehicleObservation& message);
 [[nodiscard]] std::string text(const VehicleStateList& message);
 [[nodiscard]] std::string text(const TrajectoryCommand& message);
+[[nodiscard]] std::string text(const PathTrackingCommand& message);
+[[nodiscard]] std::string text(const SpeedCurvatureCommand& message);
+[[nodiscard]] std::string text(const DirectCommand& message);
 [[nodiscard]] std::string text(const ReadyStatus& message);
 [[nodiscard]] std::string text(const SystemTrigger& message);
 [[nodiscard]] std::string text(const Parameter& message);

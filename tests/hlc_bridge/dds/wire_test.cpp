@@ -45,8 +45,9 @@ template <class Message>
 class WireTypes : public testing::Test {};
 using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
-                   ReadyStatus, SystemTrigger, Parameter, ParameterRequest, StopRequest, Log,
-                   LogLevel, Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
+                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
+                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
 TYPED_TEST_SUITE(WireTypes, Messages);
 
 // Cut off, overwritten in places, or both: a message or not, but never an exception, and never a

@@ -11,6 +11,7 @@
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
+#include "planner/geometry/footprint.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
@@ -70,6 +71,18 @@ VehicleStateList list_of_nobody() {
           .active_vehicle_ids = {1}};
 }
 
+/// A list of now that shows vehicle 1 there.
+VehicleStateList list_of(const Pose& pose, double speed_mps) {
+  VehicleStateList list = list_of_nobody();
+  list.t_now = real_time_now() / kPeriod * kPeriod + kListOffset;
+  list.states = {{.vehicle_id = 1,
+                  .create_stamp = list.t_now - 60'000'000,
+                  .valid_after_stamp = list.t_now,
+                  .pose = pose,
+                  .speed_mps = speed_mps}};
+  return list;
+}
+
 TEST_F(HlcProcessTest, BearsItsVehiclesNameWhateverItsNodeId) {
   const Participant lab{on_loopback("observer", domains_.first(), DomainRole::kLab)};
   const Participant local_observer{on_loopback("observer", local(), DomainRole::kLocal)};
@@ -90,10 +103,12 @@ TEST_F(HlcProcessTest, LeavesWhenItsMiddlewareIsLostAndNotWhenAnotherControllerI
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{10},
       [&] { return middleware->participant.is_lost(controller_name(2)); }, [] {}));
-  middleware->lists.write(list_of_nobody());
-  EXPECT_EQ(middleware->commands.wait_for(1).size(), 1U);
-  // It is ready from now on: vehicle 1 has no peers.
-  EXPECT_GE(middleware->ready.wait_for(1).size(), 1U);
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  // Vehicle 1 has no peers: it is ready when it has stood for a horizon.
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{50}, [&] { return !middleware->ready.now().empty(); },
+      [&] { middleware->lists.write(list_of(start, 0.0)); }));
+  EXPECT_FALSE(middleware->commands.now().empty());
   middleware.reset();
   ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
@@ -132,14 +147,7 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   const bool is_drawn = Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{50},
       [&] { return lab_control.drawings.wait_for(0).size() >= 2; },
-      [&] {
-        VehicleStateList list = list_of_nobody();
-        list.states = {{.vehicle_id = 1,
-                        .create_stamp = list.t_now - 60'000'000,
-                        .valid_after_stamp = list.t_now,
-                        .pose = start}};
-        middleware.lists.write(list);
-      });
+      [&] { middleware.lists.write(list_of(start, 0.0)); });
   ASSERT_TRUE(is_drawn);
   const Visualization state = lab_control.drawings.wait_for(2)[1];
   EXPECT_EQ(state.text, "1: standby");
@@ -168,6 +176,116 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
       },
       [] { spdlog::info("for an operator who asks for all lines"); });
   EXPECT_TRUE(reads_all);
+}
+
+TEST_F(HlcProcessTest, TellsTheOperatorThatItsVehicleFitsNoRouteAndIsNotReadyUntilItDoes) {
+  Operator lab_control{domains_.first()};
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const Pose beside = compose(start, {0.0, 0.0, 1.5});
+  ASSERT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{50},
+      [&] { return middleware.commands.wait_for(0).size() >= 8; },
+      [&] { middleware.lists.write(list_of(beside, 0.0)); }));
+  ASSERT_GE(lab_control.log.wait_for(1).size(), 1U);
+  EXPECT_NE(lab_control.log.wait_for(1)[0].content.find("fits no route: nearest is red"),
+            std::string::npos)
+      << lab_control.log.wait_for(1)[0].content;
+  EXPECT_TRUE(middleware.ready.wait_for(0).empty());
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{50}, [&] { return !middleware.ready.wait_for(0).empty(); },
+      [&] { middleware.lists.write(list_of(start, 0.0)); }));
+}
+
+/// What the others on the controllers' domain say and hear.
+class Others {
+ public:
+  explicit Others(int domain)
+      : participant{on_loopback(controller_name(2), domain, DomainRole::kController)},
+        traffic{participant, topics::traffic()},
+        reports{participant, topics::report()} {}
+
+  Participant participant;
+  Writer<Traffic> traffic;
+  Mailbox<ReportRecord> reports;
+};
+
+/// Whoever says something is heard from now on.
+bool are_matched(FakeMiddleware& middleware, Others& others) {
+  return middleware.lists.wait_for_matched(1, soon()) &&
+         others.traffic.wait_for_matched(1, soon()) &&
+         others.reports.reader().wait_for_matched(1, soon());
+}
+
+/// Of a vehicle that drives far away.
+Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
+  const ConvexPolygon far = footprint_area({.length_m = 0.2, .width_m = 0.1}, {90.0, 90.0, 0.0});
+  Traffic traffic;
+  traffic.vehicle = {vehicle};
+  traffic.step = {step};
+  traffic.running.first = traffic.step;
+  traffic.running.final_area_m = far;
+  traffic.reachable_area_m = far;
+  return traffic;
+}
+
+TEST_F(HlcProcessTest, NeitherTrafficOfWhoTakesNoPartNorOfAnotherTimeStartsItsVehicle) {
+  FakeMiddleware middleware{local()};
+  Others others{controllers()};
+  ASSERT_TRUE(are_matched(middleware, others));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{20}, [&] { return others.reports.now().size() >= 5; },
+      [&] {
+        VehicleStateList list = list_of(start, 0.0);
+        list.active_vehicle_ids = {1, 2};
+        others.traffic.write(traffic_of(2, list.t_now / kPeriod - 3));
+        others.traffic.write(traffic_of(3, list.t_now / kPeriod));
+        middleware.lists.write(list);
+      }));
+  for (const ReportRecord& record : others.reports.now()) {
+    EXPECT_EQ(record.report.status, StepStatus::kStandby);
+  }
+}
+
+TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleStands) {
+  FakeMiddleware middleware{local()};
+  Others others{controllers()};
+  ASSERT_TRUE(are_matched(middleware, others));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const auto tell = [&](double speed_mps) {
+    VehicleStateList list = list_of(start, speed_mps);
+    list.active_vehicle_ids = {1, 2};
+    others.traffic.write(traffic_of(2, list.t_now / kPeriod));
+    middleware.lists.write(list);
+  };
+  const auto ends = std::chrono::steady_clock::now() + std::chrono::seconds{1};
+  static_cast<void>(Signal{}.repeat_until(
+      ends, std::chrono::milliseconds{50}, [] { return false; }, [&] { tell(0.5); }));
+  EXPECT_TRUE(middleware.commands.wait_for(0).empty()) << "it drives what it was left";
+  EXPECT_TRUE(others.reports.wait_for(0).empty());
+  const auto drives = [&] {
+    return std::ranges::any_of(others.reports.wait_for(0), [](const ReportRecord& record) {
+      return record.report.status == StepStatus::kPlanned;
+    });
+  };
+  EXPECT_TRUE(
+      Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, drives, [&] { tell(0.0); }));
+  EXPECT_EQ(others.reports.wait_for(1)[0].report.status, StepStatus::kStandby);
+}
+
+TEST_F(HlcProcessTest, WithoutTriggerAndTrafficItWaits) {
+  FakeMiddleware middleware{local()};
+  Others others{controllers()};
+  ASSERT_TRUE(are_matched(middleware, others));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  ASSERT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{50}, [&] { return others.reports.wait_for(0).size() >= 5; },
+      [&] { middleware.lists.write(list_of(start, 0.0)); }));
+  for (const ReportRecord& record : others.reports.wait_for(5)) {
+    EXPECT_EQ(record.report.status, StepStatus::kStandby);
+  }
 }
 
 TEST_F(HlcProcessTest, AsksTheLabControlToStopWhenItsPeriodIsNotTheLabs) {

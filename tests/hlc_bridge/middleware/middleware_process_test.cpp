@@ -21,17 +21,25 @@ using testing::ElementsAre;
 constexpr Nanoseconds kMs = 1'000'000;
 constexpr Nanoseconds kPeriod = 200 * kMs;
 
+ParticipantOptions options_of(const std::string& name, int domain, DomainRole role,
+                              Transport transport) {
+  ParticipantOptions options = on_loopback(name, domain, role);
+  options.transport = transport;
+  return options;
+}
+
 /// The lab control and vehicles 1 and 2, as far as the middleware of vehicle 1 meets them.
 class FakeLab {
  public:
-  explicit FakeLab(int domain)
-      : participant_{on_loopback(kLabControlName, domain, DomainRole::kLab)},
+  FakeLab(int domain, Transport transport)
+      : participant_{options_of(kLabControlName, domain, DomainRole::kLab, transport)},
         parameter_writer_{participant_, topics::parameter()},
         triggers{participant_, topics::system_trigger()},
         state_1{participant_, topics::vehicle_state(1)},
         state_2{participant_, topics::vehicle_state(2)},
         ready{participant_, topics::ready_status()},
         commands{participant_, topics::vehicle_command(1)},
+        commands_2{participant_, topics::vehicle_command(2)},
         requests_{participant_, topics::parameter_request(),
                   [this](const ParameterRequest& request) {
                     signal_.post([&] { asked_.push_back(request.name); });
@@ -66,6 +74,9 @@ class FakeLab {
   Writer<VehicleState> state_2;
   Mailbox<ReadyStatus> ready;
   Mailbox<TrajectoryCommand> commands;
+  Mailbox<TrajectoryCommand> commands_2;
+
+  [[nodiscard]] Participant& participant() { return participant_; }
 
  private:
   Reader<ParameterRequest> requests_;
@@ -73,12 +84,14 @@ class FakeLab {
 
 class FakeController {
  public:
-  explicit FakeController(int domain)
-      : participant_{on_loopback(controller_name(1), domain, DomainRole::kLocal)},
+  FakeController(int domain, Transport transport)
+      : participant_{options_of(controller_name(1), domain, DomainRole::kLocal, transport)},
         ready{participant_, topics::ready_status()},
         commands{participant_, topics::command()},
         triggers{participant_, topics::system_trigger()},
         lists{participant_, topics::vehicle_state_list()} {}
+
+  [[nodiscard]] Participant& participant() { return participant_; }
 
  private:
   Participant participant_;
@@ -111,14 +124,17 @@ TrajectoryCommand command(Nanoseconds t_now, std::uint8_t id = 1) {
 
 class MiddlewareTest : public testing::Test {
  protected:
+  explicit MiddlewareTest(Transport transport = Transport::kLoopback) : transport_{transport} {}
+
   void start(bool logical_time) {
     MiddlewareOptions options;
     options.node_id = node_id_;
-    options.vehicle_id = 1;
-    options.transport = Transport::kLoopback;
+    options.vehicle_ids = vehicle_ids_;
+    options.transport = transport_;
     options.lab_domain = domains_.first();
     options.local_domain = domains_.first() + 1;
     options.logical_time = logical_time;
+    options.keep_running = keep_running_;
     options.startup_timeout = startup_timeout_;
     process_ = std::make_unique<MiddlewareProcess>(options);
     code_ = std::async(std::launch::async, [this] { return process_->run(); });
@@ -174,12 +190,15 @@ class MiddlewareTest : public testing::Test {
     return -1;
   }
 
+  const Transport transport_;
   DomainReservation domains_{2};
   std::chrono::seconds startup_timeout_{60};
   std::string node_id_{middleware_name(1)};
-  FakeLab lab_{domains_.first()};
+  std::vector<std::uint8_t> vehicle_ids_{1};
+  bool keep_running_{false};
+  FakeLab lab_{domains_.first(), transport_};
   std::unique_ptr<FakeController> controller_ =
-      std::make_unique<FakeController>(domains_.first() + 1);
+      std::make_unique<FakeController>(domains_.first() + 1, transport_);
   std::unique_ptr<MiddlewareProcess> process_;
   std::future<int> code_;
 };
@@ -320,6 +339,130 @@ TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIs
   ASSERT_EQ(triggers.size(), 2U);
   EXPECT_EQ(triggers[0].next_start, 5U);
   EXPECT_EQ(triggers[1].next_start, 6U);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, OneOfSeveralVehiclesIsReadyWithAllItsControllersAndCommandsEachItsOwn) {
+  vehicle_ids_ = {1, 2};
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+  const std::size_t lists = controller_->lists.wait_for(1).size();
+  ASSERT_GE(controller_->lists.wait_for(lists + 3).size(), lists + 3);  // periods have passed
+  EXPECT_TRUE(lab_.ready.wait_for(0).empty());
+  ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(2)}));
+  EXPECT_EQ(lab_.ready.wait_for(1).at(0).source_id, "MW for muCars 1, 2 ready.");
+  const Nanoseconds t_now = controller_->lists.wait_for(1).back().t_now;
+  controller_->commands.write(command(t_now, 1));
+  controller_->commands.write(command(t_now, 2));
+  controller_->commands.write(command(t_now, 3));
+  EXPECT_EQ(lab_.commands.wait_for(1).at(0).vehicle_id, 1);
+  EXPECT_EQ(lab_.commands_2.wait_for(1).at(0).vehicle_id, 2);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+  EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(lab_.commands_2.wait_for(1).size(), 1U);
+}
+
+TEST_F(MiddlewareTest, InLogicalTimeATickWaitsForAllItsControllers) {
+  vehicle_ids_ = {1, 2};
+  start_in_logical_time();
+  ASSERT_TRUE(lab_.commands_2.reader().wait_for_matched(1, soon()));
+  lab_.triggers.write({kListOffset});
+  ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+  controller_->commands.write(command(kListOffset, 1));
+  EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(lab_.ready.wait_for(1).back().next_start, kListOffset);  // still
+  controller_->commands.write(command(kListOffset, 2));
+  wait_for_request(kPeriod + kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
+  keep_running_ = true;
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
+  const auto drive = [&](std::size_t commands_before) {
+    ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+    const std::size_t told = lab_.ready.wait_for(0).size();
+    ASSERT_GE(lab_.ready.wait_for(told + 1).size(), told + 1);
+    lab_.triggers.write({5});
+    ASSERT_EQ(controller_->triggers.wait_for(2 * commands_before + 1).back().next_start, 5U);
+    controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));
+    ASSERT_EQ(lab_.commands.wait_for(commands_before + 1).size(), commands_before + 1);
+  };
+  drive(0);
+  lab_.triggers.write({kStopSymbol});
+  ASSERT_EQ(controller_->triggers.wait_for(2).back().next_start, kStopSymbol);
+  const std::size_t lists = controller_->lists.wait_for(1).size();
+  controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));  // kept back
+  ASSERT_GE(controller_->lists.wait_for(lists + 3).size(), lists + 3);                // lists go on
+  EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  drive(1);
+  process_->stop();
+  EXPECT_EQ(exit_code(), kExitGood);
+}
+
+class MiddlewareBesideTheLabTest : public MiddlewareTest {
+ protected:
+  MiddlewareBesideTheLabTest() : MiddlewareTest{Transport::kLab} {}
+};
+
+TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations) {
+  Writer<VehicleObservation> observations{lab_.participant(), topics::vehicle_observation(2)};
+  Mailbox<PathTrackingCommand> paths{lab_.participant(),
+                                     topics::vehicle_command<PathTrackingCommand>(1)};
+  Mailbox<SpeedCurvatureCommand> speeds{lab_.participant(),
+                                        topics::vehicle_command<SpeedCurvatureCommand>(1)};
+  Mailbox<DirectCommand> directs{lab_.participant(), topics::vehicle_command<DirectCommand>(1)};
+  Writer<PathTrackingCommand> path_writer{controller_->participant(),
+                                          topics::command<PathTrackingCommand>()};
+  Writer<SpeedCurvatureCommand> speed_writer{controller_->participant(),
+                                             topics::command<SpeedCurvatureCommand>()};
+  Writer<DirectCommand> direct_writer{controller_->participant(), topics::command<DirectCommand>()};
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_TRUE(observations.wait_for_matched(1, soon()));
+  ASSERT_TRUE(paths.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(speeds.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(directs.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(path_writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(speed_writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(direct_writer.wait_for_matched(1, soon()));
+
+  // Best effort: said again until it is heard. The first one is for a vehicle that is not its own.
+  Signal pause;
+  const auto said_until_heard = [&](auto& writer, auto command, auto& mailbox) {
+    command.vehicle_id = 2;
+    writer.write(command);
+    command.vehicle_id = 1;
+    return pause.repeat_until(
+        soon(), std::chrono::milliseconds{20}, [&] { return !mailbox.now().empty(); },
+        [&] { writer.write(command); });
+  };
+  EXPECT_TRUE(said_until_heard(path_writer, PathTrackingCommand{.speed_mps = 0.5}, paths));
+  EXPECT_TRUE(said_until_heard(speed_writer, SpeedCurvatureCommand{.speed_mps = 0.6}, speeds));
+  EXPECT_TRUE(said_until_heard(direct_writer, DirectCommand{.motor_throttle = 0.1}, directs));
+  EXPECT_TRUE(paths.now().at(0).path.empty());  // an empty path is one, too
+  EXPECT_EQ(paths.now().at(0).vehicle_id, 1);
+  EXPECT_EQ(speeds.now().at(0).speed_mps, 0.6);
+  EXPECT_EQ(directs.now().at(0).motor_throttle, 0.1);
+
+  const auto sees_vehicle_2 = [&] {
+    const VehicleStateList list = controller_->lists.now().back();
+    return list.observations.size() == 2 && list.observations[1].vehicle_id == 2 &&
+           list.observations[1].pose.x_m == 3.5;
+  };
+  EXPECT_TRUE(pause.repeat_until(soon(), std::chrono::milliseconds{20}, sees_vehicle_2, [&] {
+    observations.write({.vehicle_id = 2, .create_stamp = 7, .pose = {.x_m = 3.5}});
+  }));
+  EXPECT_EQ(controller_->lists.now().back().observations[0].vehicle_id, 0);
   EXPECT_EQ(end_by_stop_symbol(), kExitGood);
 }
 

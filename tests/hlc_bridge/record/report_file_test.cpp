@@ -22,7 +22,7 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   report.step = StepIndex{step};
   report.vehicle = VehicleId{id};
   report.status = static_cast<StepStatus>(random() % 4);
-  report.reason = static_cast<FallbackReason>(random() % 8);
+  report.reason = static_cast<FallbackReason>(random() % 10);
   report.planned_pose = {value(random), value(random), value(random)};
   report.planned_trim = TrimId{random() % 12};
   report.cost_m2 = value(random);

@@ -77,6 +77,50 @@ TEST(SimulatedVehicle, WithZeroGainsItDoesNotMove) {
   EXPECT_GT(samples.back().error_m(), 1.0);
 }
 
+TEST(SimulatedVehicle, OfSeveralKindsOfCommandsTheFirstInTheLabsOrderCounts) {
+  SimulatedVehicle vehicle = vehicle_at(kStart);
+  constexpr Nanoseconds kSecond = 1'000 * kMillisecond;
+  const auto at = [](auto command, Nanoseconds stamp) {
+    command.create_stamp = command.valid_after_stamp = stamp;
+    return command;
+  };
+  PathTrackingCommand path{.path = {{.pose = {.x_m = -5.0}}, {.pose = {.x_m = 5.0}}},
+                           .speed_mps = 0.5};
+  for (PathPoint& point : path.path) point.pose.y_m = kStart.y_m;
+  vehicle.receive(at(path, 0));
+  vehicle.receive(
+      at(SpeedCurvatureCommand{.speed_mps = 0.4, .curvature_per_m = 1.0}, 20 * kMillisecond));
+  vehicle.receive(
+      at(DirectCommand{.motor_throttle = 0.2, .steering_servo = 0.5}, 40 * kMillisecond));
+  EXPECT_EQ(vehicle.tick(0).driven.command_create, 0U);
+  EXPECT_EQ(vehicle.tick(20 * kMillisecond).driven.steering, 0.241857);
+  const SimulatedVehicle::Tick direct = vehicle.tick(40 * kMillisecond);
+  EXPECT_EQ(direct.driven.steering, 0.5);
+  EXPECT_EQ(direct.driven.throttle, 0.2);
+  EXPECT_EQ(direct.driven.command_create, 40 * kMillisecond);
+  EXPECT_EQ(direct.status, FollowerStatus::kFollowing);
+  // One after the other runs out after 1 s, the path's first of all: then nothing is left.
+  EXPECT_EQ(vehicle.tick(40 * kMillisecond + kSecond).status, FollowerStatus::kNoCommand);
+  vehicle.receive(at(path, 2 * kSecond));
+  vehicle.receive(at(SpeedCurvatureCommand{.speed_mps = 0.4}, 2 * kSecond + 500 * kMillisecond));
+  EXPECT_GT(vehicle.tick(2 * kSecond).driven.throttle, 0.0);
+  EXPECT_EQ(vehicle.tick(3 * kSecond).driven.command_create, 2 * kSecond + 500 * kMillisecond);
+  vehicle.brake();
+  EXPECT_EQ(vehicle.tick(3 * kSecond + 20 * kMillisecond).status, FollowerStatus::kNoCommand);
+}
+
+TEST(SimulatedVehicle, ASpeedAndACurvatureAreDriven) {
+  SimulatedVehicle vehicle = vehicle_at(kStart);
+  SimulatedVehicle::Tick last;
+  for (Nanoseconds t = 0; t < 5'000 * kMillisecond; t += kVehiclePeriod) {
+    vehicle.receive(SpeedCurvatureCommand{
+        .create_stamp = t, .valid_after_stamp = t, .speed_mps = 0.6, .curvature_per_m = 1.0});
+    last = vehicle.tick(t);
+  }
+  EXPECT_NEAR(last.driven.speed_mps, 0.6, 0.02);
+  EXPECT_GT(last.driven.pose.heading_rad, 2.0);
+}
+
 TEST(SimulatedVehicle, RecordsTheCommandThatItFollows) {
   SimulatedVehicle vehicle = vehicle_at(kStart);
   const TrimWalk walk = straight_walk(5);
@@ -157,10 +201,11 @@ TEST(SimulatedVehicle, AfterTheStopItBrakesForFiftyTicksAndForgetsItsCommands) {
   // Then it listens again.
   Nanoseconds t = braked + kVehiclePeriod;
   const Pose pose = vehicle.motion().pose;
-  vehicle.receive({.create_stamp = t,
-                   .valid_after_stamp = t,
-                   .points = {{.t = t, .x_m = pose.x_m, .y_m = pose.y_m},
-                              {.t = t + 2'000 * kMillisecond, .x_m = pose.x_m, .y_m = pose.y_m}}});
+  vehicle.receive(TrajectoryCommand{
+      .create_stamp = t,
+      .valid_after_stamp = t,
+      .points = {{.t = t, .x_m = pose.x_m, .y_m = pose.y_m},
+                 {.t = t + 2'000 * kMillisecond, .x_m = pose.x_m, .y_m = pose.y_m}}});
   EXPECT_EQ(vehicle.tick(t).status, FollowerStatus::kFollowing);
 }
 

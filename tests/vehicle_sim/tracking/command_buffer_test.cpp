@@ -20,18 +20,18 @@ TrajectoryCommand command(Nanoseconds create_ms, Nanoseconds valid_after_ms, std
           .points = std::vector<TrajectoryPoint>(mark)};
 }
 
-std::size_t mark_at(CommandBuffer& buffer, Nanoseconds t_ms) {
+std::size_t mark_at(CommandBuffer<TrajectoryCommand>& buffer, Nanoseconds t_ms) {
   const TrajectoryCommand* usable = buffer.usable_at(t_ms * kMillisecond);
   return usable == nullptr ? 0 : usable->points.size();
 }
 
 TEST(CommandBuffer, NothingIsUsableBeforeACommandArrives) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   EXPECT_EQ(buffer.usable_at(0), nullptr);
 }
 
 TEST(CommandBuffer, CommandIsUsableFromValidAfterForOneSecond) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 100, 1));
   EXPECT_EQ(mark_at(buffer, 99), 0U);
   EXPECT_EQ(mark_at(buffer, 100), 1U);
@@ -40,7 +40,7 @@ TEST(CommandBuffer, CommandIsUsableFromValidAfterForOneSecond) {
 }
 
 TEST(CommandBuffer, LargestCreateStampWinsWhateverTheOrderOfArrival) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(200, 200, 2));
   buffer.add(command(0, 0, 1));
   EXPECT_EQ(mark_at(buffer, 300), 2U);
@@ -49,7 +49,7 @@ TEST(CommandBuffer, LargestCreateStampWinsWhateverTheOrderOfArrival) {
 }
 
 TEST(CommandBuffer, LaterArrivalWinsATie) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 0, 1));
   buffer.add(command(0, 0, 2));
   EXPECT_EQ(mark_at(buffer, 0), 2U);
@@ -58,7 +58,7 @@ TEST(CommandBuffer, LaterArrivalWinsATie) {
 }
 
 TEST(CommandBuffer, CopyWithLaterValidityTakesOver) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 0, 1));
   buffer.add(command(0, 800, 2));
   EXPECT_EQ(mark_at(buffer, 780), 1U);
@@ -68,7 +68,7 @@ TEST(CommandBuffer, CopyWithLaterValidityTakesOver) {
 }
 
 TEST(CommandBuffer, CopyOfAnOlderPlanNeverComesBack) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 0, 1));
   buffer.add(command(0, 800, 2));
   buffer.add(command(200, 200, 3));
@@ -78,7 +78,7 @@ TEST(CommandBuffer, CopyOfAnOlderPlanNeverComesBack) {
 }
 
 TEST(CommandBuffer, NewerCommandThatIsNotYetValidDoesNotInterrupt) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 0, 1));
   buffer.add(command(200, 400, 2));
   EXPECT_EQ(mark_at(buffer, 380), 1U);
@@ -86,7 +86,7 @@ TEST(CommandBuffer, NewerCommandThatIsNotYetValidDoesNotInterrupt) {
 }
 
 TEST(CommandBuffer, ClearForgetsEverything) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 0, 1));
   EXPECT_EQ(mark_at(buffer, 0), 1U);
   buffer.add(command(200, 200, 2));
@@ -97,22 +97,22 @@ TEST(CommandBuffer, ClearForgetsEverything) {
 }
 
 TEST(CommandBuffer, FloodOfFutureCommandsDoesNotPushOutTheActiveOne) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 0, 1));
   EXPECT_EQ(mark_at(buffer, 0), 1U);
-  for (std::size_t i = 0; i < 10 * CommandBuffer::kCapacity; ++i) {
+  for (std::size_t i = 0; i < 10 * CommandBuffer<TrajectoryCommand>::kCapacity; ++i) {
     buffer.add(command(200, 100'000 + i, 2));
   }
   EXPECT_EQ(mark_at(buffer, 500), 1U);
 }
 
 TEST(CommandBuffer, EarliestArrivalMakesRoom) {
-  CommandBuffer buffer;
+  CommandBuffer<TrajectoryCommand> buffer;
   buffer.add(command(0, 100, 1));
-  for (std::size_t i = 0; i < CommandBuffer::kCapacity - 1; ++i) {
+  for (std::size_t i = 0; i < CommandBuffer<TrajectoryCommand>::kCapacity - 1; ++i) {
     buffer.add(command(200, 1'000, 2));
   }
-  CommandBuffer with_one_more = buffer;
+  CommandBuffer<TrajectoryCommand> with_one_more = buffer;
   EXPECT_EQ(mark_at(buffer, 100), 1U);
   with_one_more.add(command(200, 1'000, 2));
   EXPECT_EQ(mark_at(with_one_more, 100), 0U);
@@ -135,7 +135,7 @@ TEST(CommandBuffer, AnswersByTheRuleForRandomArrivals) {
   for (std::uint64_t seed = 0; seed < test::num_seeds(200); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    CommandBuffer buffer;
+    CommandBuffer<TrajectoryCommand> buffer;
     std::vector<TrajectoryCommand> arrived;
     for (Nanoseconds t_ms = 0; t_ms < 6'000; t_ms += 20) {
       for (auto n = random() % 8; n > 5; --n) {  // few values each, so that ties are frequent

@@ -61,7 +61,7 @@ TEST(Trajectory, ReproducesCubicsWithTheirDerivatives) {
       points.push_back(cubic.at(t));
     }
     const Nanoseconds t = random() % (points.back().t + 1);
-    const std::optional<ReferenceSample> got = sample(points, t);
+    const std::optional<CurveSample> got = sample(points, t);
     ASSERT_TRUE(got);
     const double s = 1e-9 * static_cast<double>(t);
     const TrajectoryPoint want = cubic.at(t);
@@ -80,7 +80,7 @@ TEST(Trajectory, PassesThroughItsPointsWithTheirVelocities) {
       {.t = 300, .x_m = 1.5, .y_m = 1.0, .vx_mps = -1.0, .vy_mps = 0.0},
       {.t = 350, .x_m = 0.5, .y_m = 0.0, .vx_mps = 0.0, .vy_mps = 2.0}};
   for (const TrajectoryPoint& point : points) {
-    const std::optional<ReferenceSample> got = sample(points, point.t);
+    const std::optional<CurveSample> got = sample(points, point.t);
     ASSERT_TRUE(got);
     EXPECT_NEAR(got->position_m.x(), point.x_m, 1e-12);
     EXPECT_NEAR(got->position_m.y(), point.y_m, 1e-12);
@@ -132,7 +132,7 @@ TEST(Trajectory, CurvatureOfACircleIsItsInverseRadius) {
 
 TEST(Trajectory, CurvatureAtStandstillIsZero) {
   EXPECT_EQ(
-      (ReferenceSample{
+      (CurveSample{
           .position_m = {1.0, 1.0}, .velocity_mps = {0.0, 0.0}, .acceleration_mps2 = {3.0, 4.0}}
            .curvature_per_m()),
       0.0);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "hlc_bridge/core/encounters.hpp"
+#include "hlc_bridge/core/run_record.hpp"
+#include "tests/integration/recorded_commands.hpp"
+
+/// What the vehicles' own records say of a fault.
+namespace hlc::test {
+
+inline constexpr Nanoseconds kForEver = ~Nanoseconds{0};
+
+/// Largest distance of the driven positions in [from, to] from the one plan that the vehicle
+/// followed at `from`: the command that its record names there, read as the lab's vehicle reads it
+/// (vehicle_sim/tracking/trajectory.hpp), and its last point after its end. Whoever drives anything
+/// else from then on shows here, also if it is told to by newer commands; commands that go on with
+/// the same plan do not.
+/// @return nothing if the vehicle followed no command at `from`, or one that was not recorded, or
+/// has no record of [from, to]
+[[nodiscard]] std::optional<double> farthest_from_plan_m(const Drive& drive,
+                                                         const Commands& commands,
+                                                         std::uint8_t vehicle, Nanoseconds from,
+                                                         Nanoseconds to);
+
+/// Time since which the vehicle stands until `to`, or the end of its record: slower than counts as
+/// standing (MissingVehicleRules). Nothing if it does not stand then.
+[[nodiscard]] std::optional<Nanoseconds> standing_since(const Drive& drive, Nanoseconds to);
+
+/// How close all driven footprints came to each other. A vehicle whose record has ended stands
+/// where it was seen last and can still be hit: but not those of `ended`, whose own processes died,
+/// so that the simulated cars stopped within no time, which is on nobody's plan. They count as long
+/// as their records last.
+[[nodiscard]] Encounters driven_encounters(const std::vector<VehicleDescription>& vehicles,
+                                           const Drives& drives,
+                                           const std::set<std::uint8_t>& ended = {});
+
+}  // namespace hlc::test

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "hlc_bridge/core/messages.hpp"
+#include "tests/integration/driven_plan.hpp"
+
+/// What the system promises of every car that a fault affects, as tests ask for it.
+namespace hlc::test {
+
+/// From then on an affected car drives only its last agreed plan.
+inline constexpr Nanoseconds kReactionTime = 500'000'000;
+/// And until then it stands: after the plan of at most 1.6 s, agreed until kReactionTime.
+inline constexpr Nanoseconds kStandingTime = 2'500'000'000;
+/// The safety margin: the areas that the others keep free hold every car that is not farther from
+/// its plan. (Without noise cars that nobody disturbs keep to it within 1 mm.)
+inline constexpr double kTrackingTolerance_m = 0.010;
+
+inline void expect_only_the_last_plan(const Drive& drive, const Commands& commands,
+                                      std::uint8_t vehicle, Nanoseconds fault, Nanoseconds to) {
+  const auto farthest_m = farthest_from_plan_m(drive, commands, vehicle, fault + kReactionTime, to);
+  ASSERT_TRUE(farthest_m) << "vehicle " << int{vehicle} << " follows no plan";
+  EXPECT_LE(*farthest_m, kTrackingTolerance_m) << "vehicle " << int{vehicle};
+}
+
+/// And stays there to the end of its record.
+inline void expect_stands_in_time(const Drive& drive, std::uint8_t vehicle, Nanoseconds fault) {
+  ASSERT_FALSE(drive.empty()) << "vehicle " << int{vehicle};
+  ASSERT_GT(drive.back().t, fault + kStandingTime) << "vehicle " << int{vehicle};
+  const auto since = standing_since(drive, drive.back().t);
+  ASSERT_TRUE(since) << "vehicle " << int{vehicle} << " drives at the end";
+  EXPECT_LE(*since, fault + kStandingTime) << "vehicle " << int{vehicle};
+}
+
+}  // namespace hlc::test

@@ -1,0 +1,149 @@
+#include "tests/integration/lab_network.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "hlc_bridge/record/drive_file.hpp"
+#include "tests/integration/run_reports.hpp"
+
+namespace hlc::test {
+namespace {
+
+const std::string kPrograms = HLC_BINARY_DIR "/bin/";
+const std::string kScripts = HLC_SOURCE_DIR "/launch_scripts/";
+
+bool succeeds(const std::string& command) {
+  return std::system((command + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+bool in(const std::string& space, const std::string& command) {
+  return succeeds("ip -n " + space + " " + command);
+}
+
+std::string peers_of(int machine) {
+  std::string addresses;
+  for (int other = 1; other <= Network::kMachines; ++other) {
+    if (other == machine) continue;
+    addresses += (addresses.empty() ? "" : ",") + Network::address(other);
+  }
+  return " --controller_peers=" + addresses;
+}
+
+std::filesystem::path new_network_folder() {
+  std::string name = (std::filesystem::temp_directory_path() / "hlc_network_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+  return name;
+}
+
+}  // namespace
+
+Network::Network(bool multicast) : prefix_("hlc_" + std::to_string(getpid()) + "_") {
+  is_made_ = succeeds("ip netns add " + switch_name()) &&
+             in(switch_name(), "link add br0 type bridge mcast_snooping 0") &&
+             in(switch_name(), "link set br0 up");
+  for (int i = 1; i <= kMachines && is_made_; ++i) is_made_ = add_machine(i, multicast);
+}
+
+Network::~Network() {
+  for (int i = 1; i <= kMachines; ++i) succeeds("ip netns del " + machine(i));
+  succeeds("ip netns del " + switch_name());
+}
+
+std::string Network::address(int machine) { return "10.77.0." + std::to_string(machine); }
+
+std::vector<std::string> Network::on(int i, const std::string& command) const {
+  const std::filesystem::path shared_memory = shared_memories_ / machine(i);
+  std::filesystem::create_directories(shared_memory);
+  return {"/bin/sh", "-c",
+          "exec ip netns exec " + machine(i) + " sh -c 'mount --bind " + shared_memory.string() +
+              " /dev/shm && exec " + command + "'"};
+}
+
+void Network::cut_off(int machine) const {
+  in(switch_name(), "link set p" + std::to_string(machine) + " down");
+}
+
+void Network::join(int machine) const {
+  in(switch_name(), "link set p" + std::to_string(machine) + " up");
+}
+
+bool Network::add_machine(int i, bool multicast) const {
+  const std::string number = std::to_string(i);
+  const std::string port = "p" + number;
+  return succeeds("ip netns add " + machine(i)) && in(machine(i), "link set lo up") &&
+         succeeds("ip link add eth0 netns " + machine(i) + " type veth peer name " + port +
+                  " netns " + switch_name()) &&
+         in(switch_name(), "link set " + port + " master br0 up") &&
+         in(switch_name(),
+            "link set " + port + " type bridge_slave mcast_flood " + (multicast ? "on" : "off")) &&
+         in(machine(i), "addr add " + address(i) + "/24 dev eth0") &&
+         in(machine(i), "link set eth0 up") && in(machine(i), "route add 224.0.0.0/4 dev eth0");
+}
+
+LabOverNetwork::LabOverNetwork(const Network& network, int steps, const std::string& discovery,
+                               bool names_peers)
+    : folder_(new_network_folder()) {
+  const auto run = [&](int machine, const std::string& program, const std::string& flags,
+                       const std::filesystem::path& out) {
+    std::string command = program + flags + discovery;
+    command += " --simulated_time=false --transport=lab --dds_domain=1 --startup_timeout_s=60";
+    command += " --out=" + out.string();
+    return network.on(machine, command);
+  };
+  for (int i = 1; i <= Network::kVehicles; ++i) {
+    const std::string id = std::to_string(i);
+    std::string flags = " --id " + id;
+    flags += " --bin " + kPrograms;
+    flags += " --scenario " + scenario_file();
+    if (names_peers) flags += peers_of(i);
+    start("vehicle_" + id, run(i, kScripts + "vehicle.sh", flags, folder_));
+    start("recorder_" + id, run(i, kPrograms + "command_recorder", " --vehicle_ids=" + id,
+                                folder_ / ("commands_" + id + ".txt")));
+  }
+  constexpr int kLast = Network::kMachines;
+  std::string flags = " --vehicle_ids=1,2,3 --steps=" + std::to_string(steps);
+  if (names_peers) flags += peers_of(kLast);
+  start("lab_control", run(kLast, kPrograms + "lab_control", flags, folder_));
+}
+
+LabOverNetwork::~LabOverNetwork() {
+  processes_.clear();
+  if (!keeps_folder_ && !testing::Test::HasFailure()) {
+    std::filesystem::remove_all(folder_);
+  } else {
+    std::cerr << "the run's files are in " << folder_ << '\n';
+  }
+}
+
+void LabOverNetwork::start(const std::string& name, const std::vector<std::string>& command) {
+  processes_.emplace(name, ChildProcess(command, folder_ / name));
+}
+
+std::vector<std::string> LabOverNetwork::still_running_after(std::chrono::seconds time) {
+  return still_running(processes_, time);
+}
+
+std::vector<ReportRecord> LabOverNetwork::reports() const { return reports_so_far(folder_); }
+
+std::string LabOverNetwork::output(const std::string& name) const {
+  return name + ": " + read_text(folder_ / name);
+}
+
+Drives LabOverNetwork::drives() const { return read_drives(folder_, {1, 2, 3}); }
+
+Commands LabOverNetwork::commands() const {
+  Commands all;
+  for (int i = 1; i <= Network::kVehicles; ++i) {
+    all.merge(read_commands(folder_ / ("commands_" + std::to_string(i) + ".txt")));
+  }
+  return all;
+}
+
+std::string LabOverNetwork::scenario_file() { return kScripts + "scenarios/paper_three_cars.yaml"; }
+
+}  // namespace hlc::test

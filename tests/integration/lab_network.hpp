@@ -1,0 +1,78 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/core/run_record.hpp"
+#include "tests/integration/recorded_commands.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc::test {
+
+/// Machines 1 to 4 with addresses 10.77.0.1 to 10.77.0.4 on one switch: network namespaces joined
+/// by a bridge. Needs root. All of it is gone with this object.
+class Network {
+ public:
+  static constexpr int kVehicles = 3;  ///< machine i is vehicle i's
+  static constexpr int kMachines = 4;  ///< the last one is the lab control's
+
+  explicit Network(bool multicast);
+  ~Network();
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  /// False without root or iproute2.
+  [[nodiscard]] bool is_made() const { return is_made_; }
+  [[nodiscard]] static std::string address(int machine);
+
+  /// A command line that runs on a machine, with the shared memory of that machine.
+  [[nodiscard]] std::vector<std::string> on(int machine, const std::string& command) const;
+  void cut_off(int machine) const;
+  void join(int machine) const;
+
+ private:
+  [[nodiscard]] std::string switch_name() const { return prefix_ + "switch"; }
+  [[nodiscard]] std::string machine(int i) const { return prefix_ + std::to_string(i); }
+  [[nodiscard]] bool add_machine(int i, bool multicast) const;
+
+  std::string prefix_;
+  TemporaryFolder shared_memories_;
+  bool is_made_{};
+};
+
+/// Three cars over the network in real time, `vehicle.sh` on machines 1 to 3 and the lab control on
+/// the fourth. Processes: vehicle_1, ..., lab_control; beside each vehicle a recorder of the
+/// commands that reach it.
+class LabOverNetwork {
+ public:
+  /// @param discovery    further flags of all processes
+  /// @param names_peers  whether controllers are told the others' addresses
+  LabOverNetwork(const Network& network, int steps, const std::string& discovery = "",
+                 bool names_peers = false);
+  ~LabOverNetwork();
+
+  void keep_folder() { keeps_folder_ = true; }
+  [[nodiscard]] ChildProcess& operator[](const std::string& name) { return processes_.at(name); }
+  /// Waits for all. Names of those that still run at the deadline.
+  [[nodiscard]] std::vector<std::string> still_running_after(std::chrono::seconds time);
+
+  /// So far.
+  [[nodiscard]] std::vector<ReportRecord> reports() const;
+  [[nodiscard]] std::string output(const std::string& name) const;
+  [[nodiscard]] Drives drives() const;
+  [[nodiscard]] Commands commands() const;
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] static std::string scenario_file();
+
+ private:
+  void start(const std::string& name, const std::vector<std::string>& command);
+
+  std::filesystem::path folder_;
+  bool keeps_folder_{};
+  std::map<std::string, ChildProcess> processes_;
+};
+
+}  // namespace hlc::test

@@ -1,0 +1,107 @@
+// How well the simulated vehicle follows our commands in the lab's scenarios: its dynamics, its
+// sensors' noise, subgraph B at the speeds of the trims.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numbers>
+
+#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/core/run_summary.hpp"
+#include "tests/vehicle_sim/campaign/closed_loop.hpp"
+#include "vehicle_sim/campaign/experiment.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kMean_m = 0.010;
+constexpr double kMax_m = 0.020;
+
+RunSummary driven(const std::string& name, std::uint64_t steps,
+                  std::optional<std::uint64_t> noise_seed) {
+  const Scenario scenario =
+      read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + name + ".yaml"});
+  const Experiment experiment =
+      drive_experiment(scenario, {.steps = steps, .noise_seed = noise_seed});
+  EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
+  const std::vector<StepRecord> rows =
+      step_records(experiment.reports, experiment.drives, experiment.facts);
+  return summarize(describe(scenario, noise_seed), experiment.facts, rows, experiment.drives);
+}
+
+void expect_tracked(const std::string& name, std::uint64_t steps) {
+  for (const std::optional<std::uint64_t> noise_seed :
+       {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1),
+        std::optional<std::uint64_t>(1000)}) {
+    SCOPED_TRACE(name + (noise_seed ? ", noise seed " + std::to_string(*noise_seed) : ""));
+    const RunSummary summary = driven(name, steps, noise_seed);
+    EXPECT_EQ(summary.collisions, 0U);
+    for (const VehicleSummary& vehicle : summary.vehicles) {
+      ASSERT_TRUE(vehicle.tracking_error_m);
+      EXPECT_LE(vehicle.tracking_error_m->mean, kMean_m) << vehicle.name;
+      EXPECT_LE(vehicle.tracking_error_m->max, kMax_m) << vehicle.name;
+      EXPECT_EQ(vehicle.undrivable_steps, 0U) << vehicle.name;
+      EXPECT_EQ(vehicle.astray_steps, 0U) << vehicle.name;
+      std::cout << name << (noise_seed ? ", noise" : "") << ": " << vehicle.name << " mean "
+                << 1e3 * vehicle.tracking_error_m->mean << " mm, max "
+                << 1e3 * vehicle.tracking_error_m->max << " mm, fallback steps "
+                << vehicle.fallback_steps << '\n';
+    }
+  }
+}
+
+TEST(LabTracking, TheCarsOfTheRedRouteAndThoseItMeetsKeepToTheirCommands) {
+  expect_tracked("lab_three_cars", 150);
+}
+
+TEST(LabTracking, TheCarsOnTheCircleKeepToTheirCommands) { expect_tracked("lab_circle", 60); }
+
+/// The lab's circle of 1 m, at a trim's speed, points as our commands have them.
+closed_loop::Mission circle(double speed_mps, Nanoseconds interval) {
+  const auto at = [speed_mps](Nanoseconds t) {
+    const double angle =
+        speed_mps * std::max(0.0, 1e-9 * static_cast<double>(t) - 1.0);  // stands for 1 s
+    return TrajectoryPoint{.t = t,
+                           .x_m = std::cos(angle),
+                           .y_m = std::sin(angle),
+                           .vx_mps = angle > 0.0 ? -speed_mps * std::sin(angle) : 0.0,
+                           .vy_mps = angle > 0.0 ? speed_mps * std::cos(angle) : 0.0};
+  };
+  return {.points =
+              [at, interval](std::uint64_t step) {
+                const Nanoseconds begin = step * closed_loop::kPeriod;
+                std::vector<TrajectoryPoint> points;
+                for (Nanoseconds t = begin < interval ? 0 : begin - interval;
+                     t <= begin + 2'200 * closed_loop::kMillisecond; t += interval) {
+                  points.push_back(at(t));
+                }
+                return points;
+              },
+          .planned = [at](Nanoseconds t) { return Point(at(t).x_m, at(t).y_m); },
+          .last_step = ~std::uint64_t{0}};
+}
+
+TEST(LabTracking, TheLabsCircleIsKeptToAtEveryTrimsSpeed) {
+  for (const double speed_mps : {0.4, 0.5, 0.6, 0.7, 0.8}) {
+    for (const std::optional<std::uint64_t> noise_seed :
+         {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1)}) {
+      SimulatedVehicle vehicle({.vehicle_id = 1,
+                                .start = {1.0, 0.0, 0.5 * std::numbers::pi},
+                                .noise_seed = noise_seed,
+                                .gains = {},
+                                .vehicle = {}});
+      const auto samples =
+          closed_loop::drive(vehicle, circle(speed_mps, 25 * closed_loop::kMillisecond),
+                             30'000 * closed_loop::kMillisecond);
+      const closed_loop::TrackingError error =
+          closed_loop::tracking_error(samples, 2'000 * closed_loop::kMillisecond);
+      EXPECT_LE(error.mean_m, kMean_m) << speed_mps;
+      EXPECT_LE(error.max_m, kMax_m) << speed_mps;
+      std::cout << "circle at " << speed_mps << " m/s" << (noise_seed ? ", noise" : "") << ": "
+                << closed_loop::to_string(error) << '\n';
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hlc
