@@ -1,12 +1,15 @@
 #include "hlc_bridge/core/command.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hlc {
 namespace {
 
-/// The copy is usable until kCopyDelay + kCommandLifetime, and the vehicle looks 360 ms ahead.
-constexpr double kReach_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime) + 0.45;
+/// After valid_after: until then the copy is usable, and the vehicle looks ahead.
+constexpr double kReach_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime + kLookAhead);
+/// A list that comes at the begin of its step leaves so much more.
+constexpr double kReachReserve_s = 0.09;
 
 }  // namespace
 
@@ -18,8 +21,10 @@ TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step
   if (plan == nullptr) return command;
   const auto step_start = static_cast<std::int64_t>(step.value * period);
   const double step_s = 1e-9 * static_cast<double>(period);
+  const double offset_s = 1e-9 * static_cast<double>(static_cast<std::int64_t>(t_now) - step_start);
+  const double reach_s = kReach_s + std::max(kReachReserve_s, offset_s);
   for (const TimedPoint& sample :
-       sample_trajectory(*plan, step, interval_s, kReach_s, step_s, parameters)) {
+       sample_trajectory(*plan, step, interval_s, reach_s, step_s, parameters)) {
     const std::int64_t t = step_start + std::llround(1e9 * sample.time_s);
     if (t < 0) continue;  // logical time starts at 0
     command.points.push_back({.t = static_cast<Nanoseconds>(t),

@@ -12,6 +12,9 @@ namespace hlc {
 /// drive the whole plan even if its controller dies at once.
 inline constexpr Nanoseconds kCopyDelay = 800'000'000;
 
+/// Until so long after `now` the lab's vehicle looks at the points of its command.
+inline constexpr Nanoseconds kLookAhead = 360'000'000;
+
 /// The plan as the lab's timed trajectory command, in answer to the state list of `t_now` and valid
 /// at once: points every `interval_s` (which divides the period) from one before t(step), standing
 /// at the end, long enough for the vehicle's look-ahead as long as the copy is usable. Without a

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "hlc_bridge/core/command.hpp"
 #include "planner/automaton/yaml_text.hpp"
 
 namespace hlc {
@@ -28,9 +27,19 @@ std::string fault_of_own(const TrajectoryCommand& command, const std::optional<L
     return to_text(*found, limits.value_or(LabLimits{})) + ", " + shortest_text(found->time_s) +
            " s after the first point";
   }
-  if (command.points.front().t >= command.valid_after_stamp) return "no point before valid_after";
-  if (command.points.back().t < command.valid_after_stamp + kCommandLifetime + kLookAhead) {
-    return "it ends before the vehicle has stopped looking at it";
+  const auto after_valid_s = [&command](const TrajectoryPoint& point) {
+    return shortest_text(
+        1e-9 * static_cast<double>(static_cast<std::int64_t>(point.t - command.valid_after_stamp)));
+  };
+  if (command.points.front().t >= command.valid_after_stamp) {
+    return "the first point is " + after_valid_s(command.points.front()) +
+           " s after valid_after, allowed before it";
+  }
+  constexpr Nanoseconds kLeast = kCommandLifetime + kLookAhead;
+  if (command.points.back().t < command.valid_after_stamp + kLeast) {
+    return "the last point is " + after_valid_s(command.points.back()) +
+           " s after valid_after, allowed from " + shortest_text(1e-9 * kLeast) +
+           " s on: so long the vehicle looks at it";
   }
   return "";
 }

@@ -3,13 +3,11 @@
 #include <optional>
 #include <string>
 
+#include "hlc_bridge/core/command.hpp"
 #include "hlc_bridge/core/messages.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc {
-
-/// Until so long after `now` the lab's vehicle looks at the points of its command.
-inline constexpr Nanoseconds kLookAhead = 360'000'000;
 
 /// What is wrong with a command that a controller is about to send, in words; empty if nothing is.
 ///

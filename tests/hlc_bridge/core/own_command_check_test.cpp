@@ -66,17 +66,18 @@ TEST(OwnCommandCheck, AnEndThatDrivesOnIsFound) {
 TEST(OwnCommandCheck, AFirstPointThatIsNotBeforeValidAfterIsFound) {
   TrajectoryCommand command = good_command();
   command.valid_after_stamp = command.points.front().t;
-  EXPECT_EQ(fault_of_own(command, kCpmLab), "no point before valid_after");
+  EXPECT_EQ(fault_of_own(command, kCpmLab),
+            "the first point is 0 s after valid_after, allowed before it");
 }
 
 // now + period + 360 ms would do for the lab's vehicle if no command were ever lost.
 TEST(OwnCommandCheck, ACommandThatEndsBeforeItExpiresIsFound) {
   TrajectoryCommand command = good_command();
   while (command.points.back().t >= kList + 1'360 * kMs) command.points.pop_back();
-  EXPECT_THAT(fault_of_own(command, kCpmLab), StartsWith("it ends before"));
+  EXPECT_THAT(fault_of_own(command, kCpmLab), HasSubstr("allowed from 1.36 s on"));
   TrajectoryCommand later = good_command();
   later.valid_after_stamp += 900 * kMs;
-  EXPECT_THAT(fault_of_own(later, kCpmLab), StartsWith("it ends before"));
+  EXPECT_THAT(fault_of_own(later, kCpmLab), HasSubstr("allowed from 1.36 s on"));
 }
 
 TEST(OwnCommandCheck, WhatTheLabsVehicleCannotFollowIsFoundWithAPlace) {
