@@ -34,6 +34,8 @@ Observation observation_of(const VehicleStateList& list) {
     }
   }
   std::ranges::sort(observation.active);
+  const auto twice = std::ranges::unique(observation.active);
+  observation.active.erase(twice.begin(), twice.end());
   for (const VehicleState& state : list.states) {
     if (!is_usable(state, list.t_now)) continue;
     const double age_s =

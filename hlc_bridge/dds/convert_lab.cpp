@@ -128,18 +128,19 @@ void to_wire(const VehicleStateList& message, ::VehicleStateList& wire) {
 }
 
 Incoming<VehicleStateList> from_wire(const ::VehicleStateList& wire) {
-  const auto& ids = wire.active_vehicle_ids();
+  std::vector<std::int32_t> ids = wire.active_vehicle_ids();
   const bool valid = wire.period_ms() > 0 && wire.state_list().size() <= kMaxEntries &&
                      wire.vehicle_observation_list().size() <= kMaxEntries &&
-                     ids.size() <= kMaxEntries &&
-                     std::ranges::all_of(ids, [](std::int32_t id) { return 1 <= id && id <= 255; });
+                     ids.size() <= kMaxEntries;
   if (!valid) {
     return {std::nullopt, 1};
   }
   Incoming<VehicleStateList> result;
+  result.invalid = std::erase_if(ids, [](std::int32_t id) { return id < 1 || id > 255; });
   result.message = VehicleStateList{
       wire.t_now(), wire.period_ms(), valid_ones<VehicleState>(wire.state_list(), result.invalid),
-      valid_ones<VehicleObservation>(wire.vehicle_observation_list(), result.invalid), ids};
+      valid_ones<VehicleObservation>(wire.vehicle_observation_list(), result.invalid),
+      std::move(ids)};
   return result;
 }
 

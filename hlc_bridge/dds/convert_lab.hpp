@@ -23,8 +23,8 @@
 /// tests) include this file.
 ///
 /// from_wire refuses a message with a number that is not finite, an unknown enumeration value, more
-/// entries than anybody sends, or a state list with a period of 0 or an active id outside 1 ...
-/// 255. One vehicle's invalid state or observation in a list does not make the list invalid: it is
+/// entries than anybody sends, or a state list with a period of 0. One vehicle's invalid state or
+/// observation in a list, or an active id outside 1 ... 255, does not make the list invalid: it is
 /// left out, and the others are handed on.
 namespace hlc {
 
