@@ -26,6 +26,9 @@ struct ParticipantOptions {
   /// IPv4 addresses of machines that are asked, too, where multicast does not pass. Simple
   /// discovery only.
   std::vector<std::string> peers{};
+  /// Called on a DDS thread, once per reader and kind, with a line for the log: a message held
+  /// something invalid, or was lost (Reader::dropped, Reader::lost).
+  std::function<void(const std::string& line)> on_loss{};
 };
 
 /// One process on one domain: the entry to DDS, and who else is there.

@@ -42,7 +42,10 @@ void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
     while (reader->take_next_sample(sample.get(), &info) ==
            eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
       if (info.valid_data && !core_->is_own(frtps::iHandle2GUID(info.publication_handle))) {
-        dropped_ += on_sample_(sample.get());
+        const std::uint64_t invalid = on_sample_(sample.get());
+        if (invalid > 0 && dropped_.fetch_add(invalid) == 0) {
+          tell(*reader, "what came holds something that is not valid, and is left out (told once)");
+        }
       }
     }
   });
@@ -53,13 +56,25 @@ void ReaderEndpoint::on_subscription_matched(fdds::DataReader*,
   peers_->on_matched(status, status.last_publication_handle);
 }
 
-void ReaderEndpoint::on_sample_lost(fdds::DataReader*, const fdds::SampleLostStatus& status) {
-  lost_ += static_cast<std::uint64_t>(status.total_count_change);
+void ReaderEndpoint::on_sample_lost(fdds::DataReader* reader,
+                                    const fdds::SampleLostStatus& status) {
+  count_lost(*reader, static_cast<std::uint64_t>(status.total_count_change));
 }
 
-void ReaderEndpoint::on_sample_rejected(fdds::DataReader*,
+void ReaderEndpoint::on_sample_rejected(fdds::DataReader* reader,
                                         const fdds::SampleRejectedStatus& status) {
-  lost_ += static_cast<std::uint64_t>(status.total_count_change);
+  count_lost(*reader, static_cast<std::uint64_t>(status.total_count_change));
+}
+
+void ReaderEndpoint::count_lost(const fdds::DataReader& reader, std::uint64_t count) {
+  if (count > 0 && lost_.fetch_add(count) == 0) {
+    tell(reader, "a message was lost (told once)");
+  }
+}
+
+void ReaderEndpoint::tell(const fdds::DataReader& reader, const std::string& what) const {
+  const auto& on_loss = core_->options().on_loss;
+  if (on_loss) on_loss("topic " + reader.get_topicdescription()->get_name() + ": " + what);
 }
 
 }  // namespace hlc

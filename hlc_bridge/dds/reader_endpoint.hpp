@@ -38,6 +38,8 @@ class ReaderEndpoint : private fdds::DataReaderListener {
   void on_sample_lost(fdds::DataReader* reader, const fdds::SampleLostStatus& status) override;
   void on_sample_rejected(fdds::DataReader* reader,
                           const fdds::SampleRejectedStatus& status) override;
+  void count_lost(const fdds::DataReader& reader, std::uint64_t count);
+  void tell(const fdds::DataReader& reader, const std::string& what) const;
 
   std::shared_ptr<ParticipantCore> core_;
   fdds::TypeSupport type_;

@@ -26,8 +26,10 @@ constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kCopyPause{50};
 constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
-constexpr Nanoseconds kLateBegin = 2;                // steps after the trigger's time
-constexpr Nanoseconds kDrawnPeriods = 3;             // how long a step's drawings stay on the map
+constexpr std::chrono::seconds kTwinStays{4};        // longer than a dead one's lease
+constexpr std::chrono::seconds kTwinStaysInLogicalTime{12};
+constexpr Nanoseconds kLateBegin = 2;     // steps after the trigger's time
+constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 
 ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
                              std::optional<int> domain, DomainRole role) {
@@ -38,7 +40,10 @@ ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle
           .logical_time = options.logical_time,
           .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
           .peers = role == DomainRole::kController ? options.controller_peers
-                                                   : std::vector<std::string>{}};
+                                                   : std::vector<std::string>{},
+          .on_loss = [id = options.node_id](const std::string& line) {
+            spdlog::warn("{}: {}", id, line);
+          }};
 }
 
 std::string joined(const std::set<std::string>& names) {
@@ -158,15 +163,37 @@ void HlcProcess::note_who_is_there() {
   had_middleware_ = had_middleware_ || command_writer_.matched() > 0;
   const bool joins = !options_.logical_time && !active_.empty() && command_writer_.matched() > 0 &&
                      signal_.locked([this] { return start_.has_value(); });
-  is_ready_ = is_ready_ || joins || has_everybody();
+  is_ready_ = is_ready_ || (!has_twin() && (joins || has_everybody()));
 }
+
+bool HlcProcess::has_twin() const { return lab_.is_alive(controller_name(vehicle_.value)); }
+
+/// The one that was ready first stays.
+bool HlcProcess::yields_to_twin() const { return !is_ready_ && has_twin(); }
 
 /// Others on the local domain may come and go: in the lab it holds all controllers of a computer.
 bool HlcProcess::has_lost_middleware() const {
   return local_.is_lost(middleware_) || (had_middleware_ && command_writer_.matched() == 0);
 }
 
+/// True when there is no use in waiting for it to be started again.
+bool HlcProcess::is_middleware_gone_for_good() {
+  if (!has_lost_middleware()) {
+    if (middleware_lost_at_) spdlog::info("{}: {} is back", options_.node_id, middleware_);
+    middleware_lost_at_.reset();
+    return false;
+  }
+  if (!middleware_lost_at_) {
+    spdlog::error("{}: {} is gone; nothing reaches the vehicle any more", options_.node_id,
+                  middleware_);
+    middleware_lost_at_ = Clock::now();
+  }
+  return options_.logical_time || signal_.locked([this] { return drive_out_; }) ||
+         Clock::now() > *middleware_lost_at_ + options_.startup_timeout;
+}
+
 std::string HlcProcess::who_is_missing() const {
+  if (has_twin()) return "another " + controller_name(vehicle_.value) + " is there";
   if (active_.empty()) return "no state list came from the middleware";
   std::set<std::string> names;
   if (command_writer_.matched() == 0) names.insert("the middleware's reader of commands");
@@ -180,10 +207,16 @@ std::string HlcProcess::who_is_missing() const {
 /// In logical time the first list is answered only when everybody is there, since nobody waits for
 /// messages that were sent before.
 bool HlcProcess::wait_for_everybody() {
-  const auto is_settled = [this] { return stop_ || is_ready_ || has_everybody(); };
-  const bool settled = signal_.wait_until(started_at_ + options_.startup_timeout, is_settled);
+  const auto is_settled = [this] { return stop_ || is_ready_ || (!has_twin() && has_everybody()); };
+  const bool settled = signal_.repeat_until(started_at_ + options_.startup_timeout, kReadyRepeat,
+                                            is_settled, [this] { tell_whom_it_waits_for(); });
   note_who_is_there();
   return settled;
+}
+
+void HlcProcess::tell_whom_it_waits_for() {
+  if (is_ready_ || !wait_notice_.is_due()) return;
+  spdlog::info("{}: waits: {}", options_.node_id, who_is_missing());
 }
 
 void HlcProcess::send_ready_now_and_then() {
@@ -223,12 +256,21 @@ HlcProcess::Event HlcProcess::wait_for_event() {
     watch_lab_control();
     note_who_is_there();
     send_ready_now_and_then();
+    tell_whom_it_waits_for();
     Clock::time_point wake = Clock::now() + kReadyRepeat;
     if (copy_due_) wake = std::min(wake, copy_due_->first);
-    const bool happened = signal_.wait_until(
-        wake, [this] { return stop_ || !lists_.empty() || has_lost_middleware(); });
+    const bool happened = signal_.wait_until(wake, [this] {
+      const bool is_lost = has_lost_middleware();
+      return stop_ || !lists_.empty() || is_lost != middleware_lost_at_.has_value() ||
+             (is_lost && drive_out_);
+    });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
-    if (has_lost_middleware()) return Event::kMiddlewareLost;
+    if (is_middleware_gone_for_good()) return Event::kMiddlewareLost;
+    if (yields_to_twin() &&
+        Clock::now() >
+            started_at_ + (options_.logical_time ? kTwinStaysInLogicalTime : kTwinStays)) {
+      return Event::kTwin;
+    }
     if (lab_control_lost_at_ &&
         Clock::now() > *lab_control_lost_at_ + std::chrono::nanoseconds(kControllerStays)) {
       return Event::kLabControlLost;
@@ -256,9 +298,11 @@ int HlcProcess::run() {
       case Event::kStop:
         return kExitGood;
       case Event::kMiddlewareLost:
-        spdlog::error("{}: {} is gone; nothing reaches the vehicle any more", options_.node_id,
-                      middleware_);
         return is_ready_ ? kExitDied : kExitMissing;
+      case Event::kTwin:
+        spdlog::error("{}: another {} is there; a vehicle follows one: end it first",
+                      options_.node_id, controller_name(vehicle_.value));
+        return kExitBadInput;
       case Event::kLabControlLost:
         return kExitDied;
       case Event::kTimeout:
@@ -312,7 +356,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
     if (!had_begun) tell_begin(list, trigger);
     record = run_step(list, *observation);
     tell_if_stuck(record.report);
-  } else if (options_.logical_time || core_.may_stand_by(*observation)) {
+  } else if (options_.logical_time || (!yields_to_twin() && core_.may_stand_by(*observation))) {
     record.report = core_.controller().stand_by(*observation);
     tell_placement();
     send_answer(list, record.report);

@@ -20,6 +20,7 @@
 #include "hlc_bridge/hlc/lab_log.hpp"
 #include "hlc_bridge/hlc/step_mailbox.hpp"
 #include "hlc_bridge/time/signal.hpp"
+#include "hlc_bridge/time/wait_notice.hpp"
 #include "planner/controller/controller.hpp"
 
 namespace hlc {
@@ -63,6 +64,11 @@ struct HlcProcessOptions {
 /// stand there, and takes part from the next list on. Until then nothing is commanded: the vehicle
 /// drives what it was left (HlcCore::may_stand_by).
 ///
+/// Without its middleware it waits for it to be started again, as long as at the start, and plans
+/// on then; meanwhile the vehicle drives out what it was sent. In logical time, or when the others
+/// drive out their plans too, it leaves at once. A vehicle follows one controller: where another
+/// one of that name is, this one says nothing, and leaves.
+///
 /// All waiting is in this class, and every wait ends: at a deadline (real time), when whom it waits
 /// for is gone from the domain, or after 10 s of silence (logical time).
 class HlcProcess {
@@ -71,15 +77,16 @@ class HlcProcess {
   /// @throws std::invalid_argument, std::runtime_error if an endpoint cannot be made
   HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller);
 
-  /// Runs until the stop symbol or `stop`. Exit code: 0 good, 3 somebody did not appear, 4 the
-  /// middleware died.
+  /// Runs until the stop symbol or `stop`. Exit code: 0 good, 2 it does not fit the others (another
+  /// controller of the vehicle, a period that is not its step), 3 somebody did not appear, 4 the
+  /// middleware or the lab control died.
   int run();
 
   /// Ends `run` soon; from any thread.
   void stop();
 
  private:
-  enum class Event { kList, kStop, kMiddlewareLost, kLabControlLost, kTimeout };
+  enum class Event { kList, kStop, kMiddlewareLost, kLabControlLost, kTwin, kTimeout };
 
   [[nodiscard]] Event wait_for_event();
   void watch_lab_control();
@@ -89,6 +96,10 @@ class HlcProcess {
   void send_copy_when_due();
   [[nodiscard]] bool has_everybody() const;
   [[nodiscard]] bool has_lost_middleware() const;
+  [[nodiscard]] bool is_middleware_gone_for_good();
+  [[nodiscard]] bool has_twin() const;
+  [[nodiscard]] bool yields_to_twin() const;
+  void tell_whom_it_waits_for();
   void note_who_is_there();
   [[nodiscard]] std::string who_is_missing() const;
   [[nodiscard]] std::set<std::string> peer_names() const;
@@ -148,6 +159,8 @@ class HlcProcess {
 
   std::vector<VehicleId> active_;
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
+  std::optional<std::chrono::steady_clock::time_point> middleware_lost_at_;
+  WaitNotice wait_notice_;
   bool had_middleware_{};
   bool is_ready_{};
   bool has_bad_period_{};

@@ -29,13 +29,15 @@ constexpr std::chrono::milliseconds kHurriedLeaveTime{200};
 
 ParticipantOptions on_domain(const LabControlOptions& options, DomainRole role) {
   const bool lab = role == DomainRole::kLab;
-  return {.name = kLabControlName,
-          .domain_id = lab ? options.lab_domain : options.controller_domain,
-          .role = role,
-          .transport = options.transport,
-          .logical_time = options.logical_time,
-          .discovery_server = lab ? options.discovery_server : std::nullopt,
-          .peers = lab ? std::vector<std::string>{} : options.controller_peers};
+  return {
+      .name = kLabControlName,
+      .domain_id = lab ? options.lab_domain : options.controller_domain,
+      .role = role,
+      .transport = options.transport,
+      .logical_time = options.logical_time,
+      .discovery_server = lab ? options.discovery_server : std::nullopt,
+      .peers = lab ? std::vector<std::string>{} : options.controller_peers,
+      .on_loss = [](const std::string& line) { spdlog::warn("{}: {}", kLabControlName, line); }};
 }
 
 std::unique_ptr<LabRun> make_run(const LabControlOptions& options) {

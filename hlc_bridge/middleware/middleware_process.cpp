@@ -17,6 +17,7 @@ namespace hlc {
 namespace {
 
 constexpr std::chrono::milliseconds kRequestInterval{100};
+constexpr std::chrono::milliseconds kLookInterval{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kLeaveTime{500};
 
@@ -27,7 +28,10 @@ ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) 
           .role = role,
           .transport = options.transport,
           .logical_time = options.logical_time,
-          .discovery_server = lab ? options.discovery_server : std::nullopt};
+          .discovery_server = lab ? options.discovery_server : std::nullopt,
+          .on_loss = [id = options.node_id](const std::string& line) {
+            spdlog::warn("{}: {}", id, line);
+          }};
 }
 
 }  // namespace
@@ -210,9 +214,21 @@ bool MiddlewareProcess::learn_parameters(Clock::time_point deadline) {
   return signal_.repeat_until(
       deadline, kRequestInterval, [this] { return stop_ || parameters_.complete(); },
       [this] {
-        for (const std::string& name : signal_.locked([this] { return parameters_.missing(); })) {
-          request_writer_.write({.name = name});
+        const auto missing = signal_.locked([this] { return parameters_.missing(); });
+        for (const std::string& name : missing) request_writer_.write({.name = name});
+        if (wait_notice_.is_due()) {
+          spdlog::info("{}: waits for {} to tell {}", options_.node_id, kLabControlName,
+                       fmt::join(missing, ", "));
         }
+      });
+}
+
+bool MiddlewareProcess::wait_for_everybody(Clock::time_point deadline) {
+  return signal_.repeat_until(
+      deadline, kLookInterval, [this] { return stop_ || is_connected(); },
+      [this] {
+        if (!wait_notice_.is_due()) return;
+        spdlog::info("{}: waits for {}", options_.node_id, who_is_missing());
       });
 }
 
@@ -274,8 +290,7 @@ int MiddlewareProcess::prepare() {
     return kExitBadInput;
   }
   listen_to_vehicles();
-  if (options_.logical_time &&
-      !signal_.wait_until(deadline, [this] { return stop_ || is_connected(); })) {
+  if (options_.logical_time && !wait_for_everybody(deadline)) {
     spdlog::error("{}: not there within {} s: {}", options_.node_id,
                   options_.startup_timeout.count(), who_is_missing());
     return kExitMissing;
@@ -342,7 +357,7 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
   } else {
     tell_missed_answer();
   }
-  const auto [list, tell_ready] = signal_.locked([&] {
+  const auto [list, unready] = signal_.locked([&] {
     newest_list_ = t_now;
     states_.forget_before(t_now);
     VehicleStateList composed =
@@ -352,14 +367,20 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
         composed.observations.push_back(observations_[static_cast<std::uint8_t>(id)]);
       }
     }
+    std::vector<std::string> unready_controllers;
+    for (const std::uint8_t id : options_.vehicle_ids) {
+      if (!ready_controllers_.contains(id)) unready_controllers.push_back(controller_name(id));
+    }
     return std::pair{std::move(composed),
-                     ready_controllers_.size() == options_.vehicle_ids.size() && !triggered_};
+                     triggered_ ? std::nullopt : std::optional{std::move(unready_controllers)}};
   });
   list_writer_.write(list);
   if (options_.logical_time) {
     wait_for_answer(t_now);
-  } else if (tell_ready) {
+  } else if (unready && unready->empty()) {
     ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_ids)});
+  } else if (unready && wait_notice_.is_due()) {
+    spdlog::info("{}: waits for {} to be ready", options_.node_id, fmt::join(*unready, ", "));
   }
 }
 

@@ -21,6 +21,7 @@
 #include "hlc_bridge/time/logical_timer.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/timer.hpp"
+#include "hlc_bridge/time/wait_notice.hpp"
 
 namespace hlc {
 
@@ -94,6 +95,7 @@ class MiddlewareProcess {
   void take(const SystemTrigger& trigger);
   [[nodiscard]] bool learn_parameters(Clock::time_point deadline);
   [[nodiscard]] std::string parameter_problem() const;
+  [[nodiscard]] bool wait_for_everybody(Clock::time_point deadline);
   void listen_to_vehicles();
   [[nodiscard]] bool is_connected() const;
   [[nodiscard]] std::size_t controllers_that_command() const;
@@ -140,6 +142,7 @@ class MiddlewareProcess {
   std::set<CommandFault> told_faults_;
   // Of the period:
   std::uint64_t missed_answers_{};
+  WaitNotice wait_notice_;
   bool lab_control_lost_{};
   std::optional<Nanoseconds> lab_control_lost_at_;  ///< real time
 

@@ -17,6 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kRequestInterval{100};
+constexpr std::chrono::milliseconds kLookInterval{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 /// After this many missed ticks (10 s) the vehicle stands anyway.
 constexpr Nanoseconds kMostMissedTicks = 500;
@@ -55,7 +56,8 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             .role = DomainRole::kLab,
             .transport = options_.transport,
             .logical_time = options_.logical_time,
-            .discovery_server = options_.discovery_server},
+            .discovery_server = options_.discovery_server,
+            .on_loss = [this](const std::string& line) { spdlog::warn("{}: {}", name_, line); }},
            [this] { signal_.notify(); }),
       state_writer_(lab_, topics::vehicle_state(options_.vehicle.vehicle_id),
                     [this] { signal_.notify(); }),
@@ -165,9 +167,20 @@ bool VehicleProcess::learn_parameters(Clock::time_point deadline) {
   return signal_.repeat_until(
       deadline, kRequestInterval, [this] { return is_ending() || parameters_.complete(); },
       [this] {
-        for (const std::string& name : signal_.locked([this] { return parameters_.missing(); })) {
-          request_writer_.write({.name = name});
+        const auto missing = signal_.locked([this] { return parameters_.missing(); });
+        for (const std::string& name : missing) request_writer_.write({.name = name});
+        if (wait_notice_.is_due()) {
+          spdlog::info("{}: waits for {} to tell {}", name_, kLabControlName,
+                       fmt::join(missing, ", "));
         }
+      });
+}
+
+bool VehicleProcess::wait_for_everybody(Clock::time_point deadline) {
+  return signal_.repeat_until(
+      deadline, kLookInterval, [this] { return is_ending() || is_connected(); },
+      [this] {
+        if (wait_notice_.is_due()) spdlog::info("{}: waits for {}", name_, who_is_missing());
       });
 }
 
@@ -223,7 +236,7 @@ int VehicleProcess::prepare() {
                   kActiveIdsParameter, fmt::join(parameters_.active_ids(), ", "));
     return kExitBadInput;
   }
-  if (!signal_.wait_until(deadline, [this] { return is_ending() || is_connected(); })) {
+  if (!wait_for_everybody(deadline)) {
     spdlog::error("{}: not there within {} s: {}", name_, options_.startup_timeout.count(),
                   who_is_missing());
     return kExitMissing;

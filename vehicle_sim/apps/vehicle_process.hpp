@@ -16,6 +16,7 @@
 #include "hlc_bridge/time/logical_timer.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "hlc_bridge/time/signal.hpp"
+#include "hlc_bridge/time/wait_notice.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
 #include "vehicle_sim/campaign/simulated_vehicle.hpp"
 
@@ -64,6 +65,7 @@ class VehicleProcess {
   // Under the signal's lock:
   [[nodiscard]] bool is_ending() const { return stop_ || stop_symbol_; }
   [[nodiscard]] bool is_connected() const;
+  [[nodiscard]] bool wait_for_everybody(std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] bool is_answered(Nanoseconds list) const;
 
   template <class Received>
@@ -98,6 +100,7 @@ class VehicleProcess {
   std::optional<Nanoseconds> last_tick_;
   FollowerStatus last_status_{FollowerStatus::kNoCommand};
   bool is_stopping_{};  ///< the stop symbol has come, and the vehicle brakes
+  WaitNotice wait_notice_;
   bool lab_control_lost_{};
   std::optional<Nanoseconds> lab_control_lost_at_;  ///< real time
 

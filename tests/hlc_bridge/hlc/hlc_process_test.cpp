@@ -31,8 +31,9 @@ const Scenario& red_alone() {
 /// The controller of vehicle 1 in real time, as the lab starts it: with a node id without a number.
 class HlcProcessTest : public testing::Test {
  protected:
-  HlcProcessTest() {
+  explicit HlcProcessTest(std::chrono::seconds startup_timeout = std::chrono::seconds{30}) {
     HlcProcessOptions options;
+    options.startup_timeout = startup_timeout;
     options.node_id = "high_level_controller";
     options.transport = Transport::kLoopback;
     options.domains = {.lab = domains_.first(), .local = local(), .controller = controllers()};
@@ -92,26 +93,94 @@ TEST_F(HlcProcessTest, BearsItsVehiclesNameWhateverItsNodeId) {
   }
 }
 
-TEST_F(HlcProcessTest, LeavesWhenItsMiddlewareIsLostAndNotWhenAnotherControllerIs) {
-  auto middleware = std::make_unique<FakeMiddleware>(local());
-  ASSERT_TRUE(middleware->lists.wait_for_matched(1, soon()));
+/// Vehicle 1 has no peers: it is ready when it has stood for a horizon.
+bool gets_ready(FakeMiddleware& middleware) {
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  return middleware.lists.wait_for_matched(1, soon()) &&
+         Signal{}.repeat_until(
+             soon(), std::chrono::milliseconds{50}, [&] { return !middleware.ready.now().empty(); },
+             [&] { middleware.lists.write(list_of(start, 0.0)); });
+}
+
+TEST_F(HlcProcessTest, IsNotDisturbedWhenAnotherControllerOfItsMachineLeaves) {
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(middleware.lists.wait_for_matched(1, soon()));
   {
     const Participant neighbour{on_loopback(controller_name(2), local(), DomainRole::kLocal)};
     ASSERT_TRUE(neighbour.wait_for({controller_name(1)}, soon()));
-    ASSERT_TRUE(middleware->participant.wait_for({controller_name(2)}, soon()));
+    ASSERT_TRUE(middleware.participant.wait_for({controller_name(2)}, soon()));
   }
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{10},
-      [&] { return middleware->participant.is_lost(controller_name(2)); }, [] {}));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  // Vehicle 1 has no peers: it is ready when it has stood for a horizon.
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50}, [&] { return !middleware->ready.now().empty(); },
-      [&] { middleware->lists.write(list_of(start, 0.0)); }));
+      [&] { return middleware.participant.is_lost(controller_name(2)); }, [] {}));
+  EXPECT_TRUE(gets_ready(middleware));
+  EXPECT_FALSE(middleware.commands.now().empty());
+}
+
+TEST_F(HlcProcessTest, AnswersAMiddlewareThatIsStartedAgain) {
+  auto middleware = std::make_unique<FakeMiddleware>(local());
+  ASSERT_TRUE(gets_ready(*middleware));
+  middleware = nullptr;
+  middleware = std::make_unique<FakeMiddleware>(local());
+  EXPECT_TRUE(gets_ready(*middleware));
   EXPECT_FALSE(middleware->commands.now().empty());
-  middleware.reset();
+  EXPECT_EQ(code_.wait_for(std::chrono::seconds{0}), std::future_status::timeout);
+}
+
+TEST_F(HlcProcessTest, LeavesWithoutItsMiddlewareWhenTheOthersDriveOut) {
+  const Participant lab_control{
+      on_loopback(kLabControlName, controllers(), DomainRole::kController)};
+  Participant others{on_loopback("others", controllers(), DomainRole::kController)};
+  Writer<RunState> run_states{others, topics::run_state()};
+  auto middleware = std::make_unique<FakeMiddleware>(local());
+  ASSERT_TRUE(gets_ready(*middleware));
+  ASSERT_TRUE(run_states.wait_for_matched(1, soon()));
+  run_states.write({.phase = RunPhase::kDriveOut, .start = 0});
+  middleware = nullptr;
   ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
+}
+
+class ImpatientHlcProcessTest : public HlcProcessTest {
+ protected:
+  ImpatientHlcProcessTest() : HlcProcessTest(std::chrono::seconds{8}) {}
+};
+
+TEST_F(ImpatientHlcProcessTest, LeavesWhenItsMiddlewareStaysAway) {
+  auto middleware = std::make_unique<FakeMiddleware>(local());
+  ASSERT_TRUE(gets_ready(*middleware));
+  middleware = nullptr;
+  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  EXPECT_EQ(code_.get(), kExitDied);
+}
+
+TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
+  const Participant twin{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(twin.wait_for({controller_name(1)}, soon()));
+  ASSERT_TRUE(middleware.lists.wait_for_matched(1, soon()));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const auto has_left = [this] {
+    return code_.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
+  };
+  ASSERT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{50}, has_left,
+                                    [&] { middleware.lists.write(list_of(start, 0.0)); }));
+  EXPECT_EQ(code_.get(), kExitBadInput);
+  EXPECT_TRUE(middleware.commands.now().empty());
+  EXPECT_TRUE(middleware.ready.now().empty());
+}
+
+TEST_F(HlcProcessTest, StaysWhenAnotherControllerOfItsVehicleComesLater) {
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(gets_ready(middleware));
+  const Participant twin{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  ASSERT_TRUE(twin.wait_for({controller_name(1)}, soon()));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const std::size_t before = middleware.commands.now().size();
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{50},
+      [&] { return middleware.commands.now().size() >= before + 30; },
+      [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
 
 /// The lab control centre's part that looks on.
