@@ -12,6 +12,7 @@
 
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/process_per_vehicle.hpp"
+#include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
@@ -89,6 +90,7 @@ void declare(CLI::App& app, Flags& flags) {
 hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   const hlc::NetworkFlags& network = flags.network;
   hlc::HlcProcessOptions options;
+  options.version = hlc::program_version();
   options.node_id = flags.node_id.empty() ? hlc::controller_name(id.value) : flags.node_id;
   if (!flags.dds_initial_peer.empty()) {
     spdlog::warn("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/lab_control/lab_control_process.hpp"
@@ -55,6 +56,7 @@ void declare(CLI::App& app, Flags& flags) {
 
 hlc::LabControlOptions process_options(const Flags& flags) {
   hlc::LabControlOptions options;
+  options.version = hlc::program_version();
   hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
   std::vector<int> ids = flags.vehicle_ids;
   std::ranges::sort(ids);

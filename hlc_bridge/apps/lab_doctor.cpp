@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
-#include "hlc_bridge/dds/library_version.hpp"
 #include "hlc_bridge/doctor/listen.hpp"
 #include "hlc_bridge/doctor/shared_memory.hpp"
-#include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 
 namespace {
@@ -86,10 +85,8 @@ int main(int argc, char** argv) {
   const int code = hlc::exit_code_of("lab_doctor", [&] {
     hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
     const hlc::ListenOptions options = listen_options(flags);
-    std::vector<hlc::Finding> findings{{hlc::Verdict::kGood,
-                                        "this program: revision " + hlc::program_revision() +
-                                            ", Fast DDS " + hlc::library_version(),
-                                        ""}};
+    std::vector<hlc::Finding> findings{
+        {hlc::Verdict::kGood, "this program: " + hlc::program_version(), ""}};
     for (const std::string& warning : hlc::check_domains(options.domains, options.transport)) {
       findings.push_back({hlc::Verdict::kNote, warning, ""});
     }
@@ -97,7 +94,8 @@ int main(int argc, char** argv) {
     findings.push_back(hlc::leftovers(hlc::shared_memory_files()));
     const hlc::Heard heard =
         hlc::listen(options, [&stop](const hlc::Heard&) { return stop.load(); });
-    std::ranges::move(hlc::diagnose(flags.vehicle_ids, heard), std::back_inserter(findings));
+    std::ranges::move(hlc::diagnose(flags.vehicle_ids, heard, hlc::program_version()),
+                      std::back_inserter(findings));
     is_good = tell(findings);
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 
@@ -46,6 +47,7 @@ void declare(CLI::App& app, Flags& flags) {
 
 hlc::MiddlewareOptions process_options(const Flags& flags) {
   hlc::MiddlewareOptions options;
+  options.version = hlc::program_version();
   hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
   for (const int id : flags.vehicle_ids) {
     options.vehicle_ids.push_back(static_cast<std::uint8_t>(id));

@@ -31,6 +31,10 @@ bool Participant::is_lost(const std::string& name) const {
       [&](const Presence& presence) { return presence.lost().contains(name); });
 }
 
+std::map<std::string, std::string> Participant::versions() const {
+  return core_->with_presence([](const Presence& presence) { return presence.versions(); });
+}
+
 bool Participant::wait_for(const std::set<std::string>& names,
                            std::chrono::steady_clock::time_point deadline) const {
   return core_->wait_until(deadline, [&](const Presence& presence) {

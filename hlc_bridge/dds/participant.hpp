@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -26,6 +27,8 @@ struct ParticipantOptions {
   /// IPv4 addresses of machines that are asked, too, where multicast does not pass. Simple
   /// discovery only.
   std::vector<std::string> peers{};
+  /// Of the program, told to all others on the domain.
+  std::string version{};
   /// Called on a DDS thread, once per reader and kind, with a line for the log: a message held
   /// something invalid, or was lost (Reader::dropped, Reader::lost).
   std::function<void(const std::string& line)> on_loss{};
@@ -57,6 +60,9 @@ class Participant {
   /// back is alive and no longer lost.
   [[nodiscard]] std::set<std::string> lost() const;
   [[nodiscard]] bool is_lost(const std::string& name) const;
+
+  /// Who of them told a version, and which, by name.
+  [[nodiscard]] std::map<std::string, std::string> versions() const;
 
   /// Waits until all these names are alive; false if `deadline` passes first.
   [[nodiscard]] bool wait_for(const std::set<std::string>& names,

@@ -91,9 +91,11 @@ void ParticipantCore::on_participant_discovery(fdds::DomainParticipant*,
   }
   const ParticipantKey key = key_of(info.info.m_guid.guidPrefix);
   const std::string name = info.info.m_participantName.to_string();
+  const auto& data = info.info.m_userData;
+  const std::string version(data.begin(), data.end());
   const bool is_there = info.status == Info::DISCOVERED_PARTICIPANT;
   const auto endpoints = update([&] {
-    is_there ? presence_.appeared(key, name) : presence_.left(key);
+    is_there ? presence_.appeared(key, name, version) : presence_.left(key);
     return endpoints_;
   });
   presence_gate_.enter([&] {

@@ -113,6 +113,7 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
 DomainParticipantQos participant_qos(const ParticipantOptions& options) {
   DomainParticipantQos qos;
   qos.name(options.name);
+  qos.user_data().data_vec({options.version.begin(), options.version.end()});
   set_transport(options, qos);
   set_lease(options, qos);
   set_discovery(options, qos);

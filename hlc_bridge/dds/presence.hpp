@@ -15,18 +15,23 @@ using ParticipantKey = std::array<std::uint8_t, 12>;
 /// them is. Not thread-safe.
 class Presence {
  public:
-  void appeared(const ParticipantKey& key, const std::string& name);
+  /// @param version  empty: it says none
+  void appeared(const ParticipantKey& key, const std::string& name,
+                const std::string& version = "");
   void left(const ParticipantKey& key);
 
   /// Names that somebody bears now.
   [[nodiscard]] const std::set<std::string>& alive() const { return alive_; }
   /// Names that somebody bore and nobody bears now.
   [[nodiscard]] const std::set<std::string>& lost() const { return lost_; }
+  /// By name, of those that are there and say theirs.
+  [[nodiscard]] std::map<std::string, std::string> versions() const;
   /// nullptr if that participant is not there.
   [[nodiscard]] const std::string* name_of(const ParticipantKey& key) const;
 
  private:
   std::map<ParticipantKey, std::string> names_;
+  std::map<ParticipantKey, std::string> versions_;
   std::set<std::string> alive_;
   std::set<std::string> lost_;
 };

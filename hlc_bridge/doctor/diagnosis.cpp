@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
@@ -86,6 +87,17 @@ Finding of_middleware(const Heard& heard) {
           "must share /dev/shm: no private container)"};
 }
 
+/// Others than this machine's; those of the lab's own programs are not known.
+std::vector<Finding> of_versions(const Heard& heard, const std::string& version) {
+  std::vector<Finding> findings;
+  for (const auto& [name, other] : heard.versions) {
+    if (version.empty() || other == version) continue;
+    findings.push_back({Verdict::kBad, name + ": " + other + ", this machine: " + version,
+                        "build the same revision on all machines: messages may have changed"});
+  }
+  return findings;
+}
+
 }  // namespace
 
 void note(const VehicleState& state, Nanoseconds now, Heard& heard) {
@@ -97,7 +109,8 @@ void note(const VehicleState& state, Nanoseconds now, Heard& heard) {
   vehicle.logical_time = state.create_stamp < kThisCentury;
 }
 
-std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Heard& heard) {
+std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Heard& heard,
+                              const std::string& version) {
   std::vector<Finding> findings{of_lab_control(heard)};
   for (const int id : vehicle_ids) findings.push_back(of_vehicle(id, heard));
   for (const auto& [id, vehicle] : heard.vehicles) {
@@ -107,6 +120,7 @@ std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Heard& 
   }
   if (heard.listened_to_middleware) findings.push_back(of_middleware(heard));
   for (const int id : vehicle_ids) findings.push_back(of_controller(id, heard));
+  std::ranges::move(of_versions(heard, version), std::back_inserter(findings));
   return findings;
 }
 

@@ -29,6 +29,7 @@ struct Heard {
   bool lab_control_answers{};                     ///< a parameter request was answered
   std::optional<std::uint64_t> period_ms;         ///< as the lab control says
   std::set<std::string> controllers;              ///< names on the domain of the controllers
+  std::map<std::string, std::string> versions;    ///< of who tells one (Participant::versions)
   bool listened_to_middleware{};
   std::size_t lists{};  ///< from the middleware
 };
@@ -37,7 +38,8 @@ struct Heard {
 void note(const VehicleState& state, Nanoseconds now, Heard& heard);
 
 /// What that means for a run with these vehicles, and what to do.
-[[nodiscard]] std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids,
-                                            const Heard& heard);
+/// @param version  of this machine's programs; empty: versions are not compared
+[[nodiscard]] std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Heard& heard,
+                                            const std::string& version = "");
 
 }  // namespace hlc

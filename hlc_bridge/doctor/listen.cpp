@@ -1,7 +1,9 @@
 #include "hlc_bridge/doctor/listen.hpp"
 
 #include <list>
+#include <map>
 #include <memory>
+#include <utility>
 #include <variant>
 
 #include "hlc_bridge/core/run_parameters.hpp"
@@ -75,7 +77,13 @@ Heard listen(const ListenOptions& options, const std::function<bool(const Heard&
   static_cast<void>(signal.repeat_until(begin + options.time, kRequestPause, is_over, [&] {
     requests.write({.name = kPeriodParameter});
     const std::set<std::string> names = controllers.alive();
-    signal.locked([&] { heard.controllers = names; });
+    std::map<std::string, std::string> versions = lab.versions();
+    versions.merge(controllers.versions());
+    if (local) versions.merge(local->versions());
+    signal.locked([&] {
+      heard.controllers = names;
+      heard.versions = std::move(versions);
+    });
   }));
   return signal.locked([&] {
     heard.listened_s = std::chrono::steady_clock::now() - begin;

@@ -23,8 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kReadyRepeat{500};
-constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
-constexpr std::chrono::milliseconds kCopyPause{50};
 constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
 constexpr std::chrono::seconds kTwinStays{4};        // longer than a dead one's lease
 constexpr std::chrono::seconds kTwinStaysInLogicalTime{12};
@@ -41,6 +39,7 @@ ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle
           .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
           .peers = role == DomainRole::kController ? options.controller_peers
                                                    : std::vector<std::string>{},
+          .version = options.version,
           .on_loss = [id = options.node_id](const std::string& line) {
             spdlog::warn("{}: {}", id, line);
           }};
@@ -69,30 +68,14 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       controllers_(
           on_domain(options_, vehicle_, options_.domains.controller, DomainRole::kController),
           [this] { signal_.notify(); }),
-      command_writer_(local_, topics::command(), [this] { signal_.notify(); }),
+      commands_(local_, options_.logical_time, [this] { signal_.notify(); }),
       ready_writer_(local_, topics::ready_status()),
-      traffic_writer_(controllers_, topics::traffic(), [this] { signal_.notify(); }),
-      prediction_writer_(controllers_, topics::prediction(), [this] { signal_.notify(); }),
-      outcome_writer_(controllers_, topics::outcome(), [this] { signal_.notify(); }),
       report_writer_(controllers_, topics::report()),
       drawing_writer_(lab_, topics::visualization()),
       stop_request_writer_(lab_, topics::stop_request()),
       lab_log_(lab_, options_.node_id),
-      traffic_reader_(controllers_, topics::traffic(),
-                      [this](const Traffic& message) {
-                        signal_.post([&] {
-                          traffic_inbox_.put(message);
-                          given_up_.erase(message.vehicle);
-                          if (!start_) last_traffic_[message.vehicle] = message.step;
-                        });
-                      }),
-      prediction_reader_(controllers_, topics::prediction(),
-                         [this](const Prediction& message) {
-                           signal_.post([&] { prediction_inbox_.put(message); });
-                         }),
-      outcome_reader_(
-          controllers_, topics::outcome(),
-          [this](const Outcome& message) { signal_.post([&] { outcome_inbox_.put(message); }); }),
+      exchange_(controllers_, signal_, options_.logical_time, options_.node_id,
+                [this] { return stop_; }),
       run_state_reader_(controllers_, topics::run_state(),
                         [this](const RunState& state) {
                           signal_.post([&] {
@@ -148,20 +131,14 @@ std::set<std::string> HlcProcess::peer_names() const {
 
 /// Nothing that this process says may be lost: every writer has its readers matched.
 bool HlcProcess::has_everybody() const {
-  if (active_.empty()) return false;
-  const std::set<std::string> peers = peer_names();
-  const auto reaches = [&peers](const auto& writer) {
-    return std::ranges::includes(writer.matched_names(), peers);
-  };
-  return command_writer_.matched() > 0 && reaches(traffic_writer_) && reaches(prediction_writer_) &&
-         reaches(outcome_writer_);
+  return !active_.empty() && commands_.matched() > 0 && exchange_.deaf(peer_names()).empty();
 }
 
 /// Into an experiment that runs a controller comes back alone: whoever is not there is missing, as
 /// in any step.
 void HlcProcess::note_who_is_there() {
-  had_middleware_ = had_middleware_ || command_writer_.matched() > 0;
-  const bool joins = !options_.logical_time && !active_.empty() && command_writer_.matched() > 0 &&
+  had_middleware_ = had_middleware_ || commands_.matched() > 0;
+  const bool joins = !options_.logical_time && !active_.empty() && commands_.matched() > 0 &&
                      signal_.locked([this] { return start_.has_value(); });
   is_ready_ = is_ready_ || (!has_twin() && (joins || has_everybody()));
 }
@@ -173,7 +150,7 @@ bool HlcProcess::yields_to_twin() const { return !is_ready_ && has_twin(); }
 
 /// Others on the local domain may come and go: in the lab it holds all controllers of a computer.
 bool HlcProcess::has_lost_middleware() const {
-  return local_.is_lost(middleware_) || (had_middleware_ && command_writer_.matched() == 0);
+  return local_.is_lost(middleware_) || (had_middleware_ && commands_.matched() == 0);
 }
 
 /// True when there is no use in waiting for it to be started again.
@@ -196,11 +173,8 @@ std::string HlcProcess::who_is_missing() const {
   if (has_twin()) return "another " + controller_name(vehicle_.value) + " is there";
   if (active_.empty()) return "no state list came from the middleware";
   std::set<std::string> names;
-  if (command_writer_.matched() == 0) names.insert("the middleware's reader of commands");
-  const std::set<std::string> heard = outcome_writer_.matched_names();
-  for (const std::string& name : peer_names()) {
-    if (!heard.contains(name)) names.insert(name);
-  }
+  if (commands_.matched() == 0) names.insert("the middleware's reader of commands");
+  names.merge(exchange_.deaf(peer_names()));
   return "not there: " + joined(names);
 }
 
@@ -234,13 +208,6 @@ void HlcProcess::send_ready_now_and_then() {
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
-void HlcProcess::send_copy_when_due() {
-  if (signal_.locked([this] { return stop_; })) copy_due_.reset();
-  if (!copy_due_ || Clock::now() < copy_due_->first) return;
-  command_writer_.write(copy_due_->second);
-  copy_due_.reset();
-}
-
 /// Without the lab control nobody can stop the cars: they drive out their plans.
 void HlcProcess::watch_lab_control() {
   if (lab_control_lost_at_ || !lab_.is_lost(kLabControlName)) return;
@@ -252,13 +219,14 @@ void HlcProcess::watch_lab_control() {
 
 HlcProcess::Event HlcProcess::wait_for_event() {
   while (true) {
-    send_copy_when_due();
+    if (signal_.locked([this] { return stop_; })) commands_.drop_copy();
+    commands_.send_copy_when_due();
     watch_lab_control();
     note_who_is_there();
     send_ready_now_and_then();
     tell_whom_it_waits_for();
     Clock::time_point wake = Clock::now() + kReadyRepeat;
-    if (copy_due_) wake = std::min(wake, copy_due_->first);
+    wake = std::min(wake, commands_.copy_due().value_or(wake));
     const bool happened = signal_.wait_until(wake, [this] {
       const bool is_lost = has_lost_middleware();
       return stop_ || !lists_.empty() || is_lost != middleware_lost_at_.has_value() ||
@@ -344,11 +312,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
     core_.note(list, *observation);
     join_if_others_drive(*observation);
   }
-  signal_.locked([&] {
-    traffic_inbox_.begin(observation->step);
-    prediction_inbox_.begin(observation->step);
-    outcome_inbox_.begin(observation->step);
-  });
+  exchange_.begin(observation->step);
   const std::optional<Nanoseconds> trigger = signal_.locked([this] { return start_; });
   ReportRecord record;
   const bool had_begun = core_.has_begun();
@@ -371,19 +335,16 @@ void HlcProcess::answer(const VehicleStateList& list) {
 /// Only who drives tells its traffic: the trigger has been, and is not repeated. Who takes no part,
 /// or speaks of another time, says nothing about this experiment.
 void HlcProcess::join_if_others_drive(const Observation& observation) {
+  if (signal_.locked([this] { return start_.has_value(); })) return;
   const std::uint64_t now = observation.step.value;
-  signal_.locked([&] {
-    if (start_) return;
-    for (const VehicleId vehicle : others(observation)) {
-      const auto told = last_traffic_.find(vehicle);
-      if (told == last_traffic_.end() || told->second.value + 1 < now ||
-          told->second.value > now + 1) {
-        continue;
-      }
-      start_ = told->second.value * step_ns_;
+  for (const VehicleId vehicle : others(observation)) {
+    const std::optional<StepIndex> told = exchange_.newest_traffic(vehicle);
+    if (!told || told->value + 1 < now || told->value > now + 1) continue;
+    signal_.locked([&] {
+      start_ = told->value * step_ns_;
       joins_ = true;
-    }
-  });
+    });
+  }
 }
 
 /// Once it stands where it fits, and once whenever that changes.
@@ -441,61 +402,36 @@ std::vector<VehicleId> HlcProcess::present(std::vector<VehicleId> vehicles) cons
   return vehicles;
 }
 
-bool HlcProcess::is_awaited(VehicleId vehicle) const {
-  return !given_up_.contains(vehicle) && controllers_.is_alive(controller_name(vehicle.value));
-}
-
-template <class Message>
-void HlcProcess::wait_for(const StepMailbox<Message>& mailbox, const std::vector<VehicleId>& from,
-                          const VehicleStateList& list, double deadline_share) {
-  const auto all_in = [&] {
-    return stop_ || std::ranges::all_of(from, [&](VehicleId vehicle) {
-             return mailbox.holds(vehicle) || !is_awaited(vehicle);
-           });
-  };
-  if (!options_.logical_time) {
-    static_cast<void>(
-        signal_.wait_until(real_time_point(deadline_in_step(list, deadline_share)), all_in));
-    return;
-  }
-  if (signal_.wait_until(Clock::now() + kSilence, all_in)) return;
-  for (const VehicleId vehicle : from) {
-    if (signal_.locked([&] { return mailbox.holds(vehicle); })) continue;
-    spdlog::warn("{}: {} has said nothing for {} s and is not waited for any more",
-                 options_.node_id, controller_name(vehicle.value),
-                 kMessageTimeout / kNanosecondsPerSecond);
-    signal_.locked([&] { given_up_.insert(vehicle); });
-  }
-}
-
 ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observation& observation) {
   ReportRecord record;
   Controller& controller = core_.controller();
   if (signal_.locked([this] { return drive_out_; })) controller.drive_out();
 
-  traffic_writer_.write(controller.observe(observation));
-  wait_for(traffic_inbox_, others(observation), list, options_.deadlines.traffic);
-  controller.couple(signal_.locked([this] { return traffic_inbox_.all(); }));
+  const auto until = [&list](double share) { return deadline_in_step(list, share); };
+  const StepDeadlines& deadlines = options_.deadlines;
 
-  wait_for(prediction_inbox_, controller.predecessors(), list, options_.deadlines.predecessors);
-  const std::vector<Prediction> heard = signal_.locked([this] { return prediction_inbox_.all(); });
+  exchange_.say(controller.observe(observation));
+  exchange_.wait_for<Traffic>(others(observation), until(deadlines.traffic));
+  controller.couple(exchange_.heard<Traffic>());
+
+  exchange_.wait_for<Prediction>(controller.predecessors(), until(deadlines.predecessors));
+  const std::vector<Prediction> heard = exchange_.heard<Prediction>();
   const Clock::time_point planning_from = Clock::now();
   const Prediction prediction = controller.plan(heard);
   record.planning_ns =
       static_cast<Nanoseconds>(std::chrono::nanoseconds(Clock::now() - planning_from).count());
-  prediction_writer_.write(prediction);
+  exchange_.say(prediction);
 
   const bool strict = controller.options().settle_rule == SettleRule::kStrict;
   if (strict) {
-    wait_for(prediction_inbox_, controller.coupled(), list, options_.deadlines.settle);
+    exchange_.wait_for<Prediction>(controller.coupled(), until(deadlines.settle));
   } else {
-    outcome_writer_.write(controller.vote());
-    wait_for(outcome_inbox_, controller.component(), list, options_.deadlines.settle);
+    exchange_.say(controller.vote());
+    exchange_.wait_for<Outcome>(controller.component(), until(deadlines.settle));
   }
-  const auto [predictions, outcomes] = signal_.locked([this] {
-    return std::pair{prediction_inbox_.all(), outcome_inbox_.all()};
-  });
-  const Nanoseconds deadline = deadline_in_step(list, options_.deadlines.command);
+  const std::vector<Prediction> predictions = exchange_.heard<Prediction>();
+  const std::vector<Outcome> outcomes = exchange_.heard<Outcome>();
+  const Nanoseconds deadline = until(deadlines.command);
   const Nanoseconds now = options_.logical_time ? list.t_now : real_time_now();
   if (now > deadline) {
     record.deadline_missed = true;
@@ -511,22 +447,14 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
 void HlcProcess::send_answer(const VehicleStateList& list, Report& report) {
   // After the stop symbol the vehicle brakes, and then it listens again: it must hear nothing.
   if (signal_.locked([this] { return stop_; })) return;
-  if (copy_due_) command_writer_.write(copy_due_->second);
-  copy_due_.reset();
   const AnswerToList answer = core_.answer(list);
-  command_writer_.write(answer.command);
+  commands_.send(answer);
   if (!answer.fault.empty() && answer.fault != last_fault_) {
     spdlog::error("{}: the command of step {} is not sent, the last good one is: {}",
                   options_.node_id, step_of(list).value, answer.fault);
   }
   last_fault_ = answer.fault;
   report = with_answer(std::move(report), answer);
-  if (!answer.copy) return;
-  if (options_.transport == Transport::kLoopback) {
-    command_writer_.write(*answer.copy);
-  } else if (!options_.logical_time) {
-    copy_due_.emplace(Clock::now() + kCopyPause, *answer.copy);
-  }
 }
 
 }  // namespace hlc

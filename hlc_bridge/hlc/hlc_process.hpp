@@ -1,10 +1,8 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,8 +15,9 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/hlc/command_sender.hpp"
 #include "hlc_bridge/hlc/lab_log.hpp"
-#include "hlc_bridge/hlc/step_mailbox.hpp"
+#include "hlc_bridge/hlc/step_exchange.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/wait_notice.hpp"
 #include "planner/controller/controller.hpp"
@@ -39,6 +38,7 @@ struct HlcProcessOptions {
   /// For the log. On the domains the process always bears its vehicle's name (core/node_names),
   /// which the others look for: the lab gives all controllers one node id.
   std::string node_id;
+  std::string version{};  ///< ParticipantOptions::version
   Transport transport{Transport::kLab};
   Domains domains;
   std::optional<DiscoveryServer> discovery_server;
@@ -93,7 +93,6 @@ class HlcProcess {
   void check_plan_fits_commands() const;
   void prepare_thread() const;
   void send_ready_now_and_then();
-  void send_copy_when_due();
   [[nodiscard]] bool has_everybody() const;
   [[nodiscard]] bool has_lost_middleware() const;
   [[nodiscard]] bool is_middleware_gone_for_good();
@@ -107,12 +106,7 @@ class HlcProcess {
 
   void answer(const VehicleStateList& list);
   [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
-  /// Waits until all of `from` are in the mailbox, or need not be waited for any more.
-  template <class Message>
-  void wait_for(const StepMailbox<Message>& mailbox, const std::vector<VehicleId>& from,
-                const VehicleStateList& list, double deadline_share);
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
-  [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
   void join_if_others_drive(const Observation& observation);
   void tell_placement();
   void tell_begin(const VehicleStateList& list, std::optional<Nanoseconds> trigger) const;
@@ -133,25 +127,17 @@ class HlcProcess {
   Signal signal_;
   // Guarded by signal_:
   std::deque<VehicleStateList> lists_;
-  StepMailbox<Traffic> traffic_inbox_;
-  StepMailbox<Prediction> prediction_inbox_;
-  StepMailbox<Outcome> outcome_inbox_;
   /// next_start of the trigger; of an experiment that was running before, a time since which it is.
   std::optional<Nanoseconds> start_;
   bool joins_{};  ///< learnt of the start by the others' traffic
   bool stop_{};
   bool drive_out_{};
-  std::map<VehicleId, StepIndex> last_traffic_;  ///< of each sender, until the start is known
-  std::set<VehicleId> given_up_;  ///< silent for 10 s in logical time: not waited for until heard
 
   Participant lab_;
   Participant local_;
   Participant controllers_;
-  Writer<TrajectoryCommand> command_writer_;
+  CommandSender commands_;
   Writer<ReadyStatus> ready_writer_;
-  Writer<Traffic> traffic_writer_;
-  Writer<Prediction> prediction_writer_;
-  Writer<Outcome> outcome_writer_;
   Writer<ReportRecord> report_writer_;
   Writer<Visualization> drawing_writer_;
   Writer<StopRequest> stop_request_writer_;
@@ -168,12 +154,9 @@ class HlcProcess {
   std::optional<bool> told_placed_;  ///< whether the vehicle fits, as was told last
   bool told_stuck_{};
   std::chrono::steady_clock::time_point next_ready_at_{};
-  std::optional<std::pair<std::chrono::steady_clock::time_point, TrajectoryCommand>> copy_due_;
 
   // Readers last: their callbacks use everything above, and they end first.
-  Reader<Traffic> traffic_reader_;
-  Reader<Prediction> prediction_reader_;
-  Reader<Outcome> outcome_reader_;
+  StepExchange exchange_;
   Reader<RunState> run_state_reader_;
   Reader<SystemTrigger> trigger_reader_;
   Reader<VehicleStateList> list_reader_;

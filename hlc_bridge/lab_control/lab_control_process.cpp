@@ -37,6 +37,7 @@ ParticipantOptions on_domain(const LabControlOptions& options, DomainRole role) 
       .logical_time = options.logical_time,
       .discovery_server = lab ? options.discovery_server : std::nullopt,
       .peers = lab ? std::vector<std::string>{} : options.controller_peers,
+      .version = options.version,
       .on_loss = [](const std::string& line) { spdlog::warn("{}: {}", kLabControlName, line); }};
 }
 

@@ -19,6 +19,7 @@ namespace hlc {
 
 struct LabControlOptions {
   LabRunSettings run;
+  std::string version{};  ///< ParticipantOptions::version
   Transport transport{Transport::kLab};
   int lab_domain{};
   int controller_domain{};

@@ -29,6 +29,7 @@ ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) 
           .transport = options.transport,
           .logical_time = options.logical_time,
           .discovery_server = lab ? options.discovery_server : std::nullopt,
+          .version = options.version,
           .on_loss = [id = options.node_id](const std::string& line) {
             spdlog::warn("{}: {}", id, line);
           }};

@@ -29,6 +29,7 @@ struct MiddlewareOptions {
   /// For the log, and in logical time the source_id of the timer's ready status (wire contract,
   /// 5.3). On the domains the process always bears its vehicle's name (core/node_names).
   std::string node_id;
+  std::string version{};                  ///< ParticipantOptions::version
   std::vector<std::uint8_t> vehicle_ids;  ///< of its controllers; at least one
   Transport transport{Transport::kLab};
   int lab_domain{};

@@ -57,6 +57,7 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             .transport = options_.transport,
             .logical_time = options_.logical_time,
             .discovery_server = options_.discovery_server,
+            .version = options_.version,
             .on_loss = [this](const std::string& line) { spdlog::warn("{}: {}", name_, line); }},
            [this] { signal_.notify(); }),
       state_writer_(lab_, topics::vehicle_state(options_.vehicle.vehicle_id),

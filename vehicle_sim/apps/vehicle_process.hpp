@@ -24,6 +24,7 @@ namespace hlc {
 
 struct VehicleProcessOptions {
   SimulatedVehicleOptions vehicle;
+  std::string version{};  ///< ParticipantOptions::version
   Transport transport{Transport::kLab};
   int lab_domain{};
   std::optional<DiscoveryServer> discovery_server;

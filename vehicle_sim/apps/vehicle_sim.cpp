@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "vehicle_sim/apps/start_pose.hpp"
 #include "vehicle_sim/apps/vehicle_process.hpp"
@@ -59,6 +60,7 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
                       .start = hlc::start_pose(id, flags.pose),
                       .noise_seed = flags.noise_seed,
                       .gains = scaled(hlc::FollowerGains{}, flags.gains_scale)},
+          .version = hlc::program_version(),
           .transport = hlc::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
           .discovery_server = flags.network.discovery_server(),

@@ -105,6 +105,17 @@ TEST(Participant, SeesOthersAppearAndLeave) {
   EXPECT_TRUE(watcher.wait_for_changes(5)) << "three times somebody came, twice somebody left";
 }
 
+TEST(Participant, SaysItsVersionToOthers) {
+  const DomainReservation domains{1};
+  const Participant observer{on_loopback("observer", domains.first(), DomainRole::kLab)};
+  ParticipantOptions options = on_loopback("red", domains.first(), DomainRole::kLab);
+  options.version = "revision 1";
+  const Participant red{options};
+  const Participant blue{on_loopback("blue", domains.first(), DomainRole::kLab)};
+  ASSERT_TRUE(observer.wait_for({"red", "blue"}, soon()));
+  EXPECT_EQ(observer.versions(), (std::map<std::string, std::string>{{"red", "revision 1"}}));
+}
+
 TEST(Participant, WaitForEndsAtTheDeadline) {
   const DomainReservation domain;
   Participant alone{on_loopback("alone", domain.first(), DomainRole::kController)};

@@ -37,6 +37,15 @@ TEST(Presence, ANameIsLostOnlyWhenItsLastParticipantLeft) {
   EXPECT_EQ(presence.lost(), Names{"ParticipantSingleton"});
 }
 
+TEST(Presence, VersionsAreOfThoseThatAreThereAndSayTheirs) {
+  Presence presence;
+  presence.appeared({1}, "red", "revision 1");
+  presence.appeared({2}, "blue", "revision 2");
+  presence.appeared({3}, "green");
+  presence.left({2});
+  EXPECT_EQ(presence.versions(), (std::map<std::string, std::string>{{"red", "revision 1"}}));
+}
+
 TEST(Presence, RepeatedOrUnknownEventsChangeNothing) {
   Presence presence;
   presence.left({3});

@@ -36,6 +36,16 @@ TEST(Diagnosis, OfALabThatIsCompleteIsGood) {
   }
 }
 
+TEST(Diagnosis, ProgramsOfAnotherRevisionAreNamedAndTheLabsOwnAreNot) {
+  Heard heard = good();
+  heard.versions = {{"middleware_1", "revision a"}, {"high_level_controller_1", "revision b"}};
+  const auto is_bad = [](const Finding& finding) { return finding.verdict == Verdict::kBad; };
+  const std::vector<Finding> findings = diagnose({1}, heard, "revision a");
+  const auto found = std::ranges::find_if(findings, is_bad);
+  ASSERT_EQ(std::ranges::count_if(findings, is_bad), 1);
+  EXPECT_EQ(found->what, "high_level_controller_1: revision b, this machine: revision a");
+}
+
 TEST(Diagnosis, NamesWhoDoesNotAnswerAndSaysWhatToDo) {
   const std::vector<Finding> findings = bad_ones({1, 2}, good());
   ASSERT_EQ(findings.size(), 1U);
