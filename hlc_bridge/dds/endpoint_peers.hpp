@@ -7,8 +7,6 @@
 #include <set>
 #include <string>
 
-#include <fastdds/dds/core/status/MatchedStatus.hpp>
-
 #include "hlc_bridge/dds/participant_core.hpp"
 
 namespace hlc {

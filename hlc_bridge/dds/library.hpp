@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include <fastrtps/qos/QosPolicies.h>
+#include "hlc_bridge/dds/fast_dds.hpp"
 
 /// What every participant, writer and reader needs of Fast DDS. Only sources of this folder include
 /// it.
@@ -16,6 +16,6 @@ namespace hlc {
 /// thread, and two participants in one test talk exactly as two processes do.
 void set_up_library();
 
-[[nodiscard]] eprosima::fastrtps::Duration_t to_duration(std::chrono::nanoseconds time);
+[[nodiscard]] LibraryDuration to_duration(std::chrono::nanoseconds time);
 
 }  // namespace hlc

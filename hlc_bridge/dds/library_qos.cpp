@@ -5,9 +5,6 @@
 namespace hlc {
 namespace {
 
-namespace fdds = eprosima::fastdds::dds;
-namespace frtps = eprosima::fastrtps::rtps;
-
 // What writers and readers have in common.
 template <class LibraryQos>
 void set_common(const EndpointQos& qos, LibraryQos& result) {

@@ -1,9 +1,9 @@
 #include "hlc_bridge/dds/library_version.hpp"
 
-#include <fastrtps/config.h>
+#include "hlc_bridge/dds/fast_dds.hpp"
 
 namespace hlc {
 
-std::string library_version() { return FASTRTPS_VERSION_STR; }
+std::string library_version() { return fast_dds_version(); }
 
 }  // namespace hlc

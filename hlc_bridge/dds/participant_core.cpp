@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/library.hpp"
 #include "hlc_bridge/dds/participant_qos.hpp"
@@ -37,7 +35,8 @@ ParticipantCore::ParticipantCore(const ParticipantOptions& options,
   const fdds::DomainParticipantQos qos = participant_qos(options_);
   set_up_library();
   participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
-      static_cast<fdds::DomainId_t>(options_.domain_id), qos, this, fdds::StatusMask::none());
+      static_cast<fdds::DomainId_t>(options_.domain_id), qos, as_listener(),
+      fdds::StatusMask::none());
   if (participant_ == nullptr) {
     refuse(options_, "the library could not create it (too many participants on this host?)");
   }
@@ -57,7 +56,7 @@ fdds::Topic& ParticipantCore::topic(const std::string& name, const fdds::TypeSup
   fdds::Topic*& topic = topics_[name];
   if (topic == nullptr) {
     if (participant_->find_type(type.get_type_name()).empty() &&
-        type.register_type(participant_) != eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+        !is_ok(type.register_type(participant_))) {
       refuse(options_, "type " + type.get_type_name() + " could not be registered");
     }
     topic = participant_->create_topic(name, type.get_type_name(), fdds::TOPIC_QOS_DEFAULT);
@@ -83,19 +82,14 @@ void ParticipantCore::add_peers(const std::shared_ptr<EndpointPeers>& peers) {
   endpoints_.push_back(peers);
 }
 
-void ParticipantCore::on_participant_discovery(fdds::DomainParticipant*,
-                                               frtps::ParticipantDiscoveryInfo&& info) {
-  using Info = frtps::ParticipantDiscoveryInfo;
-  if (info.status == Info::CHANGED_QOS_PARTICIPANT) {
-    return;
-  }
-  const ParticipantKey key = key_of(info.info.m_guid.guidPrefix);
-  const std::string name = info.info.m_participantName.to_string();
-  const auto& data = info.info.m_userData;
-  const std::string version(data.begin(), data.end());
-  const bool is_there = info.status == Info::DISCOVERED_PARTICIPANT;
+void ParticipantCore::on_found(const FoundParticipant& participant) {
+  const ParticipantKey key = key_of(participant.prefix);
   const auto endpoints = update([&] {
-    is_there ? presence_.appeared(key, name, version) : presence_.left(key);
+    if (participant.is_there) {
+      presence_.appeared(key, participant.name, participant.user_data);
+    } else {
+      presence_.left(key);
+    }
     return endpoints_;
   });
   presence_gate_.enter([&] {
@@ -110,26 +104,14 @@ void ParticipantCore::on_participant_discovery(fdds::DomainParticipant*,
   }
 }
 
-void ParticipantCore::on_subscriber_discovery(fdds::DomainParticipant*,
-                                              frtps::ReaderDiscoveryInfo&& info) {
-  on_endpoint(PeerKind::kReader, info.status != frtps::ReaderDiscoveryInfo::REMOVED_READER,
-              info.info.guid(), info.info.topicName().to_string());
-}
-
-void ParticipantCore::on_publisher_discovery(fdds::DomainParticipant*,
-                                             frtps::WriterDiscoveryInfo&& info) {
-  on_endpoint(PeerKind::kWriter, info.status != frtps::WriterDiscoveryInfo::REMOVED_WRITER,
-              info.info.guid(), info.info.topicName().to_string());
-}
-
-void ParticipantCore::on_endpoint(PeerKind kind, bool is_there, const frtps::GUID_t& guid,
-                                  const std::string& topic) {
+void ParticipantCore::on_found(const FoundEndpoint& endpoint) {
   update([&] {
-    auto& endpoints = discovered_[{kind, topic}];
-    if (is_there) {
-      endpoints.insert(guid);
+    const PeerKind kind = endpoint.is_writer ? PeerKind::kWriter : PeerKind::kReader;
+    auto& endpoints = discovered_[{kind, endpoint.topic}];
+    if (endpoint.is_there) {
+      endpoints.insert(endpoint.guid);
     } else {
-      endpoints.erase(guid);
+      endpoints.erase(endpoint.guid);
     }
   });
 }

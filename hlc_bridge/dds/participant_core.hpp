@@ -10,22 +10,13 @@
 #include <string>
 #include <vector>
 
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
-
+#include "hlc_bridge/dds/fast_dds.hpp"
 #include "hlc_bridge/dds/gate.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/presence.hpp"
 
 /// Only sources of this folder include this file.
 namespace hlc {
-
-namespace fdds = eprosima::fastdds::dds;
-namespace frtps = eprosima::fastrtps::rtps;
 
 class EndpointPeers;
 
@@ -38,7 +29,7 @@ enum class PeerKind : std::uint8_t { kReader, kWriter };
 /// Locks: `mutex_` guards the tables and is never held while something else is called; the gates
 /// are held while the user's callback runs. DDS locks come before gates, gates before the user's
 /// locks, `mutex_` last.
-class ParticipantCore : private fdds::DomainParticipantListener {
+class ParticipantCore : private DiscoveryListener {
  public:
   ParticipantCore(const ParticipantOptions& options, std::function<void()> on_presence_change);
   ~ParticipantCore() override;
@@ -85,14 +76,8 @@ class ParticipantCore : private fdds::DomainParticipantListener {
   void add_peers(const std::shared_ptr<EndpointPeers>& peers);
 
  private:
-  void on_participant_discovery(fdds::DomainParticipant* participant,
-                                frtps::ParticipantDiscoveryInfo&& info) override;
-  void on_subscriber_discovery(fdds::DomainParticipant* participant,
-                               frtps::ReaderDiscoveryInfo&& info) override;
-  void on_publisher_discovery(fdds::DomainParticipant* participant,
-                              frtps::WriterDiscoveryInfo&& info) override;
-  void on_endpoint(PeerKind kind, bool is_there, const frtps::GUID_t& guid,
-                   const std::string& topic);
+  void on_found(const FoundParticipant& participant) override;
+  void on_found(const FoundEndpoint& endpoint) override;
 
   ParticipantOptions options_;
   std::function<void()> on_presence_change_;

@@ -5,19 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-
 #include "hlc_bridge/dds/library.hpp"
 
 namespace hlc {
 namespace {
 
-using eprosima::fastdds::dds::DomainParticipantQos;
-using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
-using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
-namespace frtps = eprosima::fastrtps::rtps;
+using fdds::DomainParticipantQos;
 using namespace std::chrono_literals;
 
 constexpr auto kRealTimeLease = 2s;
@@ -34,10 +27,10 @@ void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos)
   }
   qos.transport().use_builtin_transports = false;
   if (!loopback && options.role == DomainRole::kLocal) {
-    qos.transport().user_transports = {std::make_shared<SharedMemTransportDescriptor>()};
+    qos.transport().user_transports = {std::make_shared<SharedMemoryTransport>()};
     return;
   }
-  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  auto udp = std::make_shared<UdpTransport>();
   udp->maxInitialPeersRange = kParticipantsPerMachine;
   if (loopback) {
     udp->interfaceWhiteList = {"127.0.0.1"};
@@ -86,7 +79,7 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
     throw std::invalid_argument("participant " + options.name +
                                 ": the local domain has no discovery server");
   }
-  eprosima::fastdds::rtps::RemoteServerAttributes server;
+  RemoteServer server;
   if (!server.ReadguidPrefix(options.discovery_server->guid_prefix.c_str())) {
     throw std::invalid_argument("discovery server id \"" + options.discovery_server->guid_prefix +
                                 "\": 12 bytes in hexadecimal with dots between them");

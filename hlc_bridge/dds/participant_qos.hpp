@@ -2,8 +2,7 @@
 
 #include <cstddef>
 
-#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
-
+#include "hlc_bridge/dds/fast_dds.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 
 namespace hlc {
@@ -19,7 +18,6 @@ inline constexpr std::size_t kMaxParticipantName = 255;
 ///
 /// Throws std::invalid_argument for a discovery server on the local domain (shared memory needs
 /// none). Only sources of this folder include this file.
-[[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant_qos(
-    const ParticipantOptions& options);
+[[nodiscard]] fdds::DomainParticipantQos participant_qos(const ParticipantOptions& options);
 
 }  // namespace hlc

@@ -3,8 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-
 #include "hlc_bridge/dds/library_qos.hpp"
 
 namespace hlc {
@@ -39,8 +37,7 @@ void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
     const std::shared_ptr<void> sample{type_.create_data(),
                                        [this](void* data) { type_.delete_data(data); }};
     fdds::SampleInfo info;
-    while (reader->take_next_sample(sample.get(), &info) ==
-           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+    while (is_ok(reader->take_next_sample(sample.get(), &info))) {
       if (info.valid_data && !core_->is_own(frtps::iHandle2GUID(info.publication_handle))) {
         const std::uint64_t invalid = on_sample_(sample.get());
         if (invalid > 0 && dropped_.fetch_add(invalid) == 0) {

@@ -6,9 +6,6 @@
 #include <memory>
 #include <string>
 
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
-
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <exception>
-
 #include <LogLevelPubSubTypes.h>
 #include <LogPubSubTypes.h>
 #include <OutcomeMessagePubSubTypes.h>
@@ -22,10 +20,10 @@
 #include <VehicleStateListPubSubTypes.h>
 #include <VehicleStatePubSubTypes.h>
 #include <VisualizationPubSubTypes.h>
-#include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include "hlc_bridge/dds/convert_hlc.hpp"
 #include "hlc_bridge/dds/convert_lab.hpp"
+#include "hlc_bridge/dds/fast_dds.hpp"
 
 /// Which generated type carries a plain message. Only sources of this folder (and its tests)
 /// include this file.
@@ -73,25 +71,10 @@ template <> struct Wire<ReportRecord> : OwnWire<ReportMessage, ReportMessagePubS
 template <> struct Wire<RunState> : OwnWire<RunStateMessage, RunStateMessagePubSubType> {};
 // clang-format on
 
-/// The generated type support, but bytes that it cannot read are "not a message" instead of an
-/// exception on the library's receiving thread.
-template <class PubSubType>
-class TolerantType : public PubSubType {
- public:
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
-    try {
-      return PubSubType::deserialize(payload, data);
-    } catch (const std::exception&) {
-      return false;
-    }
-  }
-};
-
 template <class Message>
-[[nodiscard]] eprosima::fastdds::dds::TypeSupport type_support() {
-  eprosima::fastdds::dds::TypeSupport type{new TolerantType<typename Wire<Message>::PubSubType>};
-  type->auto_fill_type_object(Wire<Message>::kAnnouncesTypeObject);
-  type->auto_fill_type_information(Wire<Message>::kAnnouncesTypeObject);
+[[nodiscard]] fdds::TypeSupport type_support() {
+  fdds::TypeSupport type{new TolerantType<typename Wire<Message>::PubSubType>};
+  announce_type_object(type, Wire<Message>::kAnnouncesTypeObject);
   return type;
 }
 

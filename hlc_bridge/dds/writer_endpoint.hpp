@@ -4,9 +4,6 @@
 #include <memory>
 #include <string>
 
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/DataWriterListener.hpp>
-
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 

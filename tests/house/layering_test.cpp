@@ -73,7 +73,8 @@ struct Outside {
   std::string why;
 };
 const std::vector<Outside> kOutside{
-    {"^(fastdds|fastrtps|fastcdr)/.*", "^hlc_bridge/dds/.*", "DDS stays in hlc_bridge/dds"},
+    {"^(fastdds|fastrtps|fastcdr)/.*", "^hlc_bridge/dds/fast_dds\\..*",
+     "Fast DDS has one entry, hlc_bridge/dds/fast_dds"},
     {"^(ompl)/.*", "^planner/(search/(ompl_|best_first_search).*|apps/.*)",
      "OMPL stays in its adapter and the best-first engine"},
     {"^nlopt.*", "^planner/maneuver_design/.*", "only maneuver_design optimises"},
@@ -157,11 +158,12 @@ TEST(House, AnArrowThatRunsUpIsNoticed) {
 
 TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
   EXPECT_TRUE(fault_of("planner/search/collision.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_TRUE(
+      fault_of("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
   EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "chrono"));
   EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "spdlog/spdlog.h"));
   EXPECT_TRUE(fault_of("planner/search/collision.cpp", "ompl/base/Planner.h"));
-  EXPECT_FALSE(
-      fault_of("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_FALSE(fault_of("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
 }
 
 }  // namespace

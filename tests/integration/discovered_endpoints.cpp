@@ -5,17 +5,11 @@
 #include <mutex>
 #include <stdexcept>
 
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
-
+#include "hlc_bridge/dds/fast_dds.hpp"
 #include "hlc_bridge/dds/library.hpp"
 #include "hlc_bridge/dds/participant_qos.hpp"
 
 namespace hlc::test {
-
-namespace fdds = eprosima::fastdds::dds;
-namespace frtps = eprosima::fastrtps::rtps;
 
 class DiscoveredEndpoints::Listener : public fdds::DomainParticipantListener {
  public:

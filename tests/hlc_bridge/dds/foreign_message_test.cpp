@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <limits>
 
 #include "hlc_bridge/dds/participant_core.hpp"
@@ -27,7 +26,7 @@ class BytesType : public fdds::TopicDataType {
 
  private:
   using Bytes = std::vector<unsigned char>;
-  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+  using Payload = SerializedPayload;
 
   bool serialize(void* data, Payload* payload) override {
     const Bytes& bytes = *static_cast<Bytes*>(data);
@@ -42,7 +41,7 @@ class BytesType : public fdds::TopicDataType {
   }
   void* createData() override { return new Bytes; }
   void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+  bool getKey(void*, frtps::InstanceHandle_t*, bool) override { return false; }
 };
 
 class ForeignMessages : public testing::Test {

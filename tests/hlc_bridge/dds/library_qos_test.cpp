@@ -7,8 +7,6 @@
 namespace hlc {
 namespace {
 
-namespace fdds = eprosima::fastdds::dds;
-namespace frtps = eprosima::fastrtps::rtps;
 using std::chrono::milliseconds;
 
 EndpointQos every_value_different() {

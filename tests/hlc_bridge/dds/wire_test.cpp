@@ -11,7 +11,6 @@
 namespace hlc {
 namespace {
 
-using eprosima::fastrtps::rtps::SerializedPayload_t;
 using Bytes = std::vector<unsigned char>;
 
 template <class Message>
@@ -19,7 +18,7 @@ Bytes serialized(const Message& message) {
   const auto type = type_support<Message>();
   typename Wire<Message>::Type wire;
   to_wire(message, wire);
-  SerializedPayload_t payload{type->getSerializedSizeProvider(&wire)()};
+  SerializedPayload payload{type->getSerializedSizeProvider(&wire)()};
   EXPECT_TRUE(type->serialize(&wire, &payload));
   return Bytes(payload.data, payload.data + payload.length);
 }
@@ -27,7 +26,7 @@ Bytes serialized(const Message& message) {
 template <class Message>
 bool deserializes(const Bytes& bytes) {
   const auto type = type_support<Message>();
-  SerializedPayload_t payload{static_cast<std::uint32_t>(bytes.size())};
+  SerializedPayload payload{static_cast<std::uint32_t>(bytes.size())};
   std::copy(bytes.begin(), bytes.end(), payload.data);
   payload.length = static_cast<std::uint32_t>(bytes.size());
   typename Wire<Message>::Type wire;
@@ -66,7 +65,7 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
       bytes[random() % bytes.size()] =
           static_cast<unsigned char>(random() % 3 == 0 ? 255 : random());
     }
-    SerializedPayload_t payload{static_cast<std::uint32_t>(bytes.size() + 1)};
+    SerializedPayload payload{static_cast<std::uint32_t>(bytes.size() + 1)};
     std::copy(bytes.begin(), bytes.end(), payload.data);
     payload.length = static_cast<std::uint32_t>(bytes.size());
     typename Wire<TypeParam>::Type wire;
