@@ -10,9 +10,10 @@ namespace hlc {
 /// A controller's report with what its process measured by the clock.
 struct ReportRecord {
   Report report;
-  Nanoseconds planning_ns{};  ///< wall time of Controller::plan, see there
-  bool deadline_missed{};     ///< an answer of this step came after its deadline
-  Nanoseconds late_ns{};      ///< by how much
+  /// Processor time of Controller::plan, see there. How late an answer is, is wall time.
+  Nanoseconds planning_ns{};
+  bool deadline_missed{};  ///< an answer of this step came after its deadline
+  Nanoseconds late_ns{};   ///< by how much
 };
 
 enum class RunPhase : std::uint8_t {

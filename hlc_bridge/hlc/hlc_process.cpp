@@ -15,6 +15,7 @@
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/time/precedence.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/thread_clock.hpp"
 #include "hlc_bridge/view/lab_map.hpp"
 
 namespace hlc {
@@ -416,10 +417,9 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
 
   exchange_.wait_for<Prediction>(controller.predecessors(), until(deadlines.predecessors));
   const std::vector<Prediction> heard = exchange_.heard<Prediction>();
-  const Clock::time_point planning_from = Clock::now();
+  const Nanoseconds planning_from = thread_time_now();
   const Prediction prediction = controller.plan(heard);
-  record.planning_ns =
-      static_cast<Nanoseconds>(std::chrono::nanoseconds(Clock::now() - planning_from).count());
+  record.planning_ns = thread_time_now() - planning_from;
   exchange_.say(prediction);
 
   const bool strict = controller.options().settle_rule == SettleRule::kStrict;

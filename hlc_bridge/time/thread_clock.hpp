@@ -1,0 +1,17 @@
+#pragma once
+
+#include <ctime>
+
+#include "hlc_bridge/core/messages.hpp"
+
+namespace hlc {
+
+/// Processor time of the calling thread [ns]: what it computes, however often others interrupt it.
+[[nodiscard]] inline Nanoseconds thread_time_now() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return Nanoseconds{1'000'000'000} * static_cast<Nanoseconds>(now.tv_sec) +
+         static_cast<Nanoseconds>(now.tv_nsec);
+}
+
+}  // namespace hlc
