@@ -145,9 +145,9 @@ std::vector<const Maneuver*> read_incumbent(const JsonPlace& place, const Subgra
   return incumbent;
 }
 
-std::vector<CriterionWeight> read_weights(const JsonPlace& place, const Subgraph& subgraph) {
+std::vector<PlanningWeight> read_weights(const JsonPlace& place, const Subgraph& subgraph) {
   const std::vector<std::string> known = criteria_of(subgraph);
-  std::vector<CriterionWeight> weights;
+  std::vector<PlanningWeight> weights;
   for (const std::string& criterion : place.keys()) {
     const JsonPlace weight = place.at(criterion, "a number from 0");
     if (std::ranges::find(known, criterion) == known.end()) {
@@ -160,7 +160,7 @@ std::vector<CriterionWeight> read_weights(const JsonPlace& place, const Subgraph
   return weights;
 }
 
-std::string weights_text(const std::vector<CriterionWeight>& weights) {
+std::string weights_text(const std::vector<PlanningWeight>& weights) {
   std::string text;
   for (const auto& [criterion, weight_m2] : weights) {
     text += (text.empty() ? "" : ", ") + quoted(criterion) + ": " + shortest_text(weight_m2);

@@ -207,11 +207,10 @@ SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
   return search;
 }
 
-std::vector<CriterionWeight> read_criterion_weights(const YamlNode& node,
-                                                    const Subgraph& subgraph) {
+std::vector<PlanningWeight> read_criterion_weights(const YamlNode& node, const Subgraph& subgraph) {
   const YamlNode weights = node.optional_map("criterion_weights");
   const std::vector<std::string> known = criteria_of(subgraph);
-  std::vector<CriterionWeight> result;
+  std::vector<PlanningWeight> result;
   for (const std::string& criterion : weights.keys()) {
     result.push_back({criterion, weights.required<double>(criterion, at_least(0.0))});
     if (std::ranges::find(known, criterion) != known.end()) continue;

@@ -42,7 +42,7 @@ Frame frame_of(const VertexData& vertex) {
 class BranchAndBound::Core {
  public:
   Core(const Subgraph& subgraph, const ReachableSets& reachable,
-       const std::vector<CriterionWeight>& weights, Instructions instructions)
+       const std::vector<PlanningWeight>& weights, Instructions instructions)
       : costs(subgraph, weights, std::max<std::size_t>(reachable.max_steps(), 1)),
         tables(subgraph, reachable, costs),
         obstacles(tables),

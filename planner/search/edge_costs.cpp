@@ -37,7 +37,7 @@ std::vector<std::string> criteria_of(const Subgraph& subgraph) {
   return names;
 }
 
-EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<CriterionWeight>& weights,
+EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>& weights,
                      std::size_t max_steps)
     : weights_(weights) {
   if (weights_.empty()) return;
@@ -74,7 +74,7 @@ EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<CriterionWeight
 
 double EdgeCosts::weighted(const Maneuver& maneuver) const {
   double cost = 0.0;
-  for (const CriterionWeight& weight : weights_) {
+  for (const PlanningWeight& weight : weights_) {
     cost += weight.weight_m2 * find_value(maneuver, weight.criterion)->value;
   }
   return cost;

@@ -24,7 +24,7 @@ class EdgeCosts {
  public:
   /// @throws std::invalid_argument for a weight that is not a number from 0, or a criterion that an
   /// edge of the subgraph holds no value of
-  EdgeCosts(const Subgraph& subgraph, const std::vector<CriterionWeight>& weights,
+  EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>& weights,
             std::size_t max_steps);
 
   /// No weights: everything is 0.
@@ -42,7 +42,7 @@ class EdgeCosts {
  private:
   [[nodiscard]] double weighted(const Maneuver& maneuver) const;
 
-  std::vector<CriterionWeight> weights_;
+  std::vector<PlanningWeight> weights_;
   double least_{};
   std::vector<std::vector<double>> to_go_;  ///< by steps, then trim; nothing without weights
 };

@@ -56,10 +56,10 @@ enum class Engine {
 };
 
 /// How much one unit of a criterion is worth against squared distance from the reference.
-struct CriterionWeight {
+struct PlanningWeight {
   std::string criterion;  ///< as in Maneuver::criteria
   double weight_m2{};     ///< from 0 [m^2 per unit of the criterion]
-  friend bool operator==(const CriterionWeight&, const CriterionWeight&) = default;
+  friend bool operator==(const PlanningWeight&, const PlanningWeight&) = default;
 };
 
 struct SearchOptions {
@@ -71,7 +71,7 @@ struct SearchOptions {
   std::size_t max_expansions{1'000'000};
   /// The planning cost follows the maneuvers' criteria, too: see edge_costs.hpp. The paper keeps it
   /// fixed to the distance from the reference, as no weights do.
-  std::vector<CriterionWeight> criterion_weights{};
+  std::vector<PlanningWeight> criterion_weights{};
 };
 
 enum class SearchStatus {

@@ -8,7 +8,7 @@ namespace {
 class Enumeration {
  public:
   Enumeration(const Subgraph& subgraph, const HorizonProblem& problem,
-              const std::vector<CriterionWeight>& weights)
+              const std::vector<PlanningWeight>& weights)
       : subgraph_(subgraph), problem_(problem), weights_(weights) {}
 
   ExhaustiveResult run() {
@@ -57,7 +57,7 @@ class Enumeration {
 
   const Subgraph& subgraph_;
   const HorizonProblem& problem_;
-  const std::vector<CriterionWeight>& weights_;
+  const std::vector<PlanningWeight>& weights_;
   std::vector<const Maneuver*> path_;
   ExhaustiveResult best_;
 };
@@ -65,7 +65,7 @@ class Enumeration {
 }  // namespace
 
 ExhaustiveResult exhaustive_search(const Subgraph& subgraph, const HorizonProblem& problem,
-                                   const std::vector<CriterionWeight>& weights) {
+                                   const std::vector<PlanningWeight>& weights) {
   return Enumeration(subgraph, problem, weights).run();
 }
 

@@ -21,6 +21,6 @@ struct ExhaustiveResult {
 /// @param weights  of the maneuvers' own criteria in the cost
 [[nodiscard]] ExhaustiveResult exhaustive_search(const Subgraph& subgraph,
                                                  const HorizonProblem& problem,
-                                                 const std::vector<CriterionWeight>& weights = {});
+                                                 const std::vector<PlanningWeight>& weights = {});
 
 }  // namespace hlc::test

@@ -40,9 +40,9 @@ bool is_free(const Maneuver& maneuver, const Pose& start, std::size_t step,
   return true;
 }
 
-double weighted_criteria(const Maneuver& maneuver, const std::vector<CriterionWeight>& weights) {
+double weighted_criteria(const Maneuver& maneuver, const std::vector<PlanningWeight>& weights) {
   double cost = 0.0;
-  for (const CriterionWeight& weight : weights) {
+  for (const PlanningWeight& weight : weights) {
     for (const CriterionValue& criterion : maneuver.criteria) {
       if (criterion.name == weight.criterion) cost += weight.weight_m2 * criterion.value;
     }
@@ -51,7 +51,7 @@ double weighted_criteria(const Maneuver& maneuver, const std::vector<CriterionWe
 }
 
 std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
-                     const HorizonProblem& problem, const std::vector<CriterionWeight>& weights) {
+                     const HorizonProblem& problem, const std::vector<PlanningWeight>& weights) {
   const std::size_t n = problem.horizon_steps();
   if (result.status != SearchStatus::kOptimal) {
     return "no plan";

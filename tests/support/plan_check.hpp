@@ -18,10 +18,10 @@ namespace hlc::test {
 /// @param weights  of the maneuvers' own criteria in the cost
 [[nodiscard]] std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
                                    const HorizonProblem& problem,
-                                   const std::vector<CriterionWeight>& weights = {});
+                                   const std::vector<PlanningWeight>& weights = {});
 
 /// Sum of weight times value of the maneuver's criteria.
 [[nodiscard]] double weighted_criteria(const Maneuver& maneuver,
-                                       const std::vector<CriterionWeight>& weights);
+                                       const std::vector<PlanningWeight>& weights);
 
 }  // namespace hlc::test

@@ -37,7 +37,7 @@ Subgraph make_subgraph(std::mt19937_64& random) {
   return {automaton, spec};
 }
 
-std::vector<CriterionWeight> random_weights(std::mt19937_64& random) {
+std::vector<PlanningWeight> random_weights(std::mt19937_64& random) {
   return {{"progress", uniform(random, 0.0, 0.1)}, {"effort", uniform(random, 0.0, 0.1)}};
 }
 
@@ -146,7 +146,7 @@ TEST(EdgeCosts, WithoutWeightsEverythingIsZero) {
   EXPECT_EQ(costs.to_go(subgraph.standstill(), 3), 0.0);
 }
 
-std::string refusal_of(const std::vector<CriterionWeight>& weights) {
+std::string refusal_of(const std::vector<PlanningWeight>& weights) {
   std::mt19937_64 random(1);
   const Subgraph subgraph = make_subgraph(random);
   try {
