@@ -50,6 +50,13 @@ JsonPlace JsonPlace::at(const std::string& key, const std::string& allowed) cons
                               " is missing, allowed " + allowed);
 }
 
+std::vector<std::string> JsonPlace::keys() const {
+  if (!value_->is_object()) fail("an object");
+  std::vector<std::string> result;
+  for (const auto& [key, value] : value_->items()) result.push_back(key);
+  return result;
+}
+
 void JsonPlace::check_keys(std::initializer_list<std::string_view> known) const {
   if (!value_->is_object()) fail("an object");
   for (const auto& [key, value] : value_->items()) {

@@ -24,6 +24,8 @@ class JsonPlace {
   /// @throws as fail if there is no such key, or this is no object
   [[nodiscard]] JsonPlace at(const std::string& key, const std::string& allowed) const;
   [[nodiscard]] std::optional<JsonPlace> find(const std::string& key) const;
+  /// Of this object, sorted.
+  [[nodiscard]] std::vector<std::string> keys() const;
   /// Refuses any key of this object that is not listed.
   void check_keys(std::initializer_list<std::string_view> known) const;
 

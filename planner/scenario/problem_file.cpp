@@ -9,6 +9,7 @@
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/json_reader.hpp"
 #include "planner/scenario/named_subgraph.hpp"
+#include "planner/search/edge_costs.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -144,8 +145,31 @@ std::vector<const Maneuver*> read_incumbent(const JsonPlace& place, const Subgra
   return incumbent;
 }
 
-SearchOptions read_search(const JsonPlace& place) {
-  place.check_keys({"engine", "cost_to_go", "max_expansions"});
+std::vector<PlanningWeight> read_weights(const JsonPlace& place, const Subgraph& subgraph) {
+  const std::vector<std::string> known = criteria_of(subgraph);
+  std::vector<PlanningWeight> weights;
+  for (const std::string& criterion : place.keys()) {
+    const JsonPlace weight = place.at(criterion, "a number from 0");
+    if (std::ranges::find(known, criterion) == known.end()) {
+      std::string allowed = "criteria of the automaton's maneuvers:";
+      for (const std::string& name : known) allowed += " " + name;
+      weight.fail(allowed);
+    }
+    weights.push_back({criterion, weight.number(0.0, "a number from 0")});
+  }
+  return weights;
+}
+
+std::string weights_text(const std::vector<PlanningWeight>& weights) {
+  std::string text;
+  for (const auto& [criterion, weight_m2] : weights) {
+    text += (text.empty() ? "" : ", ") + quoted(criterion) + ": " + shortest_text(weight_m2);
+  }
+  return "{" + text + "}";
+}
+
+SearchOptions read_search(const JsonPlace& place, const Subgraph& subgraph) {
+  place.check_keys({"engine", "cost_to_go", "max_expansions", "criterion_weights"});
   SearchOptions search;
   if (const auto engine = place.find("engine")) {
     try {
@@ -163,6 +187,9 @@ SearchOptions read_search(const JsonPlace& place) {
   }
   if (const auto budget = place.find("max_expansions")) {
     search.max_expansions = budget->whole(1, std::numeric_limits<std::size_t>::max());
+  }
+  if (const auto weights = place.find("criterion_weights")) {
+    search.criterion_weights = read_weights(*weights, subgraph);
   }
   return search;
 }
@@ -223,7 +250,7 @@ ProblemFile read_rest(const JsonPlace& root, std::filesystem::path automaton_fil
   file.automaton_file = std::move(automaton_file);
   file.subgraph = std::move(subgraph);
   file.problem = read_problem(root, *file.subgraph);
-  if (const auto search = root.find("search")) file.search = read_search(*search);
+  if (const auto search = root.find("search")) file.search = read_search(*search, *file.subgraph);
   return file;
 }
 
@@ -261,9 +288,14 @@ std::string to_text(const ProblemFile& file) {
                  ", \"label\": " + quoted(maneuver->label) + "}";
         }));
   }
-  add("search", std::string("{\"engine\": \"") + to_string(file.search.engine) +
-                    "\", \"cost_to_go\": \"" + to_string(file.search.cost_to_go) +
-                    "\", \"max_expansions\": " + std::to_string(file.search.max_expansions) + "}");
+  add("search",
+      std::string("{\"engine\": \"") + to_string(file.search.engine) + "\", \"cost_to_go\": \"" +
+          to_string(file.search.cost_to_go) +
+          "\", \"max_expansions\": " + std::to_string(file.search.max_expansions) +
+          (file.search.criterion_weights.empty()
+               ? ""
+               : ", \"criterion_weights\": " + weights_text(file.search.criterion_weights)) +
+          "}");
   return text + "\n}\n";
 }
 

@@ -40,7 +40,9 @@ inline constexpr std::size_t kMaxProblemSteps = 64;
 ///     avoids_steering_limit  true or false (default): see HorizonProblem
 ///     incumbent        [{trim, label}, ...], n maneuvers by the trim that they lead to and their
 ///                      label ("trim": a trim's own step), the first from start.trim; may be absent
-///     search           {engine, cost_to_go, max_expansions}, each may be absent: SearchOptions
+///     search           {engine, cost_to_go, max_expansions, criterion_weights}, each may be
+///     absent:
+///                      SearchOptions; criterion_weights: {criterion: weight in m^2 per unit}
 ///
 /// Numbers are written so that they read back to the same bits; the order of a clockwise polygon's
 /// vertices is reversed when it is read, everything else stays as it is. Empty polygons, which

@@ -13,6 +13,7 @@
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/starts.hpp"
+#include "planner/search/edge_costs.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -206,6 +207,20 @@ SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
   return search;
 }
 
+std::vector<PlanningWeight> read_criterion_weights(const YamlNode& node, const Subgraph& subgraph) {
+  const YamlNode weights = node.optional_map("criterion_weights");
+  const std::vector<std::string> known = criteria_of(subgraph);
+  std::vector<PlanningWeight> result;
+  for (const std::string& criterion : weights.keys()) {
+    result.push_back({criterion, weights.required<double>(criterion, at_least(0.0))});
+    if (std::ranges::find(known, criterion) != known.end()) continue;
+    std::string allowed = "criteria of the automaton's maneuvers:";
+    for (const std::string& name : known) allowed += " " + name;
+    weights.fail(criterion, allowed);
+  }
+  return result;
+}
+
 Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
                    std::shared_ptr<const Subgraph> subgraph) {
   Scenario scenario;
@@ -219,6 +234,7 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.profile = profile_from_name(choices.profile);
   scenario.search = read_search(node, choices, scenario.profile);
   scenario.subgraph = std::move(subgraph);
+  scenario.search.criterion_weights = read_criterion_weights(node, *scenario.subgraph);
   check_standstill_is_near(node, scenario);
   read_lab_of(node, choices, scenario);
   if (node.has("circle")) {

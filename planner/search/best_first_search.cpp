@@ -36,6 +36,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
       reachable_(reachable),
       options_(options),
       collision_(subgraph, reachable),
+      costs_(subgraph, options.criterion_weights, reachable.max_steps()),
       steps_(subgraph.automaton().trims.size()) {
   const UniversalAutomaton& automaton = subgraph.automaton();
   for (const TrimId trim : subgraph.starts()) {
@@ -43,7 +44,8 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
       steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
                                     subgraph.distance_to_standstill(edge.to),
                                     is_at_steering_limit(automaton.trims[edge.to.index],
-                                                         automaton.vehicle, automaton.identified)});
+                                                         automaton.vehicle, automaton.identified),
+                                    costs_.above_least(*edge.maneuver)});
     }
   }
 }
@@ -71,7 +73,7 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
     open.pop();
     if (!incoming_edge_is_free(vertices_[taken.vertex])) continue;
     if (vertices_[taken.vertex].depth == n) {
-      if (!has_incumbent || vertices_[taken.vertex].cost_to_come < result.cost) {
+      if (!has_incumbent || cost_of(taken.vertex, n) < result.cost) {
         write_path(taken.vertex, problem, result);
       }
       result.status = SearchStatus::kOptimal;
@@ -83,7 +85,7 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
       // Every other entry of the open list has no smaller f.
       const double bound = options_.cost_to_go == CostToGo::k2022 ? 0.0 : taken.cost_estimate;
-      give_up(has_incumbent, bound, result);
+      give_up(has_incumbent, bound + static_cast<double>(n) * costs_.least(), result);
       break;
     }
     expand(taken.vertex, problem, cost_to_go, open);
@@ -110,7 +112,7 @@ bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResul
     frame = compose(frame, step->displacement);
     pose = {frame.origin_m.x(), frame.origin_m.y(),
             pose.heading_rad + maneuver->displacement.heading_rad};
-    cost += (frame.origin_m - problem.reference_m[depth]).squaredNorm();
+    cost += (frame.origin_m - problem.reference_m[depth]).squaredNorm() + step->cost;
     trim = step->to;
     result.maneuvers.push_back(maneuver);
     result.poses.push_back(pose);
@@ -120,7 +122,7 @@ bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResul
     result.generated = 1;
     return false;
   }
-  result.cost = cost;
+  result.cost = cost + static_cast<double>(n) * costs_.least();
   return true;
 }
 
@@ -144,10 +146,12 @@ void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
     if (step.distance_to_standstill > steps_left) continue;
     if (step.ends_at_limit && problem.avoids_steering_limit) continue;
     const Frame frame = compose(parent.frame, step.displacement);
-    const double cost_to_come = parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm();
+    const double cost_to_come =
+        parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm() + step.cost;
     const auto child = static_cast<VertexId>(vertices_.size());
     vertices_.push_back({frame, cost_to_come, step.maneuver, step.to, vertex, depth});
-    open.insert({cost_to_come + cost_to_go(step.to, depth, frame), child, depth});
+    const double to_go = cost_to_go(step.to, depth, frame) + costs_.to_go(step.to, steps_left);
+    open.insert({cost_to_come + to_go, child, depth});
   }
 }
 
@@ -156,10 +160,14 @@ bool BestFirstSearch::incoming_edge_is_free(const Vertex& vertex) {
          collision_.is_free(*vertex.maneuver, vertex.depth, vertices_[vertex.parent].frame);
 }
 
+double BestFirstSearch::cost_of(VertexId vertex, std::size_t steps) const {
+  return vertices_[vertex].cost_to_come + static_cast<double>(steps) * costs_.least();
+}
+
 void BestFirstSearch::write_path(VertexId goal, const HorizonProblem& problem,
                                  SearchResult& result) const {
   const std::size_t n = problem.horizon_steps();
-  result.cost = vertices_[goal].cost_to_come;
+  result.cost = cost_of(goal, n);
   result.maneuvers.resize(n);
   result.poses.resize(n);
   for (VertexId id = goal; vertices_[id].depth > 0; id = vertices_[id].parent) {

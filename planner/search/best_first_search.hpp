@@ -8,6 +8,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/collision.hpp"
 #include "planner/search/cost_to_go.hpp"
+#include "planner/search/edge_costs.hpp"
 #include "planner/search/frame.hpp"
 #include "planner/search/search_engine.hpp"
 
@@ -22,7 +23,8 @@ namespace hlc {
 ///
 /// (and is not near the steering limit, if the problem avoids that), so every vertex of depth n
 /// stands. The open list is ordered by f = g + h (cost-to-come + cost-to-go), then deeper first,
-/// then in the order of generation; hence two searches of one problem agree in everything.
+/// then in the order of generation; hence two searches of one problem agree in everything. What the
+/// maneuvers cost themselves (EdgeCosts) belongs to g, its least for the rest of the path to h.
 ///
 /// Collision checks are lazy: the edge into a vertex is checked when the vertex is taken from the
 /// open list, and the vertex is dropped if the edge is not free. The root has no such edge and is
@@ -59,6 +61,7 @@ class BestFirstSearch final : public SearchEngine {
     TrimId to;
     std::size_t distance_to_standstill;
     bool ends_at_limit;
+    double cost;  ///< EdgeCosts::above_least
   };
 
   struct Vertex {
@@ -86,12 +89,14 @@ class BestFirstSearch final : public SearchEngine {
   /// Writes maneuvers, poses and cost of the incumbent; nothing, and false, if it is no free path.
   bool write_incumbent(const HorizonProblem& problem, SearchResult& result);
   [[nodiscard]] const Step* find_step(TrimId trim, const Maneuver* maneuver) const;
+  [[nodiscard]] double cost_of(VertexId vertex, std::size_t steps) const;
   void write_path(VertexId goal, const HorizonProblem& problem, SearchResult& result) const;
 
   const Subgraph& subgraph_;
   const ReachableSets& reachable_;
   SearchOptions options_;
   CollisionCheck collision_;
+  EdgeCosts costs_;
   std::vector<std::vector<Step>> steps_;  ///< out of each trim
   std::vector<Vertex> vertices_;          ///< of the current search, in the order of generation
 };

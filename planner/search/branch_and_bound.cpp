@@ -41,8 +41,12 @@ Frame frame_of(const VertexData& vertex) {
 /// Tables, memory of a search, and the kernel's view of both.
 class BranchAndBound::Core {
  public:
-  Core(const Subgraph& subgraph, const ReachableSets& reachable, Instructions instructions)
-      : tables(subgraph, reachable), obstacles(tables), kernel(choose_kernel(instructions)) {
+  Core(const Subgraph& subgraph, const ReachableSets& reachable,
+       const std::vector<PlanningWeight>& weights, Instructions instructions)
+      : costs(subgraph, weights, std::max<std::size_t>(reachable.max_steps(), 1)),
+        tables(subgraph, reachable, costs),
+        obstacles(tables),
+        kernel(choose_kernel(instructions)) {
     std::size_t most_corners = 0;
     for (const TrimId trim : subgraph.starts()) {
       for (const Edge& edge : subgraph.successors(trim)) {
@@ -133,6 +137,7 @@ class BranchAndBound::Core {
            intersects(placed_, obstacle_m);
   }
 
+  EdgeCosts costs;
   TableStore tables;
   branch_and_bound::PreparedObstacles obstacles;
   branch_and_bound::Kernel kernel;
@@ -163,7 +168,7 @@ BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& re
         "search: engine branch_and_bound has the cost-to-go 'reachable' alone; "
         "for another one choose engine best_first");
   }
-  core_ = std::make_unique<Core>(subgraph, reachable, instructions);
+  core_ = std::make_unique<Core>(subgraph, reachable, options_.criterion_weights, instructions);
 }
 
 BranchAndBound::~BranchAndBound() = default;
@@ -197,12 +202,14 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
   if (search.gave_up) {
     // The start's own bound is tighter than that of some of its children, now and then.
     const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, CostToGo::kReachable);
-    const double of_start = cost_to_go(problem.start_trim, 0, to_frame(problem.start));
+    const EdgeCosts& costs = core_->costs;
+    const double of_start = cost_to_go(problem.start_trim, 0, to_frame(problem.start)) +
+                            costs.to_go(problem.start_trim, n);
     // Keys stand for f but for their last bits, which number the children.
     constexpr double kLastBit = std::numeric_limits<double>::epsilon();
     search.lower_bound *= 1.0 - kLastBit * static_cast<double>(core_->tables.view().index_mask + 1);
     search.lower_bound = std::max(search.lower_bound, of_start);
-    give_up(has_path, search.lower_bound, result);
+    give_up(has_path, search.lower_bound + static_cast<double>(n) * costs.least(), result);
   } else if (has_path) {
     result.status = SearchStatus::kOptimal;
     result.reason = NoPath::kNone;
@@ -220,7 +227,7 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
   for (std::size_t depth = 0; depth < n; ++depth) {
     const std::uint32_t edge = core.tables.find({vertex.trim}, problem.incumbent[depth]);
     if (edge == TableStore::kNoEdge) return;
-    if (core.search.levels[depth].penalty[edge] != 0.0) return;
+    if (core.search.levels[depth].penalty[edge] >= branch_and_bound::kForbidden) return;
     if (!core.kernel.is_free(core.search, edge, depth + 1, vertex)) return;
     const branch_and_bound::EdgeData& data = tables.edges[edge];
     const Frame next =
@@ -229,7 +236,7 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
     vertex.y = next.origin_m.y();
     vertex.cos_heading = next.cos_heading;
     vertex.sin_heading = next.sin_heading;
-    vertex.cost_to_come += (next.origin_m - problem.reference_m[depth]).squaredNorm();
+    vertex.cost_to_come += (next.origin_m - problem.reference_m[depth]).squaredNorm() + data.cost;
     vertex.trim = data.to;
     core.best_edges[depth] = edge;
     core.best_x[depth] = vertex.x;
@@ -240,7 +247,7 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
 
 void BranchAndBound::write_best(const HorizonProblem& problem, SearchResult& result) const {
   const std::size_t n = problem.horizon_steps();
-  result.cost = core_->search.best_cost;
+  result.cost = core_->search.best_cost + static_cast<double>(n) * core_->costs.least();
   result.maneuvers.resize(n);
   result.poses.resize(n);
   double heading_rad = problem.start.heading_rad;

@@ -35,6 +35,9 @@ namespace hlc {
 /// once. It is in single precision, and so is h, made smaller by a bound on the rounding
 /// (TableStore::compute_bounds).
 ///
+/// To f belongs what the maneuvers cost themselves (EdgeCosts), and to h the least that those after
+/// the edge can cost, whatever they do.
+///
 /// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
 /// step is left out once per plan (PreparedObstacles). Of the rest, circles around obstacles and
 /// rectangles around eight boundary segments in a row leave out most; then a separating-axis test
@@ -73,8 +76,8 @@ class BranchAndBound final : public SearchEngine {
               SearchResult& result) override;
 
   /// f of every edge out of the start, in the order of Subgraph::successors(start_trim), as the
-  /// search sees it; infinite for those that recursive feasibility or `avoids_steering_limit`
-  /// forbids. @pre as `search`, with a horizon of at least one step
+  /// search sees it, without n EdgeCosts::least(); infinite for those that recursive feasibility or
+  /// `avoids_steering_limit` forbids. @pre as `search`, with a horizon of at least one step
   [[nodiscard]] std::vector<double> estimates(const HorizonProblem& problem);
 
   /// Prepares the obstacles and the boundary of a problem, for `is_free`; `search` does it itself.

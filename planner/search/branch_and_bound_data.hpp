@@ -62,6 +62,7 @@ struct EdgeData {
   double y;
   double cos_heading;
   double sin_heading;
+  double cost;       ///< of the maneuver itself (EdgeCosts::above_least)
   std::uint32_t to;  ///< trim
   Area swept;
   Area lane;
@@ -180,7 +181,9 @@ struct VertexData {
 
 /// What is the same for all vertices of one depth.
 struct Level {
-  const double* penalty;  ///< per edge: 0, or kForbidden where it must not be taken from here
+  /// Per edge: its own cost and the least one of the maneuvers after it (EdgeCosts), kForbidden
+  /// where it must not be taken from here.
+  const double* penalty;
   const std::uint32_t* permitted;  ///< per trim, how many edges may be taken
   /// The steps after the edge, two by two, the first ones first: their number, and where among the
   /// bounds of a group theirs are.

@@ -182,7 +182,7 @@ void run(Search& search) {
     child.from_edge = edge;
     const double dx = child.x - plan.reference_x[depth];
     const double dy = child.y - plan.reference_y[depth];
-    child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy);
+    child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy) + data.cost;
     if (depth + 1 == n) {
       if (!(child.cost_to_come < best)) continue;
       best = child.cost_to_come;

@@ -24,14 +24,16 @@ struct Interval {
 
 }  // namespace
 
-TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable) {
+TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
+                       const EdgeCosts& costs) {
   num_trims_ = subgraph.automaton().trims.size();
   max_steps_left_ = reachable.max_steps_left();
   assert(reachable.max_steps() <= kMostSteps);
-  add_edges(subgraph);
-  list_permitted(subgraph);
+  const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1);
+  add_edges(subgraph, costs);
+  list_permitted(subgraph, costs, max_steps);
   compute_bounds(reachable);
-  list_levels(std::max<std::size_t>(reachable.max_steps(), 1));
+  list_levels(max_steps);
   list_reach(subgraph, reachable);
 
   view_.edges = edges_.data();
@@ -43,7 +45,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable)
   view_.area_blocks = area_blocks_.data();
 }
 
-void TableStore::add_edges(const Subgraph& subgraph) {
+void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
   const std::size_t num_trims = num_trims_;
   first_group_.push_back(0);
   for (std::size_t trim = 0; trim < num_trims; ++trim) {
@@ -55,8 +57,8 @@ void TableStore::add_edges(const Subgraph& subgraph) {
       maneuvers_.push_back(&maneuver);
       edges_.push_back({displacement.origin_m.x(), displacement.origin_m.y(),
                         displacement.cos_heading, displacement.sin_heading,
-                        static_cast<std::uint32_t>(edge.to.index), add_area(maneuver.swept_area_m),
-                        add_area(maneuver.lane_area_m)});
+                        costs.above_least(maneuver), static_cast<std::uint32_t>(edge.to.index),
+                        add_area(maneuver.swept_area_m), add_area(maneuver.lane_area_m)});
     }
     while (edges_.size() % kLanes != 0 || edges_.size() == kLanes * first_group_.back()) {
       maneuvers_.push_back(nullptr);
@@ -112,9 +114,11 @@ Area TableStore::add_area(const ConvexPolygon& area_m) {
   return area;
 }
 
-void TableStore::list_permitted(const Subgraph& subgraph) {
+void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs,
+                                std::size_t max_steps) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  const std::size_t rows = max_steps_left_ + 1;
+  const std::size_t rows = costs.is_zero() ? max_steps_left_ + 1 : max_steps;
+  penalty_rows_ = rows;
   std::vector<bool> is_at_limit;
   for (const Trim& trim : automaton.trims) {
     is_at_limit.push_back(is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
@@ -132,7 +136,7 @@ void TableStore::list_permitted(const Subgraph& subgraph) {
           const TrimId to{edges_[edge].to};
           if (subgraph.distance_to_standstill(to) > left) continue;
           if (avoids_limit && is_at_limit[to.index]) continue;
-          penalty[left * edges_.size() + edge] = 0.0;
+          penalty[left * edges_.size() + edge] = edges_[edge].cost + costs.to_go(to, left);
           ++permitted[left * num_trims_ + trim];
         }
       }
@@ -215,7 +219,7 @@ void TableStore::list_levels(std::size_t max_steps) {
   }
   for (const std::size_t avoids_limit : {0U, 1U}) {
     for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
-      const std::size_t left = std::min(steps_left, max_steps_left_);
+      const std::size_t left = std::min(steps_left, penalty_rows_ - 1);
       levels_[avoids_limit].push_back({&penalty_[avoids_limit][left * edges_.size()],
                                        &permitted_[avoids_limit][left * num_trims_],
                                        bound_places_[steps_left].size(),

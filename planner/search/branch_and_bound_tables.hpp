@@ -8,6 +8,7 @@
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/branch_and_bound_data.hpp"
+#include "planner/search/edge_costs.hpp"
 
 namespace hlc::branch_and_bound {
 
@@ -21,7 +22,7 @@ namespace hlc::branch_and_bound {
 class TableStore {
  public:
   /// @pre reachable.max_steps() <= kMostSteps
-  TableStore(const Subgraph& subgraph, const ReachableSets& reachable);
+  TableStore(const Subgraph& subgraph, const ReachableSets& reachable, const EdgeCosts& costs);
   TableStore(const TableStore&) = delete;  // it refers to itself
   TableStore& operator=(const TableStore&) = delete;
 
@@ -55,9 +56,9 @@ class TableStore {
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
 
  private:
-  void add_edges(const Subgraph& subgraph);
+  void add_edges(const Subgraph& subgraph, const EdgeCosts& costs);
   [[nodiscard]] Area add_area(const ConvexPolygon& area_m);
-  void list_permitted(const Subgraph& subgraph);
+  void list_permitted(const Subgraph& subgraph, const EdgeCosts& costs, std::size_t max_steps);
   void compute_bounds(const ReachableSets& reachable);
   void list_levels(std::size_t max_steps);
   void list_reach(const Subgraph& subgraph, const ReachableSets& reachable);
@@ -82,7 +83,8 @@ class TableStore {
   std::size_t max_steps_left_{};
   std::size_t most_edges_{};
   std::size_t most_blocks_{};
-  std::size_t num_pairs_{};  ///< of steps after an edge
+  std::size_t num_pairs_{};     ///< of steps after an edge
+  std::size_t penalty_rows_{};  ///< by steps left, the last for all that are more
   Tables view_{};
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "planner/automaton/reachable_sets.hpp"
@@ -14,7 +15,8 @@ namespace hlc {
 ///
 ///     sum_{j=1}^{n} || p_j - r_j ||^2   [m^2]
 ///
-/// with p_j the position after step j and r_j the reference point of that step (paper, Section 4).
+/// with p_j the position after step j and r_j the reference point of that step (paper, Section 4);
+/// with SearchOptions::criterion_weights the maneuvers' own criteria, too (edge_costs.hpp).
 /// Coordinates are at most kLargest_m.
 struct HorizonProblem {
   static constexpr double kLargest_m = 1e9;
@@ -53,6 +55,13 @@ enum class Engine {
   kBestFirst,       ///< plain: A* (BestFirstSearch), as reference and for study
 };
 
+/// How much one unit of a criterion is worth against squared distance from the reference.
+struct PlanningWeight {
+  std::string criterion;  ///< as in Maneuver::criteria
+  double weight_m2{};     ///< from 0 [m^2 per unit of the criterion]
+  friend bool operator==(const PlanningWeight&, const PlanningWeight&) = default;
+};
+
 struct SearchOptions {
   Engine engine{Engine::kBranchAndBound};
   /// kStraightLine and k2022: with kBestFirst only.
@@ -60,6 +69,9 @@ struct SearchOptions {
   /// Expansions after which the search gives up; a number, never a time, so that two runs agree.
   /// The default holds every tree of the paper's automaton at horizon 8 (at most 309 029).
   std::size_t max_expansions{1'000'000};
+  /// The planning cost follows the maneuvers' criteria, too: see edge_costs.hpp. The paper keeps it
+  /// fixed to the distance from the reference, as no weights do.
+  std::vector<PlanningWeight> criterion_weights{};
 };
 
 enum class SearchStatus {

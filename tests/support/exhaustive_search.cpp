@@ -7,8 +7,9 @@ namespace {
 
 class Enumeration {
  public:
-  Enumeration(const Subgraph& subgraph, const HorizonProblem& problem)
-      : subgraph_(subgraph), problem_(problem) {}
+  Enumeration(const Subgraph& subgraph, const HorizonProblem& problem,
+              const std::vector<PlanningWeight>& weights)
+      : subgraph_(subgraph), problem_(problem), weights_(weights) {}
 
   ExhaustiveResult run() {
     try_all(problem_.start, problem_.start_trim, 0.0);
@@ -27,7 +28,8 @@ class Enumeration {
         continue;
       }
       const Pose next = compose(pose, edge.maneuver->displacement);
-      const double step_cost = (next.position_m() - problem_.reference_m[done]).squaredNorm();
+      const double step_cost = (next.position_m() - problem_.reference_m[done]).squaredNorm() +
+                               weighted_criteria(*edge.maneuver, weights_);
       path_.push_back(edge.maneuver);
       try_all(next, edge.to, cost + step_cost);
       path_.pop_back();
@@ -55,14 +57,16 @@ class Enumeration {
 
   const Subgraph& subgraph_;
   const HorizonProblem& problem_;
+  const std::vector<PlanningWeight>& weights_;
   std::vector<const Maneuver*> path_;
   ExhaustiveResult best_;
 };
 
 }  // namespace
 
-ExhaustiveResult exhaustive_search(const Subgraph& subgraph, const HorizonProblem& problem) {
-  return Enumeration(subgraph, problem).run();
+ExhaustiveResult exhaustive_search(const Subgraph& subgraph, const HorizonProblem& problem,
+                                   const std::vector<PlanningWeight>& weights) {
+  return Enumeration(subgraph, problem, weights).run();
 }
 
 }  // namespace hlc::test

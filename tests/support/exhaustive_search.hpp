@@ -18,7 +18,9 @@ struct ExhaustiveResult {
 /// Solves a horizon problem by trying every path: the reference for the search engines. It shares
 /// no code with them: no bound, no table, no box, no rule for what can still stop. Its time grows
 /// exponentially with the horizon.
+/// @param weights  of the maneuvers' own criteria in the cost
 [[nodiscard]] ExhaustiveResult exhaustive_search(const Subgraph& subgraph,
-                                                 const HorizonProblem& problem);
+                                                 const HorizonProblem& problem,
+                                                 const std::vector<PlanningWeight>& weights = {});
 
 }  // namespace hlc::test

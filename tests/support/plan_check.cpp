@@ -40,8 +40,18 @@ bool is_free(const Maneuver& maneuver, const Pose& start, std::size_t step,
   return true;
 }
 
+double weighted_criteria(const Maneuver& maneuver, const std::vector<PlanningWeight>& weights) {
+  double cost = 0.0;
+  for (const PlanningWeight& weight : weights) {
+    for (const CriterionValue& criterion : maneuver.criteria) {
+      if (criterion.name == weight.criterion) cost += weight.weight_m2 * criterion.value;
+    }
+  }
+  return cost;
+}
+
 std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
-                     const HorizonProblem& problem) {
+                     const HorizonProblem& problem, const std::vector<PlanningWeight>& weights) {
   const std::size_t n = problem.horizon_steps();
   if (result.status != SearchStatus::kOptimal) {
     return "no plan";
@@ -66,7 +76,8 @@ std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
     if (!are_close(pose, result.poses[step - 1])) {
       return "pose differs" + at;
     }
-    cost += (pose.position_m() - problem.reference_m[step - 1]).squaredNorm();
+    cost += (pose.position_m() - problem.reference_m[step - 1]).squaredNorm() +
+            weighted_criteria(*maneuver, weights);
   }
   if (!subgraph.automaton().trims[trim.index].is_equilibrium()) {
     return "does not stand at the end";

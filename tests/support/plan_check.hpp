@@ -15,7 +15,13 @@ namespace hlc::test {
 /// Checks a plan against the problem, step by step: status, sizes, edges that are switched on and
 /// follow each other, poses composed from the displacements (1e-9), no collision, standstill at the
 /// end, cost (1e-9). Says what is wrong; empty if nothing is.
+/// @param weights  of the maneuvers' own criteria in the cost
 [[nodiscard]] std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
-                                   const HorizonProblem& problem);
+                                   const HorizonProblem& problem,
+                                   const std::vector<PlanningWeight>& weights = {});
+
+/// Sum of weight times value of the maneuver's criteria.
+[[nodiscard]] double weighted_criteria(const Maneuver& maneuver,
+                                       const std::vector<PlanningWeight>& weights);
 
 }  // namespace hlc::test

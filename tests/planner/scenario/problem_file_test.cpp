@@ -128,11 +128,13 @@ TEST_F(ProblemFileTest, WrittenProblemsReadBackToTheSameBits) {
     file.problem.start.x_m = std::array{-0.0, 5e-324, 1e9, 0.1, -7.0}.at(test::pick(random, 5));
     file.search.engine = test::pick(random, 2) == 0 ? Engine::kBestFirst : Engine::kBranchAndBound;
     file.search.max_expansions = 1 + test::pick(random, 1'000'000);
+    if (seed % 2 == 0) file.search.criterion_weights = {{"J1", 0.1 / 3.0}, {"J2", 5e-324}};
     write_problem_file(file, file_);
     const ProblemFile read = read_problem_file(file_, subgraph);
     expect_same(read.problem, file.problem);
     EXPECT_EQ(read.automaton_file, file.automaton_file);
     EXPECT_EQ(read.search.engine, file.search.engine);
+    EXPECT_EQ(read.search.criterion_weights, file.search.criterion_weights);
     EXPECT_EQ(read.search.cost_to_go, file.search.cost_to_go);
     EXPECT_EQ(read.search.max_expansions, file.search.max_expansions);
   }
@@ -211,6 +213,12 @@ TEST_F(ProblemFileTest, ErrorsNamePlaceValueAndWhatIsAllowed) {
               HasSubstr(R"(search.engine = "fast", allowed branch_and_bound, best_first)"));
   EXPECT_THAT(error_with(R"("corridor")", R"("search": {"max_expansions": 0}, "corridor")"),
               HasSubstr("search.max_expansions = 0, allowed a whole number from 1"));
+  EXPECT_THAT(
+      error_with(R"("corridor")", R"("search": {"criterion_weights": {"J9": 1}}, "corridor")"),
+      HasSubstr("search.criterion_weights.J9 = 1, allowed criteria of the automaton's"));
+  EXPECT_THAT(
+      error_with(R"("corridor")", R"("search": {"criterion_weights": {"J2": -1}}, "corridor")"),
+      HasSubstr("search.criterion_weights.J2 = -1, allowed a number from 0"));
   EXPECT_THAT(error_with(R"("corridor")", R"("avoids_steering_limit": 1, "corridor")"),
               HasSubstr("avoids_steering_limit = 1, allowed true, false"));
 }

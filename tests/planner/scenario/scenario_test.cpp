@@ -50,6 +50,15 @@ TEST_F(ScenarioErrors, AnUnknownEngineIsNamedWithThoseThereAre) {
                     HasSubstr("allowed branch_and_bound, best_first")));
 }
 
+TEST_F(ScenarioErrors, CriterionWeightsAreOfTheAutomatonsCriteriaAndNotNegative) {
+  EXPECT_EQ(error_of("horizon_steps: 8", "criterion_weights: {J1: 0.5, J2: 0}"), "");
+  EXPECT_THAT(
+      error_of("horizon_steps: 8", "criterion_weights: {J9: 0.5}"),
+      HasSubstr(".yaml:7: criterion_weights.J9 = 0.5, allowed criteria of the automaton's"));
+  EXPECT_THAT(error_of("horizon_steps: 8", "criterion_weights: {J2: -0.5}"),
+              HasSubstr(".yaml:7: criterion_weights.J2 = -0.5, allowed"));
+}
+
 TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
   EXPECT_THAT(error_of("steps: 150", "steps: many"), AllOf(HasSubstr("steps"), HasSubstr("many")));
 }

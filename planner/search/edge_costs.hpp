@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+/// The criteria that every edge of the subgraph holds a value of, in the order of the first edge.
+[[nodiscard]] std::vector<std::string> criteria_of(const Subgraph& subgraph);
+
+/// What a plan costs by its maneuvers' own criteria, beside the distance from the reference: of the
+/// maneuver e, with the weights w_c >= 0 and its criterion values c(e),
+///
+///     w(e) = sum_c w_c c(e)   [m^2]
+///
+/// A criterion may be negative (J1 is), costs in a search must not be: a search adds
+/// `above_least(e)` = w(e) - least(), the least over all edges of the subgraph, and n least() to
+/// the result. All plans have n maneuvers, so the order of plans is the same.
+class EdgeCosts {
+ public:
+  /// @throws std::invalid_argument for a weight that is not a number from 0, or a criterion that an
+  /// edge of the subgraph holds no value of
+  EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>& weights,
+            std::size_t max_steps);
+
+  /// No weights: everything is 0.
+  [[nodiscard]] bool is_zero() const { return weights_.empty(); }
+  [[nodiscard]] double least() const { return least_; }
+  /// @pre `maneuver` is an edge of the subgraph
+  [[nodiscard]] double above_least(const Maneuver& maneuver) const;
+
+  /// The least sum of `above_least` over the `steps` edges of any path from `trim` that ends in an
+  /// equilibrium, made smaller by more than the rounding of such a sum. A lower bound, exact but
+  /// for obstacles, for every automaton: it is computed from the edges that are searched.
+  /// @pre distance_to_standstill(trim) <= steps <= max_steps
+  [[nodiscard]] double to_go(TrimId trim, std::size_t steps) const;
+
+ private:
+  [[nodiscard]] double weighted(const Maneuver& maneuver) const;
+
+  std::vector<PlanningWeight> weights_;
+  double least_{};
+  std::vector<std::vector<double>> to_go_;  ///< by steps, then trim; nothing without weights
+};
+
+}  // namespace hlc
