@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
+#include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
@@ -43,26 +45,37 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
                               choices.scenario_folder.string());
 }
 
-hlc::Nanoseconds wall_clock() {
-  return static_cast<hlc::Nanoseconds>(
-      std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
+std::filesystem::path run_folder(const Choices& choices, std::size_t run) {
+  return choices.out / "runs" / std::to_string(run);
+}
+
+/// What --keep_runs wants is there as well.
+bool is_done(const Choices& choices, const hlc::EvaluationFiles& files, std::size_t run) {
+  return files.has(run) &&
+         (!choices.keep_runs || hlc::is_whole_run_folder(run_folder(choices, run)));
 }
 
 /// Drives what is missing. Returns the number of failed runs.
 std::size_t drive(const hlc::Campaign& campaign, const Choices& choices,
                   hlc::EvaluationFiles& files) {
-  const std::vector<std::size_t> missing =
-      hlc::missing_runs(campaign.runs().size(), [&](std::size_t run) { return files.has(run); });
+  const std::vector<std::size_t> missing = hlc::missing_runs(
+      campaign.runs().size(), [&](std::size_t run) { return is_done(choices, files, run); });
   hlc::for_each_number(missing, "run", choices.jobs, [&](std::size_t run) {
+    std::optional<hlc::CampaignResult> result;
+    std::string failure;
     try {
-      const hlc::DrivenRun driven = campaign.drive(run, wall_clock);
+      const hlc::DrivenRun driven = campaign.drive(run, hlc::machine_clocks());
       if (choices.keep_runs) {
-        hlc::write_run_folder(choices.out / "runs" / std::to_string(run), driven.scenario,
-                              driven.experiment);
+        hlc::write_run_folder(run_folder(choices, run), driven.scenario, driven.experiment);
       }
-      files.add(run, campaign.result_of(driven));
+      result = campaign.result_of(driven);
     } catch (const std::exception& error) {
-      files.add_failure(run, error.what());
+      failure = error.what();
+    }
+    if (result) {
+      files.add(run, *result);
+    } else {
+      files.add_failure(run, failure);
     }
   });
   return hlc::num_failed(files.figures());
@@ -76,11 +89,25 @@ std::string command_line(int argc, char** argv) {
 
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
+/// @throws std::invalid_argument for a value that is there twice
+void check_each_once(const char* flag, const std::vector<std::string>& values) {
+  for (auto value = values.begin(); value != values.end(); ++value) {
+    if (std::find(values.begin(), value, *value) == value) continue;
+    throw std::invalid_argument(std::string(flag) + " = " + *value + " twice, allowed each once");
+  }
+}
+
 /// Everything that the campaign reads. What cannot be read is bad input.
 hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
   }
+  // Tables and figures tell scenarios by their names.
+  std::vector<std::string> names;
+  for (const auto& file : choices.plan.scenarios) names.push_back(file.stem().string());
+  check_each_once("--scenario", names);
+  check_each_once("--profile", choices.plan.profiles);
+  check_each_once("--subgraphs", choices.plan.subgraphs);
   hlc::FigureChoices& figures = choices.figures;
   if (std::ranges::find(figures.names, kAllFigures) != figures.names.end()) {
     figures.names = hlc::figure_names();
@@ -89,7 +116,7 @@ hlc::Campaign read(Choices& choices) {
     figures.pareto_configuration =
         (choices.scenario_folder / "../automata/pareto_example.yaml").lexically_normal();
   }
-  figures.wall_clock = wall_clock;
+  figures.clocks = hlc::machine_clocks();
   const std::filesystem::path folder = figure_folder(choices);
   if (!figures.names.empty() && std::filesystem::exists(folder) &&
       !std::filesystem::is_directory(folder)) {
