@@ -52,11 +52,13 @@ class Pairs {
     }
   }
 
-  [[nodiscard]] std::string rows(std::size_t axis, std::size_t value) const {
+  /// @param within  the pairs' combinations are of this group
+  [[nodiscard]] std::string rows(std::size_t axis, std::size_t value,
+                                 const SweepGroup& within) const {
     const SweepPlan& plan = sweep_.plan();
     std::map<std::tuple<std::size_t, std::size_t>, PairedRuns> by_subgraph;
     ValuesByStart logs;
-    for (std::size_t second = 0; second < sweep_.combinations().size(); ++second) {
+    for (const std::size_t second : within.combinations) {
       if (sweep_.combinations()[second][axis] != value) continue;
       SweepCombination partner = sweep_.combinations()[second];
       partner[axis] = 0;
@@ -65,7 +67,8 @@ class Pairs {
       add(first->second, second, by_subgraph, logs);
     }
     const SweepAxis& of_axis = plan.axes[axis];
-    const std::string heading = "| " + of_axis.setting + " | " + of_axis.values[value].text + " | ";
+    const std::string heading = "| " + of_axis.setting + " | " + of_axis.values[value].text +
+                                " | " + values_text(within) + " | ";
     std::string text;
     for (const auto& [key, paired] : by_subgraph) {
       const auto [scenario, subgraph] = key;
@@ -113,19 +116,25 @@ class Pairs {
 std::string paired_comparison(const Sweep& sweep, const std::vector<RunFigures>& runs) {
   const Pairs pairs(sweep, runs);
   std::string rows;
-  for (std::size_t axis = 0; axis < sweep.plan().axes.size(); ++axis) {
-    const std::size_t values = sweep.plan().axes[axis].values.size();
-    if (values > kMaxTableValues) continue;
-    for (std::size_t value = 1; value < values; ++value) rows += pairs.rows(axis, value);
+  for (Axes others : groupings_of(sweep.plan())) {
+    if (others.empty()) continue;
+    const std::size_t axis = others.back();
+    others.pop_back();
+    for (const SweepGroup& within : groups_of(sweep, others)) {
+      for (std::size_t value = 1; value < sweep.plan().axes[axis].values.size(); ++value) {
+        rows += pairs.rows(axis, value, within);
+      }
+    }
   }
   if (rows.empty()) return "";
   return "## What a setting does, pair by pair\n\nEach value against the setting's first one, in "
          "pairs of runs from the same start with all else equal. Differences are means over the "
          "pairs in which both drove a lap; the ratio is that of the factors by which a start's "
          "runs are off the paper's Table 2. With 95 % intervals of the mean, where each start "
-         "counts once.\n\n| setting | value | scenario, subgraph | pairs | laps: with it, with the "
+         "counts once.\n\n| setting | value | with | scenario, subgraph | pairs | laps: with it, "
+         "with the "
          "first | error [mm] | lap [s] | max. generated | factor, ratio |\n"
-         "|---|---|---|---|---|---|---|---|---|\n" +
+         "|---|---|---|---|---|---|---|---|---|---|\n" +
          rows + "\n";
 }
 
