@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <utility>
 
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
@@ -53,10 +53,9 @@ class Pairs {
   }
 
   /// @param within  the pairs' combinations are of this group
-  [[nodiscard]] std::string rows(std::size_t axis, std::size_t value,
-                                 const SweepGroup& within) const {
+  void write_rows(std::size_t axis, std::size_t value, const SweepGroup& within) {
     const SweepPlan& plan = sweep_.plan();
-    std::map<std::tuple<std::size_t, std::size_t>, PairedRuns> by_subgraph;
+    BySubgraph by_subgraph;
     ValuesByStart logs;
     for (const std::size_t second : within.combinations) {
       if (sweep_.combinations()[second][axis] != value) continue;
@@ -68,25 +67,43 @@ class Pairs {
     }
     const SweepAxis& of_axis = plan.axes[axis];
     const std::string heading = "| " + of_axis.setting + " | " + of_axis.values[value].text +
-                                " | " + values_text(within) + " | ";
-    std::string text;
+                                " | " + of_axis.values[0].text + " | " + values_text(within) +
+                                " | ";
     for (const auto& [key, paired] : by_subgraph) {
       const auto [scenario, subgraph] = key;
-      text += heading + plan.scenarios[scenario].stem().string() + ", " + plan.subgraphs[subgraph] +
-              " | " + std::to_string(paired.pairs) + " | " + std::to_string(paired.laps_of_second) +
-              ", " + std::to_string(paired.laps_of_first) + " | " +
-              in_words(interval_over_starts(paired.error_mm), 2) + " | " +
-              in_words(interval_over_starts(paired.lap_s), 3) + " | " +
-              in_words(interval_over_starts(paired.generated), 0) + " | |\n";
+      rows_ += heading + plan.scenarios[scenario].stem().string() + ", " +
+               plan.subgraphs[subgraph] + " | " + std::to_string(paired.pairs) + " | " +
+               std::to_string(paired.laps_of_second) + ", " + std::to_string(paired.laps_of_first) +
+               " | " + in_words(interval_over_starts(paired.error_mm), 2) + " | " +
+               in_words(interval_over_starts(paired.lap_s), 3) + " | " +
+               in_words(interval_over_starts(paired.generated), 0) + " |\n";
     }
-    if (logs.empty()) return text;
-    return text + heading + "all | | | | | | " + ratio_in_words(interval_over_starts(logs)) +
-           " |\n";
+    if (!logs.empty()) {
+      distance_rows_ += heading + ratio_in_words(interval_over_starts(logs)) + " |\n";
+    }
+  }
+
+  [[nodiscard]] std::string markdown() const {
+    if (rows_.empty()) return "";
+    std::string text =
+        "## What a setting does, pair by pair\n\nEach value against the setting's first one, in "
+        "pairs of runs from the same start with all else equal: means of the differences, of the "
+        "pairs in which both drove a lap, with 95 % intervals, where each start counts once.\n\n"
+        "| setting | value | against | with | scenario, subgraph | pairs | laps of both | error "
+        "[mm] | lap [s] | max. generated |\n|---|---|---|---|---|---|---|---|---|---|\n" +
+        rows_ + "\n";
+    if (distance_rows_.empty()) return text;
+    return text +
+           "The same of the factors by which the runs of one start are off the paper's Table 2, as "
+           "their ratio: below 1, the value comes nearer.\n\n| setting | value | against | with | "
+           "factor, ratio |\n|---|---|---|---|---|\n" +
+           distance_rows_ + "\n";
   }
 
  private:
-  void add(std::size_t first, std::size_t second,
-           std::map<std::tuple<std::size_t, std::size_t>, PairedRuns>& by_subgraph,
+  using BySubgraph = std::map<std::pair<std::size_t, std::size_t>, PairedRuns>;
+
+  void add(std::size_t first, std::size_t second, BySubgraph& by_subgraph,
            ValuesByStart& logs) const {
     std::map<std::size_t, std::pair<std::vector<RunFigures>, std::vector<RunFigures>>> by_start;
     // Combinations have the same runs in the same order.
@@ -109,33 +126,25 @@ class Pairs {
   const std::vector<RunFigures>& runs_;
   std::vector<std::vector<std::size_t>> numbers_;
   std::map<SweepCombination, std::size_t> by_values_;
+  std::string rows_;
+  std::string distance_rows_;
 };
 
 }  // namespace
 
 std::string paired_comparison(const Sweep& sweep, const std::vector<RunFigures>& runs) {
-  const Pairs pairs(sweep, runs);
-  std::string rows;
+  Pairs pairs(sweep, runs);
   for (Axes others : groupings_of(sweep.plan())) {
     if (others.empty()) continue;
     const std::size_t axis = others.back();
     others.pop_back();
     for (const SweepGroup& within : groups_of(sweep, others)) {
       for (std::size_t value = 1; value < sweep.plan().axes[axis].values.size(); ++value) {
-        rows += pairs.rows(axis, value, within);
+        pairs.write_rows(axis, value, within);
       }
     }
   }
-  if (rows.empty()) return "";
-  return "## What a setting does, pair by pair\n\nEach value against the setting's first one, in "
-         "pairs of runs from the same start with all else equal. Differences are means over the "
-         "pairs in which both drove a lap; the ratio is that of the factors by which a start's "
-         "runs are off the paper's Table 2. With 95 % intervals of the mean, where each start "
-         "counts once.\n\n| setting | value | with | scenario, subgraph | pairs | laps: with it, "
-         "with the "
-         "first | error [mm] | lap [s] | max. generated | factor, ratio |\n"
-         "|---|---|---|---|---|---|---|---|---|---|\n" +
-         rows + "\n";
+  return pairs.markdown();
 }
 
 }  // namespace hlc
