@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,11 +11,10 @@
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
 #include "vehicle_sim/apps/clocks.hpp"
+#include "vehicle_sim/apps/drive_campaign.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
-#include "vehicle_sim/apps/missing_runs.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
 namespace {
@@ -43,42 +41,6 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
   if (std::filesystem::exists(file)) return file;
   throw std::invalid_argument("--scenario = " + name + ", allowed a file or the name of one in " +
                               choices.scenario_folder.string());
-}
-
-std::filesystem::path run_folder(const Choices& choices, std::size_t run) {
-  return choices.out / "runs" / std::to_string(run);
-}
-
-/// What --keep_runs wants is there as well.
-bool is_done(const Choices& choices, const hlc::EvaluationFiles& files, std::size_t run) {
-  return files.has(run) &&
-         (!choices.keep_runs || hlc::is_whole_run_folder(run_folder(choices, run)));
-}
-
-/// Drives what is missing. Returns the number of failed runs.
-std::size_t drive(const hlc::Campaign& campaign, const Choices& choices,
-                  hlc::EvaluationFiles& files) {
-  const std::vector<std::size_t> missing = hlc::missing_runs(
-      campaign.runs().size(), [&](std::size_t run) { return is_done(choices, files, run); });
-  hlc::for_each_number(missing, "run", choices.jobs, [&](std::size_t run) {
-    std::optional<hlc::CampaignResult> result;
-    std::string failure;
-    try {
-      const hlc::DrivenRun driven = campaign.drive(run, hlc::machine_clocks());
-      if (choices.keep_runs) {
-        hlc::write_run_folder(run_folder(choices, run), driven.scenario, driven.experiment);
-      }
-      result = campaign.result_of(driven);
-    } catch (const std::exception& error) {
-      failure = error.what();
-    }
-    if (result) {
-      files.add(run, *result);
-    } else {
-      files.add_failure(run, failure);
-    }
-  });
-  return hlc::num_failed(files.figures());
 }
 
 std::string command_line(int argc, char** argv) {
@@ -172,7 +134,7 @@ int run(Choices choices, const std::string& command) {
   const hlc::Campaign campaign = read(choices);
   hlc::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed = drive(campaign, choices, files);
+  const std::size_t failed = hlc::drive_campaign(campaign, choices.jobs, choices.keep_runs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,

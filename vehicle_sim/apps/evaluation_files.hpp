@@ -33,6 +33,7 @@ class EvaluationFiles {
   /// other choices or another program
   EvaluationFiles(std::filesystem::path folder, const Campaign& campaign);
 
+  [[nodiscard]] const std::filesystem::path& folder() const { return log_.folder(); }
   [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written
