@@ -1,6 +1,5 @@
 // Reads a run folder, writes steps.csv, timing.csv, summary.json and what was configured, prints
 // the table.
-#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/core/driving_fault.hpp"
 #include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/run_summary.hpp"
 #include "hlc_bridge/core/summary_table.hpp"
@@ -36,17 +36,6 @@ hlc::Drives drives_of(const std::filesystem::path& run, const hlc::RunFacts& fac
   return drives;
 }
 
-/// False for a run that the planner's guarantees do not cover: a vehicle left the areas that it had
-/// told the others (it was farther from its plan than the safety margin, and not because of a drift
-/// that its controller knew of), or touched another one.
-bool is_well_driven(const hlc::RunSummary& summary) {
-  const double bound_m = summary.description.automaton->automaton().vehicle.safety_margin_m;
-  return summary.collisions == 0 &&
-         std::ranges::all_of(summary.vehicles, [bound_m](const hlc::VehicleSummary& vehicle) {
-           return vehicle.astray_steps == 0 && vehicle.deviation_max_m.value_or(0.0) <= bound_m;
-         });
-}
-
 /// Returns the exit code.
 int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices,
                   std::optional<std::uint64_t> noise_seed) {
@@ -69,8 +58,9 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
   hlc::write_file(run / "summary.json", hlc::summary_json(summary));
   hlc::keep_configuration(run, hlc::files_of(scenario));
   std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  if (is_well_driven(summary)) return hlc::kExitGood;
-  std::cerr << "summarize: a vehicle left its plan or touched another one\n";
+  const std::string fault = hlc::fault_of(summary);
+  if (fault.empty()) return hlc::kExitGood;
+  std::cerr << "summarize: " << fault << '\n';
   return hlc::kExitDrivenBadly;
 }
 
@@ -86,8 +76,9 @@ int main(int argc, char** argv) {
   app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
       ->check(CLI::NonNegativeNumber);
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left its plan or touched another "
-      "one.");
+      "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left the areas that it had told "
+      "the "
+      "others, or touched another one.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) {
     return *code;
   }

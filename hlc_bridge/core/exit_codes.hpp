@@ -7,7 +7,7 @@ inline constexpr int kExitGood = 0;
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitMissing = 3;  ///< somebody did not appear in time
 inline constexpr int kExitDied = 4;     ///< somebody died during the run, or this process failed
-inline constexpr int kExitDrivenBadly = 5;  ///< a vehicle left its plan or touched another one
+inline constexpr int kExitDrivenBadly = 5;  ///< see fault_of in driving_fault.hpp
 inline constexpr int kExitInterrupted = 130;
 
 }  // namespace hlc

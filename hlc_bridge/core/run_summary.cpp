@@ -24,13 +24,16 @@ void add_route(const VehicleDescription& vehicle, std::span<const StepRecord* co
     return;
   }
   std::vector<Point> positions_m;
+  std::vector<Point> driven_m;
   std::vector<double> times_s;
   for (const StepRecord* row : rows) {
     positions_m.push_back(row->record.report.planned_pose.position_m());
+    if (row->driven) driven_m.push_back(row->driven->position_m());
     times_s.push_back(static_cast<double>(row->step) * step_s);
   }
   const Progress progress = progress_along(*vehicle.route, positions_m);
   summary.reference_error_m = statistics(progress.distance_m);
+  summary.driven_error_m = statistics(progress_along(*vehicle.route, driven_m).distance_m);
   const bool from_the_start = !rows.empty() && rows.front()->step == 0;
   summary.lap_s = lap_s(*vehicle.route, progress, times_s, from_the_start ? kFirstStepDriven : 0);
 }

@@ -19,7 +19,9 @@ struct VehicleSummary {
   /// authors' simulation, whose plans are driven at once. Closed routes only.
   std::optional<double> lap_s;
   std::optional<Statistics> reference_error_m;  ///< planned positions to the route's centre line
-  std::optional<Statistics> tracking_error_m;   ///< driven to planned position, at every tick
+  /// Positions driven at the steps' times to the same line.
+  std::optional<Statistics> driven_error_m;
+  std::optional<Statistics> tracking_error_m;  ///< driven to planned position, at every tick
   /// Largest footprint_deviation_m at any tick. Left out are steps near the steering limit, and
   /// those after them until the vehicle is back: their areas hold the drift
   /// (planner/controller/drift.hpp), and the controller reports a vehicle that is not in them.

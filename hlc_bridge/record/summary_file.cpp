@@ -46,6 +46,9 @@ Json vehicle_json(const VehicleSummary& vehicle) {
   json["budget_share"] = or_null(vehicle.budget_share);
   json["overlong_plans"] = vehicle.overlong_plans;
   json["undrivable_steps"] = vehicle.undrivable_steps;
+  json["driven_error_mm"] =
+      figures(vehicle.driven_error_m, kMillimetresPerMetre,
+              {{"mean", &Statistics::mean}, {"std", &Statistics::std}, {"max", &Statistics::max}});
   return json;
 }
 

@@ -27,6 +27,7 @@
 #include "planner/apps/output_files.hpp"
 #include "planner/automaton/atomic_write.hpp"
 #include "planner/automaton/yaml_text.hpp"
+#include "planner/geometry/median.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/ompl_control.hpp"
 #include "planner/search/ompl_planner.hpp"
@@ -131,15 +132,13 @@ void print(const ot::Benchmark::PlannerExperiment& planner) {
     times_ms.push_back(1e3 * number(run, "time REAL"));
     if (run.contains(kCost)) costs_m2.push_back(number(run, kCost));
   }
-  std::ranges::sort(times_ms);
-  std::ranges::sort(costs_m2);
   const std::size_t prefix = planner.name.starts_with(kPrefix) ? kPrefix.size() : 0;
   std::printf("%-32s %5zu %7zu %10.2f %10.2f", planner.name.c_str() + prefix, planner.runs.size(),
-              costs_m2.size(), times_ms[times_ms.size() / 2], times_ms.back());
+              costs_m2.size(), hlc::median(times_ms), std::ranges::max(times_ms));
   if (costs_m2.empty()) {
     std::printf(" %12s %12s\n", "-", "-");
   } else {
-    std::printf(" %12.5f %12.5f\n", costs_m2.front(), costs_m2[costs_m2.size() / 2]);
+    std::printf(" %12.5f %12.5f\n", std::ranges::min(costs_m2), hlc::median(costs_m2));
   }
 }
 

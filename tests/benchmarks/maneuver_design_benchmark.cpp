@@ -12,6 +12,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
+#include "planner/geometry/median.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/maneuver_solver.hpp"
@@ -75,8 +76,8 @@ int main(int argc, char** argv) {
     for (const double time_ms : row.times_ms) sum_ms += time_ms;
     if (criterion[0] == 'J') total_ms += sum_ms;
     std::printf("%-18s %9.1f %11.2f %10.2f %13d %13.1e %12zu\n", criterion.c_str(), sum_ms,
-                row.times_ms[row.times_ms.size() / 2], row.times_ms.back(), row.evaluations,
-                row.residual, row.not_optimal);
+                hlc::median(row.times_ms), row.times_ms.back(), row.evaluations, row.residual,
+                row.not_optimal);
   }
   std::printf("%-18s %9.1f\n", "J1, J2, J3", total_ms);
   const double begin_ms = cpu_ms();

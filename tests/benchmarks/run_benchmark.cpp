@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/geometry/median.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/campaign/experiment.hpp"
@@ -41,7 +42,7 @@ struct Times {
 
 void add_run(const hlc::Scenario& scenario, Times& times) {
   const hlc::Experiment experiment =
-      hlc::drive_experiment(scenario, {.steps = scenario.steps, .wall_clock = wall_clock});
+      hlc::drive_experiment(scenario, {.steps = scenario.steps, .clocks = {.wall = wall_clock}});
   const hlc::WallTimes& wall = experiment.wall;
   const double run_ms = 1e3 * experiment.facts.wall_s;
   times.run_ms.push_back(run_ms);
@@ -51,10 +52,10 @@ void add_run(const hlc::Scenario& scenario, Times& times) {
   times.rest_ms.push_back(run_ms - 1e3 * (wall.planning_s + wall.coordination_s + wall.vehicles_s));
 }
 
-void print(const char* what, std::vector<double> sample, double run_s) {
-  std::ranges::sort(sample);
-  const double median = sample[sample.size() / 2];
-  std::printf("%-46s %8.2f %8.2f %8.2f", what, sample.front(), median, sample.back());
+void print(const char* what, const std::vector<double>& sample, double run_s) {
+  const double median = hlc::median(sample);
+  std::printf("%-46s %8.2f %8.2f %8.2f", what, std::ranges::min(sample), median,
+              std::ranges::max(sample));
   if (run_s > 0.0) std::printf(" %10.0f", 1e3 * run_s / median);
   std::printf("\n");
 }

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from dynamics import check_vehicle, measured_before
 from lxml import etree
-from run import DRIVEN_IDS, PLANNED_IDS, Finding, read_configuration
+from run import DRIVEN_IDS, PLANNED_IDS, BadInput, Finding, Run, read_run
 
 Element = etree._Element
 
@@ -49,6 +50,35 @@ def jump(root: Element, length_m: float, sample: int) -> None:
     states = motion(root, PLANNED_IDS, 1)[sample:]
     heading = get(states[0], "orientation/exact")
     shift(states, length_m * math.cos(heading), length_m * math.sin(heading))
+
+
+class SetAnew(NamedTuple):
+    """A plan set down anew."""
+
+    vehicle: int
+    sample: int  # just after
+    measured: int  # sample at which the car was seen
+    time_s: float
+
+
+def first_set_anew(run: Run) -> SetAnew | None:
+    for vehicle in sorted(run.planned):
+        for sample in check_vehicle(run, vehicle).set_anew:
+            h = run.scenario.dt
+            return SetAnew(vehicle, sample, measured_before(sample, h), sample * h)
+    return None
+
+
+def turn_about_car(root: Element, anew: SetAnew, angle_rad: float) -> None:
+    """The plan still meets the car, but points elsewhere."""
+    car = motion(root, DRIVEN_IDS, anew.vehicle)[anew.measured]
+    x_m, y_m = get(car, X), get(car, Y)
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    for state in motion(root, PLANNED_IDS, anew.vehicle)[anew.sample :]:
+        dx, dy = get(state, X) - x_m, get(state, Y) - y_m
+        put(state, X, x_m + cos * dx - sin * dy)
+        put(state, Y, y_m + sin * dx + cos * dy)
+        put(state, "orientation/exact", get(state, "orientation/exact") + angle_rad)
 
 
 def to_rear_axle(root: Element, rear_axle_to_cg_m: float) -> None:
@@ -119,7 +149,7 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
         Control(
             "speed x 1.05",
             "dynamics",
-            ("position", *BOTH_STEPS),
+            BOTH_STEPS,  # of A, at the limits of speed, not of position
             with_planned("velocity/exact", 1.05),
         ),
         Control(
@@ -153,6 +183,29 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
     ]
 
 
+def controls_of_plans_set_anew(anew: SetAnew) -> list[Control]:
+    """The allowance for such plans must not hide what the car does not say."""
+
+    def states(root: Element) -> list[Element]:
+        return motion(root, PLANNED_IDS, anew.vehicle)[anew.sample :]
+
+    place = (f"vehicle {anew.vehicle}, step of 0.01 s to {anew.time_s:.2f} s",)
+    return [
+        Control(
+            "a plan set down anew, 3 mm beside the car",
+            "dynamics",
+            place,
+            lambda r: shift(states(r), 0.003, 0.0),
+        ),
+        Control(
+            "a plan set down anew, turned by 5 mrad against the car",
+            "dynamics",
+            place,
+            lambda r: turn_about_car(r, anew, 0.005),
+        ),
+    ]
+
+
 def holds(control: Control, findings: list[Finding]) -> bool:
     """Rejected for the right reason, and the findings name what they should."""
     texts = [f.text for f in findings if f.check == control.reason]
@@ -160,13 +213,24 @@ def holds(control: Control, findings: list[Finding]) -> bool:
 
 
 def run_controls(
-    xml: Path, folder: Path, check_file: Callable[[Path, Path], tuple[list[Finding], list[str]]]
+    xml: Path,
+    folder: Path,
+    check_file: Callable[[Path, Path], tuple[list[Finding], list[str]]],
+    needs_set_anew: bool,
 ) -> bool:
-    """Prints each control with the reasons for which it was rejected. True if all were, rightly."""
+    """Prints each control with the reasons for which it was rejected. True if all were, rightly.
+
+    Raises BadInput if the run has no plan that is set down anew, but needs one.
+    """
     good = etree.parse(xml).getroot()
-    p = read_configuration(folder, 0.01).vehicle
+    run = read_run(xml, folder)
+    all_controls = controls(run.configuration.vehicle.b)
+    if anew := first_set_anew(run):
+        all_controls += controls_of_plans_set_anew(anew)
+    elif needs_set_anew:
+        raise BadInput(f"{folder}: no plan is set down anew, allowed a run with such plans")
     all_hold = True
-    for control in controls(p.b):
+    for control in all_controls:
         root = copy.deepcopy(good)
         control.spoil(root)
         with tempfile.TemporaryDirectory() as place:

@@ -12,7 +12,7 @@ same (`is_set_anew`).
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from run import Configuration, Finding, Run, State, states, turn
 from vehiclemodels.utils.vehicle_dynamics_ks_cog import vehicle_dynamics_ks_cog
@@ -25,6 +25,16 @@ STEERING_RAD = 1e-3
 TOLERANCE_STEP_S = 0.2
 # Share of the safety margin beyond which a controller sets its plan down anew.
 REANCHOR_SHARE = 0.5
+# The lab's identified model of its vehicles (mid_level_controller/src/VehicleModel.cxx): the course
+# is yaw + SLIP_GAIN delta + SLIP_OFFSET, and in steady state
+# curvature = YAW_RATE_GAIN delta / (PATH_SPEED_GAIN (1 + PATH_SPEED_STEERING delta^2)),
+# where |delta - STEERING_OFFSET| <= 1.
+PATH_SPEED_GAIN = 1.004582
+PATH_SPEED_STEERING = -0.142938
+SLIP_GAIN_RAD = 0.195236
+YAW_RATE_GAIN_PER_M = 3.560576
+STEERING_OFFSET = 0.032208
+SLIP_OFFSET_RAD = -0.012863
 # A controller sees a car's state this long after it was measured (the lab's contract).
 MEASUREMENT_AGE_S = 0.06
 
@@ -102,6 +112,21 @@ def moved(q: State, old: State, new: State) -> tuple[float, float]:
     )
 
 
+def yaw_minus_heading(steering_rad: float, p: VehicleParameters) -> float:
+    """Of a car of the lab on the course of the kinematic model with this steering angle."""
+    slip_rad = math.atan(p.b / (p.a + p.b) * math.tan(steering_rad))
+    c = PATH_SPEED_GAIN * math.cos(slip_rad) * math.tan(steering_rad) / (p.a + p.b)
+    root = math.sqrt(YAW_RATE_GAIN_PER_M**2 - 4 * c * c * PATH_SPEED_STEERING)
+    delta = 2 * c / (YAW_RATE_GAIN_PER_M + root)
+    delta = min(max(delta, STEERING_OFFSET - 1), STEERING_OFFSET + 1)
+    return slip_rad - SLIP_GAIN_RAD * delta - SLIP_OFFSET_RAD
+
+
+def measured_before(i: int, time_step_s: float) -> int:
+    """The sample at which a car was seen whose plan is set down anew just before sample i."""
+    return i - 1 - round(MEASUREMENT_AGE_S / time_step_s)
+
+
 def is_set_anew(
     planned: list[State],
     driven: list[State],
@@ -114,18 +139,23 @@ def is_set_anew(
 
     So it is just after the begin of a control step, if the car was off the old plan by more than a
     controller suffers when it was measured, and if the motion of the plan takes the planned
-    position of that time to where the car was. Speed and steering go on.
+    position and heading of that time to where the car was and pointed. Speed and steering go on.
     """
     begin = i - 1
-    measured = begin - round(MEASUREMENT_AGE_S / time_step_s)
+    measured = measured_before(i, time_step_s)
     if begin % configuration.samples_per_step != 0 or not 0 <= measured < len(driven):
         return False
     error = error_of(old, planned[i])
     error.position_m = error.heading_rad = 0.0
     car = (driven[measured].x_m, driven[measured].y_m)
     off_m = math.dist(car, (planned[measured].x_m, planned[measured].y_m))
+    heading_rad = planned[measured].heading_rad + turn(old.heading_rad, planned[i].heading_rad)
+    yaw_rad = heading_rad + yaw_minus_heading(
+        planned[measured].steering_rad, configuration.vehicle
+    )
     return (
         not error.beyond(time_step_s)
+        and abs(turn(yaw_rad, driven[measured].heading_rad)) <= HEADING_RAD
         and off_m > REANCHOR_SHARE * configuration.safety_margin_m
         and math.dist(car, moved(planned[measured], old, planned[i])) <= POSITION_M
     )
@@ -147,7 +177,7 @@ class Course:
 
     findings: list[Finding]
     largest: Error  # of the steps that are not set anew
-    set_anew: int = 0
+    set_anew: list[int] = field(default_factory=list)  # samples just after
 
 
 def check_vehicle(run: Run, vehicle: int) -> Course:
@@ -175,7 +205,7 @@ def check_vehicle(run: Run, vehicle: int) -> Course:
         if not error.beyond(h):
             course.largest.add(error)
         elif is_set_anew(planned, driven, i, model, h, run.configuration):
-            course.set_anew += 1
+            course.set_anew.append(i)
             window = planned[i]
         else:
             reject(1, i, error)
@@ -199,7 +229,7 @@ def check_dynamics(run: Run) -> tuple[list[Finding], str]:
         course = check_vehicle(run, vehicle)
         findings += course.findings
         largest.add(course.largest)
-        set_anew += course.set_anew
+        set_anew += len(course.set_anew)
     text = f"largest error of a step of 10 ms {largest}"
     if set_anew > 0:
         text += f"; plans set down anew where the car was: {set_anew}"

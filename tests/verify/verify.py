@@ -81,12 +81,12 @@ def verify(program: Path, folder: Path) -> bool:
     return not findings
 
 
-def verify_controls(program: Path, folder: Path) -> bool:
+def verify_controls(program: Path, folder: Path, needs_set_anew: bool) -> bool:
     print(f"negative controls, from {name_of(folder)}", flush=True)
     with tempfile.TemporaryDirectory() as place:
         xml = Path(place) / "run.xml"
         export(program, folder, xml)
-        return run_controls(xml, folder, check_file)
+        return run_controls(xml, folder, check_file, needs_set_anew)
 
 
 def main() -> int:
@@ -101,12 +101,20 @@ def main() -> int:
         metavar="RUN",
         help="a run of paper_three_cars that is accepted: must be rejected when it is spoilt",
     )
+    parser.add_argument(
+        "--controls_anew",
+        type=Path,
+        metavar="RUN",
+        help="the same for a run in which plans are set down anew",
+    )
     parser.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="run folder")
     arguments = parser.parse_args()
     try:
         accepted = [verify(arguments.export, folder) for folder in arguments.runs]
         if arguments.controls:
-            accepted.append(verify_controls(arguments.export, arguments.controls))
+            accepted.append(verify_controls(arguments.export, arguments.controls, False))
+        if arguments.controls_anew:
+            accepted.append(verify_controls(arguments.export, arguments.controls_anew, True))
     except (BadInput, subprocess.TimeoutExpired, OSError) as error:
         print(f"verify: {error}", file=sys.stderr)
         return 2

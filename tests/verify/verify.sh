@@ -9,7 +9,7 @@ usage() {
 usage: verify.sh [--bin DIR] [--environment DIR] [RUN_FOLDER...]
 Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
-with real processes over DDS, checks all of them, and the negative controls.
+with real processes over DDS, checks all of them, and the negative controls of two.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   where the packages are, or are installed (default build/release/verify_environment)
 Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input,
@@ -64,5 +64,5 @@ drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle 
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
-# Run 1 is paper_three_cars with subgraph B and the default profile.
-"${verify[@]}" --controls "$out/campaign/runs/1" "${runs[@]}" "$out/processes"
+# Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, sets plans down anew.
+"${verify[@]}" --controls "$out/campaign/runs/1" --controls_anew "$out/campaign/runs/4" "${runs[@]}" "$out/processes"

@@ -10,11 +10,11 @@
 
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
+#include "vehicle_sim/apps/clocks.hpp"
+#include "vehicle_sim/apps/drive_campaign.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
-#include "vehicle_sim/apps/missing_runs.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
 namespace {
@@ -43,31 +43,6 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
                               choices.scenario_folder.string());
 }
 
-hlc::Nanoseconds wall_clock() {
-  return static_cast<hlc::Nanoseconds>(
-      std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
-}
-
-/// Drives what is missing. Returns the number of failed runs.
-std::size_t drive(const hlc::Campaign& campaign, const Choices& choices,
-                  hlc::EvaluationFiles& files) {
-  const std::vector<std::size_t> missing =
-      hlc::missing_runs(campaign.runs().size(), [&](std::size_t run) { return files.has(run); });
-  hlc::for_each_number(missing, "run", choices.jobs, [&](std::size_t run) {
-    try {
-      const hlc::DrivenRun driven = campaign.drive(run, wall_clock);
-      if (choices.keep_runs) {
-        hlc::write_run_folder(choices.out / "runs" / std::to_string(run), driven.scenario,
-                              driven.experiment);
-      }
-      files.add(run, campaign.result_of(driven));
-    } catch (const std::exception& error) {
-      files.add_failure(run, error.what());
-    }
-  });
-  return hlc::num_failed(files.figures());
-}
-
 std::string command_line(int argc, char** argv) {
   std::string line = std::filesystem::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
@@ -76,11 +51,25 @@ std::string command_line(int argc, char** argv) {
 
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
+/// @throws std::invalid_argument for a value that is there twice
+void check_each_once(const char* flag, const std::vector<std::string>& values) {
+  for (auto value = values.begin(); value != values.end(); ++value) {
+    if (std::find(values.begin(), value, *value) == value) continue;
+    throw std::invalid_argument(std::string(flag) + " = " + *value + " twice, allowed each once");
+  }
+}
+
 /// Everything that the campaign reads. What cannot be read is bad input.
 hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
   }
+  // Tables and figures tell scenarios by their names.
+  std::vector<std::string> names;
+  for (const auto& file : choices.plan.scenarios) names.push_back(file.stem().string());
+  check_each_once("--scenario", names);
+  check_each_once("--profile", choices.plan.profiles);
+  check_each_once("--subgraphs", choices.plan.subgraphs);
   hlc::FigureChoices& figures = choices.figures;
   if (std::ranges::find(figures.names, kAllFigures) != figures.names.end()) {
     figures.names = hlc::figure_names();
@@ -89,7 +78,7 @@ hlc::Campaign read(Choices& choices) {
     figures.pareto_configuration =
         (choices.scenario_folder / "../automata/pareto_example.yaml").lexically_normal();
   }
-  figures.wall_clock = wall_clock;
+  figures.clocks = hlc::machine_clocks();
   const std::filesystem::path folder = figure_folder(choices);
   if (!figures.names.empty() && std::filesystem::exists(folder) &&
       !std::filesystem::is_directory(folder)) {
@@ -145,7 +134,7 @@ int run(Choices choices, const std::string& command) {
   const hlc::Campaign campaign = read(choices);
   hlc::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed = drive(campaign, choices, files);
+  const std::size_t failed = hlc::drive_campaign(campaign, choices.jobs, choices.keep_runs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,

@@ -124,7 +124,7 @@ class Drawing {
       for (const std::size_t i : numbers) {
         // A run that fails is recorded with its reason among the campaign's.
         try {
-          DrivenRun run = campaign_.drive(i, choices_.wall_clock);
+          DrivenRun run = campaign_.drive(i, choices_.clocks);
           if (run.experiment.facts.exit_code == 0) runs.push_back(std::move(run));
         } catch (const std::exception&) {
           continue;

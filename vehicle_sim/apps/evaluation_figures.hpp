@@ -30,7 +30,7 @@ namespace hlc {
 struct FigureChoices {
   std::vector<std::string> names;               ///< of figure_names()
   std::filesystem::path pareto_configuration;   ///< automaton configuration for `pareto_set`
-  std::function<Nanoseconds()> wall_clock;      ///< for `planning_time`
+  Clocks clocks;                                ///< for `planning_time`
   std::function<void(const std::string&)> say;  ///< called with a line on what is being drawn
 };
 

@@ -13,14 +13,15 @@ namespace hlc {
 
 /// The folder of a campaign:
 ///
-///     runs.jsonl           first line: what the campaign is; then a line per run, once driven
+///     runs.jsonl           first line: what the campaign is, with the hashes of all files that it
+///                          reads; then a line per run, once driven
 ///     results.json         {"campaign": ..., "runs": [...]}, in the order of the campaign
 ///     table.md, table.csv
 ///     figures/             what evaluation_figures.hpp draws
 ///
 /// A run's record has the keys of summary.json and "run" (its number), "start", "failure" (null, or
-/// why the run does not count) "deviation_max_mm" (of all vehicles, see VehicleSummary) and
-/// "wall_shares_s" (WallTimes: parts of "wall_s"). If it could not be driven to its end, the other
+/// why the run does not count) and "figures" (figures_record.hpp). Planning times are processor
+/// time of the thread, all others wall time. If it could not be driven to its end, the other
 /// keys are absent but for scenario, profile and subgraph; if it was driven, but does not count
 /// (CampaignResult::fault), they are there.
 ///
@@ -32,6 +33,7 @@ class EvaluationFiles {
   /// other choices or another program
   EvaluationFiles(std::filesystem::path folder, const Campaign& campaign);
 
+  [[nodiscard]] const std::filesystem::path& folder() const { return log_.folder(); }
   [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written

@@ -31,7 +31,7 @@ void for_each_number(const std::vector<std::size_t>& numbers, const std::string&
 
 std::size_t num_failed(const std::vector<RunFigures>& runs) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(runs, [](const RunFigures& run) { return !run.failure.empty(); }));
+      std::ranges::count_if(runs, [](const RunFigures& run) { return !is_well_driven(run); }));
 }
 
 }  // namespace hlc

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vehicle_sim/campaign/evaluation_table.hpp"
+#include "vehicle_sim/campaign/run_figures.hpp"
 
 namespace hlc {
 

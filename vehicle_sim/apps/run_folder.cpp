@@ -15,6 +15,10 @@
 namespace hlc {
 namespace {
 
+std::filesystem::path facts_file(const std::filesystem::path& folder) {
+  return folder / "run.json";
+}
+
 void write_configuration(const std::filesystem::path& folder, const Scenario& scenario) {
   keep_configuration(folder, files_of(scenario));
   const ScenarioChoices choices{.file = scenario.file,
@@ -42,7 +46,12 @@ void write_run_folder(const std::filesystem::path& folder, const Scenario& scena
   ReportFile reports(folder / "reports.csv");
   for (const ReportRecord& record : experiment.reports) reports.append(record);
   reports.finish();
-  write_file(folder / "run.json", facts_json(experiment.facts));
+  write_file(facts_file(folder), facts_json(experiment.facts));
+}
+
+// The facts are written last.
+bool is_whole_run_folder(const std::filesystem::path& folder) {
+  return std::filesystem::exists(facts_file(folder));
 }
 
 }  // namespace hlc

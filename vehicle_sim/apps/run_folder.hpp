@@ -14,4 +14,7 @@ namespace hlc {
 void write_run_folder(const std::filesystem::path& folder, const Scenario& scenario,
                       const Experiment& experiment);
 
+/// True if such a folder is there as a whole.
+[[nodiscard]] bool is_whole_run_folder(const std::filesystem::path& folder);
+
 }  // namespace hlc

@@ -17,7 +17,7 @@ class RunLog {
   /// dropped.
   /// @param heading  one line of JSON
   /// @throws std::invalid_argument naming the folder if it holds anything else, or a campaign with
-  /// another heading
+  /// another heading, and in what that differs
   RunLog(std::filesystem::path folder, std::string heading);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
@@ -29,7 +29,7 @@ class RunLog {
 
   /// From any thread.
   /// @param line  of JSON, with "run" as a key
-  /// @throws std::runtime_error if it cannot be written
+  /// @throws std::runtime_error if it cannot be written; then nothing of it stays in the file
   void append(std::size_t run, const std::string& line);
 
  private:

@@ -5,18 +5,21 @@
 #include <vector>
 
 #include "vehicle_sim/apps/run_log.hpp"
+#include "vehicle_sim/campaign/evaluation_table.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
 namespace hlc {
 
 /// The folder of a sweep:
 ///
-///     runs.jsonl             first line: files of sweep, scenarios and automaton with their
-///                            hashes, revision; then a line per run, once driven
-///     sweep.csv, sweep.md    see sweep_report.hpp
+///     runs.jsonl             first line: all files that the sweep reads with their hashes,
+///                            revision; then a line per run, once driven
+///     sweep.csv              a row per run (sweep_csv.hpp)
+///     sweep.md               what was found (sweep_report.hpp)
+///     tables.csv             its tables by setting (sweep_tables.hpp)
 ///
 /// A run's record: "run" (its number), "failure" (null, or why it does not count), and, if it was
-/// driven, the columns of sweep.csv from lap_s to fallback_steps, "collisions" and "trace_sha256".
+/// driven, "figures" (figures_record.hpp) and "trace_sha256".
 ///
 /// A sweep that was interrupted goes on with the runs that are missing in runs.jsonl.
 class SweepFiles {
@@ -31,7 +34,7 @@ class SweepFiles {
 
   /// Of all runs, in the order of the sweep. @pre all are there
   [[nodiscard]] std::vector<RunFigures> figures() const;
-  /// Writes sweep.csv and sweep.md. @pre all runs are there
+  /// Writes sweep.csv, sweep.md and tables.csv. @pre all runs are there
   void finish(const EvaluationOrigin& origin) const;
 
  private:

@@ -1,8 +1,10 @@
 #include "vehicle_sim/campaign/campaign.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "hlc_bridge/core/driving_fault.hpp"
 #include "hlc_bridge/core/run_description.hpp"
 #include "planner/scenario/starts.hpp"
 
@@ -11,19 +13,6 @@ namespace {
 
 std::string key_of(const CampaignRun& run) {
   return run.scenario.string() + '\n' + run.profile + '\n' + run.subgraph.value_or("");
-}
-
-std::string fault_of(const RunSummary& summary) {
-  if (summary.collisions > 0) {
-    return "vehicles touched each other " + std::to_string(summary.collisions) + " times";
-  }
-  for (const VehicleSummary& vehicle : summary.vehicles) {
-    if (vehicle.astray_steps == 0) continue;
-    return "vehicle " + std::to_string(vehicle.id.value) +
-           " was outside the areas that it had told the others in " +
-           std::to_string(vehicle.astray_steps) + " steps";
-  }
-  return "";
 }
 
 }  // namespace
@@ -45,12 +34,19 @@ std::vector<CampaignRun> runs_of(const CampaignPlan& plan) {
 }
 
 Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(plan_)) {
+  std::map<std::string, std::filesystem::path> by_name;
   for (const CampaignRun& run : runs_) {
     if (!scenarios_.contains(key_of(run))) {
       scenarios_.emplace(key_of(run), read_scenario({.file = run.scenario,
                                                      .profile = run.profile,
                                                      .subgraph = run.subgraph,
                                                      .steps = plan_.steps}));
+    }
+    const std::string& name = scenario_of(run).name;
+    const auto [same, is_new] = by_name.emplace(name, run.scenario);
+    if (same->second != run.scenario) {
+      throw std::invalid_argument(run.scenario.string() + ": name = " + name + " as in " +
+                                  same->second.string() + ", allowed scenarios of different names");
     }
     if (run.start > 0) {
       static_cast<void>(with_random_starts(scenario_of(run), plan_.seed + run.start));
@@ -62,11 +58,28 @@ const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
   return scenarios_.at(key_of(run));
 }
 
-DrivenRun Campaign::drive(std::size_t i, const std::function<Nanoseconds()>& wall_clock) const {
+std::set<std::filesystem::path> Campaign::files() const {
+  std::set<std::filesystem::path> files;
+  for (const auto& [key, scenario] : scenarios_) {
+    for (const std::filesystem::path& file : files_of(scenario)) files.insert(file);
+  }
+  return files;
+}
+
+RunFigures Campaign::heading_of(std::size_t i) const {
+  const CampaignRun& run = runs_.at(i);
+  const Scenario& scenario = scenario_of(run);
+  return {.scenario = scenario.name,
+          .profile = scenario.profile.name,
+          .subgraph = scenario.subgraph->spec().name,
+          .start = run.start};
+}
+
+DrivenRun Campaign::drive(std::size_t i, const Clocks& clocks) const {
   const CampaignRun& run = runs_.at(i);
   const Scenario& as_read = scenario_of(run);
   return drive_run(run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start),
-                   {.noise_seed = plan_.noise_seed, .wall_clock = wall_clock});
+                   {.noise_seed = plan_.noise_seed, .clocks = clocks});
 }
 
 CampaignResult Campaign::result_of(const DrivenRun& run) const {
@@ -83,14 +96,17 @@ DrivenRun drive_run(Scenario scenario, ExperimentOptions options) {
 CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> noise_seed,
                          std::uint64_t first_step) {
   const Experiment& experiment = run.experiment;
-  if (experiment.facts.exit_code != 0) throw std::runtime_error(experiment.facts.reason);
-  std::vector<StepRecord> rows =
-      step_records(experiment.reports, experiment.drives, experiment.facts);
+  RunFacts facts = experiment.facts;
+  if (facts.exit_code != 0) throw std::runtime_error(facts.reason);
+  std::vector<StepRecord> rows = step_records(experiment.reports, experiment.drives, facts);
   std::erase_if(rows, [first_step](const StepRecord& row) { return row.step < first_step; });
-  CampaignResult result{.summary = summarize(describe(run.scenario, noise_seed), experiment.facts,
-                                             rows, experiment.drives),
-                        .fault = {},
-                        .wall = experiment.wall};
+  // Encounters are looked for from the first step of the facts on.
+  facts.first_step = facts.first_step.value() + first_step;
+  facts.steps -= std::min(facts.steps, first_step);
+  CampaignResult result{
+      .summary = summarize(describe(run.scenario, noise_seed), facts, rows, experiment.drives),
+      .fault = {},
+      .wall = experiment.wall};
   result.fault = fault_of(result.summary);
   return result;
 }

@@ -3,16 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "hlc_bridge/core/run_summary.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/campaign/experiment.hpp"
+#include "vehicle_sim/campaign/run_figures.hpp"
 
 namespace hlc {
 
@@ -41,9 +42,7 @@ struct CampaignRun {
 /// What a run of a campaign gives.
 struct CampaignResult {
   RunSummary summary;  ///< without revision and host
-  /// Why the run does not count, in one line, though it was driven to its end: vehicles touched, or
-  /// were outside the areas that they had told the others. Empty if it counts.
-  std::string fault;
+  std::string fault;   ///< fault_of(summary): why the run does not count; empty if it does
   WallTimes wall;
 };
 
@@ -58,7 +57,7 @@ struct DrivenRun {
 
 /// A run in the terms of summary.json.
 /// @param noise_seed  of the measurement noise that it was driven with
-/// @param first_step  what lies before is left out of laps, errors, vertices and hash
+/// @param first_step  what lies before is left out: of laps, errors, vertices, faults and hash
 /// @throws std::runtime_error with the reason if the run was not driven to its end
 [[nodiscard]] CampaignResult result_of(const DrivenRun& run,
                                        std::optional<std::uint64_t> noise_seed,
@@ -70,7 +69,8 @@ class Campaign {
  public:
   /// Reads every scenario with every profile and subgraph, so that bad input is found before
   /// anything is driven.
-  /// @throws std::invalid_argument as read_scenario; for random starts of open paths
+  /// @throws std::invalid_argument as read_scenario; for random starts of open paths; for different
+  /// scenarios of the same name
   explicit Campaign(CampaignPlan plan);
 
   [[nodiscard]] const CampaignPlan& plan() const { return plan_; }
@@ -78,9 +78,7 @@ class Campaign {
 
   /// The run number i with its series, for figures: a tenth of a second gives the same again, so
   /// nobody needs to store it.
-  /// @param wall_clock  see ExperimentOptions
-  [[nodiscard]] DrivenRun drive(std::size_t i,
-                                const std::function<Nanoseconds()>& wall_clock) const;
+  [[nodiscard]] DrivenRun drive(std::size_t i, const Clocks& clocks) const;
 
   /// The same in the terms of summary.json.
   /// @throws std::runtime_error with the reason if the run was not driven to its end
@@ -88,6 +86,12 @@ class Campaign {
 
   /// The scenario of a run as it was read, with the cars where the scenario has them.
   [[nodiscard]] const Scenario& scenario_of(const CampaignRun& run) const;
+
+  /// All that is read: scenarios, automata, maps, labs.
+  [[nodiscard]] std::set<std::filesystem::path> files() const;
+
+  /// Figures of a run without results: scenario, profile, subgraph, start.
+  [[nodiscard]] RunFigures heading_of(std::size_t i) const;
 
  private:
   CampaignPlan plan_;

@@ -29,18 +29,28 @@ std::optional<double> share_of_wall(const RunFigures& run, double part_s) {
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> all{
-      {"Reference error, mean [mm]",
+      {"Reference error of planned positions, mean [mm]",
        "error_mean_mm",
        1,
        [](const RunFigures& run) { return run.error_mean_mm; },
        {{kSimulation, {{"A", 40.1}, {"B", 30.7}, {"C", 30.8}, {"D", 19.4}}},
         {kLab, {{"B", 27.9}, {"C", 19.9}, {"D", 17.0}}}}},
-      {"Reference error, standard deviation [mm]",
+      {"Reference error of planned positions, standard deviation [mm]",
        "error_std_mm",
        1,
        [](const RunFigures& run) { return run.error_std_mm; },
        {{kSimulation, {{"A", 35.9}, {"B", 28.9}, {"C", 28.8}, {"D", 17.6}}},
         {kLab, {{"B", 30.5}, {"C", 23.7}, {"D", 16.1}}}}},
+      {"Reference error of driven positions, mean [mm]",
+       "driven_error_mean_mm",
+       1,
+       [](const RunFigures& run) { return run.driven_error_mean_mm; },
+       {}},
+      {"Reference error of driven positions, standard deviation [mm]",
+       "driven_error_std_mm",
+       1,
+       [](const RunFigures& run) { return run.driven_error_std_mm; },
+       {}},
       {"Time for one lap [s]",
        "lap_s",
        2,
@@ -148,7 +158,7 @@ struct Spread {
 Spread spread_of(const Quantity& quantity, const std::vector<const RunFigures*>& runs) {
   Spread spread;
   for (const RunFigures* run : runs) {
-    const std::optional<double> value = run->failure.empty() ? quantity.of(*run) : std::nullopt;
+    const std::optional<double> value = is_well_driven(*run) ? quantity.of(*run) : std::nullopt;
     if (!value) continue;
     spread.min = spread.count == 0 ? *value : std::min(spread.min, *value);
     spread.max = spread.count == 0 ? *value : std::max(spread.max, *value);
@@ -229,14 +239,14 @@ std::string markdown_of(const Group& group) {
   text += "| Starts, good / failed |";
   for (const auto& [subgraph, runs] : group.subgraphs) {
     const auto failed =
-        std::ranges::count_if(runs, [](const auto* run) { return !run->failure.empty(); });
+        std::ranges::count_if(runs, [](const auto* run) { return !is_well_driven(*run); });
     text += " " + std::to_string(static_cast<std::ptrdiff_t>(runs.size()) - failed) + " / " +
             std::to_string(failed) + " |" + (has_paper ? " |" : "");
   }
   text += "\n";
   for (const auto& [subgraph, runs] : group.subgraphs) {
     for (const RunFigures* run : runs) {
-      if (run->failure.empty()) continue;
+      if (is_well_driven(*run)) continue;
       text += "\nFailed: subgraph " + subgraph + ", start " + std::to_string(run->start) + ": " +
               run->failure + "\n";
     }
@@ -264,8 +274,10 @@ std::string evaluation_markdown(const std::vector<RunFigures>& runs,
                                 const EvaluationOrigin& origin) {
   std::string text =
       "# Evaluation\n\nMeans over the starts, in brackets the smallest and the largest; without "
-      "failed runs. Error and lap are those of the vehicle of highest priority. Wall times are of "
-      "runs driven beside each other (`--jobs`).\n\n";
+      "failed runs. Errors and lap are those of the vehicle of highest priority, the lap that of "
+      "its "
+      "planned positions. Computation times are processor time of the planning thread, one car's; "
+      "wall times are of runs driven beside each other (`--jobs`).\n\n";
   for (const Group& group : groups_of(runs)) text += markdown_of(group);
   text += "Command: `" + origin.command + "`\n\nProgram " + origin.revision + ", compiled by " +
           origin.compiler + "; " + origin.processor + ".\n";

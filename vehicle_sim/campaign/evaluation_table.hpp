@@ -1,40 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace hlc {
+#include "vehicle_sim/campaign/run_figures.hpp"
 
-/// What the evaluation's table needs of one run.
-struct RunFigures {
-  std::string scenario;
-  std::string profile;
-  std::string subgraph;
-  std::size_t start{};
-  std::string failure;  ///< why it does not count; empty if it does
-  /// Of the vehicle of highest priority, as in the paper.
-  std::optional<double> lap_s;
-  std::optional<double> error_mean_mm;  ///< reference error over the steps
-  std::optional<double> error_std_mm;
-  /// Over all vehicles.
-  double generated_max{};      ///< per car and step
-  double generated_sum_max{};  ///< summed over the cars of a step
-  double expanded_max{};
-  double expanded_sum_max{};
-  double planning_mean_ms{};
-  double planning_std_ms{};
-  double planning_max_ms{};
-  double overlong_share{};    ///< of the plans, those that took longer than a step
-  double deviation_max_mm{};  ///< footprint to plan, any tick; without drift near full lock
-  double wall_s{};            ///< of the whole run; its parts as in WallTimes
-  double wall_planning_s{};
-  double wall_coordination_s{};
-  double wall_vehicles_s{};
-  std::size_t fallback_steps{};
-  std::size_t collisions{};
-};
+namespace hlc {
 
 /// A cell of the paper's Table 2 that does not depend on the machine: reference error, lap,
 /// vertices.

@@ -41,13 +41,18 @@ LabRunSettings settings_of(const Scenario& scenario, std::uint64_t steps) {
   return settings;
 }
 
+std::function<Nanoseconds()> or_zero(const std::function<Nanoseconds()>& clock) {
+  return clock ? clock : [] { return Nanoseconds{}; };
+}
+
 class Lab {
  public:
   Lab(const Scenario& scenario, const ExperimentOptions& options)
       : settings_(settings_of(scenario, options.steps)),
         run_(settings_),
         rules_(options.rules),
-        wall_clock_(options.wall_clock ? options.wall_clock : [] { return Nanoseconds{}; }) {
+        wall_clock_(or_zero(options.clocks.wall)),
+        cpu_clock_(or_zero(options.clocks.cpu)) {
     for (const ScenarioVehicle& vehicle : scenario.vehicles) {
       const std::uint8_t id = vehicle.id.value;
       SimulatedVehicleOptions simulated{
@@ -164,21 +169,22 @@ class Lab {
     std::vector<Controller*> controllers;
     for (Member& member : members_) controllers.push_back(&member.hlc.controller());
     std::map<const Controller*, Nanoseconds> planning_ns;
+    double planning_s = 0.0;
     JointStepRules rules = rules_;
     rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
       const Nanoseconds from = wall_clock_();
+      const Nanoseconds from_cpu = cpu_clock_();
       Prediction prediction = rules_.plan ? rules_.plan(controller, heard) : controller.plan(heard);
-      planning_ns[&controller] = wall_clock_() - from;
+      planning_ns[&controller] = cpu_clock_() - from_cpu;
+      planning_s += seconds_since(from);
       return prediction;
     };
     const Nanoseconds from = wall_clock_();
     const std::vector<Report> reports = joint_step(controllers, observation, rules);
     const double step_s = seconds_since(from);
-    double planning_s = 0.0;
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      const Nanoseconds planning = planning_ns[controllers[i]];  // 0 if it was late
-      planning_s += 1e-9 * static_cast<double>(planning);
-      records.push_back({.report = reports[i], .planning_ns = planning});
+      // 0 if it was late
+      records.push_back({.report = reports[i], .planning_ns = planning_ns[controllers[i]]});
     }
     experiment_.wall.planning_s += planning_s;
     experiment_.wall.coordination_s += step_s - planning_s;
@@ -220,6 +226,7 @@ class Lab {
   LogicalRun run_;
   JointStepRules rules_;
   std::function<Nanoseconds()> wall_clock_;
+  std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
   StateBuffer states_;
   std::set<std::string> alive_;

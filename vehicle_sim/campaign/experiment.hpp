@@ -12,14 +12,20 @@
 
 namespace hlc {
 
+/// What times are measured by; of one that is absent they are 0. Nothing else depends on them.
+struct Clocks {
+  std::function<Nanoseconds()> wall{};  ///< WallTimes, RunFacts::wall_s
+  /// Processor time of the calling thread: the reports' planning times, so that what else the
+  /// machine does is no part of them.
+  std::function<Nanoseconds()> cpu{};
+};
+
 struct ExperimentOptions {
   std::uint64_t steps{150};
   /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
   std::optional<std::uint64_t> noise_seed{};
   FollowerGains gains{};
-  /// Wall clock by which planning times and WallTimes are measured; absent: they are 0. Nothing
-  /// else depends on it.
-  std::function<Nanoseconds()> wall_clock{};
+  Clocks clocks{};
   /// What happens around the controllers' steps. Absent: nothing is lost, nobody is late.
   JointStepRules rules{};
 };

@@ -6,7 +6,7 @@ std::optional<LapQuality> lap_quality(const std::vector<const RunFigures*>& runs
   LapQuality quality;
   const auto count = static_cast<double>(runs.size());
   for (const RunFigures* run : runs) {
-    if (!run->failure.empty() || !run->lap_s || !run->error_mean_mm) return std::nullopt;
+    if (!has_lap(*run)) return std::nullopt;
     quality.error_mean_mm += *run->error_mean_mm / count;
     quality.lap_s += *run->lap_s / count;
     quality.generated_max += run->generated_max / count;

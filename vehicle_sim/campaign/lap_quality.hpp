@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "vehicle_sim/campaign/evaluation_table.hpp"
+#include "vehicle_sim/campaign/run_figures.hpp"
 
 namespace hlc {
 

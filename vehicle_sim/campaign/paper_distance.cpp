@@ -41,7 +41,7 @@ std::optional<PaperDistance> paper_distance(const std::vector<RunFigures>& runs)
     for (const RunFigures& run : runs) {
       if (run.scenario != cell.scenario || run.subgraph != cell.subgraph) continue;
       ++count;
-      const std::optional<double> value = run.failure.empty() ? cell.of(run) : std::nullopt;
+      const std::optional<double> value = is_well_driven(run) ? cell.of(run) : std::nullopt;
       if (!value) continue;
       ++filled;
       sum += *value;

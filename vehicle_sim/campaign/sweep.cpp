@@ -46,33 +46,6 @@ std::uint64_t first_step_of(const SweepPlan& plan, const SweepCombination& combi
   return lap != nullptr && lap->text == "flying" ? kFlyingStep : 0;
 }
 
-std::optional<double> in_mm(const std::optional<Statistics>& error_m, double Statistics::*value) {
-  return error_m ? std::optional(1e3 * ((*error_m).*value)) : std::nullopt;
-}
-
-void fill(const CampaignResult& result, RunFigures& figures) {
-  const RunSummary& summary = result.summary;
-  const VehicleSummary& first = summary.vehicles.front();
-  figures.failure = result.fault;
-  figures.lap_s = first.lap_s;
-  figures.error_mean_mm = in_mm(first.reference_error_m, &Statistics::mean);
-  figures.error_std_mm = in_mm(first.reference_error_m, &Statistics::std);
-  for (const VehicleSummary& vehicle : summary.vehicles) {
-    if (vehicle.generated) {
-      figures.generated_max = std::max(figures.generated_max, vehicle.generated->max);
-    }
-    if (vehicle.expanded) {
-      figures.expanded_max = std::max(figures.expanded_max, vehicle.expanded->max);
-    }
-    figures.deviation_max_mm =
-        std::max(figures.deviation_max_mm, 1e3 * vehicle.deviation_max_m.value_or(0.0));
-    figures.fallback_steps += vehicle.fallback_steps;
-  }
-  figures.generated_sum_max = static_cast<double>(summary.generated_vertices_sum_max);
-  figures.expanded_sum_max = static_cast<double>(summary.expanded_vertices_sum_max);
-  figures.collisions = summary.collisions;
-}
-
 }  // namespace
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combinations_of(plan_)) {
@@ -153,10 +126,19 @@ Scenario Sweep::scenario_of(std::size_t run) const {
   return scenario;
 }
 
+std::set<std::filesystem::path> Sweep::files() const {
+  std::set<std::filesystem::path> files{plan_.file};
+  for (const auto& [key, scenario] : scenarios_) {
+    for (const std::filesystem::path& file : files_of(scenario)) files.insert(file);
+  }
+  return files;
+}
+
 RunFigures Sweep::heading_of(std::size_t run) const {
   const SweepRun& what = runs_.at(run);
-  return {.scenario = plan_.scenarios[what.scenario].stem().string(),
-          .profile = profile_of(combinations_[what.combination]),
+  const std::string profile = profile_of(combinations_[what.combination]);
+  return {.scenario = scenarios_.at({what.scenario, profile}).name,
+          .profile = profile,
           .subgraph = plan_.subgraphs[what.subgraph],
           .start = what.start};
 }
@@ -167,7 +149,7 @@ SweepResult Sweep::drive(std::size_t run) const {
   try {
     const CampaignResult driven =
         result_of(drive_run(scenario_of(run), {}), std::nullopt, first_step);
-    fill(driven, result.figures);
+    result.figures = with_figures(std::move(result.figures), driven);
     result.trace_sha256 = driven.summary.trace_sha256;
   } catch (const std::exception& error) {
     result.figures.failure = error.what();

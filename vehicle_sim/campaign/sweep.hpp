@@ -3,11 +3,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "vehicle_sim/campaign/campaign.hpp"
-#include "vehicle_sim/campaign/evaluation_table.hpp"
+#include "vehicle_sim/campaign/run_figures.hpp"
 #include "vehicle_sim/campaign/sweep_plan.hpp"
 
 namespace hlc {
@@ -51,6 +52,9 @@ class Sweep {
   [[nodiscard]] std::size_t automaton_of(std::size_t run) const;
   /// A design that fails is no error here: the runs on it fail with its reason.
   void build(std::size_t automaton);
+
+  /// All that is read: the sweep's own file, scenarios, automaton, maps, labs.
+  [[nodiscard]] std::set<std::filesystem::path> files() const;
 
   /// Figures of a run without results: scenario, profile, subgraph, start.
   [[nodiscard]] RunFigures heading_of(std::size_t run) const;

@@ -101,8 +101,11 @@ void read_scenarios(const YamlNode& node, SweepPlan& plan) {
   for (const YamlNode& entry : node.list("scenarios")) {
     const std::filesystem::path scenario = beside(plan.file, entry.as<std::string>());
     if (!std::filesystem::is_regular_file(scenario)) entry.fail("a scenario's file");
-    if (std::ranges::find(plan.scenarios, scenario) != plan.scenarios.end()) {
-      entry.fail("each scenario once");
+    // Reports tell scenarios by their names.
+    if (std::ranges::any_of(plan.scenarios, [&](const std::filesystem::path& one) {
+          return one.stem() == scenario.stem();
+        })) {
+      entry.fail("each scenario once, by its name");
     }
     const YamlNode in_scenario = YamlNode::read_file(scenario);
     const auto automaton = beside(scenario, in_scenario.required<std::string>("automaton"));
@@ -130,6 +133,27 @@ void read_subgraph_names(const YamlNode& node, const std::vector<SubgraphSpec>& 
     plan.subgraphs.push_back(name);
   }
   if (plan.subgraphs.empty()) node.fail("subgraphs", names_of(offered));
+}
+
+std::vector<std::vector<std::size_t>> read_tables(const YamlNode& node, const SweepPlan& plan) {
+  std::vector<std::vector<std::size_t>> tables;
+  if (!node.has("tables")) return tables;
+  std::vector<std::string> settings;
+  for (const SweepAxis& axis : plan.axes) settings.push_back(axis.setting);
+  for (const YamlNode& entry : node.list("tables")) {
+    if (!entry.is_list()) entry.fail("a list of settings");
+    std::vector<std::size_t> axes;
+    for (const YamlNode& one : entry.entries()) {
+      const auto name = one.as<std::string>(one_of(settings));
+      const auto axis =
+          static_cast<std::size_t>(std::ranges::find(settings, name) - settings.begin());
+      if (std::ranges::find(axes, axis) != axes.end()) one.fail("each setting once");
+      axes.push_back(axis);
+    }
+    if (axes.size() < 2) entry.fail("at least two settings; each alone has a table anyway");
+    tables.push_back(std::move(axes));
+  }
+  return tables;
 }
 
 std::size_t grid_size(const SweepPlan& plan) {
@@ -166,6 +190,7 @@ SweepPlan read_sweep(const std::filesystem::path& file) {
   if (node.has("runs")) plan.runs = node.required<std::size_t>("runs", between(1.0, kMaxRuns));
   plan.axes = read_axes(node.map("settings"), automaton.trims);
   if (plan.axes.empty()) node.fail("settings", "at least one setting");
+  plan.tables = read_tables(node, plan);
   check_size(node, plan);
   node.check_no_unknown_keys();
   return plan;

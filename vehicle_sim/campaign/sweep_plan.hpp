@@ -27,6 +27,8 @@ struct SweepPlan {
   std::optional<std::size_t> steps;  ///< instead of the scenarios'
   std::optional<std::size_t> runs;   ///< none: the whole grid
   std::vector<SweepAxis> axes;       ///< in the order of sweep_settings()
+  /// Axes by which results are grouped together; each axis alone needs none.
+  std::vector<std::vector<std::size_t>> tables;
 
   /// Runs per combination: scenarios x subgraphs x starts.
   [[nodiscard]] std::size_t runs_each() const {
@@ -44,6 +46,8 @@ struct SweepPlan {
 ///     runs:       absent: every combination of the values (grid); else a random sample of
 ///                 different combinations, so many that there are at least as many runs, or all
 ///     settings:   map of names (sweep_settings.hpp), each with a list of different values
+///     tables:     (default none) list of lists of settings; the reports also group results by the
+///                 values of each list's settings together
 ///
 /// Every combination is driven in every scenario, with every subgraph, from every start.
 ///

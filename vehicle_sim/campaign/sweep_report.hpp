@@ -8,21 +8,11 @@
 
 namespace hlc {
 
-/// One row per run, in the order of the sweep: run, combination, scenario, subgraph, start, the
-/// settings by name, then lap_s, error_mean_mm, error_std_mm, generated_max, generated_sum_max,
-/// expanded_max, expanded_sum_max, deviation_max_mm, fallback_steps, distance (D of the run's
-/// combination, see paper_distance), failure (empty if it counts; no commas). Cells of a run that
-/// was not driven are empty.
+/// Markdown: the combinations next to the paper's Table 2 (paper_comparison.hpp) or, if `trims` is
+/// swept, the front of choices (trims_front.hpp); which subgraph is more accurate
+/// (accuracy_comparison.hpp); what a setting does, pair by pair (paired_comparison.hpp); results by
+/// setting (sweep_tables.hpp); what failed and why (failure_list.hpp).
 /// @param runs  one per run of the sweep
-[[nodiscard]] std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs);
-
-/// Markdown. If the paper has cells for these runs: the combinations next to its Table 2, with D
-/// over all starts and the smallest and largest D of one start; the best one's cells beside the
-/// paper's; and for every value of every setting how near the combinations with it come, and how
-/// many of them are as good as the best as far as the starts can tell: their D is not above the
-/// best's largest D of one start; then accuracy_comparison.hpp. If `trims` is swept: see
-/// trims_front.hpp. At last what failed and why; reasons that differ in numbers only are one, with
-/// the range of these numbers.
 [[nodiscard]] std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs,
                                          const EvaluationOrigin& origin);
 

@@ -92,6 +92,8 @@ TEST_F(RunSummaryTest, ErrorsAndLapAreThoseOfTheMotion) {
     EXPECT_NEAR(vehicle.lap_s.value(), 2.0 * kPi / 0.8, 1e-3);
     EXPECT_NEAR(vehicle.reference_error_m->mean, 0.010, 1e-5);
     EXPECT_NEAR(vehicle.reference_error_m->std, 0.0, 1e-5);
+    // Driven 3 mm along the circle.
+    EXPECT_NEAR(vehicle.driven_error_m->mean, 0.010, 2e-5);
     EXPECT_NEAR(vehicle.tracking_error_m->mean, 0.003, 1e-9);
     EXPECT_NEAR(vehicle.tracking_error_m->max, 0.003, 1e-9);
   }
@@ -99,6 +101,18 @@ TEST_F(RunSummaryTest, ErrorsAndLapAreThoseOfTheMotion) {
   EXPECT_EQ(result.collisions, 0U);
   EXPECT_DOUBLE_EQ(result.realtime_factor, 26.4);
   EXPECT_EQ(result.trace_sha256.size(), 64U);
+}
+
+TEST_F(RunSummaryTest, ErrorOfDrivenPositionsIsThatOfTheDrive) {
+  for (DrivenSample& sample : drives_[1]) {
+    sample.pose.x_m *= 1.02;  // circles about the origin
+    sample.pose.y_m *= 1.02;
+  }
+  const RunSummary result = summary();
+  EXPECT_NEAR(result.vehicles[0].reference_error_m->mean, 0.010, 1e-5);
+  EXPECT_NEAR(std::abs(result.vehicles[0].driven_error_m->mean - 0.010), 0.02, 1e-3);
+  drives_.clear();
+  EXPECT_FALSE(summary().vehicles[0].driven_error_m);
 }
 
 TEST_F(RunSummaryTest, TheFirstStepInWhichAllStandIsNoPartOfTheLap) {

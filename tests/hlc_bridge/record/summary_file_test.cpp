@@ -46,12 +46,13 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                                       "collisions", "wall_s", "realtime_factor", "trace_sha256",
                                       "revision", "host", "engine", "expanded_vertices_sum_max"));
   const auto& vehicle = json["vehicles"][0];
-  EXPECT_THAT(
-      keys(vehicle),
-      ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
-                  "generated_vertices", "expanded_vertices", "planning_time_ms", "fallback_steps",
-                  "deadline_misses", "budget_share", "overlong_plans", "undrivable_steps"));
+  EXPECT_THAT(keys(vehicle),
+              ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
+                          "generated_vertices", "expanded_vertices", "planning_time_ms",
+                          "fallback_steps", "deadline_misses", "budget_share", "overlong_plans",
+                          "undrivable_steps", "driven_error_mm"));
   EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
+  EXPECT_THAT(keys(vehicle["driven_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));
   EXPECT_THAT(keys(vehicle["generated_vertices"]), ElementsAre("max", "mean"));
   EXPECT_THAT(keys(vehicle["expanded_vertices"]), ElementsAre("max", "mean"));

@@ -42,6 +42,7 @@ TEST_F(EvaluateSweep, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(again.exit_code, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("2 of 4 runs are there already"));
   EXPECT_EQ(read_text(out_ / "sweep.csv"), csv);
+  EXPECT_THAT(read_text(out_ / "tables.csv"), HasSubstr("\npaper_red_alone,drivable,lanes,B,1,1,"));
 }
 
 TEST_F(EvaluateSweep, ExitCodeTellsThatACombinationCouldNotBeDriven) {

@@ -38,7 +38,10 @@ class Evaluate : public testing::Test {
     for (auto& run : results["runs"]) {
       run.erase("wall_s");
       run.erase("realtime_factor");
-      run.erase("wall_shares_s");
+      for (const char* time : {"planning_mean_ms", "planning_std_ms", "planning_max_ms", "wall_s",
+                               "wall_planning_s", "wall_coordination_s", "wall_vehicles_s"}) {
+        run["figures"].erase(time);
+      }
       for (auto& vehicle : run["vehicles"]) vehicle.erase("planning_time_ms");
     }
     return results;
@@ -98,6 +101,34 @@ TEST_F(Evaluate, RefusesTheFolderOfAnotherCampaign) {
   EXPECT_EQ(text_of(out_ / "runs.jsonl"), before);
 }
 
+TEST_F(Evaluate, RefusesToGoOnAfterAutomatonOrMapHaveChanged) {
+  const std::string source = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+  for (const char* file :
+       {"scenarios/paper_red_alone.yaml", "automata/paper.yaml", "maps/lab_like.xml"}) {
+    std::filesystem::create_directories((folder_ / file).parent_path());
+    put(folder_ / file, text_of(source + file));
+  }
+  const auto run = [&] {
+    return run_program("evaluate --steps 20 --scenario " +
+                       (folder_ / "scenarios" / "paper_red_alone.yaml").string() + " --out " +
+                       out_.string());
+  };
+  ASSERT_EQ(run().exit_code, 0);
+  const std::string before = text_of(out_ / "runs.jsonl");
+  for (const auto& [file, comment] : {std::pair{"automata/paper.yaml", "# another\n"},
+                                      {"maps/lab_like.xml", "<!-- another -->\n"}}) {
+    const std::string text = text_of(folder_ / file);
+    put(folder_ / file, text + comment);
+    const Outcome outcome = run();
+    EXPECT_EQ(outcome.exit_code, 2) << file;
+    EXPECT_THAT(outcome.output, HasSubstr("(other files)"));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_EQ(text_of(out_ / "runs.jsonl"), before);
+    put(folder_ / file, text);
+  }
+  EXPECT_EQ(run().exit_code, 0);
+}
+
 TEST_F(Evaluate, RefusesAFolderInWhichSomebodyElseWrote) {
   ASSERT_EQ(evaluate("").exit_code, 0);
   const std::string before = text_of(out_ / "runs.jsonl");
@@ -119,8 +150,8 @@ TEST_F(Evaluate, SharesOfTheWallTimeAreInTheRecords) {
   const nlohmann::json written = results();
   for (const nlohmann::json& run : written["runs"]) {
     double sum_s = 0.0;
-    for (const char* part : {"planning", "coordination", "vehicles"}) {
-      const double share_s = run["wall_shares_s"][part];
+    for (const char* part : {"wall_planning_s", "wall_coordination_s", "wall_vehicles_s"}) {
+      const double share_s = run["figures"][part];
       EXPECT_GT(share_s, 0.0) << part;
       sum_s += share_s;
     }
@@ -163,6 +194,7 @@ TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
   const nlohmann::json runs = results()["runs"];
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("outside the areas"));
+  EXPECT_EQ(runs[0]["subgraph"], "effort");
   EXPECT_TRUE(runs[1]["failure"].is_null());
   EXPECT_THAT(text_of(out_ / "table.md"),
               HasSubstr("Failed: subgraph effort, start 0: vehicle 1 was outside the areas"));
@@ -193,6 +225,9 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
   for (const auto& [flags, message] : {std::pair{"--profile 2021", "2021"},
                                        {"--scenario nowhere", "--scenario = nowhere"},
                                        {"--subgraphs Z", "Z"},
+                                       {"--subgraphs B,D,B", "--subgraphs = B twice"},
+                                       {"--profile 2022,2022", "--profile = 2022 twice"},
+                                       {"--scenario circle,circle", "--scenario = circle twice"},
                                        {"--starts 0", "--starts"},
                                        {"--figures path", "--figures"},
                                        {"--unheard_of", "unheard_of"}}) {
@@ -217,6 +252,35 @@ TEST_F(Evaluate, KeepsRunFoldersThatTheExportAndTheSummaryRead) {
   EXPECT_EQ(summary.exit_code, 0) << summary.output;
   const auto json = nlohmann::json::parse(text_of(run / "summary.json"));
   EXPECT_EQ(json["trace_sha256"], results()["runs"][2]["trace_sha256"]);
+}
+
+TEST_F(Evaluate, KeepsRunFoldersAlsoOfRunsThatAreThereAlready) {
+  ASSERT_EQ(evaluate("").exit_code, 0);
+  const nlohmann::json without = timeless(results());
+  const Outcome with = evaluate("--keep_runs");
+  EXPECT_EQ(with.exit_code, 0) << with.output;
+  for (const char* run : {"0", "1", "2", "3"}) {
+    EXPECT_TRUE(std::filesystem::exists(out_ / "runs" / run / "run.json")) << run;
+  }
+  EXPECT_EQ(timeless(results()), without);
+  std::filesystem::remove_all(out_ / "runs" / "2");
+  const Outcome again = evaluate("--keep_runs");
+  EXPECT_THAT(again.output, HasSubstr("3 of 4 runs are there already"));
+  EXPECT_TRUE(std::filesystem::exists(out_ / "runs" / "2" / "run.json"));
+}
+
+TEST_F(Evaluate, ARunThatCannotBeDrivenIsRecordedByItsScenariosNameAndSubgraph) {
+  const Outcome done = run_program("evaluate --scenario paper_red_alone --steps 20" + kScenarios +
+                                   " --out " + out_.string());
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  put(out_ / "runs", "a file where the run folders go");
+  const Outcome failed = run_program("evaluate --keep_runs --scenario paper_red_alone --steps 20" +
+                                     kScenarios + " --out " + out_.string());
+  EXPECT_EQ(failed.exit_code, 1) << failed.output;
+  const nlohmann::json run = results()["runs"][0];
+  EXPECT_THAT(run["failure"].get<std::string>(), HasSubstr("cannot be made"));
+  EXPECT_EQ(run["scenario"], "paper_red_alone");
+  EXPECT_EQ(run["subgraph"], "B");
 }
 
 TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {

@@ -22,10 +22,22 @@ TEST(EvaluationTable, HasMeansAndRangesOverTheStartsBesideThePapersValues) {
       evaluation_markdown({run("A", 14.0, 30.0), run("B", 15.0, 20.0), run("B", 16.0, 24.0)}, {});
   EXPECT_THAT(table, HasSubstr("## paper_three_cars, profile 2022 (the paper's simulation)"));
   EXPECT_THAT(table, HasSubstr("| | A | paper | B | paper |"));
-  EXPECT_THAT(table, HasSubstr("| Reference error, mean [mm] | 30.0 | 40.1 | "
+  EXPECT_THAT(table, HasSubstr("| Reference error of planned positions, mean [mm] | 30.0 | 40.1 | "
                                "22.0 [20.0 … 24.0] | 30.7 |"));
   EXPECT_THAT(table, HasSubstr("| Time for one lap [s] | 14.00 | 13.8 | "
                                "15.50 [15.00 … 16.00] | 15.8 |"));
+}
+
+TEST(EvaluationTable, TellsErrorsOfDrivenPositionsApart) {
+  RunFigures driven = run("B", 15.0, 20.0);
+  driven.driven_error_mean_mm = 21.5;
+  driven.driven_error_std_mm = 3.5;
+  const std::string table = evaluation_markdown({driven}, {});
+  EXPECT_THAT(table,
+              HasSubstr("| Reference error of planned positions, mean [mm] | 20.0 | 30.7 |"));
+  EXPECT_THAT(table, HasSubstr("| Reference error of driven positions, mean [mm] | 21.5 | |"));
+  EXPECT_THAT(
+      table, HasSubstr("| Reference error of driven positions, standard deviation [mm] | 3.5 | |"));
 }
 
 TEST(EvaluationTable, FailedRunsAreCountedAndLeftOut) {

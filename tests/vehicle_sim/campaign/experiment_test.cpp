@@ -63,7 +63,7 @@ TEST(Experiment, WallTimesAreThoseOfTheClockAndTheirSumIsNotMoreThanTheWhole) {
   Nanoseconds now = 0;
   const auto clock = [&now] { return now += 1'000; };
   const Experiment experiment =
-      drive_experiment(scenario_of("paper_three_cars"), {.steps = 10, .wall_clock = clock});
+      drive_experiment(scenario_of("paper_three_cars"), {.steps = 10, .clocks = {.wall = clock}});
   const WallTimes& wall = experiment.wall;
   EXPECT_GT(wall.planning_s, 0.0);
   EXPECT_GT(wall.coordination_s, 0.0);
@@ -71,6 +71,21 @@ TEST(Experiment, WallTimesAreThoseOfTheClockAndTheirSumIsNotMoreThanTheWhole) {
   EXPECT_LE(wall.planning_s + wall.coordination_s + wall.vehicles_s, experiment.facts.wall_s);
   // One plan of a vehicle: two looks at the clock.
   EXPECT_NEAR(wall.planning_s, 3.0 * 10.0 * 1e-6, 1e-6 * 6.1);
+}
+
+TEST(Experiment, PlanningTimesOfTheReportsAreProcessorTime) {
+  Nanoseconds now = 0;
+  const auto cpu = [&now] { return now += 7; };
+  const Experiment experiment =
+      drive_experiment(scenario_of("paper_red_alone"), {.steps = 10, .clocks = {.cpu = cpu}});
+  EXPECT_EQ(experiment.wall.planning_s, 0.0);
+  std::size_t planned = 0;
+  for (const ReportRecord& record : experiment.reports) {
+    if (record.report.status != StepStatus::kPlanned) continue;
+    ++planned;
+    EXPECT_EQ(record.planning_ns, 7U);
+  }
+  EXPECT_GE(planned, 9U);
 }
 
 TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {

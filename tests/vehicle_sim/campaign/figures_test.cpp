@@ -20,7 +20,7 @@ std::vector<DrivenRun> runs_of(const std::string& scenario, std::vector<std::str
   Nanoseconds now = 0;
   std::vector<DrivenRun> runs;
   for (std::size_t i = 0; i < campaign.runs().size(); ++i) {
-    runs.push_back(campaign.drive(i, [&now] { return now += 50'000; }));
+    runs.push_back(campaign.drive(i, {.cpu = [&now] { return now += 50'000; }}));
   }
   return runs;
 }

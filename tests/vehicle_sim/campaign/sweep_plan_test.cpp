@@ -86,6 +86,13 @@ TEST(SweepPlan, TrimsOfTheFileAreSortedAndHaveStandstill) {
   EXPECT_EQ(plan.axes[0].values[0].text, "1 2 7 12");
 }
 
+TEST(SweepPlan, TablesNameSettingsOfTheFile) {
+  const SweepPlan plan = plan_of(file_with("{width_m: [0.1], lap: [flying], drivable: [lanes]}",
+                                           "tables: [[lap, width_m]]\n"));
+  // drivable, width_m, lap: in the order of the settings.
+  EXPECT_EQ(plan.tables, (std::vector<std::vector<std::size_t>>{{2, 1}}));
+}
+
 TEST(SweepPlan, EveryShippedStudyCanBeDriven) {
   std::size_t studies = 0;
   for (const auto& file :
@@ -133,6 +140,10 @@ TEST(SweepPlan, BadFilesAreRefusedInOneLineWithPlaceValueAndWhatIsAllowed) {
       {file_with(good, "starts: 0\n"), "starts = 0, allowed"},
       {file_with(good, "steps: 10\n"), "steps = 10, allowed a whole number >= 11"},
       {file_with(good, "jobs: 2\n"), "jobs = 2, unknown key"},
+      {file_with(good, "tables: [width_m]\n"), "tables[1] = width_m, allowed a list of settings"},
+      {file_with(good, "tables: [[lap, width_m]]\n"), "tables[1][1] = lap, allowed width_m"},
+      {file_with(good, "tables: [[width_m]]\n"), "allowed at least two settings"},
+      {file_with(good, "tables: [[width_m, width_m]]\n"), "allowed each setting once"},
       {file_with("{trims: subsets, width_m: [1, 2, 3, 4, 5], wheelbase_m: [1, 2, 3, 4, 5]}",
                  "starts: 1000\n"),
        "allowed at most 1e+07 runs"},

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace hlc {
+
+/// The value in the middle of the sorted sample; of an even number of values the mean of the two in
+/// the middle. @pre not empty, no NaN
+[[nodiscard]] inline double median(std::vector<double> sample) {
+  assert(!sample.empty());
+  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+  std::ranges::nth_element(sample, middle);
+  if (sample.size() % 2 == 1) return *middle;
+  return 0.5 * (*std::max_element(sample.begin(), middle) + *middle);
+}
+
+}  // namespace hlc

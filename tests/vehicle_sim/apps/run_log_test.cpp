@@ -1,0 +1,71 @@
+#include "vehicle_sim/apps/run_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <stdexcept>
+
+#include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kHeading[] = R"({"seed":1,"files":["a"]})";
+
+/// Files of this process can grow to `bytes` only, as on a full disk: what is longer is written in
+/// part.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(RunLog, OfAnAppendThatFailedNothingStays) {
+  const TemporaryFolder folder;
+  RunLog log(folder / "out", kHeading);
+  log.append(0, R"({"run":0})");
+  const std::filesystem::path file = folder / "out" / "runs.jsonl";
+  const std::string before = test::read_text(file);
+  {
+    const FullDisk disk(before.size() + 5);
+    EXPECT_THROW(log.append(1, R"({"run":1})"), std::runtime_error);
+  }
+  EXPECT_EQ(test::read_text(file), before);
+  EXPECT_FALSE(log.has(1));
+  log.append(2, R"({"run":2})");
+  const RunLog again(folder / "out", kHeading);
+  EXPECT_EQ(again.size(), 2U);
+  EXPECT_TRUE(again.has(2));
+}
+
+TEST(RunLog, SaysInWhatAnotherCampaignDiffers) {
+  const TemporaryFolder folder;
+  { const RunLog log(folder / "out", kHeading); }
+  try {
+    const RunLog other(folder / "out", R"({"seed":1,"files":["b"],"steps":3})");
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("(other files, steps)"));
+  }
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <chrono>
+
+#include "hlc_bridge/time/thread_clock.hpp"
+#include "vehicle_sim/campaign/experiment.hpp"
+
+namespace hlc {
+
+/// The machine's: wall time, and processor time of the thread that asks.
+[[nodiscard]] inline Clocks machine_clocks() {
+  const auto wall_now = [] {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return static_cast<Nanoseconds>(std::chrono::nanoseconds(now).count());
+  };
+  return {.wall = wall_now, .cpu = thread_time_now};
+}
+
+}  // namespace hlc

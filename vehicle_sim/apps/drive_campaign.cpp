@@ -1,0 +1,47 @@
+#include "vehicle_sim/apps/drive_campaign.hpp"
+
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "vehicle_sim/apps/clocks.hpp"
+#include "vehicle_sim/apps/missing_runs.hpp"
+#include "vehicle_sim/apps/run_folder.hpp"
+
+namespace hlc {
+namespace {
+
+std::filesystem::path folder_of_run(const EvaluationFiles& files, std::size_t run) {
+  return files.folder() / "runs" / std::to_string(run);
+}
+
+}  // namespace
+
+std::size_t drive_campaign(const Campaign& campaign, std::size_t jobs, bool keep_runs,
+                           EvaluationFiles& files) {
+  const auto is_done = [&](std::size_t run) {
+    return files.has(run) && (!keep_runs || is_whole_run_folder(folder_of_run(files, run)));
+  };
+  for_each_number(missing_runs(campaign.runs().size(), is_done), "run", jobs, [&](std::size_t run) {
+    std::optional<CampaignResult> result;
+    std::string failure;
+    try {
+      const DrivenRun driven = campaign.drive(run, machine_clocks());
+      if (keep_runs) {
+        write_run_folder(folder_of_run(files, run), driven.scenario, driven.experiment);
+      }
+      result = campaign.result_of(driven);
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    // Outside: a record that cannot be written is no failure of the run.
+    if (result) {
+      files.add(run, *result);
+    } else {
+      files.add_failure(run, failure);
+    }
+  });
+  return num_failed(files.figures());
+}
+
+}  // namespace hlc

@@ -1,0 +1,16 @@
+#include "vehicle_sim/apps/input_files.hpp"
+
+#include "hlc_bridge/record/text_file.hpp"
+#include "planner/automaton/sha256.hpp"
+
+namespace hlc {
+
+nlohmann::ordered_json input_files(const std::set<std::filesystem::path>& files) {
+  auto list = nlohmann::ordered_json::array();
+  for (const std::filesystem::path& file : files) {
+    list.push_back({{"file", file.filename().string()}, {"sha256", sha256_of(read_file(file))}});
+  }
+  return list;
+}
+
+}  // namespace hlc

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vehicle_sim/campaign/run_figures.hpp"
+
+namespace hlc {
+
+/// Markdown: how many runs do not count, and why. Reasons that differ in numbers only are one, with
+/// the range of these numbers. Empty if all count.
+[[nodiscard]] std::string failure_list(const std::vector<RunFigures>& runs);
+
+}  // namespace hlc

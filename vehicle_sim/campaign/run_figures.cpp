@@ -1,0 +1,77 @@
+#include "vehicle_sim/campaign/run_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "vehicle_sim/campaign/campaign.hpp"
+
+namespace hlc {
+namespace {
+
+std::optional<double> in_mm(const std::optional<Statistics>& error_m, double Statistics::*value) {
+  return error_m ? std::optional(1e3 * ((*error_m).*value)) : std::nullopt;
+}
+
+/// Planning times of all vehicles as one sample.
+void add_planning(std::span<const VehicleSummary> vehicles, RunFigures& figures) {
+  double count = 0.0;
+  double sum_ms = 0.0;
+  double overlong = 0.0;
+  for (const VehicleSummary& vehicle : vehicles) {
+    if (!vehicle.planning_s) continue;
+    const auto plans = static_cast<double>(vehicle.planning_s->count);
+    count += plans;
+    sum_ms += 1e3 * plans * vehicle.planning_s->mean;
+    overlong += static_cast<double>(vehicle.overlong_plans);
+    figures.planning_max_ms = std::max(figures.planning_max_ms, 1e3 * vehicle.planning_s->max);
+  }
+  if (count == 0.0) return;
+  figures.planning_mean_ms = sum_ms / count;
+  figures.overlong_share = overlong / count;
+  double squares = 0.0;  // of the deviations from the common mean
+  for (const VehicleSummary& vehicle : vehicles) {
+    if (!vehicle.planning_s) continue;
+    const auto plans = static_cast<double>(vehicle.planning_s->count);
+    const double off_ms = 1e3 * vehicle.planning_s->mean - figures.planning_mean_ms;
+    const double std_ms = 1e3 * vehicle.planning_s->std;
+    squares += (plans - 1.0) * std_ms * std_ms + plans * off_ms * off_ms;
+  }
+  if (count > 1.0) figures.planning_std_ms = std::sqrt(squares / (count - 1.0));
+}
+
+}  // namespace
+
+RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
+  RunFigures figures = std::move(heading);
+  const RunSummary& summary = result.summary;
+  const VehicleSummary& first = summary.vehicles.front();
+  figures.failure = result.fault;
+  figures.lap_s = first.lap_s;
+  figures.error_mean_mm = in_mm(first.reference_error_m, &Statistics::mean);
+  figures.error_std_mm = in_mm(first.reference_error_m, &Statistics::std);
+  figures.driven_error_mean_mm = in_mm(first.driven_error_m, &Statistics::mean);
+  figures.driven_error_std_mm = in_mm(first.driven_error_m, &Statistics::std);
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    if (vehicle.generated) {
+      figures.generated_max = std::max(figures.generated_max, vehicle.generated->max);
+    }
+    if (vehicle.expanded) {
+      figures.expanded_max = std::max(figures.expanded_max, vehicle.expanded->max);
+    }
+    figures.deviation_max_mm =
+        std::max(figures.deviation_max_mm, 1e3 * vehicle.deviation_max_m.value_or(0.0));
+    figures.fallback_steps += vehicle.fallback_steps;
+  }
+  figures.generated_sum_max = static_cast<double>(summary.generated_vertices_sum_max);
+  figures.expanded_sum_max = static_cast<double>(summary.expanded_vertices_sum_max);
+  figures.collisions = summary.collisions;
+  add_planning(summary.vehicles, figures);
+  figures.wall_s = summary.wall_s;
+  figures.wall_planning_s = result.wall.planning_s;
+  figures.wall_coordination_s = result.wall.coordination_s;
+  figures.wall_vehicles_s = result.wall.vehicles_s;
+  return figures;
+}
+
+}  // namespace hlc

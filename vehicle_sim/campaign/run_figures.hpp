@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace hlc {
+
+struct CampaignResult;
+
+/// What tables and reports need of one run.
+struct RunFigures {
+  std::string scenario;
+  std::string profile;
+  std::string subgraph;
+  std::size_t start{};
+  std::string failure;  ///< why it does not count; empty if it does
+  /// Of the vehicle of highest priority, as in the paper.
+  std::optional<double> lap_s;
+  std::optional<double> error_mean_mm;  ///< of planned positions, over the steps
+  std::optional<double> error_std_mm;
+  std::optional<double> driven_error_mean_mm;  ///< of driven positions, at the same times
+  std::optional<double> driven_error_std_mm;
+  /// Over all vehicles.
+  double generated_max{};      ///< per car and step
+  double generated_sum_max{};  ///< summed over the cars of a step
+  double expanded_max{};
+  double expanded_sum_max{};
+  double planning_mean_ms{};  ///< processor time (Clocks::cpu)
+  double planning_std_ms{};
+  double planning_max_ms{};
+  double overlong_share{};    ///< of the plans, those that took longer than a step
+  double deviation_max_mm{};  ///< footprint to plan, any tick; without drift near full lock
+  double wall_s{};            ///< of the whole run; its parts as in WallTimes
+  double wall_planning_s{};
+  double wall_coordination_s{};
+  double wall_vehicles_s{};
+  std::size_t fallback_steps{};
+  std::size_t collisions{};
+};
+
+/// True if the run counts: it was driven to its end, and well (CampaignResult::fault).
+[[nodiscard]] inline bool is_well_driven(const RunFigures& run) { return run.failure.empty(); }
+
+/// True if it counts and the vehicle of highest priority drove a lap.
+[[nodiscard]] inline bool has_lap(const RunFigures& run) {
+  return is_well_driven(run) && run.lap_s && run.error_mean_mm;
+}
+
+/// The figures of a run that was driven to its end.
+/// @param heading  scenario, profile, subgraph and start; kept
+[[nodiscard]] RunFigures with_figures(RunFigures heading, const CampaignResult& result);
+
+}  // namespace hlc

@@ -1,0 +1,65 @@
+#include "vehicle_sim/campaign/sweep_csv.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include "vehicle_sim/campaign/number_text.hpp"
+#include "vehicle_sim/campaign/paper_distance.hpp"
+#include "vehicle_sim/campaign/sweep_groups.hpp"
+
+namespace hlc {
+namespace {
+
+std::string number_or_empty(const std::optional<double>& value, int decimals) {
+  return value ? number(*value, decimals) : "";
+}
+
+std::string without_commas(std::string text) {
+  std::ranges::replace(text, ',', ';');
+  std::ranges::replace(text, '\n', ' ');
+  std::ranges::replace(text, '"', '\'');
+  return text;
+}
+
+}  // namespace
+
+std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
+  assert(runs.size() == sweep.runs().size());
+  std::vector<std::string> distances;
+  for (const std::vector<std::size_t>& numbers : runs_by_combination(sweep)) {
+    std::vector<RunFigures> of_combination;
+    for (const std::size_t i : numbers) of_combination.push_back(runs[i]);
+    const std::optional<PaperDistance> distance = paper_distance(of_combination);
+    distances.push_back(distance ? number(distance->mean_square, 6) : "");
+  }
+  std::string text = "run,combination,scenario,subgraph,start";
+  for (const SweepAxis& axis : sweep.plan().axes) text += "," + axis.setting;
+  text +=
+      ",lap_s,error_mean_mm,error_std_mm,generated_max,generated_sum_max,expanded_max,"
+      "expanded_sum_max,deviation_max_mm,fallback_steps,distance,failure\n";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const SweepRun& what = sweep.runs()[i];
+    const RunFigures& run = runs[i];
+    text += std::to_string(i) + "," + std::to_string(what.combination) + "," +
+            without_commas(run.scenario) + "," + without_commas(run.subgraph) + "," +
+            std::to_string(run.start);
+    for (const SweepAxis& axis : sweep.plan().axes) {
+      text +=
+          "," + value_of(sweep.plan(), sweep.combinations()[what.combination], axis.setting)->text;
+    }
+    text += "," + number_or_empty(run.lap_s, 4) + "," + number_or_empty(run.error_mean_mm, 4) +
+            "," + number_or_empty(run.error_std_mm, 4);
+    const bool was_driven = run.error_mean_mm.has_value();
+    for (const double value :
+         {run.generated_max, run.generated_sum_max, run.expanded_max, run.expanded_sum_max}) {
+      text += "," + (was_driven ? number(value, 0) : "");
+    }
+    text += "," + (was_driven ? number(run.deviation_max_mm, 2) : "") + "," +
+            (was_driven ? std::to_string(run.fallback_steps) : "") + ",";
+    text += distances[what.combination] + "," + without_commas(run.failure) + "\n";
+  }
+  return text;
+}
+
+}  // namespace hlc

@@ -1,0 +1,152 @@
+#include "vehicle_sim/campaign/sweep_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "vehicle_sim/campaign/interval.hpp"
+#include "vehicle_sim/campaign/number_text.hpp"
+#include "vehicle_sim/campaign/sweep_groups.hpp"
+
+namespace hlc {
+namespace {
+
+struct TableQuantity {
+  const char* title;
+  const char* key;
+  int decimals;
+  double (*of)(const RunFigures&);  ///< @pre the run has a lap
+};
+
+constexpr std::array kTableQuantities{
+    TableQuantity{"error, planned [mm]", "error_mean_mm", 1,
+                  [](const RunFigures& run) { return run.error_mean_mm.value(); }},
+    TableQuantity{"error, driven [mm]", "driven_error_mean_mm", 1,
+                  [](const RunFigures& run) { return run.driven_error_mean_mm.value_or(0.0); }},
+    TableQuantity{"lap [s]", "lap_s", 2, [](const RunFigures& run) { return run.lap_s.value(); }},
+    TableQuantity{"max. generated", "generated_max", 0,
+                  [](const RunFigures& run) { return run.generated_max; }}};
+
+/// One row: a group's runs in one scenario with one subgraph.
+struct TableRow {
+  std::size_t runs{};
+  std::size_t laps{};
+  std::array<ValuesByStart, kTableQuantities.size()> values;
+};
+
+class Tables {
+ public:
+  Tables(const Sweep& sweep, const std::vector<RunFigures>& runs)
+      : sweep_(sweep), runs_(runs), numbers_(runs_by_combination(sweep)) {
+    assert(runs.size() == sweep.runs().size());
+  }
+
+  [[nodiscard]] TableRow row(const SweepGroup& group, std::size_t scenario,
+                             std::size_t subgraph) const {
+    TableRow row;
+    for (const std::size_t combination : group.combinations) {
+      for (const std::size_t i : numbers_[combination]) {
+        const SweepRun& what = sweep_.runs()[i];
+        if (what.scenario != scenario || what.subgraph != subgraph) continue;
+        ++row.runs;
+        if (!has_lap(runs_[i])) continue;
+        ++row.laps;
+        for (std::size_t q = 0; q < kTableQuantities.size(); ++q) {
+          row.values[q][what.start].push_back(kTableQuantities[q].of(runs_[i]));
+        }
+      }
+    }
+    return row;
+  }
+
+  [[nodiscard]] std::string markdown(std::size_t scenario, const Axes& axes) const {
+    const SweepPlan& plan = sweep_.plan();
+    std::string text = "|";
+    std::string rule = "|";
+    for (const std::size_t axis : axes) {
+      text += " " + plan.axes[axis].setting + " |";
+      rule += "---|";
+    }
+    text += " subgraph | combinations | laps |";
+    rule += "---|---|---|";
+    for (const TableQuantity& quantity : kTableQuantities) {
+      text += std::string(" ") + quantity.title + " |";
+      rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (const SweepGroup& group : groups_of(sweep_, axes)) {
+      for (std::size_t s = 0; s < plan.subgraphs.size(); ++s) {
+        const TableRow cells = row(group, scenario, s);
+        text += "|";
+        for (const std::string& value : group.values) text += " " + value + " |";
+        text += " " + plan.subgraphs[s] + " | " + std::to_string(group.combinations.size()) +
+                " | " + std::to_string(cells.laps) + " of " + std::to_string(cells.runs) + " |";
+        for (std::size_t q = 0; q < kTableQuantities.size(); ++q) {
+          text += " " +
+                  in_words(interval_over_starts(cells.values[q]), kTableQuantities[q].decimals) +
+                  " |";
+        }
+        text += "\n";
+      }
+    }
+    return text + "\n";
+  }
+
+  [[nodiscard]] std::string csv(std::size_t scenario, const Axes& axes) const {
+    const SweepPlan& plan = sweep_.plan();
+    std::string text;
+    for (const SweepGroup& group : groups_of(sweep_, axes)) {
+      std::string heading = plan.scenarios[scenario].stem().string() + "," +
+                            settings_text(plan, axes) + "," + values_text(group);
+      for (std::size_t at = 0; (at = heading.find(", ", at)) != std::string::npos;) {
+        heading[at] = ';';
+      }
+      for (std::size_t s = 0; s < plan.subgraphs.size(); ++s) {
+        const TableRow cells = row(group, scenario, s);
+        for (std::size_t q = 0; q < kTableQuantities.size(); ++q) {
+          const std::optional<Interval> interval = interval_over_starts(cells.values[q]);
+          text += heading + "," + plan.subgraphs[s] + "," +
+                  std::to_string(group.combinations.size()) + "," + std::to_string(cells.runs) +
+                  "," + std::to_string(cells.laps) + "," + kTableQuantities[q].key + "," +
+                  (interval ? number(interval->mean, 6) : "") + "," +
+                  (interval && interval->half_width ? number(*interval->half_width, 6) : "") + "\n";
+        }
+      }
+    }
+    return text;
+  }
+
+ private:
+  const Sweep& sweep_;
+  const std::vector<RunFigures>& runs_;
+  std::vector<std::vector<std::size_t>> numbers_;
+};
+
+}  // namespace
+
+std::string sweep_tables_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs) {
+  const Tables tables(sweep, runs);
+  const SweepPlan& plan = sweep.plan();
+  std::string text =
+      "## Results by setting\n\nOf the runs with a lap; ± is the 95 % interval of the mean, where "
+      "each start counts once, as the mean over its combinations.\n\n";
+  for (std::size_t scenario = 0; scenario < plan.scenarios.size(); ++scenario) {
+    for (const Axes& axes : groupings_of(plan)) {
+      text += "### " + plan.scenarios[scenario].stem().string() + ", by " +
+              settings_text(plan, axes) + "\n\n" + tables.markdown(scenario, axes);
+    }
+  }
+  return text;
+}
+
+std::string sweep_tables_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
+  const Tables tables(sweep, runs);
+  std::string text =
+      "scenario,settings,values,subgraph,combinations,runs,laps,quantity,mean,half_width\n";
+  for (std::size_t scenario = 0; scenario < sweep.plan().scenarios.size(); ++scenario) {
+    for (const Axes& axes : groupings_of(sweep.plan())) text += tables.csv(scenario, axes);
+  }
+  return text;
+}
+
+}  // namespace hlc
