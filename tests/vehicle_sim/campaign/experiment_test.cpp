@@ -4,6 +4,7 @@
 
 #include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/run_summary.hpp"
+#include "vehicle_sim/campaign/campaign.hpp"
 
 namespace hlc {
 namespace {
@@ -94,6 +95,11 @@ TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
       drive_experiment(scenario, {.steps = 15, .gains = scaled(FollowerGains{}, 0.0)});
   const Drive& drive = experiment.drives.at(scenario.vehicles.front().id.value);
   EXPECT_EQ(drive.back().pose, drive.front().pose);
+  // So the cars are outside what their controllers tell, and that is no good drive.
+  Scenario three_cars = scenario_of("paper_three_cars");
+  three_cars.steps = 15;
+  const DrivenRun run = drive_run(three_cars, {.gains = scaled(FollowerGains{}, 0.0)});
+  EXPECT_NE(result_of(run, std::nullopt).fault, "");
 }
 
 }  // namespace
