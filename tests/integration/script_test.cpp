@@ -201,20 +201,27 @@ TEST_F(Scripts, ProcessesThatDieAtOnceEndTheRunWithCode4) {
       << "somebody of the run is still there";
 }
 
-TEST_F(Scripts, AControllerThatWasKilledIsStartedAgainByOneCommand) {
+TEST_F(Scripts, AControllerIsStartedAgainByOneCommandOnceItWasKilled) {
   const std::filesystem::path out = folder_ / "run";
-  ChildProcess run = run_lab(
-      {"--simulated_time=false", "--on_death", "continue", "--steps", "60", "--out", out.string()});
+  ChildProcess run = run_lab({"--simulated_time=false", "--on_death", "continue", "--steps", "100",
+                              "--out", out.string()});
   ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 8000; }))
       << output();
+  const std::vector<std::string> command{
+      kScripts + "vehicle.sh", "--id", "2", "--only", "hlc", "--out", out.string()};
   const pid_t pid = pid_of(out, "high_level_controller_2");
   ASSERT_GT(pid, 0);
+  ChildProcess second(command, folder_ / "second");
+  EXPECT_EQ(second.wait_for(60s), 2);
+  EXPECT_EQ(read_text(folder_ / "second"),
+            "vehicle.sh: --only = hlc: high_level_controller_2 still runs, end it first: kill -9 " +
+                std::to_string(pid) + "\n");
+
   ASSERT_EQ(::kill(pid, SIGKILL), 0);
-  ASSERT_TRUE(eventually(10s, [&] {
+  ASSERT_TRUE(eventually(60s, [&] {
     return output().find("high_level_controller_2 died") != std::string::npos;
   })) << output();
-  ChildProcess again({kScripts + "vehicle.sh", "--id", "2", "--only", "hlc", "--out", out.string()},
-                     folder_ / "again");
+  ChildProcess again(command, folder_ / "again");
   EXPECT_EQ(run.wait_for(120s), 0) << output();
   EXPECT_EQ(again.wait_for(30s), 0) << read_text(folder_ / "again");
   EXPECT_NE(output().find("high_level_controller_2 is back"), std::string::npos) << output();
