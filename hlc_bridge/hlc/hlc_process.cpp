@@ -24,7 +24,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
-constexpr std::chrono::milliseconds kCopyPause{50};
+/// On the lab's transport the reader of the middleware keeps one sample. Short: who dies in it
+/// leaves a car that drops its plan after kCommandLifetime and brakes.
+constexpr std::chrono::milliseconds kCopyPause{5};
 constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
 constexpr Nanoseconds kLateBegin = 2;                // steps after the trigger's time
 constexpr Nanoseconds kDrawnPeriods = 3;             // how long a step's drawings stay on the map
