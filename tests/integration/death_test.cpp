@@ -77,7 +77,7 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
             std::string::npos)
       << lab.log("lab_control");
   if (death.signal == SIGSTOP) lab[death.victim].send(SIGKILL);
-  EXPECT_THAT(lab.still_running_after(30s), testing::IsEmpty());
+  EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
 
   const Drives drives = drives_of(lab);
   ASSERT_EQ(drives.size(), 3U);
@@ -138,7 +138,7 @@ TEST_P(Absence, IsNamedAfterTheStatedTime) {
   EXPECT_EQ(*code, 3);
   const std::string name = GetParam() == "vehicle_2" ? "vehicle_raspberry_2" : GetParam();
   EXPECT_NE(lab.log("lab_control").find(name), std::string::npos) << lab.log("lab_control");
-  EXPECT_THAT(lab.still_running_after(30s), testing::IsEmpty());
+  EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Absence,
@@ -150,7 +150,7 @@ TEST(Interruption, OfLabControlEndsEveryProcessCleanly) {
     lab.start_all();
     ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
     lab["lab_control"].send(signal);
-    EXPECT_THAT(lab.still_running_after(30s), testing::IsEmpty());
+    EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
     for (const std::string& name : lab.names()) {
       EXPECT_EQ(lab[name].wait_for(0ms), name == "lab_control" ? 130 : 0) << name << lab.log(name);
     }
@@ -163,7 +163,7 @@ TEST(Interruption, OfOneProcessEndsItCleanly) {
   ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
   for (const char* name : {"high_level_controller_1", "middleware_2", "vehicle_3"}) {
     lab[name].send(SIGTERM);
-    EXPECT_EQ(lab[name].wait_for(30s), 0) << name << lab.log(name);
+    EXPECT_EQ(lab[name].wait_for(60s), 0) << name << lab.log(name);
   }
 }
 
