@@ -349,6 +349,7 @@ void Controller::look_at_lanes() {
     path_s_m_ = placement.s_m;
     joining_ = join(
         route(), placement, step_.traffic.next_pose,
+        reachable_->max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0),
         [this](const Corridor& corridor) { return problem_alone(corridor); }, *planner_);
     sets_out_ = false;
   }
