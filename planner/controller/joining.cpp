@@ -35,17 +35,20 @@ double led_m(const SearchResult& found, const Pose& start) {
 
 /// The plan drives off and its last maneuver lies in the lanes.
 bool leads_in(const SearchResult& found, const Pose& start, double drives_off_m,
-              std::span<const Segment> lanes_m) {
+              std::span<const Segment> lanes_m, const DrivableRoute& route,
+              const Footprint& footprint) {
   if (led_m(found, start) < std::max(drives_off_m, kMoves_m)) return false;
   const std::size_t n = found.maneuvers.size();
   const Pose& before = n > 1 ? found.poses[n - 2] : start;
-  return !crosses(*found.maneuvers.back(), before, lanes_m);
+  return !crosses(*found.maneuvers.back(), before, lanes_m) &&
+         lies_inside(route, found.poses.back(), footprint);
 }
 
 }  // namespace
 
 Joining join(const DrivableRoute& route, const Placement& placement, const Pose& start,
-             double reach_m, const std::function<HorizonProblem(const Corridor&)>& pose_problem,
+             double reach_m, const Footprint& footprint,
+             const std::function<HorizonProblem(const Corridor&)>& pose_problem,
              HorizonPlanner& planner) {
   if (route.corridor.bounds().empty()) return {};
   const HorizonProblem in_lanes = pose_problem(route.corridor);
@@ -53,7 +56,7 @@ Joining join(const DrivableRoute& route, const Placement& placement, const Pose&
   bool moves_in_lanes = false;
   if (placement.beyond_m() <= 0.0) {
     const SearchResult found = planner.plan(in_lanes);
-    if (leads_in(found, start, drives_off_m, in_lanes.boundary_m)) return {};
+    if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) return {};
     moves_in_lanes = led_m(found, start) >= kMoves_m;
   }
   for (const double extra_m : kExtra_m) {
@@ -64,11 +67,16 @@ Joining join(const DrivableRoute& route, const Placement& placement, const Pose&
                                     .to_s_m = placement.s_m + kJoiningAhead_m,
                                     .left_m = by(placement.beyond_left_m),
                                     .right_m = by(placement.beyond_right_m)});
-    if (leads_in(planner.plan(pose_problem(area)), start, drives_off_m, in_lanes.boundary_m)) {
+    if (leads_in(planner.plan(pose_problem(area)), start, drives_off_m, in_lanes.boundary_m, route,
+                 footprint)) {
       return {.is_possible = true, .area = std::move(area)};
     }
   }
   return {.is_possible = moves_in_lanes, .area = std::nullopt};
+}
+
+bool lies_inside(const DrivableRoute& route, const Pose& pose, const Footprint& footprint) {
+  return placement_on(route, pose, footprint).beyond_m() < footprint.width_m / 2.0;
 }
 
 bool keeps_to(const Plan& plan, StepIndex from, std::span<const Segment> boundary_m) {

@@ -43,9 +43,14 @@ inline constexpr double kJoiningAhead_m = 0.8;
 /// @param reach_m       the farthest that can be driven in the horizon from there
 /// @param pose_problem  the search problem from there in a corridor, without other vehicles
 [[nodiscard]] Joining join(const DrivableRoute& route, const Placement& placement,
-                           const Pose& start, double reach_m,
+                           const Pose& start, double reach_m, const Footprint& footprint,
                            const std::function<HorizonProblem(const Corridor&)>& pose_problem,
                            HorizonPlanner& planner);
+
+/// Of a footprint that crosses no bound: whether it lies in the lanes. It may stand wholly beside
+/// them, too, farther beyond than it is wide.
+[[nodiscard]] bool lies_inside(const DrivableRoute& route, const Pose& pose,
+                               const Footprint& footprint);
 
 /// True if the plan's footprints from t(from) on cross none of the boundary's pieces.
 [[nodiscard]] bool keeps_to(const Plan& plan, StepIndex from, std::span<const Segment> boundary_m);
