@@ -8,22 +8,13 @@
 #include <set>
 #include <sstream>
 
-#include "hlc_bridge/core/run_description.hpp"
-#include "hlc_bridge/record/drive_file.hpp"
-#include "tests/integration/driven_plan.hpp"
+#include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"
 
 namespace hlc::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-Drives drives_of(const LabProcesses& lab) { return read_drives(lab.folder(), {1, 2, 3}); }
-
-std::size_t num_collisions(const LabProcesses& lab, const std::set<std::uint8_t>& ended = {}) {
-  const auto vehicles = describe(lab.scenario(), std::nullopt).vehicles;
-  return driven_encounters(vehicles, drives_of(lab), ended).collisions;
-}
 
 /// The vehicle stood when the stop symbol came: so the plan stopped it, not the braking. It brakes
 /// for the last SimulatedVehicle::kBrakingTicks rows, whatever the time.
@@ -79,7 +70,7 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
   if (death.signal == SIGSTOP) lab[death.victim].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
 
-  const Drives drives = drives_of(lab);
+  const Drives drives = lab.drives();
   ASSERT_EQ(drives.size(), 3U);
   for (const auto& [number, drive] : drives) {
     const std::string id = std::to_string(number);
@@ -90,8 +81,7 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
         << "vehicle " << survivor;
   }
   const bool is_vehicle = death.victim == "vehicle_2";
-  EXPECT_EQ(num_collisions(lab, is_vehicle ? std::set<std::uint8_t>{2} : std::set<std::uint8_t>{}),
-            0U);
+  expect_nobody_was_touched(lab, is_vehicle ? std::set<std::uint8_t>{2} : std::set<std::uint8_t>{});
   EXPECT_GT(count_lines(lab.folder() / "reports.csv"), 30U) << "results so far are kept";
 }
 
@@ -117,9 +107,9 @@ TEST_P(LabControlDeath, EndsEveryProcess) {
   ASSERT_TRUE(eventually(60s, [&] { return count_lines(lab.folder() / "reports.csv") > 45; }));
   lab["lab_control"].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
-  EXPECT_EQ(num_collisions(lab), 0U);
+  expect_nobody_was_touched(lab);
   if (GetParam()) return;  // without the lab control logical time stands still, and so do the cars
-  for (const auto& [id, drive] : drives_of(lab)) {
+  for (const auto& [id, drive] : lab.drives()) {
     ASSERT_FALSE(drive.empty());
     EXPECT_LT(std::abs(drive.back().speed_mps), 0.05);
   }
