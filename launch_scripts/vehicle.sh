@@ -133,13 +133,13 @@ controller=("${choices[@]}")
 # Of two that command one car the car would follow now the one, now the other.
 if [[ -n $only ]]; then
   case "$only" in
-    hlc) former=high_level_controller_$id ;;
-    *) former=${only}_$id ;;
+    hlc) process=high_level_controller_$id ;;
+    *) process=${only}_$id ;;
   esac
-  pid=$(awk -v name="$former" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_$id.pids" 2>/dev/null)
-  program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)")
+  pid=$(awk -v name="$process" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_$id.pids" 2>/dev/null)
+  program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)" " (deleted)") # built anew meanwhile
   [[ ! $program =~ ^(vehicle_sim|middleware|high_level_controller)$ ]] ||
-    fail "--only = $only: $former still runs, end it first: kill -9 $pid"
+    fail "--only = $only: $process still runs, end it first: kill -9 $pid"
 fi
 
 scenario=$(realpath "$scenario") bin=$(realpath "$bin")

@@ -338,17 +338,18 @@ HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
 void Controller::look_at_lanes() {
   const StepIndex next{step_.observation.step.value + 1};
   const Plan& base = in_force_->base();
+  const Footprint& footprint = subgraph_->automaton().vehicle.footprint;
   const auto lies_in_lanes = [&] {
-    return keeps_to(base, next, problem_alone(route().corridor).boundary_m);
+    return keeps_to(base, next, problem_alone(route().corridor).boundary_m) &&
+           lies_inside(route(), base.pose_at(std::max(base.end(), next)), footprint);
   };
   const bool stands = base.end() <= next;
   if (stands && (sets_out_ || (joining_.is_possible && !joining_.area && !lies_in_lanes()))) {
-    const UniversalAutomaton& automaton = subgraph_->automaton();
-    const Placement placement =
-        placement_on(route(), step_.traffic.next_pose, automaton.vehicle.footprint);
+    const Placement placement = placement_on(route(), step_.traffic.next_pose, footprint);
     path_s_m_ = placement.s_m;
     joining_ = join(
         route(), placement, step_.traffic.next_pose,
+        reachable_->max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0), footprint,
         [this](const Corridor& corridor) { return problem_alone(corridor); }, *planner_);
     sets_out_ = false;
   }

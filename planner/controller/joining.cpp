@@ -9,8 +9,10 @@ namespace {
 constexpr std::array kExtra_m{0.0, 0.025, 0.05, 0.075, 0.1};
 /// The area holds the footprint with this to spare.
 constexpr double kReserve_m = 0.001;
-/// A plan drives off if it leads at least so far.
-constexpr double kDrivesOff_m = 0.05;
+/// A plan that leads less far, of what is wanted and can be driven, ends where nothing leads on.
+constexpr double kDrivesOff = 0.3;
+/// It moves if it leads at least so far.
+constexpr double kMoves_m = 0.05;
 
 bool crosses(const Maneuver& maneuver, const Pose& start, std::span<const Segment> boundary_m) {
   const ConvexPolygon area = transformed(maneuver.lane_area_m, start);
@@ -18,24 +20,45 @@ bool crosses(const Maneuver& maneuver, const Pose& start, std::span<const Segmen
                              [&area](const Segment& piece) { return intersects(area, piece); });
 }
 
+double length_m(std::span<const Point> points_m) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    length_m += (points_m[i] - points_m[i - 1]).norm();
+  }
+  return length_m;
+}
+
+double led_m(const SearchResult& found, const Pose& start) {
+  if (found.status == SearchStatus::kFallback) return 0.0;
+  return (found.poses.back().position_m() - start.position_m()).norm();
+}
+
 /// The plan drives off and its last maneuver lies in the lanes.
-bool leads_in(const SearchResult& found, const Pose& start, std::span<const Segment> lanes_m) {
-  if (found.status == SearchStatus::kFallback) return false;
+bool leads_in(const SearchResult& found, const Pose& start, double drives_off_m,
+              std::span<const Segment> lanes_m, const DrivableRoute& route,
+              const Footprint& footprint) {
+  if (led_m(found, start) < std::max(drives_off_m, kMoves_m)) return false;
   const std::size_t n = found.maneuvers.size();
   const Pose& before = n > 1 ? found.poses[n - 2] : start;
-  const double driven_m = (found.poses.back().position_m() - start.position_m()).norm();
-  return driven_m >= kDrivesOff_m && !crosses(*found.maneuvers.back(), before, lanes_m);
+  return !crosses(*found.maneuvers.back(), before, lanes_m) &&
+         lies_inside(route, found.poses.back(), footprint);
 }
 
 }  // namespace
 
 Joining join(const DrivableRoute& route, const Placement& placement, const Pose& start,
+             double reach_m, const Footprint& footprint,
              const std::function<HorizonProblem(const Corridor&)>& pose_problem,
              HorizonPlanner& planner) {
   if (route.corridor.bounds().empty()) return {};
-  const bool is_in_lanes = placement.beyond_m() <= 0.0;
   const HorizonProblem in_lanes = pose_problem(route.corridor);
-  if (is_in_lanes && leads_in(planner.plan(in_lanes), start, in_lanes.boundary_m)) return {};
+  const double drives_off_m = kDrivesOff * std::min(length_m(in_lanes.reference_m), reach_m);
+  bool moves_in_lanes = false;
+  if (placement.beyond_m() <= 0.0) {
+    const SearchResult found = planner.plan(in_lanes);
+    if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) return {};
+    moves_in_lanes = led_m(found, start) >= kMoves_m;
+  }
   for (const double extra_m : kExtra_m) {
     const auto by = [extra_m](double beyond_m) {
       return std::max(0.0, beyond_m + kReserve_m) + extra_m;
@@ -44,11 +67,16 @@ Joining join(const DrivableRoute& route, const Placement& placement, const Pose&
                                     .to_s_m = placement.s_m + kJoiningAhead_m,
                                     .left_m = by(placement.beyond_left_m),
                                     .right_m = by(placement.beyond_right_m)});
-    if (leads_in(planner.plan(pose_problem(area)), start, in_lanes.boundary_m)) {
+    if (leads_in(planner.plan(pose_problem(area)), start, drives_off_m, in_lanes.boundary_m, route,
+                 footprint)) {
       return {.is_possible = true, .area = std::move(area)};
     }
   }
-  return {.is_possible = is_in_lanes, .area = std::nullopt};
+  return {.is_possible = moves_in_lanes, .area = std::nullopt};
+}
+
+bool lies_inside(const DrivableRoute& route, const Pose& pose, const Footprint& footprint) {
+  return placement_on(route, pose, footprint).beyond_m() < footprint.width_m / 2.0;
 }
 
 bool keeps_to(const Plan& plan, StepIndex from, std::span<const Segment> boundary_m) {

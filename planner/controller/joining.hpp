@@ -19,11 +19,13 @@ namespace hlc {
 ///
 ///     max(0, how far the footprint reaches beyond that side now) + e,
 ///
-/// with the smallest e of 0, 25, 50, 75 and 100 mm for which a plan exists that, without any other
-/// vehicle, drives off and ends with its footprint in the lanes. (Its front goes farther out while
-/// a vehicle that points outwards turns back.) If there is none for any e, the automaton cannot get
-/// from beside the lanes onto the route: the vehicle stays where it is. In its lanes it has the
-/// plain corridor then.
+/// with the smallest e of 0, 25, 50, 75 and 100 mm for which the best plan, without any other
+/// vehicle, drives off and ends with its footprint in the lanes. It drives off if it leads as far
+/// as 0.3 of the reference's length over the horizon, or of what can be driven if that is less: a
+/// shorter one ends where nothing leads on. (The front goes farther out while a vehicle that points
+/// outwards turns back.) If there is none for any e, the automaton cannot get from there onto the
+/// route: the vehicle stays where it is, as at the edge of the map with the front towards it. If it
+/// can move in its lanes it has the plain corridor then.
 ///
 /// The area is fixed when the vehicle sets out, and is as hard a constraint as the corridor, so
 /// every plan in it can be driven to its end. It is given up for the plain corridor as soon as the
@@ -38,11 +40,17 @@ inline constexpr double kJoiningBack_m = 0.5;
 inline constexpr double kJoiningAhead_m = 0.8;
 
 /// @param start         standing; its `placement` on the route
+/// @param reach_m       the farthest that can be driven in the horizon from there
 /// @param pose_problem  the search problem from there in a corridor, without other vehicles
 [[nodiscard]] Joining join(const DrivableRoute& route, const Placement& placement,
-                           const Pose& start,
+                           const Pose& start, double reach_m, const Footprint& footprint,
                            const std::function<HorizonProblem(const Corridor&)>& pose_problem,
                            HorizonPlanner& planner);
+
+/// Of a footprint that crosses no bound: whether it lies in the lanes. It may stand wholly beside
+/// them, too, farther beyond than it is wide.
+[[nodiscard]] bool lies_inside(const DrivableRoute& route, const Pose& pose,
+                               const Footprint& footprint);
 
 /// True if the plan's footprints from t(from) on cross none of the boundary's pieces.
 [[nodiscard]] bool keeps_to(const Plan& plan, StepIndex from, std::span<const Segment> boundary_m);

@@ -101,13 +101,19 @@ TEST(RecordedCommands, AreReadAsTheyWereWrittenWithoutAnUnfinishedLastLine) {
   std::FILE* file = std::fopen((folder / "commands").c_str(), "w");
   ASSERT_NE(file, nullptr);
   append(first, *file);
-  append(straight(0.1, 7), *file);  // the copy
-  append({.vehicle_id = 2, .create_stamp = 9}, *file);
-  std::fputs("3 11 5 0.1", file);
+  TrajectoryCommand copy = first;
+  copy.valid_after_stamp = 800;
+  append(copy, *file);
+  append({.vehicle_id = 2, .create_stamp = 9, .valid_after_stamp = 9}, *file);
+  std::fputs("3 11 11 5 0.1", file);
   std::fclose(file);
   const Commands commands = read_commands(folder / "commands");
   ASSERT_EQ(commands.size(), 2U);
   EXPECT_TRUE(commands.at({2, 9}).points.empty());
+  EXPECT_EQ(commands.at({1, 7}).valid_after_stamp, 800U);
+  EXPECT_TRUE(is_newest_sent_whole(commands, 1));
+  EXPECT_FALSE(is_newest_sent_whole(commands, 2));
+  EXPECT_FALSE(is_newest_sent_whole(commands, 3));
   const std::vector<TrajectoryPoint>& points = commands.at({1, 7}).points;
   ASSERT_EQ(points.size(), first.points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

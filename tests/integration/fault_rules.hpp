@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/core/run_description.hpp"
 #include "tests/integration/driven_plan.hpp"
+#include "tests/integration/run_processes.hpp"
 
 /// What the system promises of every car that a fault affects, as tests ask for it.
 namespace hlc::test {
@@ -30,6 +34,21 @@ inline void expect_stands_in_time(const Drive& drive, std::uint8_t vehicle, Nano
   const auto since = standing_since(drive, drive.back().t);
   ASSERT_TRUE(since) << "vehicle " << int{vehicle} << " drives at the end";
   EXPECT_LE(*since, fault + kStandingTime) << "vehicle " << int{vehicle};
+}
+
+/// No driven footprints touch, of cars that have all been seen. @param ended  see driven_encounters
+inline void expect_nobody_was_touched(const RunProcesses& run,
+                                      const std::set<std::uint8_t>& ended = {}) {
+  const auto vehicles = describe(run.scenario(), std::nullopt).vehicles;
+  const Drives drives = run.drives();
+  for (const VehicleDescription& vehicle : vehicles) {
+    const auto drive = drives.find(vehicle.id.value);
+    ASSERT_TRUE(drive != drives.end() && !drive->second.empty())
+        << "vehicle " << int{vehicle.id.value} << " has no record";
+  }
+  const Encounters close = driven_encounters(vehicles, drives, ended);
+  ASSERT_TRUE(close.min_distance_m) << "no two vehicles were seen at one time";
+  EXPECT_EQ(close.collisions, 0U);
 }
 
 }  // namespace hlc::test

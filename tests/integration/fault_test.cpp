@@ -1,5 +1,6 @@
 // A process of a real-time run is killed or stopped while its car is coupled with others: what all
-// cars drove then, by their own records, is held against the plans that were agreed.
+// cars drove then, by their own records, is held against the plans that were agreed. In the paper's
+// run, where nothing leaves the machine, and as in the lab: its transport, automaton and commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,9 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
-#include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"
@@ -26,11 +25,24 @@ using namespace std::chrono_literals;
 constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr double kCarWidth_m = 0.107;
 
+struct Setting {
+  std::string name;
+  std::string scenario;
+  std::string transport;
+};
+
+const Setting kPaper{"paper", "paper_three_cars", "loopback"};
+const Setting kLab{"lab", "lab_three_cars", "lab"};
+
 /// The three cars of the paper, driving; all in real time.
 class FaultyRun {
  public:
-  explicit FaultyRun(int steps = 400)
-      : lab({.steps = steps, .simulated_time = false, .records_commands = true}) {
+  explicit FaultyRun(const Setting& setting = kPaper)
+      : lab({.scenario = setting.scenario,
+             .steps = 400,
+             .simulated_time = false,
+             .transport = setting.transport,
+             .records_commands = true}) {
     lab.start_all();
   }
 
@@ -38,7 +50,7 @@ class FaultyRun {
   /// enough to be affected. False if that never comes.
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     return eventually(120s, [&] {
-      const std::vector<ReportRecord> so_far = reports_so_far(lab.folder());
+      const std::vector<ReportRecord> so_far = lab.reports();
       const std::optional<Report> own = last_report(so_far, victim);
       if (planned_steps(so_far, victim) < 10 || !own) return false;
       return std::ranges::any_of(own->coupled, [&](VehicleId other) {
@@ -48,18 +60,23 @@ class FaultyRun {
     });
   }
 
+  /// Not between a command and its copy: who dies there leaves a car that cannot know the rest.
   void strike(VehicleId victim, const std::string& process, int signal) {
     victim_ = victim;
+    EXPECT_TRUE(
+        eventually(60s, [&] { return is_newest_sent_whole(lab.commands(), victim.value); }));
     lab[process].send(signal);
     fault = real_time_now();
   }
 
-  /// To be called when the run has ended, before anything is asked of the records.
+  /// To be called when the run has ended, before anything is asked of the records. In no run was
+  /// anybody touched.
   void read() {
-    drives = read_drives(lab.folder(), {1, 2, 3});
-    commands = read_commands(lab.commands_file());
-    records = reports_so_far(lab.folder());
+    drives = lab.drives();
+    commands = lab.commands();
+    records = lab.reports();
     ASSERT_EQ(drives.size(), 3U);
+    expect_nobody_was_touched(lab);
   }
 
   /// The car whose own process is struck has nobody who could plan anything new.
@@ -74,10 +91,12 @@ class FaultyRun {
   /// they drive only their last plans, and stand in time unless they get out of its reach. What
   /// they plan anew keeps clear of all that the silent car could do.
   void expect_others_keep_clear(Nanoseconds to) const {
+    std::size_t judged = 0;
     for (const auto& [id, drive] : drives) {
       if (id == victim_.value) continue;
       SCOPED_TRACE("vehicle " + std::to_string(id));
       const std::optional<StepIndex> fell_back = first_step(id, false);
+      ASSERT_TRUE(fell_back || first_step(id, true)) << "it never missed the silent one";
       if (!fell_back) continue;
       const std::optional<StepIndex> planned_again = first_step(id, true, *fell_back);
       // What is planned in a step is driven from the next one on.
@@ -86,18 +105,15 @@ class FaultyRun {
       if (fell_back->value * kPeriod > fault + kReactionTime) continue;  // came near later
       if (until > fault + kReactionTime) {
         expect_only_the_last_plan(drive, commands, id, fault, until);
+        ++judged;
       }
       if (until > fault + kStandingTime && to == kForEver) {
         const auto since = standing_since(drive, fault + kStandingTime + kVehiclePeriod);
         EXPECT_TRUE(since && *since <= fault + kStandingTime);
       }
     }
-    expect_new_plans_keep_clear();
-  }
-
-  void expect_nobody_was_touched() const {
-    const auto vehicles = describe(lab.scenario(), std::nullopt).vehicles;
-    EXPECT_EQ(driven_encounters(vehicles, drives).collisions, 0U);
+    judged += expect_new_plans_keep_clear();
+    EXPECT_GT(judged, 0U) << "nobody drove out its plan, and nobody planned anew";
   }
 
   LabProcesses lab;
@@ -132,7 +148,9 @@ class FaultyRun {
   /// Of every plan that was agreed while the silent car was missing, j steps ahead: it is farther
   /// from where that car was seen than that car, driving at its top speed, can have come. Not once
   /// it has stood for so long that it counts as an obstacle (missing.hpp).
-  void expect_new_plans_keep_clear() const {
+  /// @return how many plans there were
+  [[nodiscard]] std::size_t expect_new_plans_keep_clear() const {
+    std::size_t num_plans = 0;
     constexpr Nanoseconds kStandsForGood = 2'000'000'000;
     const double top_speed_mps = top_speed_of(lab.scenario());
     for (const ReportRecord& record : records) {
@@ -145,15 +163,20 @@ class FaultyRun {
       if (!seen || command == commands.end() || (stands && *stands + kStandsForGood < now)) {
         continue;
       }
+      ++num_plans;
       for (std::uint64_t j = 1; j <= lab.scenario().horizon_steps; ++j) {
         const auto planned = sample(command->second.points, now + j * kPeriod);
-        ASSERT_TRUE(planned);
+        if (!planned) {
+          ADD_FAILURE() << "the command of step " << report.step.value << " ends before its plan";
+          break;
+        }
         const double reach_m = top_speed_mps * 1e-9 * static_cast<double>(j * kPeriod);
         EXPECT_GT((planned->position_m - seen->position_m()).norm(), reach_m + kCarWidth_m)
             << "vehicle " << int{report.vehicle.value} << ", step " << report.step.value << " + "
             << j;
       }
     }
+    return num_plans;
   }
 
   static double top_speed_of(const Scenario& scenario) {
@@ -169,6 +192,7 @@ class FaultyRun {
 
 struct Fault {
   std::string name;
+  Setting setting;
   VehicleId victim;
   std::string process;
   int signal;
@@ -178,7 +202,7 @@ class LastingFault : public testing::TestWithParam<Fault> {};
 
 TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) {
   const Fault& fault = GetParam();
-  FaultyRun run;
+  FaultyRun run(fault.setting);
   ASSERT_TRUE(run.drives_near_another(fault.victim)) << run.lab.log("lab_control");
   run.strike(fault.victim, fault.process, fault.signal);
   EXPECT_EQ(run.lab["lab_control"].wait_for(60s), 4) << run.lab.log("lab_control");
@@ -186,20 +210,25 @@ TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) 
   EXPECT_THAT(run.lab.still_running_after(60s), testing::IsEmpty());
 
   run.read();
+  if (!is_newest_sent_whole(run.commands, fault.victim.value)) {
+    GTEST_SKIP() << "on a busy machine the fault came between a command and its copy";
+  }
   run.expect_victim_drives_only_its_last_plan(kForEver);
   run.expect_victim_stands();
   run.expect_others_keep_clear(kForEver);
-  run.expect_nobody_was_touched();
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, LastingFault,
-    testing::Values(Fault{"controller_killed", {2}, "high_level_controller_2", SIGKILL},
-                    Fault{"controller_stopped", {2}, "high_level_controller_2", SIGSTOP},
-                    Fault{"middleware_killed", {2}, "middleware_2", SIGKILL},
-                    Fault{"middleware_stopped", {2}, "middleware_2", SIGSTOP},
-                    Fault{"predecessor_killed", {1}, "high_level_controller_1", SIGKILL}),
-    [](const auto& one) { return one.param.name; });
+    testing::Values(Fault{"controller_killed", kPaper, {2}, "high_level_controller_2", SIGKILL},
+                    Fault{"controller_stopped", kPaper, {2}, "high_level_controller_2", SIGSTOP},
+                    Fault{"middleware_killed", kPaper, {2}, "middleware_2", SIGKILL},
+                    Fault{"middleware_stopped", kPaper, {2}, "middleware_2", SIGSTOP},
+                    Fault{"predecessor_killed", kPaper, {1}, "high_level_controller_1", SIGKILL},
+                    Fault{"controller_killed", kLab, {2}, "high_level_controller_2", SIGKILL},
+                    Fault{"controller_stopped", kLab, {2}, "high_level_controller_2", SIGSTOP},
+                    Fault{"middleware_killed", kLab, {2}, "middleware_2", SIGKILL}),
+    [](const auto& one) { return one.param.name + "_" + one.param.setting.name; });
 
 // Short enough for nobody to take it for dead: planning goes on when it is heard again.
 TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
@@ -209,7 +238,7 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   ASSERT_TRUE(run.drives_near_another(kVictim)) << run.lab.log("lab_control");
   run.strike(kVictim, "high_level_controller_2", SIGSTOP);
   const auto is_missed = [&] {
-    const std::optional<Report> last = last_report(reports_so_far(run.lab.folder()), {1});
+    const std::optional<Report> last = last_report(run.lab.reports(), {1});
     return last && is_among(kVictim, last->missing) &&
            real_time_now() > run.fault + 2 * kReactionTime;
   };
@@ -219,7 +248,7 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   ASSERT_TRUE(was_missed);
   const StepIndex after{goes_on / kPeriod + 1};
   const bool drives_on = eventually(60s, [&] {
-    return planned_steps(reports_so_far(run.lab.folder()), kVictim, after) >= 5 ||
+    return planned_steps(run.lab.reports(), kVictim, after) >= 5 ||
            run.lab["lab_control"].wait_for(0ms);
   });
   run.lab["lab_control"].send(SIGINT);
@@ -228,11 +257,12 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   run.read();
   run.expect_victim_drives_only_its_last_plan(goes_on);
   run.expect_others_keep_clear(goes_on);
-  if (goes_on < run.fault + kNotYetDead) {  // else a busy machine made it last too long
-    EXPECT_TRUE(drives_on);
-    EXPECT_GE(planned_steps(run.records, kVictim, after), 5U) << run.lab.log("lab_control");
+  if (goes_on >= run.fault + kNotYetDead) {
+    GTEST_SKIP() << "a busy machine made the stop last " << goes_on - run.fault
+                 << " ns: too long to be heard again";
   }
-  run.expect_nobody_was_touched();
+  EXPECT_TRUE(drives_on);
+  EXPECT_GE(planned_steps(run.records, kVictim, after), 5U) << run.lab.log("lab_control");
 }
 
 // Everybody has taken it for dead and drives out; it wakes up with messages of long ago.
@@ -242,7 +272,7 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
   ASSERT_TRUE(run.drives_near_another(kVictim)) << run.lab.log("lab_control");
   run.strike(kVictim, "high_level_controller_2", SIGSTOP);
   const bool was_dead = eventually(60s, [&] {
-    const std::optional<Report> last = last_report(reports_so_far(run.lab.folder()), {1});
+    const std::optional<Report> last = last_report(run.lab.reports(), {1});
     return last && last->status == StepStatus::kDriveOut &&
            real_time_now() > run.fault + kStandingTime;
   });
@@ -255,7 +285,6 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
   run.read();
   run.expect_victim_drives_only_its_last_plan(goes_on);
   run.expect_others_keep_clear(goes_on);
-  run.expect_nobody_was_touched();
 }
 
 }  // namespace

@@ -1,21 +1,16 @@
 #include "tests/integration/lab_network.hpp"
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
-#include <stdexcept>
-
-#include "hlc_bridge/record/drive_file.hpp"
-#include "tests/integration/run_reports.hpp"
 
 namespace hlc::test {
 namespace {
 
 const std::string kPrograms = HLC_BINARY_DIR "/bin/";
 const std::string kScripts = HLC_SOURCE_DIR "/launch_scripts/";
+const std::string kScenario = kScripts + "scenarios/lab_three_cars.yaml";
 
 bool succeeds(const std::string& command) {
   return std::system((command + " > /dev/null 2>&1").c_str()) == 0;
@@ -32,12 +27,6 @@ std::string peers_of(int machine) {
     addresses += (addresses.empty() ? "" : ",") + Network::address(other);
   }
   return " --controller_peers=" + addresses;
-}
-
-std::filesystem::path new_network_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "hlc_network_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
-  return name;
 }
 
 }  // namespace
@@ -87,7 +76,7 @@ bool Network::add_machine(int i, bool multicast) const {
 
 LabOverNetwork::LabOverNetwork(const Network& network, int steps, const std::string& discovery,
                                bool names_peers)
-    : folder_(new_network_folder()) {
+    : RunProcesses({.file = kScenario}) {
   const auto run = [&](int machine, const std::string& program, const std::string& flags,
                        const std::filesystem::path& out) {
     std::string command = program + flags + discovery;
@@ -99,51 +88,17 @@ LabOverNetwork::LabOverNetwork(const Network& network, int steps, const std::str
     const std::string id = std::to_string(i);
     std::string flags = " --id " + id;
     flags += " --bin " + kPrograms;
-    flags += " --scenario " + scenario_file();
+    flags += " --scenario " + kScenario;
     if (names_peers) flags += peers_of(i);
-    start("vehicle_" + id, run(i, kScripts + "vehicle.sh", flags, folder_));
-    start("recorder_" + id, run(i, kPrograms + "command_recorder", " --vehicle_ids=" + id,
-                                folder_ / ("commands_" + id + ".txt")));
+    start("machine_" + id, run(i, kScripts + "vehicle.sh", flags, folder()));
+    const std::string recorder = "recorder_" + id;
+    start(recorder,
+          run(i, kPrograms + "command_recorder", " --vehicle_ids=" + id, commands_file(recorder)));
   }
   constexpr int kLast = Network::kMachines;
   std::string flags = " --vehicle_ids=1,2,3 --steps=" + std::to_string(steps);
   if (names_peers) flags += peers_of(kLast);
-  start("lab_control", run(kLast, kPrograms + "lab_control", flags, folder_));
+  start("lab_control", run(kLast, kPrograms + "lab_control", flags, folder()));
 }
-
-LabOverNetwork::~LabOverNetwork() {
-  processes_.clear();
-  if (!keeps_folder_ && !testing::Test::HasFailure()) {
-    std::filesystem::remove_all(folder_);
-  } else {
-    std::cerr << "the run's files are in " << folder_ << '\n';
-  }
-}
-
-void LabOverNetwork::start(const std::string& name, const std::vector<std::string>& command) {
-  processes_.emplace(name, ChildProcess(command, folder_ / name));
-}
-
-std::vector<std::string> LabOverNetwork::still_running_after(std::chrono::seconds time) {
-  return still_running(processes_, time);
-}
-
-std::vector<ReportRecord> LabOverNetwork::reports() const { return reports_so_far(folder_); }
-
-std::string LabOverNetwork::output(const std::string& name) const {
-  return name + ": " + read_text(folder_ / name);
-}
-
-Drives LabOverNetwork::drives() const { return read_drives(folder_, {1, 2, 3}); }
-
-Commands LabOverNetwork::commands() const {
-  Commands all;
-  for (int i = 1; i <= Network::kVehicles; ++i) {
-    all.merge(read_commands(folder_ / ("commands_" + std::to_string(i) + ".txt")));
-  }
-  return all;
-}
-
-std::string LabOverNetwork::scenario_file() { return kScripts + "scenarios/paper_three_cars.yaml"; }
 
 }  // namespace hlc::test

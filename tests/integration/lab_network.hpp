@@ -1,13 +1,9 @@
 #pragma once
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/run_record.hpp"
-#include "tests/integration/recorded_commands.hpp"
-#include "tests/support/child_process.hpp"
+#include "tests/integration/run_processes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
@@ -43,36 +39,15 @@ class Network {
   bool is_made_{};
 };
 
-/// Three cars over the network in real time, `vehicle.sh` on machines 1 to 3 and the lab control on
-/// the fourth. Processes: vehicle_1, ..., lab_control; beside each vehicle a recorder of the
-/// commands that reach it.
-class LabOverNetwork {
+/// The lab's three cars over the network in real time, `vehicle.sh` on machines 1 to 3 and the lab
+/// control on the fourth. Processes: machine_1, ..., lab_control; beside each vehicle a recorder of
+/// the commands that reach it.
+class LabOverNetwork : public RunProcesses {
  public:
   /// @param discovery    further flags of all processes
   /// @param names_peers  whether controllers are told the others' addresses
   LabOverNetwork(const Network& network, int steps, const std::string& discovery = "",
                  bool names_peers = false);
-  ~LabOverNetwork();
-
-  void keep_folder() { keeps_folder_ = true; }
-  [[nodiscard]] ChildProcess& operator[](const std::string& name) { return processes_.at(name); }
-  /// Waits for all. Names of those that still run at the deadline.
-  [[nodiscard]] std::vector<std::string> still_running_after(std::chrono::seconds time);
-
-  /// So far.
-  [[nodiscard]] std::vector<ReportRecord> reports() const;
-  [[nodiscard]] std::string output(const std::string& name) const;
-  [[nodiscard]] Drives drives() const;
-  [[nodiscard]] Commands commands() const;
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  [[nodiscard]] static std::string scenario_file();
-
- private:
-  void start(const std::string& name, const std::vector<std::string>& command);
-
-  std::filesystem::path folder_;
-  bool keeps_folder_{};
-  std::map<std::string, ChildProcess> processes_;
 };
 
 }  // namespace hlc::test

@@ -1,11 +1,9 @@
 #include "tests/integration/lab_processes.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <iostream>
-#include <iterator>
-#include <stdexcept>
+#include <cstdio>
+
+#include "tests/support/own_shared_memory.hpp"
 
 namespace hlc::test {
 namespace {
@@ -19,18 +17,14 @@ std::string number(double value) {
   return text;
 }
 
-std::filesystem::path new_folder() {
-  static int count = 0;
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      ("hlc_run_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-  std::filesystem::create_directories(folder / "logs");
-  return folder;
-}
-
-std::filesystem::path scenario_file(const std::string& scenario) {
-  if (scenario.ends_with(".yaml")) return scenario;
-  return std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" + scenario + ".yaml";
+ScenarioChoices choices_of(const LabOptions& options) {
+  ScenarioChoices choices{.file = options.scenario, .profile = options.profile};
+  if (!options.scenario.ends_with(".yaml")) {
+    choices.file =
+        std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" + options.scenario + ".yaml";
+  }
+  if (!options.map_file.empty()) choices.map_file = options.map_file;
+  return choices;
 }
 
 std::vector<std::string> scenario_flags(const ScenarioChoices& choices) {
@@ -43,12 +37,11 @@ std::vector<std::string> scenario_flags(const ScenarioChoices& choices) {
 }  // namespace
 
 LabProcesses::LabProcesses(const LabOptions& options)
-    : domains_(1 + kLargestVehicles),
-      folder_(new_folder()),
-      choices_{.file = scenario_file(options.scenario), .profile = options.profile} {
-  if (!options.map_file.empty()) choices_.map_file = options.map_file;
-  scenario_ = read_scenario(choices_);
-  const int lab = domains_.first();
+    : DomainReservation(1 + kLargestVehicles),
+      RunProcesses(choices_of(options)),
+      scenario_flags_(scenario_flags(choices_of(options))) {
+  if (options.transport == "lab") static_cast<void>(use_own_shared_memory());
+  const int lab = lab_domain();
   const auto common = [&](const std::string& program) {
     return std::vector<std::string>{
         kBin + program, "--dds_domain=" + std::to_string(lab), "--transport=" + options.transport,
@@ -63,16 +56,16 @@ LabProcesses::LabProcesses(const LabOptions& options)
     commands_[name] = std::move(command);
   };
   std::string ids;
-  for (const ScenarioVehicle& vehicle : scenario_.vehicles) {
+  for (const ScenarioVehicle& vehicle : scenario().vehicles) {
     const std::string id = std::to_string(vehicle.id.value);
     const std::string local = "--middleware_domain=" + std::to_string(lab + vehicle.id.value);
     ids += (ids.empty() ? "" : ",") + id;
-    const Pose pose = measured_start(scenario_, vehicle);
+    const Pose pose = measured_start(scenario(), vehicle);
     auto car = common("vehicle_sim");
     car.insert(car.end(), {"--vehicle_id=" + id,
                            "--pose=" + number(pose.x_m) + "," + number(pose.y_m) + "," +
                                number(pose.heading_rad),
-                           "--record=" + (folder_ / ("vehicle_" + id + ".csv")).string()});
+                           "--record=" + (folder() / ("vehicle_" + id + ".csv")).string()});
     if (options.noise_seed) {
       car.push_back("--noise_seed=" + std::to_string(*options.noise_seed + vehicle.id.value));
     }
@@ -82,25 +75,17 @@ LabProcesses::LabProcesses(const LabOptions& options)
     add("middleware_" + id, middleware, {});
     auto controller = common("high_level_controller");
     controller.insert(controller.end(), {"--vehicle_ids=" + id, local});
-    add("high_level_controller_" + id, controller, scenario_flags(choices_));
+    add("high_level_controller_" + id, controller, scenario_flags_);
   }
   auto lab_control = common("lab_control");
   lab_control.insert(lab_control.end(),
                      {"--vehicle_ids=" + ids, "--steps=" + std::to_string(options.steps),
-                      "--out=" + folder_.string()});
+                      "--out=" + folder().string()});
   add("lab_control", lab_control, options.lab_control_flags);
   if (options.records_commands) {
-    add("command_recorder", common("command_recorder"),
-        {"--vehicle_ids=" + ids, "--out=" + commands_file().string()});
-  }
-}
-
-LabProcesses::~LabProcesses() {
-  running_.clear();
-  if (!keeps_folder_ && !testing::Test::HasFailure()) {
-    std::filesystem::remove_all(folder_);
-  } else {
-    std::cerr << "the run's files are in " << folder_ << '\n';
+    const std::string recorder = "command_recorder";
+    add(recorder, common(recorder),
+        {"--vehicle_ids=" + ids, "--out=" + commands_file(recorder).string()});
   }
 }
 
@@ -110,32 +95,15 @@ std::vector<std::string> LabProcesses::names() const {
   return names;
 }
 
-void LabProcesses::start(const std::string& name) {
-  running_.emplace(name, ChildProcess(commands_.at(name), folder_ / "logs" / (name + ".log")));
-}
-
 void LabProcesses::start_all() {
   for (const std::string& name : names()) start(name);
 }
 
-void LabProcesses::start_again(const std::string& name) {
-  running_.erase(name);
-  start(name);
-}
-
-std::vector<std::string> LabProcesses::still_running_after(std::chrono::seconds time) {
-  return still_running(running_, time);
-}
-
 int LabProcesses::summarize() {
-  std::vector<std::string> command{kBin + "summarize", "--run=" + folder_.string()};
-  std::ranges::move(scenario_flags(choices_), std::back_inserter(command));
-  ChildProcess program(command, folder_ / "logs" / "summarize.log");
+  std::vector<std::string> command{kBin + "summarize", "--run=" + folder().string()};
+  command.insert(command.end(), scenario_flags_.begin(), scenario_flags_.end());
+  ChildProcess program(command, log_file("summarize"));
   return program.wait_for(std::chrono::seconds(60)).value_or(-1);
-}
-
-std::string LabProcesses::log(const std::string& name) const {
-  return read_text(folder_ / "logs" / (name + ".log"));
 }
 
 }  // namespace hlc::test

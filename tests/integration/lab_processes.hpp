@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "planner/scenario/scenario.hpp"
-#include "tests/support/child_process.hpp"
+#include "tests/integration/run_processes.hpp"
 #include "tests/support/domain_reservation.hpp"
 
 namespace hlc::test {
@@ -24,46 +22,29 @@ struct LabOptions {
   std::vector<std::string> lab_control_flags;  ///< further ones
   std::vector<std::string> absent;             ///< processes that are not started
   int startup_timeout_s{60};                   ///< of lab control; the others wait 10 s longer
-  std::string transport{"loopback"};
-  bool records_commands{};  ///< with a command_recorder, which ends by itself
+  std::string transport{"loopback"};           ///< or "lab": as root with a /dev/shm of their own
+  bool records_commands{};                     ///< with a command_recorder, which ends by itself
 };
 
 /// All processes of a run, started one by one in any order, each known by its name: lab_control,
-/// vehicle_1, middleware_1, high_level_controller_1, ... Own DDS domains, own folder.
-class LabProcesses {
+/// vehicle_1, middleware_1, high_level_controller_1, ... Own folder, and own DDS domains, which are
+/// free for others when all processes have ended.
+class LabProcesses : private DomainReservation, public RunProcesses {
  public:
   explicit LabProcesses(const LabOptions& options);
-  /// Keeps the run folder if the test has failed, or if `keep_folder` was called.
-  ~LabProcesses();
-  void keep_folder() { keeps_folder_ = true; }
 
   [[nodiscard]] std::vector<std::string> names() const;
-  void start(const std::string& name);
+  /// Also once more, after its end. Its log begins anew.
+  void start(const std::string& name) { RunProcesses::start(name, commands_.at(name)); }
   void start_all();
-  /// Once more, after its end. Its log begins anew.
-  void start_again(const std::string& name);
-
-  [[nodiscard]] ChildProcess& operator[](const std::string& name) { return running_.at(name); }
-  /// Waits for all that were started. Names of those that still run at the deadline.
-  [[nodiscard]] std::vector<std::string> still_running_after(std::chrono::seconds time);
   /// Exit code of summarize.
   int summarize();
 
-  [[nodiscard]] int lab_domain() const { return domains_.first(); }
-  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  [[nodiscard]] std::string log(const std::string& name) const;
-  /// Of the command_recorder.
-  [[nodiscard]] std::filesystem::path commands_file() const { return folder_ / "commands.txt"; }
+  [[nodiscard]] int lab_domain() const { return first(); }
 
  private:
   std::map<std::string, std::vector<std::string>> commands_;
-  DomainReservation domains_;
-  std::filesystem::path folder_;
-  ScenarioChoices choices_;
-  Scenario scenario_;
-  bool keeps_folder_{};
-  std::map<std::string, ChildProcess> running_;
+  std::vector<std::string> scenario_flags_;
 };
 
 }  // namespace hlc::test

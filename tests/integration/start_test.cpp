@@ -7,13 +7,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "hlc_bridge/core/encounters.hpp"
-#include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
-#include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
 #include "planner/coordination/missing.hpp"
+#include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"
+#include "tests/integration/run_reports.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
@@ -30,11 +30,6 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
     text.replace(at, from.size(), to);
   }
-}
-
-std::size_t count_lines(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
-  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
 double way_m(const Drive& drive) {
@@ -85,7 +80,7 @@ TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
   LabProcesses lab({.scenario = red_car("start_m: 1.0, start_left_m: 0.5"),
                     .steps = 10,
                     .simulated_time = false,
-                    .startup_timeout_s = 6});
+                    .startup_timeout_s = 12});
   lab.start_all();
   ASSERT_THAT(lab.still_running_after(60s), testing::IsEmpty());
   EXPECT_EQ(lab["lab_control"].wait_for(0ms), 3);
@@ -97,124 +92,120 @@ TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
   EXPECT_LT(way_m(read_drive(drive_file(lab.folder(), 1))), 1e-6);
 }
 
-/// A run in real time that goes on after a death.
-class Return : public testing::Test {
- protected:
-  static LabOptions options(const std::string& scenario, int steps) {
-    return {.scenario = scenario,
-            .steps = steps,
-            .simulated_time = false,
-            .lab_control_flags = {"--on_death=continue"}};
-  }
+struct Setting {
+  std::string name;
+  std::string scenario;
+  std::string transport;
+};
 
-  static void start(LabProcesses& lab) {
+/// A run in real time that goes on after a death, until it is interrupted.
+class ReturningRun {
+ public:
+  ReturningRun(const std::string& scenario, const std::string& transport)
+      : lab({.scenario = scenario,
+             .steps = 1000,
+             .simulated_time = false,
+             .lab_control_flags = {"--on_death=continue"},
+             .transport = transport}) {
     lab.start_all();
-    ASSERT_TRUE(eventually(60s, [&] { return count_lines(reports(lab)) > 75; }))
-        << lab.log("lab_control");
   }
 
-  /// Kills the controller, waits until its car has stopped, and starts it again.
-  static void kill_and_start_again(LabProcesses& lab, std::uint8_t id, Nanoseconds& killed) {
-    const std::string name = "high_level_controller_" + std::to_string(id);
-    killed = last(lab, id).t;
+  /// Kills the controller when its car has driven for a while, waits until its car has stopped,
+  /// starts it again, and waits until its car has driven on.
+  void kill_and_start_again(VehicleId id) {
+    const std::string name = "high_level_controller_" + std::to_string(id.value);
+    ASSERT_TRUE(eventually(kPatience, [&] { return planned_steps(lab.reports(), id) >= 20; }))
+        << lab.log("lab_control");
     lab[name].send(SIGKILL);
-    ASSERT_EQ(lab[name].wait_for(5s), 128 + SIGKILL);
-    ASSERT_TRUE(eventually(10s, [&] {
-      const DrivenSample now = last(lab, id);
+    ASSERT_EQ(lab[name].wait_for(kPatience), 128 + SIGKILL);
+    killed = real_time_now();
+    ASSERT_TRUE(eventually(kPatience, [&] {
+      const DrivenSample now = lab.drives().at(id.value).back();
       return now.t > killed + kNanosecondsPerSecond && std::abs(now.speed_mps) <= kStanding_mps;
     }));
-    ASSERT_TRUE(eventually(
-        10s, [&] { return lab.log("lab_control").find(name + " died") != std::string::npos; }));
-    lab.start_again(name);
+    ASSERT_TRUE(eventually(kPatience, [&] {
+      return lab.log("lab_control").find(name + " died") != std::string::npos;
+    }));
+    lab.start(name);
+    const Nanoseconds again = real_time_now();
+    EXPECT_TRUE(eventually(kPatience, [&] {
+      return way_m(between(lab.drives().at(id.value), again, kForEver)) > 1.0;
+    })) << lab.log(name);
+    driven_on = real_time_now();
   }
 
-  static void expect_good_end(LabProcesses& lab) {
-    EXPECT_THAT(lab.still_running_after(90s), testing::IsEmpty());
+  void expect_good_end() {
+    lab["lab_control"].send(SIGINT);
+    EXPECT_THAT(lab.still_running_after(kPatience), testing::IsEmpty());
     for (const std::string& name : lab.names()) {
-      EXPECT_EQ(lab[name].wait_for(0ms), 0) << name << ": " << lab.log(name);
+      EXPECT_EQ(lab[name].wait_for(0ms), name == "lab_control" ? 130 : 0)
+          << name << ": " << lab.log(name);
     }
     const auto facts = nlohmann::json::parse(read_text(lab.folder() / "run.json"));
-    EXPECT_EQ(facts["exit_code"], 0);
     EXPECT_EQ(facts["died"].size(), 1U);
-  }
-
-  static void expect_no_touch(const std::string& scenario_file, const Drives& drives) {
-    const RunDescription run = describe(read_scenario({.file = scenario_file}), {});
-    EXPECT_EQ(encounters(run.vehicles, drives, 0, ~Nanoseconds{0}).collisions, 0U);
-  }
-
-  static std::filesystem::path reports(const LabProcesses& lab) {
-    return lab.folder() / "reports.csv";
-  }
-
-  /// The newest complete row of the vehicle's own record.
-  static DrivenSample last(const LabProcesses& lab, std::uint8_t id) {
-    const std::filesystem::path file = drive_file(lab.folder(), id);
-    std::string text = read_text(file);
-    text.resize(text.rfind('\n') + 1);
-    const std::filesystem::path copy = lab.folder() / "so_far.csv";
-    put(copy, text);
-    return read_drive(copy).back();
+    expect_nobody_was_touched(lab);
   }
 
   /// Steps from the controller's first report after its return to the first with a new plan.
-  static std::uint64_t steps_until_it_plans(const LabProcesses& lab, std::uint8_t id,
-                                            Nanoseconds killed) {
+  [[nodiscard]] std::uint64_t steps_until_it_plans(VehicleId id) const {
     std::optional<std::uint64_t> first;
-    for (const ReportRecord& record : read_reports(reports(lab))) {
+    for (const ReportRecord& record : lab.reports()) {
       const Report& report = record.report;
-      if (report.vehicle.value != id || report.step.value <= killed / kPeriod + 2) continue;
+      if (report.vehicle != id || report.step.value * kPeriod <= killed) continue;
       first = first.value_or(report.step.value);
       if (report.status == StepStatus::kPlanned) return report.step.value - *first;
     }
     return ~std::uint64_t{0};
   }
 
-  static Drive after(const Drive& drive, Nanoseconds t) {
-    Drive rest;
-    std::ranges::copy_if(drive, std::back_inserter(rest),
-                         [t](const DrivenSample& sample) { return sample.t > t; });
-    return rest;
+  static Drive between(const Drive& drive, Nanoseconds from, Nanoseconds to) {
+    Drive part;
+    std::ranges::copy_if(drive, std::back_inserter(part), [&](const DrivenSample& sample) {
+      return sample.t > from && sample.t < to;
+    });
+    return part;
   }
+
+  LabProcesses lab;
+  Nanoseconds killed{};
+  Nanoseconds driven_on{};  ///< when the car had driven on
+
+ private:
+  static constexpr auto kPatience = 60s;
 };
 
-TEST_F(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
-  const std::string file = kScripts + "scenarios/paper_three_cars.yaml";
-  LabProcesses lab(options("paper_three_cars", 80));
-  start(lab);
-  Nanoseconds killed = 0;
-  kill_and_start_again(lab, 2, killed);
-  expect_good_end(lab);
-  const Drives drives = read_drives(lab.folder(), {1, 2, 3});
-  expect_no_touch(file, drives);
-  const Drive rest = after(drives.at(2), killed + 2 * kNanosecondsPerSecond);
-  EXPECT_GT(way_m(rest), 1.0) << lab.log("high_level_controller_2");
-  EXPECT_LE(steps_until_it_plans(lab, 2, killed), 2 * kNanosecondsPerSecond / kPeriod);
+class Return : public testing::TestWithParam<Setting> {};
+
+TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
+  constexpr VehicleId kVictim{2};
+  ReturningRun run(GetParam().scenario, GetParam().transport);
+  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again(kVictim));
+  run.expect_good_end();
+  EXPECT_LE(run.steps_until_it_plans(kVictim), 2 * kNanosecondsPerSecond / kPeriod);
 }
 
+INSTANTIATE_TEST_SUITE_P(All, Return,
+                         testing::Values(Setting{"paper", "paper_three_cars", "loopback"},
+                                         Setting{"lab", "lab_three_cars", "lab"}),
+                         [](const auto& one) { return one.param.name; });
+
 // Far from each other, so that nobody is coupled with anybody.
-TEST_F(Return, OfAControllerStopsNobodyWhoIsNotCoupled) {
+TEST(ReturnAlone, OfAControllerStopsNobodyWhoIsNotCoupled) {
   const TemporaryFolder folder;
   std::string text = read_text(kScripts + "scenarios/circle.yaml");
   replace_all(text, "../", kScripts);
   replace_all(text, "cars: 4, radius_m: 1.5", "cars: 3, radius_m: 30.0");
   const std::filesystem::path file = folder / "far.yaml";
   put(file, text);
-  LabProcesses lab(options(file, 60));
-  start(lab);
-  Nanoseconds killed = 0;
-  kill_and_start_again(lab, 2, killed);
-  expect_good_end(lab);
-  const Drives drives = read_drives(lab.folder(), {1, 2, 3});
-  EXPECT_GT(way_m(after(drives.at(2), killed + 2 * kNanosecondsPerSecond)), 1.0);
-  const auto facts = nlohmann::json::parse(read_text(lab.folder() / "run.json"));
-  const Nanoseconds end = (facts["first_step"].get<Nanoseconds>() + 60) * kPeriod;
+  ReturningRun run(file, "loopback");
+  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again({2}));
+  run.expect_good_end();
+  const Drives drives = run.lab.drives();
   for (const std::uint8_t other : std::vector<std::uint8_t>{1, 3}) {
-    double slowest_mps = 1.0;
-    for (const DrivenSample& sample : after(drives.at(other), killed)) {
-      if (sample.t < end) slowest_mps = std::min(slowest_mps, sample.speed_mps);
-    }
-    EXPECT_GT(slowest_mps, 0.3) << "vehicle " << static_cast<int>(other);
+    const Drive meanwhile = ReturningRun::between(drives.at(other), run.killed, run.driven_on);
+    ASSERT_FALSE(meanwhile.empty());
+    EXPECT_GT(std::ranges::min(meanwhile, {}, &DrivenSample::speed_mps).speed_mps, 0.3)
+        << "vehicle " << int{other};
   }
 }
 

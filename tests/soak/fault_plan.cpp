@@ -15,11 +15,11 @@ constexpr double kShortest_s = 0.1;
 constexpr double kLongest_s = 3.5;
 
 // The lab control is one process among ten: it is struck as rarely.
-constexpr std::array kOnLoopback{FaultKind::kKillController, FaultKind::kStopController,
-                                 FaultKind::kKillMiddleware, FaultKind::kKillController,
-                                 FaultKind::kStopController, FaultKind::kKillMiddleware,
-                                 FaultKind::kStopMiddleware, FaultKind::kKillVehicle,
-                                 FaultKind::kStopController, FaultKind::kKillLabControl};
+constexpr std::array kOnOneMachine{
+    FaultKind::kKillController,   FaultKind::kStopController,   FaultKind::kKillMiddleware,
+    FaultKind::kKillController,   FaultKind::kStopController,   FaultKind::kKillMiddleware,
+    FaultKind::kStopMiddleware,   FaultKind::kKillVehicle,      FaultKind::kStopController,
+    FaultKind::kReturnController, FaultKind::kReturnController, FaultKind::kKillLabControl};
 
 class Dice {
  public:
@@ -35,8 +35,8 @@ class Dice {
 };
 
 bool passes(FaultKind kind) {
-  return kind == FaultKind::kStopController || kind == FaultKind::kStopMiddleware ||
-         kind == FaultKind::kCutNetwork;
+  return kind == FaultKind::kStopController || kind == FaultKind::kReturnController ||
+         kind == FaultKind::kStopMiddleware || kind == FaultKind::kCutNetwork;
 }
 
 std::string number(double value) {
@@ -54,8 +54,8 @@ FaultPlan plan_faults(std::uint64_t seed, int num_faults, bool with_network) {
   double now_s = 0.0;
   for (int i = 0; i < num_faults; ++i) {
     PlannedFault fault;
-    fault.kind =
-        plan.over_network ? FaultKind::kCutNetwork : kOnLoopback.at(dice.below(kOnLoopback.size()));
+    fault.kind = plan.over_network ? FaultKind::kCutNetwork
+                                   : kOnOneMachine.at(dice.below(kOnOneMachine.size()));
     fault.vehicle =
         fault.kind == FaultKind::kKillLabControl ? 0 : static_cast<int>(1 + dice.below(kVehicles));
     now_s += dice.between(0.0, i == 0 ? kLatestFirst_s : kLongestPause_s);
@@ -71,6 +71,7 @@ std::string struck_process(const PlannedFault& fault) {
   switch (fault.kind) {
     case FaultKind::kKillController:
     case FaultKind::kStopController:
+    case FaultKind::kReturnController:
       return "high_level_controller_" + id;
     case FaultKind::kKillMiddleware:
     case FaultKind::kStopMiddleware:
@@ -89,7 +90,8 @@ std::string to_text(const PlannedFault& fault) {
   if (fault.kind == FaultKind::kCutNetwork) {
     text += "machine " + std::to_string(fault.vehicle) + " cut off";
   } else {
-    text += struck_process(fault) + (passes(fault.kind) ? " stopped" : " killed");
+    const bool is_stopped = passes(fault.kind) && fault.kind != FaultKind::kReturnController;
+    text += struck_process(fault) + (is_stopped ? " stopped" : " killed");
   }
   return passes(fault.kind) ? text + " for " + number(fault.lasts_s) + " s" : text;
 }

@@ -9,7 +9,8 @@ namespace hlc::test {
 /// What is done to a process or to a machine of a run of three cars.
 enum class FaultKind : std::uint8_t {
   kKillController,
-  kStopController,  ///< SIGSTOP, and SIGCONT after `lasts_s`
+  kStopController,    ///< SIGSTOP, and SIGCONT after `lasts_s`
+  kReturnController,  ///< killed, and started again after `lasts_s`
   kKillMiddleware,
   kStopMiddleware,
   kKillVehicle,
@@ -26,13 +27,13 @@ struct PlannedFault {
 
 /// The faults of one run, in the order of time.
 struct FaultPlan {
-  bool over_network{};  ///< a machine per car, and only the network fails; else all on loopback
+  bool over_network{};  ///< a machine per car, and only the network fails; else all on one machine
   std::vector<PlannedFault> faults;
 };
 
 /// The same for the same arguments. The first fault comes within 8 s, each further one within 2.5 s
 /// of the one before, so that most of them meet cars that still deal with the last one. Faults that
-/// pass last 0.1 s ... 3.5 s: the others' patience is 2 s.
+/// pass last 0.1 s ... 3.5 s: the others' patience is 2 s, and a car stands after 2.5 s.
 /// @param with_network  one in six runs is over the network
 [[nodiscard]] FaultPlan plan_faults(std::uint64_t seed, int num_faults, bool with_network);
 

@@ -28,7 +28,7 @@ TEST(FaultPlan, HoldsEveryKindOfFaultOnEveryVehicle) {
       seen.insert({fault.kind, fault.vehicle});
     }
   }
-  EXPECT_EQ(seen.size(), 6U * 3U + 1U);
+  EXPECT_EQ(seen.size(), 7U * 3U + 1U);
 }
 
 TEST(FaultPlan, OnlyTheNetworkFailsInARunOverTheNetworkAndThereAloneWithRoot) {
@@ -67,6 +67,10 @@ TEST(FaultPlan, NamesWhatIsStruck) {
   EXPECT_EQ(to_text(killed), "1.50 s middleware_2 killed");
   EXPECT_EQ(to_text({FaultKind::kStopController, 3, 0.25, 2.0}),
             "0.25 s high_level_controller_3 stopped for 2.00 s");
+  EXPECT_EQ(to_text({FaultKind::kReturnController, 3, 0.25, 2.0}),
+            "0.25 s high_level_controller_3 killed for 2.00 s");
+  EXPECT_EQ(struck_process({FaultKind::kReturnController, 3, 0.25, 2.0}),
+            "high_level_controller_3");
   EXPECT_EQ(to_text({FaultKind::kCutNetwork, 1, 0.0, 1.0}), "0.00 s machine 1 cut off for 1.00 s");
   EXPECT_EQ(to_text({FaultKind::kKillLabControl, 0, 3.0, 0.0}), "3.00 s lab_control killed");
 }

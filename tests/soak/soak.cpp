@@ -8,6 +8,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "tests/soak/soak_run.hpp"
+#include "tests/support/own_shared_memory.hpp"
 
 namespace {
 
@@ -18,6 +19,7 @@ struct Flags {
   std::uint64_t seed{1};
   int faults_per_run{3};
   int steps{150};
+  std::string transport{"loopback"};
   bool keep{};
 };
 
@@ -58,7 +60,7 @@ void look_at_faults(const Flags& flags, bool with_network, Total& total) {
   for (std::uint64_t seed = flags.seed; seed < flags.seed + flags.runs; ++seed) {
     const hlc::test::FaultPlan plan =
         hlc::test::plan_faults(seed, flags.faults_per_run, with_network);
-    const SoakResult result = hlc::test::run_with_faults(plan, flags.keep);
+    const SoakResult result = hlc::test::run_with_faults(plan, flags.transport, flags.keep);
     std::string what = plan.over_network ? "network: " : "";
     for (const hlc::test::PlannedFault& fault : plan.faults) {
       what += (&fault == &plan.faults.front() ? "" : ", ") + hlc::test::to_text(fault);
@@ -86,7 +88,7 @@ void look_at_undisturbed_runs(const Flags& flags, Total& total) {
   std::printf("%6s %6s %9s %6s %9s %14s\n", "run", "exit", "min [mm]", "late", "fallbacks",
               "planning [ms]");
   for (std::size_t i = 0; i < flags.runs; ++i) {
-    const SoakResult result = hlc::test::run_undisturbed(flags.steps, flags.keep);
+    const SoakResult result = hlc::test::run_undisturbed(flags.steps, flags.transport, flags.keep);
     std::printf("%6zu %6s %9s %6zu %9zu %14.2f ", i + 1, exit_code(result).c_str(),
                 millimetres(result).c_str(), result.deadline_misses, result.fallback_steps,
                 1e3 * result.planning_max_s);
@@ -123,6 +125,13 @@ int main(int argc, char** argv) {
   undisturbed->add_option("--steps", flags.steps, "of each run")
       ->check(hlc::whole(1, 100'000))
       ->capture_default_str();
+  for (CLI::App* command : {faults, undisturbed}) {
+    command
+        ->add_option("--transport", flags.transport,
+                     "loopback: the paper's cars; lab: as in the lab, with the lab's cars")
+        ->check(CLI::IsMember({"loopback", "lab"}))
+        ->capture_default_str();
+  }
   app.require_subcommand(1);
   app.footer(
       "Real processes on this machine. As root with an empty /dev/shm of its own, in which nothing "

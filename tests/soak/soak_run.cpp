@@ -1,8 +1,5 @@
 #include "tests/soak/soak_run.hpp"
 
-#include <sched.h>
-#include <sys/mount.h>
-
 #include <algorithm>
 #include <chrono>
 #include <map>
@@ -20,6 +17,7 @@
 #include "tests/integration/lab_network.hpp"
 #include "tests/integration/lab_processes.hpp"
 #include "tests/integration/run_reports.hpp"
+#include "tests/support/own_shared_memory.hpp"
 
 namespace hlc::test {
 namespace {
@@ -31,10 +29,10 @@ constexpr int kVehicles = 3;
 constexpr int kStepsOfAFaultyRun = 400;
 constexpr auto kStartTime = 120s;
 constexpr auto kEndTime = 60s;
+/// A controller that comes back when the run has just ended waits 10 s longer than this.
+constexpr int kStartupTimeout_s = 40;
 /// A run that still goes on this long after its last fault has got over it and is interrupted.
 constexpr auto kTimeToRecover = 6s;
-
-bool has_own_shared_memory = false;
 
 bool all_drive(const std::filesystem::path& run_folder) {
   std::set<std::uint8_t> driving;
@@ -61,7 +59,9 @@ std::vector<Action> actions_of(const FaultPlan& plan) {
   return actions;
 }
 
-int begin_signal(const PlannedFault& fault) { return fault.lasts_s > 0.0 ? SIGSTOP : SIGKILL; }
+const char* scenario_on(const std::string& transport) {
+  return transport == "lab" ? "lab_three_cars" : "paper_three_cars";
+}
 
 void look_at_driving(const Scenario& scenario, const Drives& drives,
                      const std::set<std::uint8_t>& dead, SoakResult& result) {
@@ -84,9 +84,9 @@ void look_at_the_end(Lab& lab, SoakResult& result) {
 
 /// Without children, and before anything else of ours can have begun.
 void look_for_leftovers(SoakResult& result) {
-  if (!has_own_shared_memory) return;
+  if (!use_own_shared_memory()) return;
   for (const SharedMemoryFile& file : shared_memory_files()) {
-    result.problems.push_back("left in /dev/shm: " + file.name);
+    if (!result.may_leave_files) result.problems.push_back("left in /dev/shm: " + file.name);
     std::filesystem::remove("/dev/shm/" + file.name);  // not the next run's
   }
 }
@@ -115,37 +115,72 @@ void drive_and_strike(Lab& lab, const FaultPlan& plan, Strike strike) {
   if (!lab["lab_control"].wait_for(kTimeToRecover)) lab["lab_control"].send(SIGINT);
 }
 
-void run_on_loopback(const FaultPlan& plan, bool keep, SoakResult& result) {
-  LabProcesses lab({.steps = kStepsOfAFaultyRun, .simulated_time = false});
+/// Strikes the processes of one run, and undoes what passes.
+class Striker {
+ public:
+  Striker(LabProcesses& lab, SoakResult& result) : lab_(lab), result_(result) {}
+
+  void act(const Action& action) {
+    const PlannedFault& fault = *action.fault;
+    const std::string name = struck_process(fault);
+    const bool has_ended = lab_[name].wait_for(0ms).has_value();
+    if (!action.ends) {
+      if (!has_ended) strike(fault, name);
+    } else if (fault.kind == FaultKind::kReturnController) {
+      if (has_ended && !lab_["lab_control"].wait_for(0ms)) lab_.start(name);
+    } else if (!has_ended && --stops_[name] == 0) {
+      lab_[name].send(SIGCONT);
+    }
+  }
+
+  [[nodiscard]] bool has_killed(const std::string& name) const { return killed_.contains(name); }
+  /// Vehicles whose own processes were killed.
+  [[nodiscard]] const std::set<std::uint8_t>& dead() const { return dead_; }
+
+ private:
+  void strike(const PlannedFault& fault, const std::string& name) {
+    const bool is_stop =
+        fault.kind == FaultKind::kStopController || fault.kind == FaultKind::kStopMiddleware;
+    if (is_stop) ++stops_[name];
+    if (!is_stop) killed_.insert(name);
+    if (fault.kind == FaultKind::kKillVehicle) {
+      dead_.insert(static_cast<std::uint8_t>(fault.vehicle));
+    }
+    lab_[name].send(is_stop ? SIGSTOP : SIGKILL);
+    ++result_.faults_done;
+  }
+
+  LabProcesses& lab_;
+  SoakResult& result_;
+  std::set<std::uint8_t> dead_;
+  std::set<std::string> killed_;
+  std::map<std::string, int> stops_;  // that have not ended
+};
+
+void run_on_one_machine(const FaultPlan& plan, const std::string& transport, bool keep,
+                        SoakResult& result) {
+  const bool returns = std::ranges::any_of(plan.faults, [](const PlannedFault& fault) {
+    return fault.kind == FaultKind::kReturnController;
+  });
+  std::vector<std::string> flags;
+  if (returns) flags.emplace_back("--on_death=continue");
+  LabProcesses lab({.scenario = scenario_on(transport),
+                    .steps = kStepsOfAFaultyRun,
+                    .simulated_time = false,
+                    .lab_control_flags = flags,
+                    .startup_timeout_s = kStartupTimeout_s,
+                    .transport = transport});
+  result.may_leave_files = transport == "lab";
   lab.start_all();
-  std::set<std::uint8_t> dead;
-  std::set<std::string> killed;
-  std::map<std::string, int> stops;  // that have not ended
+  Striker striker(lab, result);
   if (eventually(kStartTime, [&] { return all_drive(lab.folder()); })) {
-    drive_and_strike(lab, plan, [&](const Action& action) {
-      const std::string name = struck_process(*action.fault);
-      if (lab[name].wait_for(0ms)) return;
-      if (action.ends) {
-        if (--stops[name] == 0) lab[name].send(SIGCONT);
-        return;
-      }
-      if (begin_signal(*action.fault) == SIGSTOP) {
-        ++stops[name];
-      } else {
-        killed.insert(name);
-      }
-      lab[name].send(begin_signal(*action.fault));
-      ++result.faults_done;
-      if (action.fault->kind == FaultKind::kKillVehicle) {
-        dead.insert(static_cast<std::uint8_t>(action.fault->vehicle));
-      }
-    });
+    drive_and_strike(lab, plan, [&](const Action& action) { striker.act(action); });
   } else {
     result.problems.emplace_back("the cars do not start");
   }
   look_at_the_end(lab, result);
-  if (!killed.contains("lab_control")) result.lab_control = lab["lab_control"].wait_for(0ms);
-  look_at_driving(lab.scenario(), read_drives(lab.folder(), {1, 2, 3}), dead, result);
+  if (!striker.has_killed("lab_control")) result.lab_control = lab["lab_control"].wait_for(0ms);
+  look_at_driving(lab.scenario(), lab.drives(), striker.dead(), result);
   if (keep && !result.problems.empty()) lab.keep_folder();
 }
 
@@ -171,16 +206,16 @@ void run_over_network(const FaultPlan& plan, bool keep, SoakResult& result) {
   }
   look_at_the_end(lab, result);
   result.lab_control = lab["lab_control"].wait_for(0ms);
-  look_at_driving(read_scenario({.file = LabOverNetwork::scenario_file()}), lab.drives(), {},
-                  result);
+  look_at_driving(lab.scenario(), lab.drives(), {}, result);
   if (keep && !result.problems.empty()) lab.keep_folder();
 }
 
 }  // namespace
 
-SoakResult run_with_faults(const FaultPlan& plan, bool keep) {
+SoakResult run_with_faults(const FaultPlan& plan, const std::string& transport, bool keep) {
   return watched([&](SoakResult& result) {
-    plan.over_network ? run_over_network(plan, keep, result) : run_on_loopback(plan, keep, result);
+    plan.over_network ? run_over_network(plan, keep, result)
+                      : run_on_one_machine(plan, transport, keep, result);
   });
 }
 
@@ -211,9 +246,12 @@ SoakResult run_cycle(std::size_t number, bool keep) {
   });
 }
 
-SoakResult run_undisturbed(int steps, bool keep) {
+SoakResult run_undisturbed(int steps, const std::string& transport, bool keep) {
   return watched([&](SoakResult& result) {
-    LabProcesses lab({.steps = steps, .simulated_time = false});
+    LabProcesses lab({.scenario = scenario_on(transport),
+                      .steps = steps,
+                      .simulated_time = false,
+                      .transport = transport});
     lab.start_all();
     const auto run_time = std::chrono::seconds(steps / 5);
     result.lab_control = lab["lab_control"].wait_for(kStartTime + run_time);
@@ -222,7 +260,7 @@ SoakResult run_undisturbed(int steps, bool keep) {
       result.problems.push_back("lab_control ended with " +
                                 std::to_string(result.lab_control.value_or(-1)));
     }
-    const Drives drives = read_drives(lab.folder(), {1, 2, 3});
+    const Drives drives = lab.drives();
     look_at_driving(lab.scenario(), drives, {}, result);
     const RunFacts facts = read_facts(lab.folder() / "run.json");
     const std::vector<ReportRecord> reports = read_reports(lab.folder() / "reports.csv");
@@ -237,13 +275,6 @@ SoakResult run_undisturbed(int steps, bool keep) {
     }
     if (keep && !result.problems.empty()) lab.keep_folder();
   });
-}
-
-bool use_own_shared_memory() {
-  has_own_shared_memory = ::unshare(CLONE_NEWNS) == 0 &&
-                          ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-                          ::mount("tmpfs", "/dev/shm", "tmpfs", 0, nullptr) == 0;
-  return has_own_shared_memory;
 }
 
 }  // namespace hlc::test

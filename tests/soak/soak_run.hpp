@@ -16,6 +16,7 @@ struct SoakResult {
   std::size_t collisions{};                ///< of driven footprints
   std::optional<double> min_distance_m{};  ///< of them, over the whole run
   std::vector<std::string> problems;       ///< one line each; empty: good
+  bool may_leave_files{};                  ///< who is killed on the lab's transport cannot clean up
   // of runs without faults:
   std::size_t deadline_misses{};  ///< of all cars
   std::size_t fallback_steps{};
@@ -24,8 +25,12 @@ struct SoakResult {
 
 /// Three cars in real time, struck by the faults; a fault whose process has ended is left out. Good
 /// if no driven footprints touch, and within a minute of the last fault every process has ended and
-/// left nothing. @param keep  the run's folder is kept if it was not good
-[[nodiscard]] SoakResult run_with_faults(const FaultPlan& plan, bool keep);
+/// left nothing.
+/// @param transport  loopback: the paper's cars; lab: the lab's cars, and files in /dev/shm are not
+///                   judged. Of runs on one machine
+/// @param keep       the run's folder is kept if it was not good
+[[nodiscard]] SoakResult run_with_faults(const FaultPlan& plan, const std::string& transport,
+                                         bool keep);
 
 /// Three cars that start and stop: in logical time and in real time in turn, by the end of three
 /// steps and by an interruption in turn. Good if every process ends with the exit code that says
@@ -34,10 +39,6 @@ struct SoakResult {
 
 /// Three cars in real time for so many steps. Good if the run is complete and nobody touches
 /// anybody. Late steps are counted: they are the machine's as much as ours.
-[[nodiscard]] SoakResult run_undisturbed(int steps, bool keep);
-
-/// Gives this process and those that it starts an empty /dev/shm of their own, so that what is left
-/// in it is theirs. Before the first thread. False without root: leftovers are then not looked for.
-[[nodiscard]] bool use_own_shared_memory();
+[[nodiscard]] SoakResult run_undisturbed(int steps, const std::string& transport, bool keep);
 
 }  // namespace hlc::test

@@ -25,8 +25,9 @@ TEST(Soak, AnUndisturbedRunInRealTimeIsComplete) {
 }
 
 TEST(Soak, RefusesBadFlagsInOneLine) {
-  for (const char* flags : {"", "faults", "faults --runs 0", "faults --runs -1", "cycles --runs x",
-                            "faults --runs 1 --steps 3", "storms --runs 1"}) {
+  for (const char* flags :
+       {"", "faults", "faults --runs 0", "faults --runs -1", "cycles --runs x",
+        "faults --runs 1 --steps 3", "faults --runs 1 --transport radio", "storms --runs 1"}) {
     const Outcome outcome = run_program(std::string("soak ") + flags);
     EXPECT_EQ(outcome.exit_code, 2) << flags;
     EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;

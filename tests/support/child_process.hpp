@@ -42,13 +42,14 @@ class ChildProcess {
 /// The whole file; empty if there is none.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
-/// True as soon as `condition` holds; asked again and again until the deadline.
+/// True as soon as `condition` holds; asked again and again until the deadline, but seldom enough
+/// for a condition that reads whole files to leave the machine to those whom it waits for.
 template <class Condition>
 [[nodiscard]] bool eventually(std::chrono::milliseconds time, Condition condition) {
   const auto deadline = std::chrono::steady_clock::now() + time;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
-    ::usleep(2000);
+    ::usleep(20'000);
   }
   return true;
 }

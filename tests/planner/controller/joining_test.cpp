@@ -81,6 +81,14 @@ TEST(Joining, ACarBesideItsLaneHasAWiderAreaUntilItIsInIt) {
   EXPECT_LT(std::abs(car.pose().y_m), 0.02);
 }
 
+// It crosses no bound there, and could drive along the lane for ever without crossing one.
+TEST(Joining, ACarWhollyBesideItsLaneDrivesIntoIt) {
+  Car car(lane(99.0), {1.0, 0.17, 0.0});
+  for (int i = 0; i < 25; ++i) EXPECT_EQ(car.step().status, StepStatus::kPlanned);
+  EXPECT_GT(car.pose().x_m, 3.0);
+  EXPECT_LT(std::abs(car.pose().y_m), 0.02);
+}
+
 TEST(Joining, ACarInItsLaneNeedsNoOtherArea) {
   Car car(lane(99.0), {1.0, 0.01, 0.02});
   EXPECT_EQ(car.step().status, StepStatus::kPlanned);
