@@ -110,10 +110,10 @@ class ReturningRun {
     lab.start_all();
   }
 
-  /// Kills the controller when its car has driven for a while, waits until its car has stopped,
-  /// starts it again, and waits until its car has driven on.
-  void kill_and_start_again(VehicleId id) {
-    const std::string name = "high_level_controller_" + std::to_string(id.value);
+  /// Kills the vehicle's process of that name when the car has driven for a while, waits until the
+  /// car has stopped, starts the process again, and waits until the car has driven on.
+  void kill_and_start_again(const std::string& process, VehicleId id) {
+    const std::string name = process + "_" + std::to_string(id.value);
     ASSERT_TRUE(eventually(kPatience, [&] { return planned_steps(lab.reports(), id) >= 20; }))
         << lab.log("lab_control");
     lab[name].send(SIGKILL);
@@ -179,9 +179,18 @@ class Return : public testing::TestWithParam<Setting> {};
 TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
   constexpr VehicleId kVictim{2};
   ReturningRun run(GetParam().scenario, GetParam().transport);
-  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again(kVictim));
+  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", kVictim));
   run.expect_good_end();
   EXPECT_LE(run.steps_until_it_plans(kVictim), 2 * kNanosecondsPerSecond / kPeriod);
+}
+
+// Its controller lives on without it, and answers it again.
+TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
+  ReturningRun run(GetParam().scenario, GetParam().transport);
+  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("middleware", {2}));
+  run.expect_good_end();
+  EXPECT_NE(run.lab.log("high_level_controller_2").find("middleware_2 is back"), std::string::npos)
+      << run.lab.log("high_level_controller_2");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Return,
@@ -198,7 +207,7 @@ TEST(ReturnAlone, OfAControllerStopsNobodyWhoIsNotCoupled) {
   const std::filesystem::path file = folder / "far.yaml";
   put(file, text);
   ReturningRun run(file, "loopback");
-  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again({2}));
+  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", {2}));
   run.expect_good_end();
   const Drives drives = run.lab.drives();
   for (const std::uint8_t other : std::vector<std::uint8_t>{1, 3}) {
