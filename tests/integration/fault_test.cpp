@@ -39,7 +39,7 @@ class FaultyRun {
  public:
   explicit FaultyRun(const Setting& setting = kPaper)
       : lab({.scenario = setting.scenario,
-             .steps = 400,
+             .steps = 1000,  // longer than anybody waits for the cars to meet
              .simulated_time = false,
              .transport = setting.transport,
              .records_commands = true}) {
