@@ -76,9 +76,8 @@ int main(int argc, char** argv) {
   app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
       ->check(CLI::NonNegativeNumber);
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left the areas that it had told "
-      "the "
-      "others, or touched another one.");
+      "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left its plan or touched another "
+      "one.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) {
     return *code;
   }

@@ -107,7 +107,7 @@ CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> nois
       .summary = summarize(describe(run.scenario, noise_seed), facts, rows, experiment.drives),
       .fault = {},
       .wall = experiment.wall};
-  result.fault = fault_of(result.summary);
+  result.fault = danger_of(result.summary);
   return result;
 }
 

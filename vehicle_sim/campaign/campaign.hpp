@@ -42,7 +42,7 @@ struct CampaignRun {
 /// What a run of a campaign gives.
 struct CampaignResult {
   RunSummary summary;  ///< without revision and host
-  std::string fault;   ///< fault_of(summary): why the run does not count; empty if it does
+  std::string fault;   ///< danger_of(summary): why the run does not count; empty if it does
   WallTimes wall;
 };
 
