@@ -178,6 +178,7 @@ class Return : public testing::TestWithParam<Setting> {};
 
 TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
   constexpr VehicleId kVictim{2};
+  if (kIsTooSlowForTheLab && GetParam().transport == "lab") GTEST_SKIP() << "too slow";
   ReturningRun run(GetParam().scenario, GetParam().transport);
   ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", kVictim));
   run.expect_good_end();
@@ -186,6 +187,7 @@ TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
 
 // Its controller lives on without it, and answers it again.
 TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
+  if (kIsTooSlowForTheLab && GetParam().transport == "lab") GTEST_SKIP() << "too slow";
   ReturningRun run(GetParam().scenario, GetParam().transport);
   ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("middleware", {2}));
   run.expect_good_end();
