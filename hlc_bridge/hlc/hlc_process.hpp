@@ -69,8 +69,8 @@ struct HlcProcessOptions {
 /// drive out their plans too, it leaves at once. A vehicle follows one controller: where another
 /// one of that name is, this one says nothing, and leaves.
 ///
-/// All waiting is in this class, and every wait ends: at a deadline (real time), when whom it waits
-/// for is gone from the domain, or after 10 s of silence (logical time).
+/// All waiting is here and in StepExchange, and every wait ends: at a deadline (real time), when
+/// whom it waits for is gone from the domain, or after 10 s of silence (logical time).
 class HlcProcess {
  public:
   /// @param controller  of the vehicle that this process drives
