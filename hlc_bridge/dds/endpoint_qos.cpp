@@ -112,7 +112,6 @@ EndpointQos lab_endpoint(Lab kind) {
   EndpointQos qos = with_history(keep_all ? 0 : 1, 1);
   qos.reliability = best_effort ? Reliability::kBestEffort : Reliability::kReliable;
   qos.durability = late ? Durability::kTransientLocal : Durability::kVolatile;
-  qos.data_sharing = true;
   qos.preallocated = true;
   set_times(qos, Transport::kLab);
   return qos;

@@ -13,16 +13,18 @@ enum class Durability : std::uint8_t { kVolatile, kTransientLocal };
 
 /// Every quality of service of one writer or reader that this project decides on. Nothing is left
 /// to the library's defaults, which differ between writers and readers and hold 10 instances only.
+/// Data sharing is always off: a process that dies while it holds the lock of a shared history
+/// makes the writes of all others throw after 1 s. Peers that have it on use the transport towards
+/// us.
 struct EndpointQos {
   Reliability reliability{};
   Durability durability{};
   int history_depth{};  ///< samples kept, per instance if keyed; 0: keep all, up to the limits
   int max_instances{};  ///< 1 without key
   int max_samples_per_instance{};
-  int max_samples{};    ///< max_instances * max_samples_per_instance
-  bool data_sharing{};  ///< the library's AUTO; else off
+  int max_samples{};  ///< max_instances * max_samples_per_instance
   /// The library may allocate a whole history of the types' nominal sizes at once: good for the
-  /// lab's small types (and needed for data sharing), not for lists of polygons.
+  /// lab's small types, not for lists of polygons.
   bool preallocated{};
   std::chrono::milliseconds max_blocking{};        ///< a write gives up after this
   std::chrono::milliseconds heartbeat_period{};    ///< writer: until all is acknowledged

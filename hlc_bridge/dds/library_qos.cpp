@@ -22,11 +22,7 @@ void set_common(const EndpointQos& qos, LibraryQos& result) {
   result.resource_limits().max_samples_per_instance = qos.max_samples_per_instance;
   result.resource_limits().max_samples = qos.max_samples;
   result.liveliness().kind = fdds::AUTOMATIC_LIVELINESS_QOS;
-  if (qos.data_sharing) {
-    result.data_sharing().automatic();
-  } else {
-    result.data_sharing().off();
-  }
+  result.data_sharing().off();
   result.endpoint().history_memory_policy = qos.preallocated
                                                 ? frtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE
                                                 : frtps::DYNAMIC_REUSABLE_MEMORY_MODE;

@@ -22,9 +22,6 @@ constexpr std::uint32_t kSocketBufferBytes = 1U << 20U;   // the system may gran
 
 void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos) {
   const bool loopback = options.transport == Transport::kLoopback;
-  if (!loopback && options.role == DomainRole::kLab) {
-    return;  // the library's own
-  }
   qos.transport().use_builtin_transports = false;
   if (!loopback && options.role == DomainRole::kLocal) {
     qos.transport().user_transports = {std::make_shared<SharedMemoryTransport>()};

@@ -10,8 +10,8 @@ namespace hlc {
 /// How the participants of a run reach each other.
 enum class Transport : std::uint8_t {
   kLoopback,  ///< UDP on 127.0.0.1 only, every topic reliable; leaves nothing in /dev/shm
-  kLab,       ///< as in the lab: lab domain UDP and shared memory, local domain shared memory only,
-              ///< controller domain UDP; quality of service exactly as in the lab
+  kLab,       ///< what the lab's processes hear and speak: lab domain UDP, local domain shared
+              ///< memory only, controller domain UDP; reliability and histories as in the lab
 };
 
 /// "loopback" or "lab"; throws std::invalid_argument for anything else.

@@ -12,14 +12,6 @@
 /// What the system promises of every car that a fault affects, as tests ask for it.
 namespace hlc::test {
 
-/// The lab's setting in real time asks more of ten processes than two cores give under the address
-/// sanitizer: states are lost, and answers miss their period.
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kIsTooSlowForTheLab = true;
-#else
-inline constexpr bool kIsTooSlowForTheLab = false;
-#endif
-
 /// From then on an affected car drives only its last agreed plan.
 inline constexpr Nanoseconds kReactionTime = 500'000'000;
 /// And until then it stands: after the plan of at most 1.6 s, agreed until kReactionTime.

@@ -202,7 +202,6 @@ class LastingFault : public testing::TestWithParam<Fault> {};
 
 TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) {
   const Fault& fault = GetParam();
-  if (kIsTooSlowForTheLab && fault.setting.transport == "lab") GTEST_SKIP() << "too slow";
   FaultyRun run(fault.setting);
   ASSERT_TRUE(run.drives_near_another(fault.victim)) << run.lab.log("lab_control");
   run.strike(fault.victim, fault.process, fault.signal);

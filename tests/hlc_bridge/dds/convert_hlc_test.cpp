@@ -8,7 +8,7 @@
 #include "hlc_bridge/dds/wire.hpp"
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 
-namespace hlc {
+namespace hlc::convert_hlc_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -138,4 +138,4 @@ TEST(OwnConversionRefuses, UnknownEnumerationValues) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::convert_hlc_test

@@ -6,7 +6,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc {
+namespace hlc::discovery_server_test {
 namespace {
 
 constexpr const char* kServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
@@ -71,4 +71,4 @@ TEST(Peers, AreAddressesAndNotForClientsOfAServer) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::discovery_server_test

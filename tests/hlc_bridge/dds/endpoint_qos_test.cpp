@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace hlc {
+namespace hlc::endpoint_qos_test {
 namespace {
 
 using Place = std::pair<TopicId, DomainRole>;
@@ -69,7 +69,6 @@ TEST(TopicQos, LoopbackIsReliableKeepsTheLastAndRepairsSoon) {
     for (const EndpointQos& qos : {writer, reader}) {
       EXPECT_EQ(qos.reliability, Reliability::kReliable);
       EXPECT_GT(qos.history_depth, 0) << "keep all blocks the writer when a reader hangs";
-      EXPECT_FALSE(qos.data_sharing);
       EXPECT_LE(qos.heartbeat_period, 50ms);
       EXPECT_GT(qos.nack_suppression, 0ms) << "a timer would start anew with every sample";
       EXPECT_LT(qos.nack_suppression, qos.heartbeat_period) << "the next report counts";
@@ -86,7 +85,6 @@ TEST(TopicQos, OwnTopicsAreReliableOnBothTransportsWithAHistoryPerVehicle) {
       EXPECT_EQ(reader.reliability, Reliability::kReliable);
       EXPECT_EQ(writer.max_instances, id == TopicId::kRunState ? 1 : kMaxInstances);
       EXPECT_EQ(reader.max_instances, writer.max_instances);
-      EXPECT_FALSE(writer.data_sharing);
     }
   }
   for (const TopicId id : {TopicId::kTraffic, TopicId::kPrediction, TopicId::kOutcome}) {
@@ -123,9 +121,6 @@ TEST(TopicQos, LabTransportIsTheContract) {
   const auto level = lab(TopicId::kLogLevel, DomainRole::kLab);
   EXPECT_EQ(level.writer.durability, Durability::kTransientLocal);
   EXPECT_EQ(level.reader.durability, Durability::kTransientLocal);
-  for (const auto& [id, role] : kOfTheLab) {
-    EXPECT_TRUE(lab(id, role).writer.data_sharing) << "the lab's is AUTO";
-  }
 }
 
 TEST(TopicQos, ATopicOnTheWrongDomainIsRefused) {
@@ -138,4 +133,4 @@ TEST(TopicQos, ATopicOnTheWrongDomainIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::endpoint_qos_test

@@ -11,7 +11,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc {
+namespace hlc::foreign_message_test {
 namespace {
 
 /// Bytes that claim to be of another type.
@@ -136,4 +136,4 @@ TEST_F(ForeignMessages, InvalidValuesAreDroppedAndCounted) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::foreign_message_test

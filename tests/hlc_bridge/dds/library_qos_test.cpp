@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/dds/library.hpp"
 
-namespace hlc {
+namespace hlc::library_qos_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -65,13 +65,12 @@ TEST(LibraryQos, TheOtherValuesOfTheTableToo) {
   table.reliability = Reliability::kBestEffort;
   table.durability = Durability::kVolatile;
   table.history_depth = 0;
-  table.data_sharing = true;
   table.preallocated = true;
   const auto qos = reader_qos(table);
   EXPECT_EQ(qos.reliability().kind, fdds::BEST_EFFORT_RELIABILITY_QOS);
   EXPECT_EQ(qos.durability().kind, fdds::VOLATILE_DURABILITY_QOS);
   EXPECT_EQ(qos.history().kind, fdds::KEEP_ALL_HISTORY_QOS);
-  EXPECT_EQ(qos.data_sharing().kind(), fdds::AUTO);
+  EXPECT_EQ(qos.data_sharing().kind(), fdds::OFF);
   EXPECT_EQ(qos.endpoint().history_memory_policy, frtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE);
 }
 
@@ -82,4 +81,4 @@ TEST(Duration, SplitsSecondsAndNanoseconds) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::library_qos_test

@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace hlc {
+namespace hlc::participant_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -223,4 +223,4 @@ TEST(Endpoints, TellOfMatchesOnBothSides) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::participant_test

@@ -10,7 +10,7 @@
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc {
+namespace hlc::round_trip_test {
 namespace {
 
 template <class Message>
@@ -227,4 +227,4 @@ TEST(OwnParticipant, IsNotHeardAndDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::round_trip_test

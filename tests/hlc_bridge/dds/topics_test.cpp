@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::topics_test {
 namespace {
 
 TEST(Topics, HaveTheLabsNames) {
@@ -21,4 +21,4 @@ TEST(Topics, HaveTheLabsNames) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::topics_test

@@ -6,7 +6,7 @@
 #include "hlc_bridge/dds/register_lab_types.hpp"
 #include "hlc_bridge/dds/wire.hpp"
 
-namespace hlc {
+namespace hlc::type_objects_test {
 namespace {
 
 bool has_type_object(const std::string& name) {
@@ -113,4 +113,4 @@ TEST(LabTypes, HaveTheSizesOfTheLabsMessages) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::type_objects_test

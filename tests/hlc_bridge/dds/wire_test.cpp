@@ -8,7 +8,7 @@
 
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 
-namespace hlc {
+namespace hlc::wire_test {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -89,4 +89,4 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::wire_test
