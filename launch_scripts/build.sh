@@ -9,7 +9,7 @@ usage: build.sh [--preset release|debug|asan|tsan] [--programs | --unit_tests | 
   --preset NAME   what to build (default release), into build/NAME
   --programs      only the programs, no tests
   --unit_tests    only the tests that need no other process
-  --thread_tests  of these only the ones outside the planner, which has no threads
+  --thread_tests  of these only those of the rooms that have threads
 Exit codes: 0 good, 1 the build failed, 2 bad input
 TEXT
 }

@@ -53,10 +53,10 @@ code=0
 failed=() # said again at the end: the sanitizers' output is long
 for preset in "${presets[@]}"; do
   if [[ $preset == tsan ]]; then
-    # Fast DDS is not built for the thread sanitizer and the planner has no threads (tests/README.md).
+    # Fast DDS is not built for the thread sanitizer, and most rooms have no threads (tests/README.md).
     ./launch_scripts/build.sh --preset tsan --thread_tests || exit 1
     echo "Testing (tsan, unit tests of what has threads)"
-    run tsan -L '^unit$'
+    run tsan --no-tests=error -L unit_threads
   elif $unit; then
     ./launch_scripts/build.sh --preset "$preset" --unit_tests || exit 1
     echo "Testing ($preset, unit tests)"

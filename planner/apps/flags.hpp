@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/apps/cli.hpp"
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
 

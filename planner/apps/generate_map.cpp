@@ -1,6 +1,5 @@
 // Writes the map that the project ships: generate_map --out launch_scripts/maps/lab_like.xml
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "planner/apps/flags.hpp"

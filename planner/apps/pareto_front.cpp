@@ -5,7 +5,6 @@
 //         --points 31 --out front.csv --plot front.svg
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

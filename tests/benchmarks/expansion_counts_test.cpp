@@ -7,7 +7,7 @@
 #include "tests/benchmarks/contestants.hpp"
 #include "tests/benchmarks/problem_sets.hpp"
 
-namespace hlc::test {
+namespace hlc::test::expansion_counts_test {
 namespace {
 
 ProblemSet make(const std::string& name, std::size_t max_problems) {
@@ -100,4 +100,4 @@ TEST(ExpansionCounts, AWholeTreeOfThePapersTwelveTrimsHasAKnownSize) {
 }
 
 }  // namespace
-}  // namespace hlc::test
+}  // namespace hlc::test::expansion_counts_test

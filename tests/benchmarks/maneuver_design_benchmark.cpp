@@ -16,6 +16,7 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/maneuver_solver.hpp"
+#include "tests/support/folders.hpp"
 
 namespace {
 
@@ -62,7 +63,7 @@ void print_switching(const std::shared_ptr<const hlc::UniversalAutomaton>& autom
 
 int main(int argc, char** argv) {
   hlc::AutomatonConfiguration configuration = hlc::read_automaton_configuration(
-      argc > 2 ? argv[2] : HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+      argc > 2 ? argv[2] : hlc::test::source_folder() + "/launch_scripts/automata/paper.yaml");
   if (argc > 1) configuration.intervals = std::strtoul(argv[1], nullptr, 10);
   std::set<hlc::TrimPair> edges;
   for (const hlc::DesignTask& task : hlc::design_tasks(configuration)) edges.insert(task.edge);

@@ -8,7 +8,7 @@
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::test {
+namespace hlc::test::plain_search_test {
 namespace {
 
 /// The plan as an engine would tell it, for `fault_of`.
@@ -101,4 +101,4 @@ TEST(PlainSearch, ATrimThatCannotStandInTimeHasNoPlan) {
 }
 
 }  // namespace
-}  // namespace hlc::test
+}  // namespace hlc::test::plain_search_test

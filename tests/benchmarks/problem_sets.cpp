@@ -8,6 +8,7 @@
 #include "tests/benchmarks/plain_search.hpp"
 #include "tests/benchmarks/random_traffic.hpp"
 #include "tests/benchmarks/three_cars.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::test {
 namespace {
@@ -72,7 +73,7 @@ std::shared_ptr<const Subgraph> built(const std::string& name,
 }
 
 AutomatonConfiguration shipped(const std::string& file) {
-  return read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/" + file);
+  return read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/" + file);
 }
 
 /// 95 trims: standstill, and six speeds up to 0.8 m/s with fifteen steering angles, the two lowest

@@ -7,7 +7,7 @@
 
 #include "tests/benchmarks/plain_search.hpp"
 
-namespace hlc::test {
+namespace hlc::test::problem_sets_test {
 namespace {
 
 ProblemSet make(const std::string& name, std::size_t max_problems = 0) {
@@ -112,4 +112,4 @@ TEST(ProblemSets, AnUnknownNameIsRefusedWithTheAllowedOnes) {
 }
 
 }  // namespace
-}  // namespace hlc::test
+}  // namespace hlc::test::problem_sets_test

@@ -1,6 +1,5 @@
 // How long a whole run takes within one process: planning and coordination alone, with vehicles
 // that follow perfectly, and with simulated vehicles, and where that time goes.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -1,6 +1,5 @@
 // How fast the search engines are: every problem of every set is solved by a plain reference search
 // and by all engines, one after the other in one process. See README.md beside this file.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>

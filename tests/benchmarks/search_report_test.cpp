@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hlc::test {
+namespace hlc::test::search_report_test {
 namespace {
 
 TEST(Percentile, IsTheValueOfTheNearestRank) {
@@ -76,4 +76,4 @@ TEST(SearchReport, WithoutAReferenceThereAreNoRatios) {
 }
 
 }  // namespace
-}  // namespace hlc::test
+}  // namespace hlc::test::search_report_test

@@ -7,6 +7,7 @@
 
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::test {
 namespace {
@@ -16,7 +17,8 @@ constexpr VehicleId kBlue{1};
 constexpr VehicleId kGreen{2};
 constexpr VehicleId kRed{3};
 
-const std::string kScenarioFile = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_three_cars.yaml";
+const std::string kScenarioFile =
+    test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
 
 void move_to(ScenarioVehicle& vehicle, VehicleId id, double start_s_m) {
   const Point position_m = vehicle.path.at(start_s_m);

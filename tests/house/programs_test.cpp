@@ -9,6 +9,8 @@
 #include <set>
 #include <string>
 
+#include "tests/support/folders.hpp"
+
 namespace hlc {
 namespace {
 
@@ -24,7 +26,7 @@ std::string text_of(const fs::path& file) {
 std::set<std::string> documented_programs() {
   std::set<std::string> names;
   const std::regex program("build/release/bin/([a-z_]+)");
-  const fs::path root = HLC_SOURCE_DIR;
+  const fs::path root = test::source_folder();
   for (const fs::path& room :
        {root / "planner", root / "hlc_bridge", root / "vehicle_sim", root / "launch_scripts"}) {
     for (const auto& entry : fs::recursive_directory_iterator(room)) {
@@ -40,7 +42,7 @@ std::set<std::string> documented_programs() {
 }
 
 TEST(Programs, EveryProgramOfADocumentIsBuiltByTheScript) {
-  EXPECT_NE(text_of(HLC_SOURCE_DIR "/launch_scripts/build.sh")
+  EXPECT_NE(text_of(test::source_folder() + "/launch_scripts/build.sh")
                 .find("--programs | --unit_tests | --thread_tests) targets=(--target"),
             std::string::npos);
   const std::set<std::string> names = documented_programs();

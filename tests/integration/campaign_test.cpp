@@ -7,6 +7,7 @@
 #include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/run_summary.hpp"
 #include "tests/integration/lab_processes.hpp"
+#include "tests/support/folders.hpp"
 #include "vehicle_sim/campaign/experiment.hpp"
 
 namespace hlc::test {
@@ -36,7 +37,7 @@ std::string trace_with_processes(const Same& same, int steps) {
 TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
   constexpr int kSteps = 40;
   const Scenario scenario = read_scenario(
-      {.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
+      {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
        .profile = GetParam().profile});
   const ExperimentOptions options{.steps = kSteps, .noise_seed = GetParam().noise_seed};
   const Experiment experiment = drive_experiment(scenario, options);

@@ -1,4 +1,5 @@
 #include "tests/integration/lab_network.hpp"
+#include "tests/support/folders.hpp"
 
 #include <unistd.h>
 
@@ -8,8 +9,8 @@
 namespace hlc::test {
 namespace {
 
-const std::string kPrograms = HLC_BINARY_DIR "/bin/";
-const std::string kScripts = HLC_SOURCE_DIR "/launch_scripts/";
+const std::string kPrograms = test::build_folder() + "/bin/";
+const std::string kScripts = test::source_folder() + "/launch_scripts/";
 const std::string kScenario = kScripts + "scenarios/lab_three_cars.yaml";
 
 bool succeeds(const std::string& command) {

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/own_shared_memory.hpp"
 
 namespace hlc::test {
 namespace {
 
-const std::string kBin = std::string(HLC_BINARY_DIR) + "/bin/";
+const std::string kBin = test::build_folder() + "/bin/";
 constexpr int kLargestVehicles = 4;
 
 std::string number(double value) {
@@ -21,7 +22,7 @@ ScenarioChoices choices_of(const LabOptions& options) {
   ScenarioChoices choices{.file = options.scenario, .profile = options.profile};
   if (!options.scenario.ends_with(".yaml")) {
     choices.file =
-        std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/" + options.scenario + ".yaml";
+        test::source_folder() + "/launch_scripts/scenarios/" + options.scenario + ".yaml";
   }
   if (!options.map_file.empty()) choices.map_file = options.map_file;
   return choices;

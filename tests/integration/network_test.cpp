@@ -14,6 +14,7 @@
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_network.hpp"
 #include "tests/integration/run_reports.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::test {
 namespace {
@@ -106,9 +107,10 @@ TEST(OverNetwork, MachinesFindEachOtherWithoutMulticast) {
   if (!network.is_made()) GTEST_SKIP() << "network namespaces need root and iproute2";
   const TemporaryFolder folder;
   const std::string address = " --discovery_server_ip=" + Network::address(Network::kMachines);
-  ChildProcess server(network.on(Network::kMachines,
-                                 HLC_BINARY_DIR "/bin/discovery_server --dds_domain=1" + address),
-                      folder / "server");
+  ChildProcess server(
+      network.on(Network::kMachines,
+                 test::build_folder() + "/bin/discovery_server --dds_domain=1" + address),
+      folder / "server");
   LabOverNetwork lab(network, 20, " --discovery_mode=client" + address, true);
   expect_good_end(lab);
   for (std::uint8_t id = 1; id <= kVehicles; ++id) {

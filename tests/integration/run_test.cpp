@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/integration/lab_processes.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::test {
 namespace {
@@ -71,7 +72,7 @@ TEST_P(Variants, ThreeCarsDriveToTheEndWithoutFallbacks) {
   }
 }
 
-const std::string kLabsMap = std::string(HLC_SOURCE_DIR) + "/../shared/data/LabMapCommonRoad.xml";
+const std::string kLabsMap = test::source_folder() + "/../shared/data/LabMapCommonRoad.xml";
 
 INSTANTIATE_TEST_SUITE_P(Run, Variants,
                          testing::Values(Variant{"Profile2022", "2022", ""},

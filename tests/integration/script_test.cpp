@@ -12,14 +12,15 @@
 #include "hlc_bridge/record/report_file.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-const std::string kScripts = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
-const std::string kBin = std::string(HLC_BINARY_DIR) + "/bin";
+const std::string kScripts = test::source_folder() + "/launch_scripts/";
+const std::string kBin = test::build_folder() + "/bin";
 
 /// The child of a process that runs this program.
 std::optional<pid_t> child_of(pid_t parent, const std::string& program) {

@@ -14,6 +14,7 @@
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"
 #include "tests/integration/run_reports.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
@@ -21,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const std::string kScripts = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+const std::string kScripts = test::source_folder() + "/launch_scripts/";
 constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr double kStanding_mps = MissingVehicleRules{}.standing_speed_mps;
 
@@ -178,7 +179,6 @@ class Return : public testing::TestWithParam<Setting> {};
 
 TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
   constexpr VehicleId kVictim{2};
-  if (kIsTooSlowForTheLab && GetParam().transport == "lab") GTEST_SKIP() << "too slow";
   ReturningRun run(GetParam().scenario, GetParam().transport);
   ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", kVictim));
   run.expect_good_end();
@@ -187,7 +187,6 @@ TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
 
 // Its controller lives on without it, and answers it again.
 TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
-  if (kIsTooSlowForTheLab && GetParam().transport == "lab") GTEST_SKIP() << "too slow";
   ReturningRun run(GetParam().scenario, GetParam().transport);
   ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("middleware", {2}));
   run.expect_good_end();

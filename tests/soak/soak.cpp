@@ -1,6 +1,5 @@
 // Many runs of three cars with real processes, one after the other: with random faults, started and
 // stopped, or undisturbed in real time. See tests/soak/README.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

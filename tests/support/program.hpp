@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/support/folders.hpp"
+
 namespace hlc::test {
 
 struct Outcome {
@@ -16,7 +18,7 @@ struct Outcome {
 
 /// Runs a program of this build to its end. @param command  name and flags, as for a shell
 inline Outcome run_program(const std::string& command) {
-  const std::string line = HLC_BINARY_DIR "/bin/" + command + " 2>&1";
+  const std::string line = test::build_folder() + "/bin/" + command + " 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   EXPECT_NE(pipe, nullptr);
   Outcome outcome;

@@ -1,6 +1,5 @@
 // Drives a campaign of whole runs within one process, writes the evaluation's tables and draws its
 // figures.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>

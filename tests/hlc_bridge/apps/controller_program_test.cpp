@@ -16,6 +16,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -25,8 +26,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Nanoseconds kPeriod = 200'000'000;
-const std::string kProgram = HLC_BINARY_DIR "/bin/high_level_controller";
-const std::string kScenario = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_three_cars.yaml";
+const std::string kProgram = test::build_folder() + "/bin/high_level_controller";
+const std::string kScenario =
+    test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
 
 std::vector<pid_t> children_of(pid_t parent) {
   const std::string id = std::to_string(parent);
@@ -123,10 +125,10 @@ TEST_F(TwoControllers, EndWithTheProgramThatWasStarted) {
 TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
   const TemporaryFolder folder;
   const std::string lab = (folder / "lab").string();
-  ASSERT_EQ(
-      std::system(
-          ("cmake --install " HLC_BINARY_DIR " --prefix " + lab + " > /dev/null 2>&1").c_str()),
-      0);
+  ASSERT_EQ(std::system(("cmake --install " + test::build_folder() + " --prefix " + lab +
+                         " > /dev/null 2>&1")
+                            .c_str()),
+            0);
   const DomainReservation domains{2};
   const auto start = [&](const std::string& flags) {
     ChildProcess program(
@@ -151,7 +153,7 @@ TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
 TEST(ControllerProgram, RefusesAnAutomatonThatTheLabsVehiclesCannotFollow) {
   const TemporaryFolder folder;
   const std::string file = (folder / "too_tight.yaml").string();
-  const std::string shipped = HLC_SOURCE_DIR "/launch_scripts";
+  const std::string shipped = test::source_folder() + "/launch_scripts";
   std::ofstream(file) << "name: too_tight\nsteps: 10\nautomaton: " << shipped
                       << "/automata/paper.yaml\nlab: " << shipped
                       << "/labs/cpm_lab.yaml\nsubgraph: B\ncircle: {cars: 2, radius_m: 1.5, "

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace hlc {
+namespace hlc::command_check_test {
 namespace {
 
 using testing::ElementsAre;
@@ -100,4 +100,4 @@ TEST(CommandCheck, PointAtValidAfterIsNotBeforeIt) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::command_check_test

@@ -4,7 +4,7 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::command_test {
 namespace {
 
 constexpr Nanoseconds kPeriod = 200'000'000;
@@ -68,4 +68,4 @@ TEST(Command, AtTheBeginOfLogicalTimeNoPointLiesBeforeZero) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::command_test

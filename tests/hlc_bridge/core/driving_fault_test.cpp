@@ -4,7 +4,7 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::driving_fault_test {
 namespace {
 
 RunSummary summary_of_two() {
@@ -44,4 +44,4 @@ TEST(DrivingFault, NamesTouchesAndStepsOutsideTheAreas) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::driving_fault_test

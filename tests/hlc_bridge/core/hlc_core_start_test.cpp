@@ -3,15 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::hlc_core_start_test {
 namespace {
 
 constexpr Nanoseconds kListPeriod = 200'000'000;
 
 const Scenario& red_alone() {
-  static const Scenario scenario =
-      read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_red_alone.yaml"});
+  static const Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
   return scenario;
 }
 
@@ -97,4 +98,4 @@ TEST_F(RealTime, AVehicleThatFitsNoRouteDoesNotBegin) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::hlc_core_start_test

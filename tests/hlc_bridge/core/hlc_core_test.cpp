@@ -5,8 +5,9 @@
 
 #include "hlc_bridge/core/own_command_check.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::hlc_core_test {
 namespace {
 
 using testing::HasSubstr;
@@ -16,7 +17,8 @@ constexpr Nanoseconds kPeriod = 200'000'000;
 
 const Scenario& lab_scenario() {
   static const Scenario scenario = read_scenario(
-      {.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/lab_three_cars.yaml", .steps = 10});
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_three_cars.yaml",
+       .steps = 10});
   return scenario;
 }
 
@@ -86,4 +88,4 @@ TEST(HlcCore, APlanThatIsNotSentIsAFallbackInTheReport) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::hlc_core_test

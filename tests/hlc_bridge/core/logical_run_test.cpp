@@ -6,7 +6,7 @@
 #include "tests/hlc_bridge/core/simulated_lab.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::logical_run_test {
 namespace {
 
 using testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::logical_run_test

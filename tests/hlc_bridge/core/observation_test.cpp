@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace hlc {
+namespace hlc::observation_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -72,4 +72,4 @@ TEST(Observation, CompleteMeansAUsableStateOfEveryActiveVehicle) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::observation_test

@@ -8,7 +8,7 @@
 #include "hlc_bridge/core/command.hpp"
 #include "tests/planner/vehicle/cpm_lab.hpp"
 
-namespace hlc {
+namespace hlc::own_command_check_test {
 namespace {
 
 using testing::HasSubstr;
@@ -105,4 +105,4 @@ TEST(OwnCommandCheck, WhatWasGoodStaysGoodHoweverOftenItIsSaidAgain) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::own_command_check_test

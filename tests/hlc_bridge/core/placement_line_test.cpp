@@ -4,15 +4,16 @@
 #include <gtest/gtest.h>
 
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::placement_line_test {
 namespace {
 
 using testing::HasSubstr;
 
 const Scenario& three_cars() {
-  static const Scenario scenario =
-      read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_three_cars.yaml"});
+  static const Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
   return scenario;
 }
 
@@ -42,4 +43,4 @@ TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::placement_line_test

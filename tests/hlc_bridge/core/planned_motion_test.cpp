@@ -8,7 +8,7 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::planned_motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -108,4 +108,4 @@ TEST(DrivenMotion, IsLinearBetweenTicksAndEndsWithTheDrive) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::planned_motion_test

@@ -6,7 +6,7 @@
 #include "hlc_bridge/core/node_names.hpp"
 #include "tests/hlc_bridge/core/simulated_lab.hpp"
 
-namespace hlc {
+namespace hlc::real_time_run_test {
 namespace {
 
 using testing::ElementsAre;
@@ -161,7 +161,7 @@ class OnDeathContinue : public RealTimeRunTest {
   }
 
   static LabRunSettings long_run() {
-    LabRunSettings settings = hlc::settings();
+    LabRunSettings settings = real_time_run_test::settings();
     settings.steps = 40;
     settings.on_death = OnDeath::kContinue;
     return settings;
@@ -307,4 +307,4 @@ TEST_F(RealTimeRunTest, AControllerThatStaysOnStandbyWhileOthersDriveIsNamed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::real_time_run_test

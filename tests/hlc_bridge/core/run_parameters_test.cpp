@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::run_parameters_test {
 namespace {
 
 using testing::ElementsAre;
@@ -46,4 +46,4 @@ TEST(RunParameters, ValuesOfAnotherTypeAndOtherNamesAreIgnored) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::run_parameters_test

@@ -10,7 +10,7 @@
 #include "hlc_bridge/core/summary_table.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::run_summary_test {
 namespace {
 
 using testing::HasSubstr;
@@ -299,4 +299,4 @@ TEST_F(RunSummaryTest, TableShowsEveryVehicleInLinesOfAtMost110Columns) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::run_summary_test

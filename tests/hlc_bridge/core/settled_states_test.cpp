@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace hlc {
+namespace hlc::settled_states_test {
 namespace {
 
 VehicleState state_at(Nanoseconds create, double x_m = 1.0) {
@@ -58,4 +58,4 @@ TEST(SettledStates, ADrivingVehicleAndRepeatedStatesDoNotDisturb) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::settled_states_test

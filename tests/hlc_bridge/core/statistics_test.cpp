@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hlc {
+namespace hlc::statistics_test {
 namespace {
 
 TEST(Statistics, KnownSample) {
@@ -38,4 +38,4 @@ TEST(Statistics, OneValueHasNoSpread) {
 TEST(Statistics, EmptySampleHasNone) { EXPECT_FALSE(statistics({}).has_value()); }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::statistics_test

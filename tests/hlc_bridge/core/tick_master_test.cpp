@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::tick_master_test {
 namespace {
 
 using testing::ElementsAre;
@@ -74,4 +74,4 @@ TEST(TickMaster, StrangersChangeNothing) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::tick_master_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace hlc {
+namespace hlc::time_grid_test {
 namespace {
 
 constexpr Nanoseconds kPeriod = 200'000'000;
@@ -58,4 +58,4 @@ TEST(TimeGrid, NextOnGridIsTheFirstNotBefore) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::time_grid_test

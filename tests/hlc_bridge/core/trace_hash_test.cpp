@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-namespace hlc {
+namespace hlc::trace_hash_test {
 namespace {
 
 std::vector<StepRecord> run(unsigned seed) {
@@ -85,4 +85,4 @@ TEST(TraceHash, NothingOfTheClockCounts) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::trace_hash_test

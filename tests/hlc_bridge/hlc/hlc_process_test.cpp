@@ -15,6 +15,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
@@ -23,7 +24,7 @@ constexpr Nanoseconds kPeriod = 200'000'000;
 
 const Scenario& red_alone() {
   static const Scenario scenario =
-      read_scenario({.file = std::filesystem::path{HLC_SOURCE_DIR} /
+      read_scenario({.file = std::filesystem::path{test::source_folder()} /
                              "launch_scripts/scenarios/paper_red_alone.yaml"});
   return scenario;
 }

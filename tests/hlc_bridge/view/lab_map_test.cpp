@@ -6,6 +6,7 @@
 #include <set>
 
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
@@ -14,7 +15,7 @@ constexpr Nanoseconds kTimeToLive = 600'000'000;
 
 const Scenario& scenario() {
   static const Scenario scenario =
-      read_scenario({.file = std::filesystem::path{HLC_SOURCE_DIR} /
+      read_scenario({.file = std::filesystem::path{test::source_folder()} /
                              "launch_scripts/scenarios/paper_three_cars.yaml"});
   return scenario;
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 
 namespace hlc::test {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kExample =
-    HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml --from 0 0 --to 2.3 0.62";
+    test::source_folder() + "/launch_scripts/automata/pareto_example.yaml --from 0 0 --to 2.3 0.62";
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file);
@@ -91,7 +92,8 @@ TEST_F(ParetoFrontProgram, TheSameInputGivesTheSameBytes) {
 
 TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileThatWasThere) {
   std::ofstream(path("front.csv")) << "old";
-  fs::copy_file(HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml", path("copy.yaml"));
+  fs::copy_file(test::source_folder() + "/launch_scripts/automata/pareto_example.yaml",
+                path("copy.yaml"));
   // A pipe stands for every device: one of the machine would be at stake.
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   std::ofstream(path("broken.yaml")) << "limits: {acceleration_mps2: -1}\n";
@@ -100,7 +102,7 @@ TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileTh
     std::string flags;
     std::string named;
   };
-  const std::string file = HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml";
+  const std::string file = test::source_folder() + "/launch_scripts/automata/pareto_example.yaml";
   for (const Bad& bad :
        {Bad{"", "configuration"},
         Bad{file + " --from 0 0" + out, "--to"},
@@ -169,7 +171,7 @@ TEST_F(ParetoFrontProgram, AFreeDurationIsChosenWithinItsBoundsAndTold) {
 
 TEST_F(ParetoFrontProgram, TakesNegativeSteeringAndOtherCriteria) {
   const auto [code, output] = run_program(
-      "pareto_front " HLC_SOURCE_DIR
+      "pareto_front " + test::source_folder() +
       "/launch_scripts/automata/paper.yaml --from 0.8 -0.12 --to 0 0 --criteria comfort energy "
       "--points 3 --out " +
       path("front.csv"));

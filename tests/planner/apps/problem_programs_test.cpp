@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 
 namespace hlc {
@@ -20,7 +21,7 @@ using test::Outcome;
 using test::run_program;
 using testing::HasSubstr;
 
-const std::string kLaunch = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+const std::string kLaunch = test::source_folder() + "/launch_scripts/";
 const std::string kShipped = kLaunch + "problems/parked_car.json";
 
 std::size_t lines_of(const std::string& text) {

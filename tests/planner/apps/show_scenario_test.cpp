@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kScenario =
-    std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/paper_three_cars.yaml";
+    test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
 
 TEST(ShowScenario, DrawsTheScenarioWhereAskedTo) {
   const TemporaryFolder folder;
@@ -30,7 +31,7 @@ TEST(ShowScenario, DrawsTheScenarioWhereAskedTo) {
 
 TEST(ShowScenario, DoesNotDrawOverAFileThatTheScenarioNames) {
   const TemporaryFolder folder;
-  const std::string shipped = HLC_SOURCE_DIR "/launch_scripts";
+  const std::string shipped = test::source_folder() + "/launch_scripts";
   const std::string lab = (folder / "lab.yaml").string();
   std::filesystem::copy_file(shipped + "/labs/cpm_lab.yaml", lab);
   const std::string scenario = (folder / "own.yaml").string();

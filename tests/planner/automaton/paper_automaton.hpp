@@ -3,13 +3,14 @@
 #include <memory>
 
 #include "planner/maneuver_design/automaton_builder.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 
 /// The shipped configuration of the paper's automaton.
 inline const AutomatonConfiguration& shipped_configuration() {
   static const AutomatonConfiguration configuration =
-      read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+      read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
   return configuration;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/test_automaton.hpp"
 
 namespace hlc {
@@ -199,15 +200,15 @@ void check_drive(const UniversalAutomaton& automaton, const Drive& drive) {
   ASSERT_TRUE(automaton.trims[drive.end.index].is_equilibrium());
 }
 
-TEST(Switching, After100000RandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
-  constexpr int kAutomata = 50;
+TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
+  const std::uint64_t automata = test::num_seeds(50);
   constexpr int kSwitches = 2000;
-  int from_off = 0;
-  int from_far_off = 0;
-  int from_off_equilibrium = 0;
-  int without_way_out = 0;
-  int cut_off_plans = 0;
-  for (unsigned seed = 0; seed < kAutomata; ++seed) {
+  std::uint64_t from_off = 0;
+  std::uint64_t from_far_off = 0;
+  std::uint64_t from_off_equilibrium = 0;
+  std::uint64_t without_way_out = 0;
+  std::uint64_t cut_off_plans = 0;
+  for (unsigned seed = 0; seed < automata; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     const auto automaton = random_automaton(random);
@@ -224,32 +225,32 @@ TEST(Switching, After100000RandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill)
       const bool is_off = !subgraph.is_on(start);
       const bool stands = automaton->trims[start.index].is_equilibrium();
       const std::size_t distance = subgraph.distance_to_standstill(start);
-      from_off_equilibrium += is_off && stands ? 1 : 0;
-      without_way_out += distance == Subgraph::kNever ? 1 : 0;
+      from_off_equilibrium += is_off && stands ? 1U : 0U;
+      without_way_out += distance == Subgraph::kNever ? 1U : 0U;
       // Whatever is in the way, a search may find nothing.
       const bool finds = distance <= kHorizonSteps && toss(random, 0.6);
       if (finds) {
-        from_off += is_off && !stands ? 1 : 0;
-        from_far_off += is_off && distance >= 3 ? 1 : 0;
+        from_off += is_off && !stands ? 1U : 0U;
+        from_far_off += is_off && distance >= 3 ? 1U : 0U;
         drive = random_plan(subgraph, start, random);
         fallbacks = 0;
         ASSERT_NO_FATAL_FAILURE(check_rest_is_a_plan(subgraph, drive));
       } else {
         ++fallbacks;
         cut_off_plans +=
-            !drive.left.empty() && !is_permitted(subgraph, drive.left.front(), kHorizonSteps) ? 1
-                                                                                              : 0;
+            !drive.left.empty() && !is_permitted(subgraph, drive.left.front(), kHorizonSteps) ? 1U
+                                                                                              : 0U;
       }
       ASSERT_NO_FATAL_FAILURE(check_drive(*automaton, drive));
       ASSERT_TRUE(fallbacks < kHorizonSteps || automaton->trims[start.index].is_equilibrium());
     }
   }
   // The switches must be hard enough to say something.
-  EXPECT_GT(from_off, 1000);
-  EXPECT_GT(from_far_off, 50);
-  EXPECT_GT(from_off_equilibrium, 1000);
-  EXPECT_GT(without_way_out, 20);
-  EXPECT_GT(cut_off_plans, 1000);
+  EXPECT_GT(from_off, 20 * automata);
+  EXPECT_GT(from_far_off, automata);
+  EXPECT_GT(from_off_equilibrium, 20 * automata);
+  EXPECT_GT(without_way_out, 2 * automata / 5);
+  EXPECT_GT(cut_off_plans, 20 * automata);
 }
 
 }  // namespace

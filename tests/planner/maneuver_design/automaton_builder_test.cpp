@@ -9,6 +9,7 @@
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
@@ -181,8 +182,8 @@ TEST(AutomatonBuilder, APointOfAFrontLiesBetweenItsEndsAtItsShare) {
 }
 
 TEST(AutomatonBuilder, IntervalsThatAreTooLongForTheModelAreRefused) {
-  AutomatonConfiguration c =
-      read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/pareto_example.yaml");
+  AutomatonConfiguration c = read_automaton_configuration(
+      test::source_folder() + "/launch_scripts/automata/pareto_example.yaml");
   c.intervals = 10;
   try {
     static_cast<void>(build_automaton(c));

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "planner/automaton/subgraph_yaml.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
@@ -67,7 +68,7 @@ std::string message(const std::string& piece, const std::string& replacement) {
 TEST(AutomatonConfiguration, EveryShippedFileIsReadAndItsGridsAreOfTheSizeInTheirName) {
   std::size_t files = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(HLC_SOURCE_DIR "/launch_scripts/automata")) {
+       std::filesystem::directory_iterator(test::source_folder() + "/launch_scripts/automata")) {
     if (entry.path().extension() != ".yaml") continue;
     ++files;
     const auto c = read_automaton_configuration(entry.path());
@@ -81,7 +82,8 @@ TEST(AutomatonConfiguration, EveryShippedFileIsReadAndItsGridsAreOfTheSizeInThei
 }
 
 TEST(AutomatonConfiguration, TheShippedFileHoldsThePapersTrimsAndTheDefaults) {
-  const auto c = read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+  const auto c =
+      read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
   ASSERT_EQ(c.trims.size(), 12U);
   EXPECT_EQ(c.trims[0], (Trim{0.0, 0.0}));
   EXPECT_EQ(c.trims[1], (Trim{0.4, -0.60}));
@@ -447,7 +449,8 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
 }
 
 TEST(AutomatonConfiguration, ARunNeedsTheLabelsOfItsSubgraphAlone) {
-  const auto c = read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/paper.yaml");
+  const auto c =
+      read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
   const AutomatonConfiguration needed = needed_by(c.subgraphs[3], c);
   ASSERT_EQ(needed.criteria.size(), 1U);
   EXPECT_EQ(needed.criteria[0].label, "J3");

@@ -5,6 +5,7 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
@@ -29,7 +30,7 @@ TEST(CurvatureLimit, HasAnExactGradient) {
 }
 
 AutomatonConfiguration lab() {
-  return read_automaton_configuration(HLC_SOURCE_DIR "/launch_scripts/automata/lab.yaml");
+  return read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/lab.yaml");
 }
 
 TEST(CurvatureLimit, IsKeptByEveryManeuverOfTheLabsAutomatonAndBindsInSome) {

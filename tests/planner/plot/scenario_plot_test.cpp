@@ -1,4 +1,5 @@
 #include "planner/plot/scenario_plot.hpp"
+#include "tests/support/folders.hpp"
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -7,8 +8,8 @@ namespace hlc {
 namespace {
 
 std::string plot_of(const std::string& scenario) {
-  const Scenario read =
-      read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + scenario + ".yaml"});
+  const Scenario read = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/" + scenario + ".yaml"});
   return scenario_plot(read, map_of(read));
 }
 
@@ -28,7 +29,7 @@ TEST(ScenarioPlot, ShowsLanesPathsAndVehiclesWithTheirIds) {
     EXPECT_EQ(count(plot, std::string(">") + text + "<"), 1U) << text;
   }
   const std::size_t lanelets =
-      read_lanelet_map(HLC_SOURCE_DIR "/launch_scripts/maps/lab_like.xml").lanelets.size();
+      read_lanelet_map(test::source_folder() + "/launch_scripts/maps/lab_like.xml").lanelets.size();
   EXPECT_EQ(count(plot, "<polygon fill=\"#f0f0f0\""), lanelets);
   EXPECT_EQ(count(plot, "<polyline"), 2 * lanelets + 3);
   for (const char* colour : {"#d62728", "#1f4fd8", "#2ca02c"}) {  // footprint in the path's colour

@@ -10,11 +10,12 @@
 #include <string>
 
 #include "planner/road/route.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
 
-const std::filesystem::path kSource = HLC_SOURCE_DIR;
+const std::filesystem::path kSource = test::source_folder();
 
 std::string content_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -1,4 +1,5 @@
 #include "planner/road/lanelet_map.hpp"
+#include "tests/support/folders.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -153,7 +154,7 @@ TEST(LaneletMap, FileThatCannotBeReadOrWrittenIsNamed) {
 
 TEST(LaneletMap, TheLabsFileIsRead) {
   const std::filesystem::path file =
-      std::filesystem::path(HLC_SOURCE_DIR) / "../shared/data/LabMapCommonRoad.xml";
+      std::filesystem::path(test::source_folder()) / "../shared/data/LabMapCommonRoad.xml";
   if (!std::filesystem::exists(file)) {
     GTEST_SKIP() << "the lab's map is not here: " << file;
   }

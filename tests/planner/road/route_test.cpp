@@ -12,6 +12,7 @@
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/lab_like_map.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {
@@ -229,7 +230,8 @@ Circuits lab_like_circuits() {
 /// Without lanelets if the lab's map is not here.
 Circuits lab_circuits() {
   Circuits lab{{}, {12.219, 9.225, 8.880}, {{75, 57}, {101, 83}, {74, 55}, {22, 3}}};
-  const auto file = std::filesystem::path(HLC_SOURCE_DIR) / "../shared/data/LabMapCommonRoad.xml";
+  const auto file =
+      std::filesystem::path(test::source_folder()) / "../shared/data/LabMapCommonRoad.xml";
   if (std::filesystem::exists(file)) {
     lab.network.map = read_lanelet_map(file);
     lab.network.routes = {

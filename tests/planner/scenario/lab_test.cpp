@@ -11,15 +11,16 @@
 #include "planner/controller/trajectory.hpp"
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::lab_test {
 namespace {
 
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+const std::string kFolder = test::source_folder() + "/launch_scripts/";
 const std::string kLabFile = kFolder + "labs/cpm_lab.yaml";
 
 std::string content_of(const std::string& path) {
@@ -198,4 +199,4 @@ TEST(Lab, APlanThatLeavesTheAreaDoesNotComeIntoForceAndTheReportSaysSo) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::lab_test

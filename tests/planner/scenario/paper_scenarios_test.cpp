@@ -13,15 +13,16 @@
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plans_in_force.hpp"
 
-namespace hlc {
+namespace hlc::paper_scenarios_test {
 namespace {
 
-const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/";
+const std::string kFolder = test::source_folder() + "/launch_scripts/scenarios/";
 const std::filesystem::path kLabMap =
-    std::string(HLC_SOURCE_DIR) + "/../shared/data/LabMapCommonRoad.xml";
+    test::source_folder() + "/../shared/data/LabMapCommonRoad.xml";
 
 struct Course {
   std::optional<double> lap_s;
@@ -228,4 +229,4 @@ INSTANTIATE_TEST_SUITE_P(Profiles, PaperScenario,
                          });
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::paper_scenarios_test

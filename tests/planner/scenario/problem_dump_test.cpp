@@ -9,13 +9,14 @@
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::problem_dump_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/";
+const std::string kFolder = test::source_folder() + "/launch_scripts/scenarios/";
 
 /// What one step of a vehicle came to.
 struct Decision {
@@ -143,4 +144,4 @@ TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::problem_dump_test

@@ -11,17 +11,18 @@
 
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/search/search_engine.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/random_problem.hpp"
 
-namespace hlc {
+namespace hlc::problem_file_test {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kAutomaton = std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/paper.yaml";
+const std::string kAutomaton = test::source_folder() + "/launch_scripts/automata/paper.yaml";
 
 std::shared_ptr<const Subgraph> subgraph_b() {
   static const auto result = read_subgraph(
@@ -304,4 +305,4 @@ TEST_F(ProblemFileTest, TheCostToGoOf2022NeedsReferenceSpeeds) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::problem_file_test

@@ -7,11 +7,12 @@
 #include <string>
 
 #include "planner/geometry/footprint.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::scenario_test {
 namespace {
 
-const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+const std::string kFolder = test::source_folder() + "/launch_scripts/";
 
 /// Writes a scenario that is good but for `change`, and returns what reading it says.
 class ScenarioErrors : public testing::Test {
@@ -198,4 +199,4 @@ TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::scenario_test

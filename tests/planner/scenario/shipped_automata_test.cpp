@@ -6,12 +6,13 @@
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/plans_in_force.hpp"
 
-namespace hlc {
+namespace hlc::shipped_automata_test {
 namespace {
 
-const std::string kScenarios = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/";
+const std::string kScenarios = test::source_folder() + "/launch_scripts/scenarios/";
 
 struct Shipped {
   std::string scenario;
@@ -60,4 +61,4 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedAutomaton,
                          });
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::shipped_automata_test

@@ -1,11 +1,12 @@
 #include "planner/scenario/starts.hpp"
+#include "tests/support/folders.hpp"
 
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::starts_test {
 namespace {
 
-const std::string kScenarios = std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/";
+const std::string kScenarios = test::source_folder() + "/launch_scripts/scenarios/";
 
 TEST(Starts, RandomOnesLieOnThePathsClearOfEachOtherAndTheSameForTheSameSeed) {
   const Scenario scenario = read_scenario({.file = kScenarios + "paper_three_cars.yaml"});
@@ -38,4 +39,4 @@ TEST(Starts, OpenPathsHaveNoRandomOnes) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::starts_test

@@ -8,11 +8,12 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::switching_test {
 namespace {
 
-const std::string kFolder = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+const std::string kFolder = test::source_folder() + "/launch_scripts/";
 
 /// The red car alone without lane bounds, on an automaton with all labels, and its subgraphs.
 class Switching : public testing::Test {
@@ -148,4 +149,4 @@ TEST_F(Switching, WhereNothingCanBePlannedTheFallbackIsDrivenToStandstill) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::switching_test

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -14,10 +15,11 @@ using testing::HasSubstr;
 class EvaluateSweep : public testing::Test {
  protected:
   [[nodiscard]] Outcome sweep(const std::string& settings, const std::string& flags = "") const {
-    put(folder_ / "sweep.yaml", "scenarios: [" HLC_SOURCE_DIR
-                                "/launch_scripts/scenarios/paper_red_alone.yaml]\nsubgraphs: [B, "
-                                "D]\nsteps: 20\nsettings: " +
-                                    settings + "\n");
+    put(folder_ / "sweep.yaml",
+        "scenarios: [" + test::source_folder() +
+            "/launch_scripts/scenarios/paper_red_alone.yaml]\nsubgraphs: [B, "
+            "D]\nsteps: 20\nsettings: " +
+            settings + "\n");
     return run_program("evaluate --sweep " + (folder_ / "sweep.yaml").string() + " --out " +
                        out_.string() + " " + flags);
   }

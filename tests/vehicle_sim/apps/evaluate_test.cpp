@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kScenarios =
-    std::string(" --scenario_folder ") + HLC_SOURCE_DIR + "/launch_scripts/scenarios";
+    std::string(" --scenario_folder ") + test::source_folder() + "/launch_scripts/scenarios";
 
 std::string text_of(const std::filesystem::path& file) {
   std::stringstream text;
@@ -102,7 +103,7 @@ TEST_F(Evaluate, RefusesTheFolderOfAnotherCampaign) {
 }
 
 TEST_F(Evaluate, RefusesToGoOnAfterAutomatonOrMapHaveChanged) {
-  const std::string source = std::string(HLC_SOURCE_DIR) + "/launch_scripts/";
+  const std::string source = test::source_folder() + "/launch_scripts/";
   for (const char* file :
        {"scenarios/paper_red_alone.yaml", "automata/paper.yaml", "maps/lab_like.xml"}) {
     std::filesystem::create_directories((folder_ / file).parent_path());
@@ -175,7 +176,7 @@ TEST_F(Evaluate, DrawsTheFiguresThatAreAskedForAlsoLater) {
 }
 
 TEST_F(Evaluate, DrawsThePapersFiguresOfTheAutomaton) {
-  const std::string automata = std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/";
+  const std::string automata = test::source_folder() + "/launch_scripts/automata/";
   const Outcome done = evaluate("--figures automaton");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   EXPECT_THAT(text_of(out_ / "figures" / "automaton_paper.svg"), HasSubstr("12 trims"));
@@ -203,10 +204,10 @@ TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
 TEST_F(Evaluate, AMapThatCannotBeReadIsBadInput) {
   const std::filesystem::path scenario = folder_ / "own.yaml";
   std::string text =
-      text_of(std::string(HLC_SOURCE_DIR) + "/launch_scripts/scenarios/paper_red_alone.yaml");
+      text_of(test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml");
   const std::string automaton = "../automata/paper.yaml";
   text.replace(text.find(automaton), automaton.size(),
-               std::string(HLC_SOURCE_DIR) + "/launch_scripts/automata/paper.yaml");
+               test::source_folder() + "/launch_scripts/automata/paper.yaml");
   const std::string map = "../maps/lab_like.xml";
   text.replace(text.find(map), map.size(), "map.xml");
   put(scenario, text);

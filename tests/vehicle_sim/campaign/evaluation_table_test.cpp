@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::evaluation_table_test {
 namespace {
 
 using testing::HasSubstr;
@@ -98,4 +98,4 @@ TEST(EvaluationTable, AsCommaSeparatedValuesHasOneRowPerQuantity) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::evaluation_table_test

@@ -4,13 +4,15 @@
 
 #include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/run_summary.hpp"
+#include "tests/support/folders.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
-namespace hlc {
+namespace hlc::experiment_test {
 namespace {
 
 Scenario scenario_of(const std::string& name) {
-  return read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + name + ".yaml"});
+  return read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
 }
 
 RunSummary summary_of(const Scenario& scenario, const ExperimentOptions& options) {
@@ -103,4 +105,4 @@ TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::experiment_test

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "planner/plot/scenario_plot.hpp"
+#include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::figures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -13,7 +14,7 @@ using testing::Not;
 
 std::vector<DrivenRun> runs_of(const std::string& scenario, std::vector<std::string> subgraphs) {
   const Campaign campaign(
-      {.scenarios = {HLC_SOURCE_DIR "/launch_scripts/scenarios/" + scenario + ".yaml"},
+      {.scenarios = {test::source_folder() + "/launch_scripts/scenarios/" + scenario + ".yaml"},
        .profiles = {"default"},
        .subgraphs = std::move(subgraphs),
        .steps = 15});
@@ -109,4 +110,4 @@ TEST(Figures, DistancesHaveALinePerPairAndThoseOfContactAndMargins) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::figures_test

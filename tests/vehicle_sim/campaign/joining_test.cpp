@@ -14,10 +14,11 @@
 #include "hlc_bridge/core/run_summary.hpp"
 #include "planner/automaton/deviation.hpp"
 #include "planner/scenario/starts.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/campaign/experiment.hpp"
 
-namespace hlc {
+namespace hlc::joining_test {
 namespace {
 
 /// Where cars stand: everywhere where one is to be driven (placement.hpp), and some way beyond.
@@ -35,8 +36,8 @@ constexpr double kMostBeyond_m = 0.010;
 const Scenario& shipped(const std::string& name) {
   static std::map<std::string, Scenario> scenarios;
   if (!scenarios.contains(name)) {
-    scenarios[name] =
-        read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + name + ".yaml"});
+    scenarios[name] = read_scenario(
+        {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
   }
   return scenarios[name];
 }
@@ -247,4 +248,4 @@ TEST(Fitting, ACarThatFitsNoRouteHoldsUpTheStartAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::joining_test

@@ -8,10 +8,11 @@
 
 #include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/core/run_summary.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/vehicle_sim/campaign/closed_loop.hpp"
 #include "vehicle_sim/campaign/experiment.hpp"
 
-namespace hlc {
+namespace hlc::lab_tracking_test {
 namespace {
 
 constexpr double kMean_m = 0.010;
@@ -19,8 +20,8 @@ constexpr double kMax_m = 0.020;
 
 RunSummary driven(const std::string& name, std::uint64_t steps,
                   std::optional<std::uint64_t> noise_seed) {
-  const Scenario scenario =
-      read_scenario({.file = HLC_SOURCE_DIR "/launch_scripts/scenarios/" + name + ".yaml"});
+  const Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
   const Experiment experiment =
       drive_experiment(scenario, {.steps = steps, .noise_seed = noise_seed});
   EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
@@ -104,4 +105,4 @@ TEST(LabTracking, TheLabsCircleIsKeptToAtEveryTrimsSpeed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::lab_tracking_test

@@ -8,7 +8,7 @@
 
 #include "tests/vehicle_sim/campaign/closed_loop.hpp"
 
-namespace hlc {
+namespace hlc::simulated_vehicle_test {
 namespace {
 
 using closed_loop::drive;
@@ -240,4 +240,4 @@ TEST(SimulatedVehicle, GarbageOnTheWireNeverMovesIt) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::simulated_vehicle_test

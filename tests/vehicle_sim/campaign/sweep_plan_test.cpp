@@ -6,15 +6,16 @@
 #include <algorithm>
 #include <set>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::sweep_plan_test {
 namespace {
 
 using testing::HasSubstr;
 
-const std::string kScenarios = HLC_SOURCE_DIR "/launch_scripts/scenarios/";
+const std::string kScenarios = test::source_folder() + "/launch_scripts/scenarios/";
 
 std::string file_with(const std::string& settings, const std::string& more = "") {
   return "scenarios: [" + kScenarios + "paper_red_alone.yaml]\nsubgraphs: [A, D]\n" + more +
@@ -96,7 +97,7 @@ TEST(SweepPlan, TablesNameSettingsOfTheFile) {
 TEST(SweepPlan, EveryShippedStudyCanBeDriven) {
   std::size_t studies = 0;
   for (const auto& file :
-       std::filesystem::directory_iterator(HLC_SOURCE_DIR "/launch_scripts/sweeps")) {
+       std::filesystem::directory_iterator(test::source_folder() + "/launch_scripts/sweeps")) {
     if (file.path().extension() != ".yaml") continue;
     SCOPED_TRACE(file.path());
     ++studies;
@@ -108,7 +109,7 @@ TEST(SweepPlan, EveryShippedStudyCanBeDriven) {
 }
 
 TEST(SweepPlan, ShippedStudyOfTheTableHasAtLeast10000RunsAndThatOfTrimsAllSubsets) {
-  const std::string sweeps = HLC_SOURCE_DIR "/launch_scripts/sweeps/";
+  const std::string sweeps = test::source_folder() + "/launch_scripts/sweeps/";
   const SweepPlan table = read_sweep(sweeps + "table_2.yaml");
   EXPECT_GE(combinations_of(table).size() * table.runs_each(), 10000U);
   EXPECT_EQ(combinations_of(read_sweep(sweeps + "trims.yaml")).size(), 2047U);
@@ -168,4 +169,4 @@ TEST(SweepPlan, BadFilesAreRefusedInOneLineWithPlaceValueAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::sweep_plan_test

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "vehicle_sim/campaign/paper_comparison.hpp"
 #include "vehicle_sim/campaign/sweep_csv.hpp"
@@ -10,13 +11,14 @@
 #include "vehicle_sim/campaign/sweep_tables.hpp"
 #include "vehicle_sim/campaign/trims_front.hpp"
 
-namespace hlc {
+namespace hlc::sweep_test {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kScenario = HLC_SOURCE_DIR "/launch_scripts/scenarios/paper_red_alone.yaml";
+const std::string kScenario =
+    test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml";
 
 Sweep built_sweep(const std::string& rest) {
   const TemporaryFolder folder;
@@ -350,4 +352,4 @@ TEST(TrimsFront, NamesTheSmallestChoiceWithoutLossAndThePlaceOfD) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::sweep_test

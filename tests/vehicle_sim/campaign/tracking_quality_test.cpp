@@ -10,7 +10,7 @@
 
 #include "tests/vehicle_sim/campaign/closed_loop.hpp"
 
-namespace hlc {
+namespace hlc::tracking_quality_test {
 namespace {
 
 using closed_loop::drive;
@@ -231,4 +231,4 @@ TEST(TrackingQuality, StandsStillAtTheEndAlsoWithNoise) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::tracking_quality_test

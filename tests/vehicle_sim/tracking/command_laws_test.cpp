@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hlc {
+namespace hlc::command_laws_test {
 namespace {
 
 const IdentifiedVehicle kVehicle;
@@ -104,4 +104,4 @@ TEST(SteeringForPath, HasNothingToFollowOnAnEmptyPathOrBehindTheEndOfAnOpenOne) 
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::command_laws_test

@@ -9,7 +9,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/tracking/trajectory.hpp"
 
-namespace hlc {
+namespace hlc::follower_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -207,4 +207,4 @@ TEST(Follower, InputsAreAlwaysFiniteAndWithinTheActuators) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::follower_test

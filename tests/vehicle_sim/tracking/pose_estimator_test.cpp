@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace hlc {
+namespace hlc::pose_estimator_test {
 namespace {
 
 const IdentifiedVehicle kVehicle;
@@ -65,4 +65,4 @@ TEST(PoseEstimator, HalvesTheNoise) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::pose_estimator_test
