@@ -506,8 +506,6 @@ void MiddlewareProcess::carry_on(const Command& command) {
   signal_.post([&] {
     const auto answer = newest_answers_.find(command.vehicle_id);
     if (answer == newest_answers_.end()) return;  // of somebody else's controller
-    // Whoever commands was triggered: so a middleware that was started again knows of the run.
-    if (!options_.logical_time && !between_experiments_) triggered_ = true;
     answer->second = std::max(answer->second, command.create_stamp);
     silent_controllers_.erase(command.vehicle_id);
   });
