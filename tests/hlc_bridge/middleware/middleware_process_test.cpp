@@ -455,7 +455,9 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
   EXPECT_EQ(directs.now().at(0).motor_throttle, 0.1);
 
   const auto sees_vehicle_2 = [&] {
-    const VehicleStateList list = controller_->lists.now().back();
+    const std::vector<VehicleStateList> lists = controller_->lists.now();
+    if (lists.empty()) return false;
+    const VehicleStateList& list = lists.back();
     return list.observations.size() == 2 && list.observations[1].vehicle_id == 2 &&
            list.observations[1].pose.x_m == 3.5;
   };

@@ -201,7 +201,7 @@ void check_drive(const UniversalAutomaton& automaton, const Drive& drive) {
 }
 
 TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
-  const std::uint64_t automata = test::num_seeds(50);
+  const std::uint64_t automata = test::num_costly_seeds(50);
   constexpr int kSwitches = 2000;
   std::uint64_t from_off = 0;
   std::uint64_t from_far_off = 0;

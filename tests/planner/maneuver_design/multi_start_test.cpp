@@ -39,7 +39,7 @@ std::vector<Input> random_inputs(std::uint64_t kind, std::size_t size, const Veh
 
 TEST(MultiStart, NoRandomStartFindsAnythingBetterForAnyEdgeOfThePaper) {
   constexpr std::uint64_t kSeed = 71;
-  const std::uint64_t starts = test::num_seeds(10);
+  const std::uint64_t starts = test::num_costly_seeds(10);
   SCOPED_TRACE(Message() << "seed " << kSeed);
   const AutomatonConfiguration& c = paper_configuration();
   for (const std::string criterion : {"J1", "J2", "J3"}) {

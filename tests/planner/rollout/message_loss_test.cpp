@@ -90,7 +90,7 @@ TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
 INSTANTIATE_TEST_SUITE_P(Steps, LossOfOneStep, testing::Values(3, 5));
 
 TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
-  for (unsigned seed = 0; seed < test::num_seeds(20); ++seed) {
+  for (unsigned seed = 0; seed < test::num_costly_seeds(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     std::bernoulli_distribution is_lost(0.02 + 0.02 * (seed % 20));
@@ -106,7 +106,7 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
 // Both live, see each other standing and hear nothing: nobody may take the other for an obstacle
 // that stands for good, or both drive off at once.
 TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
-  for (unsigned seed = 0; seed < test::num_seeds(3); ++seed) {
+  for (unsigned seed = 0; seed < test::num_costly_seeds(3); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> distance(0.6, 1.4);

@@ -175,7 +175,7 @@ TEST_P(Joining, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
   double most_m = 0.0;
   std::size_t cannot = 0;
   std::size_t too_far_beyond = 0;
-  const std::uint64_t seeds = test::num_seeds(60);
+  const std::uint64_t seeds = test::num_costly_seeds(60);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const std::size_t vehicle = seed % 3;
     SCOPED_TRACE("seed " + std::to_string(seed) + ", vehicle " + std::to_string(vehicle + 1));
@@ -212,7 +212,7 @@ TEST_P(Joining, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
   const Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   std::size_t cannot = 0;
-  const std::uint64_t seeds = test::num_seeds(10);
+  const std::uint64_t seeds = test::num_costly_seeds(10);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scenario scenario = with_offsets(cars, seed);

@@ -123,7 +123,7 @@ Trims random_walk(std::uint64_t seed, std::size_t steps) {
 TEST(Margin, CoversEverySwitchingOfTrimsWithSteeringToSpare) {
   for (const bool with_noise : {false, true}) {
     Largest largest;
-    for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
+    for (std::uint64_t seed = 0; seed < test::num_costly_seeds(100); ++seed) {
       const Largest one =
           walked(random_walk(seed, 150), seed, with_noise ? std::optional(seed) : std::nullopt);
       EXPECT_LE(one.footprint_m, margin_m()) << "seed " << seed << ", noise " << with_noise;
@@ -208,7 +208,7 @@ controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise, double l
 // Paths sharper than the vehicle can turn, so that full lock is used often; plans driven to their
 // end without a new one, so that nothing helps that is not in the plan.
 TEST(Margin, TheAreasThatAControllerTellsHoldItsVehicleAtEveryTick) {
-  const std::uint64_t seeds = test::num_seeds(30);
+  const std::uint64_t seeds = test::num_costly_seeds(30);
   controlled_loop::Stray all;
   double largest_without_limit_m = 0.0;
   for (const bool with_noise : {false, true}) {
