@@ -1,10 +1,11 @@
 #include "tests/integration/lab_network.hpp"
-#include "tests/support/folders.hpp"
 
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+
+#include "tests/support/folders.hpp"
 
 namespace hlc::test {
 namespace {

@@ -15,17 +15,17 @@ namespace hlc::test {
 
 /// Under a sanitizer code takes five to ten times as long, and what is looked for there, bad
 /// accesses and undefined behaviour, depends on the paths through the code, not on many examples
-/// of each: of a costly test one example of so many.
+/// of each: a costly test takes every kThinning-th example.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr std::uint32_t kOneOf = 5;
+inline constexpr std::uint32_t kThinning = 5;
 #else
-inline constexpr std::uint32_t kOneOf = 1;
+inline constexpr std::uint32_t kThinning = 1;
 #endif
 
 /// The same for tests that take half a minute and more under a sanitizer: a fifth there, at least
 /// one.
 [[nodiscard]] inline std::uint64_t num_costly_seeds(std::uint64_t short_form) {
-  return std::max<std::uint64_t>(num_seeds(short_form) / kOneOf, 1);
+  return std::max<std::uint64_t>(num_seeds(short_form) / kThinning, 1);
 }
 
 }  // namespace hlc::test

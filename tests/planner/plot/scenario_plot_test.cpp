@@ -1,8 +1,9 @@
 #include "planner/plot/scenario_plot.hpp"
-#include "tests/support/folders.hpp"
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
+
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {

@@ -1,5 +1,4 @@
 #include "planner/road/lanelet_map.hpp"
-#include "tests/support/folders.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+
+#include "tests/support/folders.hpp"
 
 namespace hlc {
 namespace {

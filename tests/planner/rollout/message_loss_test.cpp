@@ -72,7 +72,7 @@ TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
   std::map<std::string, int> outcomes;
   constexpr std::uint32_t kPatterns =
       1U << 12U;  // traffic and predictions; strict needs no third round
-  for (std::uint32_t pattern = 0; pattern < kPatterns; pattern += test::kOneOf) {
+  for (std::uint32_t pattern = 0; pattern < kPatterns; pattern += test::kThinning) {
     Rollout rollout = before.clone();
     lose_pattern(rollout, pattern, rollout.next_step());
     std::string outcome;

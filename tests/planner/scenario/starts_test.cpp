@@ -1,7 +1,8 @@
 #include "planner/scenario/starts.hpp"
-#include "tests/support/folders.hpp"
 
 #include <gtest/gtest.h>
+
+#include "tests/support/folders.hpp"
 
 namespace hlc::starts_test {
 namespace {
