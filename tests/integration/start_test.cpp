@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "hlc_bridge/core/time_grid.hpp"
@@ -112,8 +113,11 @@ class ReturningRun {
   }
 
   /// Kills the vehicle's process of that name when the car has driven for a while, waits until the
-  /// car has stopped, starts the process again, and waits until the car has driven on.
-  void kill_and_start_again(const std::string& process, VehicleId id) {
+  /// car has stopped and everybody has noticed, starts the process again, and waits until the car
+  /// has driven on.
+  /// @param noticed  lines in processes' logs by which these have noticed, beside lab control's
+  void kill_and_start_again(const std::string& process, VehicleId id,
+                            std::map<std::string, std::string> noticed = {}) {
     const std::string name = process + "_" + std::to_string(id.value);
     ASSERT_TRUE(eventually(kPatience, [&] { return planned_steps(lab.reports(), id) >= 20; }))
         << lab.log("lab_control");
@@ -124,9 +128,12 @@ class ReturningRun {
       const DrivenSample now = lab.drives().at(id.value).back();
       return now.t > killed + kNanosecondsPerSecond && std::abs(now.speed_mps) <= kStanding_mps;
     }));
-    ASSERT_TRUE(eventually(kPatience, [&] {
-      return lab.log("lab_control").find(name + " died") != std::string::npos;
-    }));
+    noticed["lab_control"] = name + " died";
+    for (const auto& [who, line] : noticed) {
+      ASSERT_TRUE(
+          eventually(kPatience, [&] { return lab.log(who).find(line) != std::string::npos; }))
+          << who << ": " << lab.log(who);
+    }
     lab.start(name);
     const Nanoseconds again = real_time_now();
     EXPECT_TRUE(eventually(kPatience, [&] {
@@ -188,10 +195,12 @@ TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
 // Its controller lives on without it, and answers it again.
 TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
   ReturningRun run(GetParam().scenario, GetParam().transport);
-  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("middleware", {2}));
+  const std::string controller = "high_level_controller_2";
+  ASSERT_NO_FATAL_FAILURE(
+      run.kill_and_start_again("middleware", {2}, {{controller, "middleware_2 is gone"}}));
   run.expect_good_end();
-  EXPECT_NE(run.lab.log("high_level_controller_2").find("middleware_2 is back"), std::string::npos)
-      << run.lab.log("high_level_controller_2");
+  EXPECT_NE(run.lab.log(controller).find("middleware_2 is back"), std::string::npos)
+      << run.lab.log(controller);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Return,
