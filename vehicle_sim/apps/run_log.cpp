@@ -28,7 +28,7 @@ std::string differing_files(const Json& before, const Json& now) {
   std::string names;
   for (const Json& file : now) {
     if (std::find(before.begin(), before.end(), file) != before.end()) continue;
-    names += " " + file.value("file", std::string{});
+    if (file.is_object()) names += " " + file.value("file", std::string{});
   }
   return names;
 }
