@@ -31,6 +31,11 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
   }
   const std::string name = "vehicle " + std::to_string(id.value);
   if (own.size() < 2) throw std::runtime_error(name + ": fewer than two steps were reported");
+  const bool is_whole = facts.exit_code == 0;
+  if (is_whole && own.size() < facts.steps) {
+    throw std::runtime_error("reports.csv: " + std::to_string(own.size()) + " steps of " + name +
+                             ", allowed the " + std::to_string(facts.steps) + " of run.json");
+  }
   hlc::ExportedVehicle vehicle{
       .id = id,
       .planned = hlc::planned_motion(own, facts.period, kInterval, automaton),
@@ -40,6 +45,13 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
   vehicle.driven = hlc::driven_motion(drive->second, *facts.first_step * facts.period, kInterval,
                                       vehicle.planned.size());
   if (vehicle.driven.size() < 2) throw std::runtime_error(name + ": drove less than a step");
+  const std::size_t per_step = facts.period / kInterval;
+  if (is_whole && vehicle.driven.size() + per_step < vehicle.planned.size()) {
+    throw std::runtime_error(
+        name + ": the record of what it drove ends " +
+        std::to_string((vehicle.planned.size() - vehicle.driven.size()) / per_step) +
+        " steps before its plan, allowed a whole run");
+  }
   return vehicle;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <AutomatonAnswerMessage.h>
+#include <AutomatonRequestMessage.h>
 #include <OutcomeMessage.h>
 #include <PredictionMessage.h>
 #include <ReportMessage.h>
 #include <RunStateMessage.h>
 #include <TrafficMessage.h>
 
+#include "hlc_bridge/core/automaton_messages.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
 #include "hlc_bridge/dds/conversion.hpp"
 
@@ -22,17 +25,23 @@ namespace hlc {
 [[nodiscard]] bool can_be_written(const Prediction& message);
 [[nodiscard]] bool can_be_written(const Outcome& message);
 [[nodiscard]] bool can_be_written(const ReportRecord& message);
+[[nodiscard]] bool can_be_written(const AutomatonRequest& message);
+[[nodiscard]] bool can_be_written(const AutomatonAnswer& message);
 
 void to_wire(const Traffic& message, TrafficMessage& wire);
 void to_wire(const Prediction& message, PredictionMessage& wire);
 void to_wire(const Outcome& message, OutcomeMessage& wire);
 void to_wire(const ReportRecord& message, ReportMessage& wire);
 void to_wire(const RunState& message, RunStateMessage& wire);
+void to_wire(const AutomatonRequest& message, AutomatonRequestMessage& wire);
+void to_wire(const AutomatonAnswer& message, AutomatonAnswerMessage& wire);
 
 [[nodiscard]] Incoming<Traffic> from_wire(const TrafficMessage& wire);
 [[nodiscard]] Incoming<Prediction> from_wire(const PredictionMessage& wire);
 [[nodiscard]] Incoming<Outcome> from_wire(const OutcomeMessage& wire);
 [[nodiscard]] Incoming<ReportRecord> from_wire(const ReportMessage& wire);
 [[nodiscard]] Incoming<RunState> from_wire(const RunStateMessage& wire);
+[[nodiscard]] Incoming<AutomatonRequest> from_wire(const AutomatonRequestMessage& wire);
+[[nodiscard]] Incoming<AutomatonAnswer> from_wire(const AutomatonAnswerMessage& wire);
 
 }  // namespace hlc

@@ -72,6 +72,8 @@ constexpr auto kOwnTable = std::to_array<OwnRow>({
     // A late joiner gets every report of a run of 10000 steps.
     {TopicId::kReport, true, 10'000, Durability::kTransientLocal, false},
     {TopicId::kRunState, false, 1, Durability::kTransientLocal, false},
+    {TopicId::kAutomatonRequest, true, 1, Durability::kTransientLocal, false},
+    {TopicId::kAutomatonAnswer, true, 16, Durability::kTransientLocal, false},
 });
 
 // In the lab's network, where samples do get lost: the tightest deadline of a step is 40 ms.

@@ -88,5 +88,7 @@ template class Reader<Prediction>;
 template class Reader<Outcome>;
 template class Reader<ReportRecord>;
 template class Reader<RunState>;
+template class Reader<AutomatonRequest>;
+template class Reader<AutomatonAnswer>;
 
 }  // namespace hlc

@@ -78,4 +78,12 @@ Topic<ReportRecord> report() { return {TopicId::kReport, "hlc/report"}; }
 
 Topic<RunState> run_state() { return {TopicId::kRunState, "hlc/run_state"}; }
 
+Topic<AutomatonRequest> automaton_request() {
+  return {TopicId::kAutomatonRequest, "hlc/automaton_request"};
+}
+
+Topic<AutomatonAnswer> automaton_answer() {
+  return {TopicId::kAutomatonAnswer, "hlc/automaton_answer"};
+}
+
 }  // namespace hlc::topics

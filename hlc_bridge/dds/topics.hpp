@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hlc_bridge/core/automaton_messages.hpp"
 #include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
@@ -28,6 +29,8 @@ enum class TopicId : std::uint8_t {
   kOutcome,
   kReport,
   kRunState,
+  kAutomatonRequest,
+  kAutomatonAnswer,
 };
 
 /// A topic and what is said on it: writers and readers of anything else do not compile.
@@ -64,12 +67,14 @@ template <class Command = TrajectoryCommand>
 [[nodiscard]] Topic<LogLevel> log_level();
 [[nodiscard]] Topic<Visualization> visualization();
 
-// Controller domain; all but the last keyed by the vehicle
+// Controller domain; all but run_state keyed by the vehicle
 [[nodiscard]] Topic<Traffic> traffic();
 [[nodiscard]] Topic<Prediction> prediction();
 [[nodiscard]] Topic<Outcome> outcome();
 [[nodiscard]] Topic<ReportRecord> report();  ///< late joiners get all reports of a run
 [[nodiscard]] Topic<RunState> run_state();   ///< late joiners get the last one
+[[nodiscard]] Topic<AutomatonRequest> automaton_request();  ///< late joiners get the last one
+[[nodiscard]] Topic<AutomatonAnswer> automaton_answer();    ///< late joiners get the last ones
 
 }  // namespace topics
 }  // namespace hlc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <AutomatonAnswerMessagePubSubTypes.h>
+#include <AutomatonRequestMessagePubSubTypes.h>
 #include <LogLevelPubSubTypes.h>
 #include <LogPubSubTypes.h>
 #include <OutcomeMessagePubSubTypes.h>
@@ -68,6 +70,8 @@ template <> struct Wire<Traffic> : OwnWire<TrafficMessage, TrafficMessagePubSubT
 template <> struct Wire<Prediction> : OwnWire<PredictionMessage, PredictionMessagePubSubType> {};
 template <> struct Wire<Outcome> : OwnWire<OutcomeMessage, OutcomeMessagePubSubType> {};
 template <> struct Wire<ReportRecord> : OwnWire<ReportMessage, ReportMessagePubSubType> {};
+template <> struct Wire<AutomatonRequest> : OwnWire<AutomatonRequestMessage, AutomatonRequestMessagePubSubType> {};
+template <> struct Wire<AutomatonAnswer> : OwnWire<AutomatonAnswerMessage, AutomatonAnswerMessagePubSubType> {};
 template <> struct Wire<RunState> : OwnWire<RunStateMessage, RunStateMessagePubSubType> {};
 // clang-format on
 

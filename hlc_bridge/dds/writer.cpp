@@ -73,5 +73,7 @@ template class Writer<Prediction>;
 template class Writer<Outcome>;
 template class Writer<ReportRecord>;
 template class Writer<RunState>;
+template class Writer<AutomatonRequest>;
+template class Writer<AutomatonAnswer>;
 
 }  // namespace hlc

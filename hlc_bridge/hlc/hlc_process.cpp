@@ -75,8 +75,15 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       drawing_writer_(lab_, topics::visualization()),
       stop_request_writer_(lab_, topics::stop_request()),
       lab_log_(lab_, options_.node_id),
+      automaton_answer_writer_(controllers_, topics::automaton_answer()),
+      preparation_(core_.controller().shared_subgraph(),
+                   core_.controller().options().horizon_steps),
       exchange_(controllers_, signal_, options_.logical_time, options_.node_id,
                 [this] { return stop_; }),
+      automaton_request_reader_(controllers_, topics::automaton_request(),
+                                [this](const AutomatonRequest& request) {
+                                  if (request.vehicle == vehicle_) preparation_.ask(request);
+                                }),
       run_state_reader_(controllers_, topics::run_state(),
                         [this](const RunState& state) {
                           signal_.post([&] {
@@ -313,6 +320,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
     core_.note(list, *observation);
     join_if_others_drive(*observation);
   }
+  reconfigure(observation->step, list.t_now);
   exchange_.begin(observation->step);
   const std::optional<Nanoseconds> trigger = signal_.locked([this] { return start_; });
   ReportRecord record;
@@ -331,6 +339,33 @@ void HlcProcess::answer(const VehicleStateList& list) {
   report_writer_.write(record);
   draw(record.report, list);
   if (core_.has_begun()) look_back();
+}
+
+void HlcProcess::reconfigure(StepIndex step, Nanoseconds t_now) {
+  if (options_.logical_time) preparation_.wait();
+  for (PreparedRequest& prepared : preparation_.take()) {
+    tell(reconfiguration_.take(std::move(prepared), step));
+  }
+  if (const auto answer = reconfiguration_.begin_step(core_.controller(), step, t_now)) {
+    tell(*answer);
+  }
+}
+
+void HlcProcess::tell(const AutomatonAnswer& answer) {
+  automaton_answer_writer_.write(answer);
+  switch (answer.outcome) {
+    case RequestOutcome::kAccepted:
+      return;
+    case RequestOutcome::kInForce:
+      spdlog::info("{}: plans on subgraph {} from step {} on", options_.node_id, answer.text,
+                   answer.step.value);
+      return;
+    case RequestOutcome::kRefused:
+    case RequestOutcome::kStale:
+      spdlog::warn("{}: a request for another subgraph is refused: {}", options_.node_id,
+                   answer.text);
+      return;
+  }
 }
 
 /// Only who drives tells its traffic: the trigger has been, and is not repeated. Who takes no part,

@@ -18,6 +18,7 @@
 #include "hlc_bridge/hlc/command_sender.hpp"
 #include "hlc_bridge/hlc/lab_log.hpp"
 #include "hlc_bridge/hlc/step_exchange.hpp"
+#include "hlc_bridge/hlc/subgraph_preparation.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/wait_notice.hpp"
 #include "planner/controller/controller.hpp"
@@ -69,6 +70,10 @@ struct HlcProcessOptions {
 /// drive out their plans too, it leaves at once. A vehicle follows one controller: where another
 /// one of that name is, this one says nothing, and leaves.
 ///
+/// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
+/// the step from which it holds, and answers. In logical time that step waits for what is being
+/// prepared.
+///
 /// All waiting is here and in StepExchange, and every wait ends: at a deadline (real time), when
 /// whom it waits for is gone from the domain, or after 10 s of silence (logical time).
 class HlcProcess {
@@ -104,6 +109,8 @@ class HlcProcess {
   [[nodiscard]] std::set<std::string> peer_names() const;
   [[nodiscard]] bool wait_for_everybody();
 
+  void reconfigure(StepIndex step, Nanoseconds t_now);
+  void tell(const AutomatonAnswer& answer);
   void answer(const VehicleStateList& list);
   [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
@@ -142,6 +149,9 @@ class HlcProcess {
   Writer<Visualization> drawing_writer_;
   Writer<StopRequest> stop_request_writer_;
   LabLog lab_log_;
+  Writer<AutomatonAnswer> automaton_answer_writer_;
+  SubgraphPreparation preparation_;
+  Reconfiguration reconfiguration_;
 
   std::vector<VehicleId> active_;
   std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
@@ -157,6 +167,7 @@ class HlcProcess {
 
   // Readers last: their callbacks use everything above, and they end first.
   StepExchange exchange_;
+  Reader<AutomatonRequest> automaton_request_reader_;
   Reader<RunState> run_state_reader_;
   Reader<SystemTrigger> trigger_reader_;
   Reader<VehicleStateList> list_reader_;

@@ -10,6 +10,8 @@
 namespace hlc {
 namespace {
 
+constexpr double kRounding_mps = 1e-6;  // of the states of maneuvers (maneuver_check)
+
 std::string printed(TrimId trim) { return std::to_string(trim.index + 1); }
 
 std::string printed(const TrimPair& edge) { return printed(edge.from) + " -> " + printed(edge.to); }
@@ -172,7 +174,7 @@ void Subgraph::check_spec() const {
 void Subgraph::switch_on() {
   const std::vector<Trim>& trims = automaton_->trims;
   const auto is_too_fast = [this](double speed_mps) {
-    return spec_.max_speed_mps && speed_mps > *spec_.max_speed_mps;
+    return spec_.max_speed_mps && speed_mps > *spec_.max_speed_mps + kRounding_mps;
   };
   is_on_.assign(trims.size(), false);
   for (const TrimId trim : spec_.trims) {

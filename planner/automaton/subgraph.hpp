@@ -50,7 +50,8 @@ struct SubgraphSpec {
   std::vector<TrimId> trims;        ///< declared trims, in order; must hold an equilibrium
   EdgeRule rule{EdgeRule::kChain};
   /// Takes away the trims that are faster, and the maneuvers that are faster *anywhere*: a J1
-  /// maneuver between trims of 0.8 m/s reaches 2 m/s.
+  /// maneuver between trims of 0.8 m/s reaches 2 m/s. One that ends in a trim at the limit exceeds
+  /// it by the rounding of its last state: 1e-6 m/s are let pass.
   std::optional<double> max_speed_mps{};
   std::vector<EdgesOff> off{};
   std::vector<EdgeLabels> edges{};

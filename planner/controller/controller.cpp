@@ -119,6 +119,13 @@ std::unique_ptr<Controller> Controller::clone() const {
   result->last_not_standing_ = last_not_standing_;
   result->drives_out_ = drives_out_;
   result->missing_rules_ = missing_rules_;
+  if (former_) {
+    result->former_ = Former{
+        .subgraph = former_->subgraph,
+        .reachable = former_->reachable,
+        .planner = make_horizon_planner(*former_->subgraph, *former_->reachable, options_.search),
+        .last = former_->last};
+  }
   return result;
 }
 
@@ -129,6 +136,9 @@ void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
     reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
   }
   assert(reachable->max_steps() > options_.horizon_steps);
+  // Of several switches in a row: what the plan in force was found on.
+  if (!former_) former_ = Former{subgraph_, reachable_, std::move(planner_), {}};
+  former_->last = {last_step().value + options_.horizon_steps};
   planner_ = make_horizon_planner(*subgraph, *reachable, options_.search);
   subgraph_ = std::move(subgraph);
   reachable_ = std::move(reachable);
@@ -208,6 +218,11 @@ Traffic Controller::observe(const Observation& observation) {
   };
   std::ranges::for_each(traffic.running.areas_m, add);
   add(traffic.running.final_area_m);
+  if (former_) {
+    add(transformed(
+        former_->reachable->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
+        traffic.next_pose));
+  }
   traffic.reachable_area_m = convex_hull(reach);
   for (const VehicleId other : observation.active) {
     if (other == options_.vehicle) continue;
@@ -305,14 +320,20 @@ void Controller::add_missing_obstacles(HorizonProblem& problem) const {
   }
 }
 
+/// How far the vehicle can get in a horizon.
+double Controller::reach_m() const {
+  const auto reach_in = [this](const ReachableSets& reachable) {
+    return reachable.max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0);
+  };
+  return std::max(reach_in(*reachable_), former_ ? reach_in(*former_->reachable) : 0.0);
+}
+
 double Controller::project(const Point& position_m) const {
   const ReferencePath& path = route().path;
   if (!path_s_m_) return path.project(position_m).s_m;
-  const double reach_m =
-      reachable_->max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0);
   return path
       .project_within(position_m, *path_s_m_ - kProjectionBack_m,
-                      *path_s_m_ + reach_m + kProjectionBack_m)
+                      *path_s_m_ + reach_m() + kProjectionBack_m)
       .s_m;
 }
 
@@ -320,7 +341,6 @@ double Controller::project(const Point& position_m) const {
 HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
   const UniversalAutomaton& automaton = subgraph_->automaton();
   const Traffic& own = step_.traffic;
-  const double reach_m = reachable_->max_distance_m(own.next_trim, options_.horizon_steps, 0);
   HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
   Reference reference =
       reference_points(route().path, *path_s_m_, automaton.trims[own.next_trim.index].speed_mps,
@@ -329,7 +349,7 @@ HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
   problem.boundary_m = corridor.boundary_m(*path_s_m_ - kBoundaryReserve_m,
-                                           *path_s_m_ + reach_m + kBoundaryReserve_m);
+                                           *path_s_m_ + reach_m() + kBoundaryReserve_m);
   return problem;
 }
 
@@ -348,8 +368,7 @@ void Controller::look_at_lanes() {
     const Placement placement = placement_on(route(), step_.traffic.next_pose, footprint);
     path_s_m_ = placement.s_m;
     joining_ = join(
-        route(), placement, step_.traffic.next_pose,
-        reachable_->max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0), footprint,
+        route(), placement, step_.traffic.next_pose, reach_m(), footprint,
         [this](const Corridor& corridor) { return problem_alone(corridor); }, *planner_);
     sets_out_ = false;
   }
@@ -380,11 +399,28 @@ std::vector<const Maneuver*> Controller::incumbent() const {
   return maneuvers;
 }
 
-/// Solves the problem; what it finds is the candidate, unless its drift leads into something.
+/// Solves the problem; after a switch, if it has no path, on the former subgraph.
+SearchResult Controller::search() {
+  const auto search_on = [this](HorizonPlanner& planner) {
+    SearchResult result = planner.plan(step_.problems.back());
+    step_.report.generated += result.generated;
+    step_.report.expanded += result.expanded;
+    return result;
+  };
+  SearchResult result = search_on(*planner_);
+  if (!former_) return result;
+  const bool found_nothing =
+      result.status == SearchStatus::kFallback && result.reason != NoPath::kBudget;
+  if (!found_nothing || step_.observation.step > former_->last) {
+    former_.reset();
+    return result;
+  }
+  return search_on(*former_->planner);
+}
+
+/// What is found is the candidate, unless its drift leads into something.
 void Controller::search_candidate(StepIndex next) {
-  const SearchResult result = planner_->plan(step_.problems.back());
-  step_.report.generated += result.generated;
-  step_.report.expanded += result.expanded;
+  const SearchResult result = search();
   if (result.status == SearchStatus::kFallback) {
     step_.obstacle =
         result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;

@@ -91,9 +91,11 @@ class Controller {
   /// From the next step on plans on another subgraph of the same automaton. Its tables, for one
   /// step more than the horizon, are computed unless they are given: a matter of milliseconds for a
   /// dozen trims, not for a hundred (ReachableSets). Not in the middle of a step. The plan in force
-  /// stays, whatever of it is off now, and is the fallback as ever: see Subgraph for the rule. The
-  /// other vehicles need not switch in the same step: where a missing one may be is reckoned with
-  /// the highest speed of the whole automaton.
+  /// stays, whatever of it is off now, and is the fallback as ever: see Subgraph for the rule.
+  /// Where nothing is found from where the plan in force leads (the way off what is off now leads
+  /// into something), the former subgraph is planned on, until something is, for a horizon at most.
+  /// The other vehicles need not switch in the same step: where a missing one may be is reckoned
+  /// with the highest speed of the whole automaton.
   /// @pre `subgraph` belongs to the automaton of the former one, `reachable` to `subgraph`
   void switch_to(std::shared_ptr<const Subgraph> subgraph,
                  std::shared_ptr<const ReachableSets> reachable = nullptr);
@@ -162,6 +164,14 @@ class Controller {
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
   };
 
+  /// What was planned on before a switch.
+  struct Former {
+    std::shared_ptr<const Subgraph> subgraph;
+    std::shared_ptr<const ReachableSets> reachable;
+    std::unique_ptr<HorizonPlanner> planner;
+    StepIndex last;  ///< of the steps that may still use it
+  };
+
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              std::shared_ptr<const std::vector<DrivableRoute>> routes,
              std::shared_ptr<const ReachableSets> reachable);
@@ -169,6 +179,8 @@ class Controller {
   void take_route(const Pose& measured);
   void look_at_lanes();
   [[nodiscard]] double project(const Point& position_m) const;
+  [[nodiscard]] double reach_m() const;
+  [[nodiscard]] SearchResult search();
   void search_candidate(StepIndex next);
   [[nodiscard]] bool is_candidate_free() const;
   [[nodiscard]] bool is_candidate_drivable() const;
@@ -189,6 +201,7 @@ class Controller {
   std::shared_ptr<const std::vector<DrivableRoute>> routes_;
   std::shared_ptr<const ReachableSets> reachable_;
   std::unique_ptr<HorizonPlanner> planner_;
+  std::optional<Former> former_;  ///< until something was found on what is planned on now
   const Maneuver* standstill_;
   MissingVehicleRules missing_rules_;
 

@@ -21,14 +21,17 @@ const SubgraphSpec* find_subgraph(const std::vector<SubgraphSpec>& subgraphs,
 }
 
 std::shared_ptr<const Subgraph> read_subgraph(const std::filesystem::path& automaton_file,
-                                              const SubgraphChoice& choose) {
+                                              const SubgraphChoice& choose, BuildScope scope) {
   if (is_automaton_file(automaton_file)) {
     const AutomatonFile file = read_current_automaton_file(automaton_file);
     return std::make_shared<Subgraph>(file.automaton, choose(file.subgraphs));
   }
   const AutomatonConfiguration configuration = read_automaton_configuration(automaton_file);
   const SubgraphSpec& spec = choose(configuration.subgraphs);
-  return std::make_shared<Subgraph>(build_shared_automaton(needed_by(spec, configuration)), spec);
+  return std::make_shared<Subgraph>(
+      build_shared_automaton(scope == BuildScope::kWhole ? configuration
+                                                         : needed_by(spec, configuration)),
+      spec);
 }
 
 }  // namespace hlc

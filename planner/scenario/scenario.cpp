@@ -233,6 +233,7 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0));
   scenario.profile = profile_from_name(choices.profile);
   scenario.search = read_search(node, choices, scenario.profile);
+  scenario.is_reconfigurable = node.optional<bool>("reconfigurable", false);
   scenario.subgraph = std::move(subgraph);
   scenario.search.criterion_weights = read_criterion_weights(node, *scenario.subgraph);
   check_standstill_is_near(node, scenario);
@@ -253,11 +254,12 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
 Scenario read_scenario(const ScenarioChoices& choices) {
   const YamlNode node = YamlNode::read_file(choices.file);
   const std::filesystem::path path = beside(choices.file, node.required<std::string>("automaton"));
-  return read_with(
-      node, choices,
-      read_subgraph(path, [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
-        return chosen_subgraph(node, choices, offered);
-      }));
+  const BuildScope scope =
+      node.optional<bool>("reconfigurable", false) ? BuildScope::kWhole : BuildScope::kSubgraph;
+  const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
+    return chosen_subgraph(node, choices, offered);
+  };
+  return read_with(node, choices, read_subgraph(path, choose, scope));
 }
 
 Scenario read_scenario(const ScenarioChoices& choices,

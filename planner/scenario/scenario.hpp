@@ -38,6 +38,8 @@ struct Scenario {
   double reference_speed_mps{};
   Profile profile;
   SearchOptions search;  ///< engine: the command line's, else the file's, else the profile's
+  /// Its automaton holds all that its configuration declares: other subgraphs may be asked for.
+  bool is_reconfigurable{};
   std::shared_ptr<const Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
   /// For vehicles that the scenario does not name: its routes by name, or on a circle those of its
@@ -57,7 +59,8 @@ struct ScenarioChoices {
 };
 
 /// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
-/// from a configuration, of which it builds what the chosen subgraph needs (maneuvers are solved);
+/// from a configuration, of which it builds what the chosen subgraph needs, or with
+/// `reconfigurable: true` all (maneuvers are solved);
 /// and checks that it can be driven: routes exist and close, start poses do not overlap, standstill
 /// is within the horizon, and the lab's vehicles, if it names a lab, can follow the automaton.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is

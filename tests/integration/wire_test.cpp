@@ -111,8 +111,9 @@ const std::vector<Part> kLabParts{
     {kLabControlName, true, "log"},
 };
 
-const std::set<std::string> kOwnTopics{"hlc/traffic", "hlc/prediction", "hlc/outcome", "hlc/report",
-                                       "hlc/run_state"};
+const std::set<std::string> kOwnTopics{
+    "hlc/traffic",   "hlc/prediction",        "hlc/outcome",         "hlc/report",
+    "hlc/run_state", "hlc/automaton_request", "hlc/automaton_answer"};
 
 bool holds(const std::vector<Endpoint>& endpoints, const Part& part) {
   return std::ranges::any_of(endpoints, [&](const Endpoint& endpoint) {

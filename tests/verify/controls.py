@@ -98,6 +98,19 @@ def into_another(root: Element, ids: int) -> None:
     shift(second, dx, dy + 0.05)
 
 
+def without(root: Element, ids: int) -> None:
+    root.remove(root.find(f"dynamicObstacle[@id='{ids + 2}']"))
+
+
+def cut_plan(root: Element) -> None:
+    for state in motion(root, PLANNED_IDS, 1)[300:]:
+        state.getparent().remove(state)
+
+
+def renumber_drive(root: Element) -> None:
+    root.find(f"dynamicObstacle[@id='{DRIVEN_IDS + 2}']").set("id", str(DRIVEN_IDS + 9))
+
+
 def repeat_id(root: Element) -> None:
     problems = root.findall("planningProblem")
     problems[1].set("id", problems[0].get("id"))
@@ -176,6 +189,22 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
             ("vehicle 1",),
             lambda r: shift(planned(r), 0.2, 0.0),
         ),
+        Control(
+            "one driven sample 0.5 m aside",
+            "driving",
+            ("vehicle 2",),
+            lambda r: shift(motion(r, DRIVEN_IDS, 2)[777:778], 0.5, 0.0),
+        ),
+        Control(
+            "a driven car 0.3 m beside its plan",
+            "driving",
+            ("off its plan",),
+            lambda r: shift(motion(r, DRIVEN_IDS, 2), 0.0, 0.3),
+        ),
+        Control("no plan of a car", "record", ("no plan",), lambda r: without(r, PLANNED_IDS)),
+        Control("no drive of a car", "record", ("no drive",), lambda r: without(r, DRIVEN_IDS)),
+        Control("a plan of 3 s", "record", ("plan of",), cut_plan),
+        Control("a drive of another car", "record", ("vehicle",), renumber_drive),
         Control("a narrower car", "size", ("element",), make_narrower),
         Control("an id twice", "schema", ("Duplicate",), repeat_id),
         Control("a state without orientation", "schema", ("orientation",), without_orientation),

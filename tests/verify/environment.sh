@@ -7,7 +7,7 @@ usage() {
   cat <<'TEXT'
 usage: environment.sh DIR
 Installs CommonRoad's packages (requirements.txt) into the virtual environment DIR; does nothing if they are there.
-Exit codes: 0 good, 1 installation failed, 2 bad input, 3 cannot be made here: no python3-venv, or no PyPI
+Exit codes: 0 good, 2 bad input, 3 cannot be made here: no python3-venv, or no PyPI, 4 installation failed
 TEXT
 }
 
@@ -34,15 +34,15 @@ fail() { # exit code, message
   exit "$1"
 }
 mkdir -p "$(dirname "$dir")" || exit 2
-exec {lock}>"$dir.lock" && flock -w 600 "$lock" || fail 1 "another installation does not end"
+exec {lock}>"$dir.lock" && flock -w 600 "$lock" || fail 4 "another installation does not end"
 [[ $(cat "$dir/installed" 2>/dev/null) != "$wanted" ]] || exit 0
 rm -rf "$dir"
-timeout 60 python3 -m venv "$dir" >"$log" 2>&1 || fail 1 "no virtual environment in $dir"
+timeout 300 python3 -m venv "$dir" >"$log" 2>&1 || fail 4 "python3 -m venv makes no environment in $dir"
 pip=("$dir/bin/python" -m pip --disable-pip-version-check --no-input --retries 1 --timeout 15)
 install=(install --quiet --only-binary :all: --no-deps)
 # The smallest package first: whether packages can be had at all.
-timeout 40 "${pip[@]}" "${install[@]}" commonroad-vehicle-models==3.0.2 >"$log" 2>&1 ||
+timeout 120 "${pip[@]}" "${install[@]}" commonroad-vehicle-models==3.0.2 >"$log" 2>&1 ||
   fail 3 "skipped, PyPI is out of reach"
 echo "environment.sh: installing CommonRoad's packages into $dir" >&2
-timeout 400 "${pip[@]}" "${install[@]}" -r "$here/requirements.txt" >"$log" 2>&1 || fail 1 "installation failed"
+timeout 400 "${pip[@]}" "${install[@]}" -r "$here/requirements.txt" >"$log" 2>&1 || fail 4 "installation failed"
 echo "$wanted" >"$dir/installed"

@@ -116,7 +116,10 @@ def read_run(xml: Path, folder: Path) -> Run:
     planned, driven = {}, {}
     for obstacle in scenario.dynamic_obstacles:
         kind, vehicle = divmod(obstacle.obstacle_id, 1_000_000)
-        {PLANNED_IDS: planned, DRIVEN_IDS: driven}[kind * 1_000_000][vehicle] = obstacle
+        motions = {PLANNED_IDS: planned, DRIVEN_IDS: driven}.get(kind * 1_000_000)
+        if motions is None:
+            raise ValueError(f"element {obstacle.obstacle_id} is neither a plan nor a drive")
+        motions[vehicle] = obstacle
     return Run(scenario, read_configuration(folder, scenario.dt), planned, driven)
 
 

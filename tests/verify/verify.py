@@ -11,6 +11,7 @@ from collisions import check_collisions, check_size
 from controls import run_controls
 from dynamics import check_dynamics
 from lanes import check_lanes
+from record import check_driving, check_whole
 from run import BadInput, Finding, read_run
 from schema import check_schema
 
@@ -42,8 +43,13 @@ def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
         raise
     except Exception as error:  # whatever CommonRoad's reader has against it
         return [Finding("reader", f"CommonRoad's reader: {error!r}")], lines
+    findings, text = check_whole(run, folder)
+    if findings:
+        return findings, lines  # of what is not there nothing can be said
+    lines.append(f"record      {text}")
     findings += check_size(run)
     for name, check in (
+        ("driving", check_driving),
         ("dynamics", check_dynamics),
         ("collisions", check_collisions),
         ("lanes", check_lanes),

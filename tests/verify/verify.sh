@@ -13,7 +13,7 @@ with real processes over DDS, checks all of them, and the negative controls of t
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   where the packages are, or are installed (default build/release/verify_environment)
 Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input,
-            3 skipped: the packages are not there and PyPI is out of reach
+            3 skipped: the packages are not there and PyPI is out of reach, 4 installation or a drive failed
 TEXT
 }
 
@@ -57,7 +57,7 @@ drive() { # what, command ...
   "$@" >"$out/log" 2>&1 && return
   cat "$out/log" >&2
   echo "verify.sh: $what failed" >&2
-  exit 1
+  exit 4
 }
 echo "Driving"
 drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle --subgraphs A,B,C,D \

@@ -23,18 +23,19 @@ std::size_t drive_campaign(const Campaign& campaign, std::size_t jobs, bool keep
     return files.has(run) && (!keep_runs || is_whole_run_folder(folder_of_run(files, run)));
   };
   for_each_number(missing_runs(campaign.runs().size(), is_done), "run", jobs, [&](std::size_t run) {
+    std::optional<DrivenRun> driven;
     std::optional<CampaignResult> result;
     std::string failure;
     try {
-      const DrivenRun driven = campaign.drive(run, machine_clocks());
-      if (keep_runs) {
-        write_run_folder(folder_of_run(files, run), driven.scenario, driven.experiment);
-      }
-      result = campaign.result_of(driven);
+      driven = campaign.drive(run, machine_clocks());
+      result = campaign.result_of(*driven);
     } catch (const std::exception& error) {
       failure = error.what();
     }
-    // Outside: a record that cannot be written is no failure of the run.
+    // Outside: a folder or a record that cannot be written is no failure of the run.
+    if (keep_runs && driven) {
+      write_run_folder(folder_of_run(files, run), driven->scenario, driven->experiment);
+    }
     if (result) {
       files.add(run, *result);
     } else {

@@ -2,6 +2,7 @@
 // figures.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -28,10 +29,12 @@ struct Choices {
   bool keep_runs{false};
   std::filesystem::path out;
   hlc::FigureChoices figures;
-  std::filesystem::path sweep;  ///< empty: a campaign
+  bool is_sweep{false};  ///< else a campaign
+  std::filesystem::path sweep;
 };
 
 constexpr char kAllFigures[] = "all";
+constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 
 /// A file, or the name of one in the folder of scenarios.
 std::filesystem::path scenario_file(const Choices& choices, const std::string& name) {
@@ -129,7 +132,7 @@ int run_sweep(const Choices& choices, const std::string& command) {
 }
 
 int run(Choices choices, const std::string& command) {
-  if (!choices.sweep.empty()) return run_sweep(choices, command);
+  if (choices.is_sweep) return run_sweep(choices, command);
   const hlc::Campaign campaign = read(choices);
   hlc::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
@@ -165,15 +168,18 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
                  "how many starts: the scenario's own, then random ones on the routes")
-      ->check(CLI::Range(1, 100000))
+      ->check(hlc::whole(1, 100'000))
       ->capture_default_str();
-  app.add_option("--seed", choices.plan.seed, "of the random starts")->capture_default_str();
+  app.add_option("--seed", choices.plan.seed, "of the random starts")
+      ->check(hlc::whole(0, kLargestSeed))
+      ->capture_default_str();
   app.add_option("--steps", choices.plan.steps, "instead of the scenarios'")
-      ->check(CLI::Range(1, 100000));
+      ->check(hlc::whole(1, 100'000));
   app.add_option("--noise_seed", choices.plan.noise_seed,
-                 "measurement noise of the simulated cars; default: none");
+                 "measurement noise of the simulated cars; default: none")
+      ->check(hlc::whole(0, kLargestSeed));
   app.add_option("--jobs", choices.jobs, "runs at a time")
-      ->check(CLI::Range(1, 256))
+      ->check(hlc::whole(1, 256))
       ->capture_default_str();
   app.add_flag("--keep_runs", choices.keep_runs,
                "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
@@ -204,6 +210,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
       "input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  choices.is_sweep = sweep->count() > 0;
   int code = 0;
   const int problem =
       hlc::exit_code_of("evaluate", [&] { code = run(choices, command_line(argc, argv)); });

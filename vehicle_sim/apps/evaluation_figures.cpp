@@ -125,7 +125,12 @@ class Drawing {
         // A run that fails is recorded with its reason among the campaign's.
         try {
           DrivenRun run = campaign_.drive(i, choices_.clocks);
-          if (run.experiment.facts.exit_code == 0) runs.push_back(std::move(run));
+          if (run.experiment.facts.exit_code != 0) continue;
+          if (const std::string fault = campaign_.result_of(run).fault; !fault.empty()) {
+            choices_.say("among them subgraph " + run.scenario.subgraph->spec().name +
+                         ", which does not count: " + fault);
+          }
+          runs.push_back(std::move(run));
         } catch (const std::exception&) {
           continue;
         }

@@ -27,12 +27,16 @@ Json heading_of(const Campaign& campaign) {
   json["steps"] = plan.steps ? Json(*plan.steps) : Json(nullptr);
   json["noise_seed"] = plan.noise_seed ? Json(*plan.noise_seed) : Json(nullptr);
   json["revision"] = program_revision();
+  json["program"] = this_program_sha256();
   return json;
 }
 
 RunFigures figures_of(const Campaign& campaign, std::size_t run, const Json& record) {
   RunFigures figures = campaign.heading_of(run);
-  if (record.contains("figures")) figures = read_figures(record.at("figures"), std::move(figures));
+  // Only a run that could not be driven to its end has none.
+  if (record.contains("figures") || record.at("failure").is_null()) {
+    figures = read_figures(record.at("figures"), std::move(figures));
+  }
   if (!record.at("failure").is_null()) figures.failure = record.at("failure").get<std::string>();
   return figures;
 }
@@ -40,7 +44,12 @@ RunFigures figures_of(const Campaign& campaign, std::size_t run, const Json& rec
 }  // namespace
 
 EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& campaign)
-    : campaign_(campaign), log_(std::move(folder), heading_of(campaign).dump()) {}
+    : campaign_(campaign), log_(std::move(folder), heading_of(campaign).dump()) {
+  log_.check(campaign.runs().size(), [this](std::size_t run, const Json& record) {
+    static_cast<void>(figures_of(campaign_, run, record));
+  });
+  log_.check_outputs({"results.json", "table.md", "table.csv"});
+}
 
 void EvaluationFiles::add(std::size_t run, const CampaignResult& result) {
   Json record;

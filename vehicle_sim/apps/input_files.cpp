@@ -13,4 +13,9 @@ nlohmann::ordered_json input_files(const std::set<std::filesystem::path>& files)
   return list;
 }
 
+std::string this_program_sha256() {
+  static const std::string hash = sha256_of(read_file("/proc/self/exe"));
+  return hash;
+}
+
 }  // namespace hlc

@@ -1,5 +1,10 @@
 #include "vehicle_sim/apps/run_log.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -10,15 +15,39 @@
 namespace hlc {
 namespace {
 
-/// The keys in which two headings differ.
-std::string differing_keys(const std::string& there, const std::string& wanted) {
-  const auto before = nlohmann::json::parse(there, nullptr, false);
-  const auto now = nlohmann::json::parse(wanted);
+using Json = nlohmann::ordered_json;
+
+/// Short values as they are, of long ones nothing.
+std::string told(const Json& value) {
+  const std::string text = value.dump();
+  return value.is_array() && text.size() > 40 ? "" : " " + text;
+}
+
+/// Which of the files that a campaign reads are others.
+std::string differing_files(const Json& before, const Json& now) {
+  std::string names;
+  for (const Json& file : now) {
+    if (std::find(before.begin(), before.end(), file) != before.end()) continue;
+    if (file.is_object()) names += " " + file.value("file", std::string{});
+  }
+  return names;
+}
+
+/// In what two headings differ, and what is there.
+std::string differences(const std::string& there, const std::string& wanted) {
+  const Json before = Json::parse(there, nullptr, false);
+  const Json now = Json::parse(wanted);
   if (!before.is_object()) return "first line";
   std::string keys;
   for (const auto& [key, value] : now.items()) {
     if (before.contains(key) && before[key] == value) continue;
     keys += (keys.empty() ? "" : ", ") + key;
+    if (!before.contains(key)) continue;
+    if (key == "files") {
+      keys += differing_files(before[key], value);
+    } else if (key != "program") {
+      keys += told(before[key]);
+    }
   }
   return keys.empty() ? "first line" : keys;
 }
@@ -27,39 +56,95 @@ std::string differing_keys(const std::string& there, const std::string& wanted) 
 
 RunLog::RunLog(std::filesystem::path folder, std::string heading)
     : folder_(std::move(folder)), heading_(std::move(heading)) {
-  const std::filesystem::path file = folder_ / "runs.jsonl";
-  const auto refuse = [&](const std::string& what) {
-    throw std::invalid_argument("--out = " + folder_.string() + ": " + what +
-                                ", allowed a new folder or that of the same campaign");
-  };
   if (!std::filesystem::exists(folder_)) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
-    if (error) refuse("cannot be made, " + error.message());
+    if (error) {
+      throw std::invalid_argument("--out = " + folder_.string() + ": cannot be made, " +
+                                  error.message() + ", allowed a folder that can be written to");
+    }
   }
   if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
+  lock();
+  try {
+    open();
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+RunLog::~RunLog() { ::close(lock_); }
+
+void RunLog::refuse(const std::string& what) const {
+  throw std::invalid_argument("--out = " + folder_.string() + ": " + what +
+                              ", allowed a new folder or that of the same campaign");
+}
+
+void RunLog::lock() {
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  if (lock_ >= 0) ::close(lock_);
+  throw std::invalid_argument("--out = " + folder_.string() +
+                              ": another evaluate writes to it, allowed one at a time");
+}
+
+void RunLog::open() {
+  const std::filesystem::path file = folder_ / "runs.jsonl";
+  const auto write = [&](const std::string& text) {
+    try {
+      write_file(file, text);
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(error.what());
+    }
+  };
   if (!std::filesystem::exists(file)) {
     if (!std::filesystem::is_empty(folder_)) refuse("holds something else");
-    write_file(file, heading_ + "\n");
+    write(heading_ + "\n");
     return;
   }
+  if (!std::filesystem::is_regular_file(file)) refuse("holds something else");
   const std::string text = read_file(file);
   std::vector<std::string> lines = split(text, '\n');
   if (lines.front() != heading_) {
-    refuse("holds the campaign of other choices, other files or another program (other " +
-           differing_keys(lines.front(), heading_) + ")");
+    refuse("holds the campaign of other choices, other files or another program (there: " +
+           differences(lines.front(), heading_) + ")");
   }
   lines.pop_back();  // behind the last line break: empty, or a line that was not finished
   std::string kept = heading_ + "\n";
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    try {
-      records_[nlohmann::json::parse(lines[i]).at("run").get<std::size_t>()] = lines[i];
-    } catch (const nlohmann::json::exception&) {
+    const Json record = Json::parse(lines[i], nullptr, false);
+    if (!record.is_object() || !record.contains("run") || !record["run"].is_number_unsigned()) {
       refuse("line " + std::to_string(i + 1) + " of runs.jsonl is no record of a run");
     }
+    records_[record["run"].get<std::size_t>()] = lines[i];
     kept += lines[i] + "\n";
   }
-  if (kept != text) write_file(file, kept);
+  if (kept != text) write(kept);
+}
+
+void RunLog::check(std::size_t num_runs,
+                   const std::function<void(std::size_t run, const Json&)>& read) const {
+  for (const auto& [run, line] : records_) {
+    const std::string record = "the record of run " + std::to_string(run) + " in runs.jsonl ";
+    if (run >= num_runs) {
+      refuse(record + "is none of this campaign's " + std::to_string(num_runs));
+    }
+    try {
+      read(run, Json::parse(line));
+    } catch (const std::exception&) {
+      refuse(record + "is damaged");
+    }
+  }
+}
+
+void RunLog::check_outputs(const std::vector<std::string>& names) const {
+  for (const std::string& name : names) {
+    const std::filesystem::path file = folder_ / name;
+    if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) {
+      refuse(name + " in it is no file");
+    }
+  }
 }
 
 void RunLog::append(std::size_t run, const std::string& line) {

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace hlc {
 
@@ -13,12 +16,25 @@ namespace hlc {
 /// are missing.
 class RunLog {
  public:
-  /// Makes the folder, or opens that of the same campaign. A last line that was not finished is
-  /// dropped.
+  /// Makes the folder, or opens that of the same campaign, for itself alone as long as it lives. A
+  /// last line that was not finished is dropped.
   /// @param heading  one line of JSON
   /// @throws std::invalid_argument naming the folder if it holds anything else, or a campaign with
-  /// another heading, and in what that differs
+  /// another heading, and in what that differs, if another program has it, or if it cannot be
+  /// written to
   RunLog(std::filesystem::path folder, std::string heading);
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  /// Looks at every record.
+  /// @param num_runs  their numbers are below
+  /// @param read      throws what it likes if the record is none
+  /// @throws std::invalid_argument naming the file and the run
+  void check(std::size_t num_runs,
+             const std::function<void(std::size_t run, const nlohmann::ordered_json&)>& read) const;
+  /// @throws std::invalid_argument if something that is no file bears one of these names
+  void check_outputs(const std::vector<std::string>& names) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] const std::string& heading() const { return heading_; }
@@ -33,10 +49,15 @@ class RunLog {
   void append(std::size_t run, const std::string& line);
 
  private:
+  [[noreturn]] void refuse(const std::string& what) const;
+  void lock();
+  void open();
+
   std::filesystem::path folder_;
   std::string heading_;
   std::map<std::size_t, std::string> records_;
   std::mutex mutex_;
+  int lock_{-1};  ///< on the folder
 };
 
 }  // namespace hlc

@@ -22,12 +22,16 @@ Json heading_of(const Sweep& sweep) {
   json["sweep"] = sweep.plan().file.filename().string();
   json["files"] = input_files(sweep.files());
   json["revision"] = program_revision();
+  json["program"] = this_program_sha256();
   return json;
 }
 
 RunFigures figures_of(const Sweep& sweep, std::size_t run, const Json& record) {
   RunFigures figures = sweep.heading_of(run);
-  if (record.contains("figures")) figures = read_figures(record.at("figures"), std::move(figures));
+  // Only a run that could not be driven to its end has none.
+  if (record.contains("figures") || record.at("failure").is_null()) {
+    figures = read_figures(record.at("figures"), std::move(figures));
+  }
   if (!record.at("failure").is_null()) figures.failure = record.at("failure").get<std::string>();
   return figures;
 }
@@ -35,7 +39,12 @@ RunFigures figures_of(const Sweep& sweep, std::size_t run, const Json& record) {
 }  // namespace
 
 SweepFiles::SweepFiles(std::filesystem::path folder, const Sweep& sweep)
-    : sweep_(sweep), log_(std::move(folder), heading_of(sweep).dump()) {}
+    : sweep_(sweep), log_(std::move(folder), heading_of(sweep).dump()) {
+  log_.check(sweep.runs().size(), [this](std::size_t run, const Json& record) {
+    static_cast<void>(figures_of(sweep_, run, record));
+  });
+  log_.check_outputs({"sweep.csv", "tables.csv", "sweep.md"});
+}
 
 void SweepFiles::add(std::size_t run, const SweepResult& result) {
   const RunFigures& figures = result.figures;

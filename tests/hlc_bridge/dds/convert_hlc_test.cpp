@@ -15,7 +15,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <class Message>
 class OwnConversion : public testing::Test {};
-using OwnMessages = testing::Types<Traffic, Prediction, Outcome, ReportRecord, RunState>;
+using OwnMessages = testing::Types<Traffic, Prediction, Outcome, ReportRecord, RunState,
+                                   AutomatonRequest, AutomatonAnswer>;
 TYPED_TEST_SUITE(OwnConversion, OwnMessages);
 
 TYPED_TEST(OwnConversion, EveryFieldSurvivesTheWayOverTheWire) {

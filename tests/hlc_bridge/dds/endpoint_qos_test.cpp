@@ -15,7 +15,9 @@ const std::vector<Place> kOwn{{TopicId::kTraffic, DomainRole::kController},
                               {TopicId::kPrediction, DomainRole::kController},
                               {TopicId::kOutcome, DomainRole::kController},
                               {TopicId::kReport, DomainRole::kController},
-                              {TopicId::kRunState, DomainRole::kController}};
+                              {TopicId::kRunState, DomainRole::kController},
+                              {TopicId::kAutomatonRequest, DomainRole::kController},
+                              {TopicId::kAutomatonAnswer, DomainRole::kController}};
 
 const std::vector<Place> kOfTheLab{{TopicId::kVehicleState, DomainRole::kLab},
                                    {TopicId::kVehicleObservation, DomainRole::kLab},

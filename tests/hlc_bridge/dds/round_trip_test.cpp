@@ -36,6 +36,8 @@ template <> struct Place<Traffic> { static auto topic() { return topics::traffic
 template <> struct Place<Prediction> { static auto topic() { return topics::prediction(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<Outcome> { static auto topic() { return topics::outcome(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<ReportRecord> { static auto topic() { return topics::report(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<AutomatonRequest> { static auto topic() { return topics::automaton_request(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<AutomatonAnswer> { static auto topic() { return topics::automaton_answer(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<RunState> { static auto topic() { return topics::run_state(); } static constexpr auto kRole = DomainRole::kController; };
 // clang-format on
 
@@ -45,7 +47,8 @@ using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
                    PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
                    SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState,
+                   AutomatonRequest, AutomatonAnswer>;
 TYPED_TEST_SUITE(RoundTrip, Messages);
 
 TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {

@@ -118,7 +118,22 @@ void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d] = value;
   put_all(out, a, b, c, d);
 }
-void put_message(std::ostream& out, const RunState& value) { put_all(out, value.phase, value.start); }
+void put_message(std::ostream& out, const RunState& value) {
+  put_all(out, value.phase, value.start);
+}
+void put_message(std::ostream& out, const TrimPair& value) { put_all(out, value.from, value.to); }
+void put_message(std::ostream& out, const SubgraphRequest& value) {
+  const auto& [a, b, c, d, e, f] = value;
+  put_all(out, a, b.has_value(), b.value_or(0.0), c, d, e, f);
+}
+void put_message(std::ostream& out, const AutomatonRequest& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
+void put_message(std::ostream& out, const AutomatonAnswer& value) {
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e);
+}
 template <class Value>
 void put_message(std::ostream& out, const std::vector<Value>& values) {
   put_list(out, values);
@@ -371,6 +386,32 @@ RunState sample(Random& random) {
   return {static_cast<RunPhase>(whole(random, 1)), random()};
 }
 
+template <>
+AutomatonRequest sample(Random& random) {
+  const auto trim = [](Random& r) { return TrimId{whole(r, 100)}; };
+  const auto edge = [&](Random& r) { return TrimPair{trim(r), trim(r)}; };
+  AutomatonRequest request{.vehicle = vehicle(random),
+                           .id = random(),
+                           .valid_from = random(),
+                           .subgraph = {.labels = list(random, 4, words),
+                                        .max_speed_mps = {},
+                                        .trims_on = list(random, 4, trim),
+                                        .trims_off = list(random, 4, trim),
+                                        .edges_on = list(random, 4, edge),
+                                        .edges_off = list(random, 4, edge)}};
+  if (coin(random)) request.subgraph.max_speed_mps = number(random);
+  return request;
+}
+
+template <>
+AutomatonAnswer sample(Random& random) {
+  return {vehicle(random),
+          random(),
+          static_cast<RequestOutcome>(whole(random, 3)),
+          {random()},
+          words(random)};
+}
+
 std::string text(const VehicleState& message) { return text_of(message); }
 std::string text(const VehicleObservation& message) { return text_of(message); }
 std::string text(const VehicleStateList& message) { return text_of(message); }
@@ -391,5 +432,7 @@ std::string text(const Prediction& message) { return text_of(message); }
 std::string text(const Outcome& message) { return text_of(message); }
 std::string text(const ReportRecord& message) { return text_of(message); }
 std::string text(const RunState& message) { return text_of(message); }
+std::string text(const AutomatonRequest& message) { return text_of(message); }
+std::string text(const AutomatonAnswer& message) { return text_of(message); }
 
 }  // namespace hlc

@@ -3,6 +3,7 @@
 #include <random>
 #include <string>
 
+#include "hlc_bridge/core/automaton_messages.hpp"
 #include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/core/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
@@ -35,5 +36,7 @@ template <class Message>
 [[nodiscard]] std::string text(const Outcome& message);
 [[nodiscard]] std::string text(const ReportRecord& message);
 [[nodiscard]] std::string text(const RunState& message);
+[[nodiscard]] std::string text(const AutomatonRequest& message);
+[[nodiscard]] std::string text(const AutomatonAnswer& message);
 
 }  // namespace hlc

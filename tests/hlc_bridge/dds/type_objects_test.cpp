@@ -87,6 +87,8 @@ TEST(OwnTypes, AreKeyedByTheVehicleAndNeverAnnounceTypeObjects) {
   expect_own_type<Prediction>("hlc::PredictionMessage", true);
   expect_own_type<Outcome>("hlc::OutcomeMessage", true);
   expect_own_type<ReportRecord>("hlc::ReportMessage", true);
+  expect_own_type<AutomatonRequest>("hlc::AutomatonRequestMessage", true);
+  expect_own_type<AutomatonAnswer>("hlc::AutomatonAnswerMessage", true);
   expect_own_type<RunState>("hlc::RunStateMessage", false);
 }
 

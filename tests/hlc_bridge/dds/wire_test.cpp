@@ -46,7 +46,8 @@ using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
                    PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
                    SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState>;
+                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState,
+                   AutomatonRequest, AutomatonAnswer>;
 TYPED_TEST_SUITE(WireTypes, Messages);
 
 // Cut off, overwritten in places, or both: a message or not, but never an exception, and never a

@@ -99,6 +99,7 @@ TEST_F(Evaluate, RefusesTheFolderOfAnotherCampaign) {
   const Outcome outcome = evaluate("--seed 2");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("other choices"));
+  EXPECT_THAT(outcome.output, HasSubstr("there: seed 1)"));
   EXPECT_EQ(text_of(out_ / "runs.jsonl"), before);
 }
 
@@ -122,7 +123,8 @@ TEST_F(Evaluate, RefusesToGoOnAfterAutomatonOrMapHaveChanged) {
     put(folder_ / file, text + comment);
     const Outcome outcome = run();
     EXPECT_EQ(outcome.exit_code, 2) << file;
-    EXPECT_THAT(outcome.output, HasSubstr("(other files)"));
+    EXPECT_THAT(outcome.output,
+                HasSubstr("there: files " + std::filesystem::path(file).filename().string() + ")"));
     EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
     EXPECT_EQ(text_of(out_ / "runs.jsonl"), before);
     put(folder_ / file, text);
@@ -138,6 +140,22 @@ TEST_F(Evaluate, RefusesAFolderInWhichSomebodyElseWrote) {
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_THAT(broken.output, HasSubstr("line 6 of runs.jsonl"));
   EXPECT_EQ(text_of(out_ / "runs.jsonl"), before + "by hand\n");
+  for (const auto& [was, is] : {std::pair{"\"run\":3", "\"run\":99"},
+                                {"\"run\":3", "\"run\":-1"},
+                                {"\"run\":3", "\"run\":1.7"},
+                                {"\"failure\"", "\"fault\""},
+                                {"\"figures\"", "\"numbers\""},
+                                {"\"generated_max\":", "\"generated_max\":\"many\",\"x\":"}}) {
+    SCOPED_TRACE(is);
+    std::string damaged = before;
+    damaged.replace(damaged.rfind(was), std::string(was).size(), is);
+    put(out_ / "runs.jsonl", damaged);
+    const Outcome refused = evaluate("");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output, HasSubstr("runs.jsonl"));
+    EXPECT_EQ(std::ranges::count(refused.output, '\n'), 1) << refused.output;
+    EXPECT_EQ(text_of(out_ / "runs.jsonl"), damaged);
+  }
   put(out_ / "runs.jsonl", before);
   put(out_ / "figures", "a file");
   const Outcome no_folder = evaluate("--figures error");
@@ -230,6 +248,9 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--profile 2022,2022", "--profile = 2022 twice"},
                                        {"--scenario circle,circle", "--scenario = circle twice"},
                                        {"--starts 0", "--starts"},
+                                       {"--starts 2.5", "--starts"},
+                                       {"--seed -5", "--seed"},
+                                       {"--noise_seed 99999999999999999999999", "--noise_seed"},
                                        {"--figures path", "--figures"},
                                        {"--unheard_of", "unheard_of"}}) {
     const Outcome outcome =

@@ -40,17 +40,19 @@ class FullDisk {
 
 TEST(RunLog, OfAnAppendThatFailedNothingStays) {
   const TemporaryFolder folder;
-  RunLog log(folder / "out", kHeading);
-  log.append(0, R"({"run":0})");
-  const std::filesystem::path file = folder / "out" / "runs.jsonl";
-  const std::string before = test::read_text(file);
   {
-    const FullDisk disk(before.size() + 5);
-    EXPECT_THROW(log.append(1, R"({"run":1})"), std::runtime_error);
+    RunLog log(folder / "out", kHeading);
+    log.append(0, R"({"run":0})");
+    const std::filesystem::path file = folder / "out" / "runs.jsonl";
+    const std::string before = test::read_text(file);
+    {
+      const FullDisk disk(before.size() + 5);
+      EXPECT_THROW(log.append(1, R"({"run":1})"), std::runtime_error);
+    }
+    EXPECT_EQ(test::read_text(file), before);
+    EXPECT_FALSE(log.has(1));
+    log.append(2, R"({"run":2})");
   }
-  EXPECT_EQ(test::read_text(file), before);
-  EXPECT_FALSE(log.has(1));
-  log.append(2, R"({"run":2})");
   const RunLog again(folder / "out", kHeading);
   EXPECT_EQ(again.size(), 2U);
   EXPECT_TRUE(again.has(2));
@@ -63,8 +65,27 @@ TEST(RunLog, SaysInWhatAnotherCampaignDiffers) {
     const RunLog other(folder / "out", R"({"seed":1,"files":["b"],"steps":3})");
     ADD_FAILURE() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("(other files, steps)"));
+    EXPECT_THAT(error.what(), HasSubstr("(there: files, steps)"));
   }
+}
+
+TEST(RunLog, AFolderHasOneWriterAtATime) {
+  const TemporaryFolder folder;
+  {
+    const RunLog log(folder / "out", kHeading);
+    EXPECT_THROW(RunLog(folder / "out", kHeading), std::invalid_argument);
+  }
+  EXPECT_NO_THROW(RunLog(folder / "out", kHeading));
+}
+
+TEST(RunLog, RefusesWhatIsInTheWay) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "out" / "runs.jsonl");
+  EXPECT_THROW(RunLog(folder / "out", kHeading), std::invalid_argument);
+  const RunLog log(folder / "other", kHeading);
+  EXPECT_NO_THROW(log.check_outputs({"table.md"}));
+  std::filesystem::create_directories(folder / "other" / "table.md");
+  EXPECT_THROW(log.check_outputs({"table.md"}), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,319 @@
+// Asks controllers that drive to plan on another subgraph, and tells what they answer.
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/program_version.hpp"
+#include "hlc_bridge/apps/run_program.hpp"
+#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/signal.hpp"
+#include "planner/automaton/yaml_text.hpp"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kExitRefused = 1;
+
+struct Flags {
+  hlc::NetworkFlags network;
+  std::optional<int> controller_domain;
+  std::vector<std::string> controller_peers;
+  std::vector<int> vehicles;
+  std::vector<std::string> criteria;
+  std::optional<double> max_speed_mps;
+  std::vector<int> trims_on;
+  std::vector<int> trims_off;
+  std::vector<std::string> edges_on;
+  std::vector<std::string> edges_off;
+  double in_s{0.0};
+  std::uint64_t valid_from_ns{0};
+  double timeout_s{10.0};
+  bool follow{false};
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("--vehicle", flags.vehicles, "vehicles that are asked, e.g. 1,2; default: all")
+      ->delimiter(',')
+      ->check(hlc::vehicle_id_range());
+  app.add_option("--criterion", flags.criteria,
+                 "labels of the maneuvers, e.g. J2, or J1,J2; default: the scenario's")
+      ->delimiter(',');
+  app.add_option("--max_speed", flags.max_speed_mps, "speed limit [m/s]; default: the scenario's")
+      ->check(hlc::within(0.0, 100.0));
+  const auto add_trims = [&app](const std::string& name, std::vector<int>& trims,
+                                const std::string& what) {
+    app.add_option(name, trims, what)->delimiter(',')->check(CLI::Range(1, 100'000));
+  };
+  add_trims("--trims_on", flags.trims_on, "trims beside the scenario's, numbered from 1");
+  add_trims("--trims_off", flags.trims_off, "trims of the scenario's that are not to be used");
+  app.add_option("--edges_on", flags.edges_on,
+                 "edges that the scenario has off, from:to, e.g. 2:3,3:2")
+      ->delimiter(',');
+  app.add_option("--edges_off", flags.edges_off, "edges that are not to be used, from:to")
+      ->delimiter(',');
+  auto* const in_s = app.add_option("--in_s", flags.in_s, "real time: in force so much later")
+                         ->capture_default_str()
+                         ->check(hlc::within(0.0, 3600.0));
+  app.add_option("--valid_from_ns", flags.valid_from_ns,
+                 "in force from this time of the run on, e.g. of the logical clock; 0: at once")
+      ->capture_default_str()
+      ->excludes(in_s);
+  app.add_option("--timeout_s", flags.timeout_s,
+                 "how long answers are waited for, after the request's time")
+      ->capture_default_str()
+      ->check(hlc::within(0.1, 3600.0));
+  app.add_flag("--follow", flags.follow,
+               "stay until stopped: controllers that come later are asked, too, and every answer "
+               "is told");
+  app.add_option("--controller_domain", flags.controller_domain,
+                 "domain of the controllers; default: lab domain + 50");
+  hlc::declare_controller_peers(app, flags.controller_peers);
+  flags.network.declare_network(app);
+  app.footer(
+      "A request is a change of the scenario's subgraph, not of the last request: without any it "
+      "asks for the scenario's own. Exit codes: 0 in force, 1 somebody refused, 2 bad input, "
+      "3 somebody did not answer.");
+}
+
+std::vector<hlc::TrimId> trims_of(const std::vector<int>& numbers) {
+  std::vector<hlc::TrimId> trims;
+  for (const int number : numbers) trims.push_back({static_cast<std::size_t>(number) - 1});
+  return trims;
+}
+
+hlc::TrimId trim_of(const std::string& flag, const std::string& edge, std::string_view number) {
+  std::size_t trim = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), trim);
+  if (error != std::errc{} || end != number.data() + number.size() || trim == 0) {
+    throw std::invalid_argument(flag + ": '" + hlc::one_line(edge) +
+                                "', allowed from:to with numbers of trims, from 1");
+  }
+  return {trim - 1};
+}
+
+std::vector<hlc::TrimPair> edges_of(const std::string& flag,
+                                    const std::vector<std::string>& edges) {
+  std::vector<hlc::TrimPair> pairs;
+  for (const std::string& edge : edges) {
+    const std::size_t colon = std::min(edge.find(':'), edge.size());
+    const std::string_view text = edge;
+    pairs.push_back({trim_of(flag, edge, text.substr(0, colon)),
+                     trim_of(flag, edge, text.substr(std::min(colon + 1, edge.size())))});
+  }
+  return pairs;
+}
+
+hlc::SubgraphRequest subgraph_request(const Flags& flags) {
+  return {.labels = flags.criteria,
+          .max_speed_mps = flags.max_speed_mps,
+          .trims_on = trims_of(flags.trims_on),
+          .trims_off = trims_of(flags.trims_off),
+          .edges_on = edges_of("--edges_on", flags.edges_on),
+          .edges_off = edges_of("--edges_off", flags.edges_off)};
+}
+
+hlc::ParticipantOptions participant_options(const Flags& flags) {
+  hlc::check_domain_id("--dds_domain", flags.network.dds_domain);
+  const int domain = flags.controller_domain
+                         ? *flags.controller_domain
+                         : hlc::default_controller_domain(flags.network.dds_domain);
+  hlc::check_domain_id("--controller_domain", domain);
+  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  hlc::ParticipantOptions options;
+  options.name = "automaton_request";
+  options.domain_id = domain;
+  options.role = hlc::DomainRole::kController;
+  options.transport = hlc::transport_from_name(flags.network.transport);
+  options.peers = flags.controller_peers;
+  options.version = hlc::program_version();
+  return options;
+}
+
+const char* word_for(hlc::RequestOutcome outcome) {
+  switch (outcome) {
+    case hlc::RequestOutcome::kAccepted:
+      return "accepted";
+    case hlc::RequestOutcome::kInForce:
+      return "in force";
+    case hlc::RequestOutcome::kRefused:
+      return "refused";
+    case hlc::RequestOutcome::kStale:
+      return "stale";
+  }
+  return "?";
+}
+
+/// One request and the answers to it.
+class Asker {
+ public:
+  explicit Asker(const Flags& flags)
+      : flags_(flags),
+        subgraph_(subgraph_request(flags)),
+        asked_(flags.vehicles.begin(), flags.vehicles.end()),
+        participant_(participant_options(flags), [this] { signal_.notify(); }),
+        writer_(participant_, hlc::topics::automaton_request(), [this] { signal_.notify(); }),
+        reader_(participant_, hlc::topics::automaton_answer(),
+                [this](const hlc::AutomatonAnswer& answer) {
+                  signal_.post([&] { answers_.push_back(answer); });
+                }) {}
+
+  int run() {
+    if (!find_controllers()) return hlc::kExitMissing;
+    ask();
+    const auto deadline = Clock::now() + seconds(flags_.in_s + flags_.timeout_s);
+    while (!stops() && (flags_.follow || (!is_settled() && Clock::now() < deadline))) {
+      tell_answers(flags_.follow ? Clock::now() + std::chrono::hours{1} : deadline);
+    }
+    return exit_code();
+  }
+
+  void stop() {
+    signal_.post([this] { stop_ = true; });
+  }
+
+ private:
+  static Clock::duration seconds(double time_s) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s));
+  }
+
+  [[nodiscard]] bool stops() const {
+    return signal_.locked([this] { return stop_; });
+  }
+
+  /// Of those that are there and hear us and whom we hear. Without --vehicle whoever is there a
+  /// second after the first one.
+  bool find_controllers() {
+    const auto hears = [this](int id) {
+      const std::string name = hlc::controller_name(static_cast<std::uint8_t>(id));
+      return writer_.matched_names().contains(name) && reader_.matched_names().contains(name);
+    };
+    const auto all_hear = [&] { return stop_ || std::ranges::all_of(asked_, hears); };
+    const auto somebody = [&] { return stop_ || writer_.matched() > 0; };
+    const auto deadline = Clock::now() + seconds(flags_.timeout_s);
+    const bool is_open = asked_.empty();
+    const bool found =
+        is_open ? signal_.wait_until(deadline, somebody) : signal_.wait_until(deadline, all_hear);
+    if (is_open && found) {
+      static_cast<void>(
+          signal_.wait_until(Clock::now() + std::chrono::seconds{1}, [this] { return stop_; }));
+      for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
+        if (hears(id)) asked_.insert(id);
+      }
+    }
+    if (found && !asked_.empty()) return true;
+    std::string missing;
+    for (const int id : asked_) {
+      if (!hears(id)) {
+        missing +=
+            (missing.empty() ? "" : ", ") + hlc::controller_name(static_cast<std::uint8_t>(id));
+      }
+    }
+    std::cerr << "automaton_request: not there on domain " << participant_.options().domain_id
+              << ": " << (missing.empty() ? "any controller" : missing)
+              << " (see --dds_domain and --transport)\n";
+    return false;
+  }
+
+  void ask() {
+    const hlc::Nanoseconds now = hlc::real_time_now();
+    id_ = now;
+    const auto in = static_cast<hlc::Nanoseconds>(1e9 * flags_.in_s);
+    const hlc::Nanoseconds valid_from = in > 0 ? now + in : flags_.valid_from_ns;
+    // Whoever comes later is asked, too: the topic keeps the last request of every vehicle.
+    for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
+      if (!flags_.vehicles.empty() && !asked_.contains(id)) continue;
+      writer_.write({.vehicle = {static_cast<std::uint8_t>(id)},
+                     .id = id_,
+                     .valid_from = valid_from,
+                     .subgraph = subgraph_});
+    }
+  }
+
+  /// Waits for answers at most until then, and tells those that come.
+  void tell_answers(Clock::time_point until) {
+    static_cast<void>(signal_.wait_until(until, [this] { return stop_ || !answers_.empty(); }));
+    const auto answers = signal_.locked([this] { return std::exchange(answers_, {}); });
+    for (const hlc::AutomatonAnswer& answer : answers) {
+      if (answer.id != id_) continue;  // to somebody else's request
+      outcomes_[answer.vehicle.value] = answer.outcome;
+      std::cout << "vehicle " << int{answer.vehicle.value} << ": " << word_for(answer.outcome)
+                << (answer.outcome == hlc::RequestOutcome::kInForce
+                        ? " from step " + std::to_string(answer.step.value)
+                        : "")
+                << ": " << answer.text << std::endl;
+    }
+  }
+
+  [[nodiscard]] bool is_settled() const {
+    return std::ranges::all_of(asked_, [this](int id) {
+      const auto found = outcomes_.find(id);
+      return found != outcomes_.end() && found->second != hlc::RequestOutcome::kAccepted;
+    });
+  }
+
+  [[nodiscard]] int exit_code() const {
+    std::string silent;
+    bool is_refused = false;
+    for (const int id : asked_) {
+      const auto found = outcomes_.find(id);
+      if (found == outcomes_.end() || found->second == hlc::RequestOutcome::kAccepted) {
+        silent += (silent.empty() ? "" : ", ") + std::to_string(id);
+      } else {
+        is_refused = is_refused || found->second != hlc::RequestOutcome::kInForce;
+      }
+    }
+    if (!silent.empty()) {
+      std::cerr << "automaton_request: not in force yet, and not refused: vehicles " << silent
+                << '\n';
+      return hlc::kExitMissing;
+    }
+    return is_refused ? kExitRefused : hlc::kExitGood;
+  }
+
+  Flags flags_;
+  hlc::SubgraphRequest subgraph_;
+  std::set<int> asked_;
+  std::uint64_t id_{};
+  std::map<int, hlc::RequestOutcome> outcomes_;  ///< the last of each vehicle
+
+  hlc::Signal signal_;
+  // Guarded by signal_:
+  std::vector<hlc::AutomatonAnswer> answers_;
+  bool stop_{};
+
+  hlc::Participant participant_;
+  hlc::Writer<hlc::AutomatonRequest> writer_;
+  hlc::Reader<hlc::AutomatonAnswer> reader_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hlc::StopSignals signals;
+  CLI::App app{"Asks controllers to plan on another part of their automaton, while they drive.",
+               "automaton_request"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  return hlc::run_program(
+      "automaton_request", signals,
+      [&] {
+        hlc::check_each_once("--vehicle", flags.vehicles);
+        return std::make_shared<Asker>(flags);
+      },
+      [](Asker& asker) { asker.stop(); });
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "hlc_bridge/core/reconfiguration.hpp"
+#include "hlc_bridge/time/signal.hpp"
+
+namespace hlc {
+
+/// Prepares requested subgraphs on a thread of its own while the controller drives.
+class SubgraphPreparation {
+ public:
+  /// @param base  the scenario's subgraph
+  SubgraphPreparation(std::shared_ptr<const Subgraph> base, std::size_t horizon_steps);
+  /// Waits for the one in work.
+  ~SubgraphPreparation();
+  SubgraphPreparation(const SubgraphPreparation&) = delete;
+  SubgraphPreparation& operator=(const SubgraphPreparation&) = delete;
+
+  /// From any thread. They are prepared in order; of more than kMaxWaiting the first give way.
+  void ask(const AutomatonRequest& request);
+
+  /// What has been prepared since the last call, in order.
+  [[nodiscard]] std::vector<PreparedRequest> take();
+
+  /// Waits until nothing is asked or in work any more: for logical time, which waits for it.
+  void wait() const;
+
+ private:
+  static constexpr std::size_t kMaxWaiting = 16;
+
+  void run();
+
+  const std::shared_ptr<const Subgraph> base_;
+  const std::size_t horizon_steps_;
+
+  Signal signal_;
+  // Guarded by signal_:
+  std::deque<AutomatonRequest> asked_;
+  std::vector<PreparedRequest> done_;
+  bool is_working_{};
+  bool ends_{};
+
+  std::thread thread_;  // last: it uses everything above
+};
+
+}  // namespace hlc

@@ -1,0 +1,98 @@
+#include "hlc_bridge/core/reconfiguration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
+
+namespace hlc::reconfiguration_test {
+namespace {
+
+constexpr VehicleId kRed{1};
+constexpr Nanoseconds kStep = 200'000'000;
+
+const Scenario& scenario() {
+  static const Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
+  return scenario;
+}
+
+AutomatonRequest slow(std::uint64_t id, double max_speed_mps, Nanoseconds valid_from = 0) {
+  return {.vehicle = kRed,
+          .id = id,
+          .valid_from = valid_from,
+          .subgraph = {.labels = {}, .max_speed_mps = max_speed_mps}};
+}
+
+class ReconfigurationTest : public testing::Test {
+ protected:
+  AutomatonAnswer take(const AutomatonRequest& request, std::uint64_t step) {
+    return reconfiguration_.take(prepare(*scenario().subgraph, request, scenario().horizon_steps),
+                                 {step});
+  }
+  std::optional<AutomatonAnswer> begin(std::uint64_t step) {
+    return reconfiguration_.begin_step(*controller_, {step}, step * kStep);
+  }
+  [[nodiscard]] std::optional<double> limit_mps() const {
+    return controller_->subgraph().spec().max_speed_mps;
+  }
+
+  std::unique_ptr<Controller> controller_ = make_controller(scenario(), kRed);
+  Reconfiguration reconfiguration_;
+};
+
+TEST_F(ReconfigurationTest, IsInForceFromTheFirstStepOfItsTimeOn) {
+  const AutomatonAnswer accepted = take(slow(5, 0.6, 12 * kStep - 1), 10);
+  EXPECT_EQ(accepted.outcome, RequestOutcome::kAccepted) << accepted.text;
+  EXPECT_EQ(accepted.id, 5U);
+  EXPECT_EQ(accepted.step, StepIndex{10});
+  for (std::uint64_t step = 10; step < 12; ++step) {
+    EXPECT_FALSE(begin(step));
+    EXPECT_EQ(limit_mps(), std::nullopt);
+  }
+  const std::optional<AutomatonAnswer> in_force = begin(12);
+  ASSERT_TRUE(in_force);
+  EXPECT_EQ(in_force->outcome, RequestOutcome::kInForce);
+  EXPECT_EQ(in_force->step, StepIndex{12});
+  EXPECT_EQ(in_force->text, "B, at most 0.6 m/s");
+  EXPECT_EQ(limit_mps(), 0.6);
+  EXPECT_FALSE(begin(13)) << "told once";
+}
+
+TEST_F(ReconfigurationTest, ALaterRequestCountsWhicheverComesFirst) {
+  EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kAccepted);
+  EXPECT_EQ(take(slow(6, 0.5), 1).outcome, RequestOutcome::kStale);
+  EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kStale) << "heard twice";
+  ASSERT_TRUE(begin(2));
+  EXPECT_EQ(limit_mps(), 0.6);
+  EXPECT_EQ(take(slow(8, 0.5), 3).outcome, RequestOutcome::kAccepted);
+  EXPECT_EQ(take(slow(9, 0.7), 3).outcome, RequestOutcome::kAccepted);
+  ASSERT_TRUE(begin(3));
+  EXPECT_EQ(limit_mps(), 0.7);
+}
+
+TEST_F(ReconfigurationTest, ARefusedRequestLeavesWhatIsInForceAndWhatWaits) {
+  EXPECT_EQ(take(slow(1, 0.6), 1).outcome, RequestOutcome::kAccepted);
+  ASSERT_TRUE(begin(1));
+  EXPECT_EQ(take(slow(2, 0.5, 5 * kStep), 2).outcome, RequestOutcome::kAccepted);
+  const AutomatonAnswer refused = take(slow(3, 0.1), 2);
+  EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
+  EXPECT_NE(refused.text.find("speed limit 0.1 m/s, allowed at least 0.4"), std::string::npos);
+  EXPECT_FALSE(begin(3));
+  EXPECT_EQ(limit_mps(), 0.6);
+  ASSERT_TRUE(begin(5));
+  EXPECT_EQ(limit_mps(), 0.5);
+}
+
+// Not from the last request, so whoever comes late needs only the last one.
+TEST_F(ReconfigurationTest, EveryRequestStartsFromTheScenariosSubgraph) {
+  EXPECT_EQ(take(slow(1, 0.6), 1).outcome, RequestOutcome::kAccepted);
+  ASSERT_TRUE(begin(1));
+  EXPECT_EQ(take({.vehicle = kRed, .id = 2, .valid_from = 0, .subgraph = {}}, 2).outcome,
+            RequestOutcome::kAccepted);
+  ASSERT_TRUE(begin(2));
+  EXPECT_EQ(controller_->subgraph().spec(), scenario().subgraph->spec());
+}
+
+}  // namespace
+}  // namespace hlc::reconfiguration_test

@@ -1,0 +1,116 @@
+// Controllers that are asked for another subgraph while they drive, by the program of the operator.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/time/real_timer.hpp"
+#include "tests/integration/fault_rules.hpp"
+#include "tests/integration/lab_processes.hpp"
+#include "tests/integration/run_reports.hpp"
+#include "tests/support/folders.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+constexpr auto kPatience = 60s;
+
+class Reconfiguration : public testing::Test {
+ protected:
+  Reconfiguration()
+      : lab_({.scenario = "reconfiguration", .steps = 1000, .simulated_time = false}) {
+    lab_.start_all();
+  }
+
+  void SetUp() override {
+    ASSERT_TRUE(eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}) >= 15; }))
+        << lab_.log("lab_control");
+  }
+
+  struct Asked {
+    int code{};
+    std::string output;
+  };
+  /// Runs the operator's program to its end.
+  [[nodiscard]] Asked ask(const std::vector<std::string>& flags) const {
+    std::vector<std::string> command{build_folder() + "/bin/automaton_request",
+                                     "--dds_domain=" + std::to_string(lab_.lab_domain()),
+                                     "--transport=loopback", "--timeout_s=30"};
+    command.insert(command.end(), flags.begin(), flags.end());
+    const std::filesystem::path log = lab_.folder() / "automaton_request.log";
+    ChildProcess program(command, log);
+    const std::optional<int> code = program.wait_for(kPatience);
+    return {code.value_or(-1), read_text(log)};
+  }
+
+  /// Fastest of a vehicle in the second before now.
+  [[nodiscard]] double top_speed_mps(std::uint8_t vehicle) const {
+    const Nanoseconds now = real_time_now();
+    double top_mps = 0.0;
+    for (const DrivenSample& sample : lab_.drives().at(vehicle)) {
+      if (sample.t + kNanosecondsPerSecond > now) top_mps = std::max(top_mps, sample.speed_mps);
+    }
+    return top_mps;
+  }
+
+  void expect_good_end() {
+    lab_["lab_control"].send(SIGINT);
+    EXPECT_THAT(lab_.still_running_after(kPatience), testing::IsEmpty());
+    expect_nobody_was_touched(lab_);
+  }
+
+  LabProcesses lab_;
+};
+
+TEST_F(Reconfiguration, ASpeedLimitHoldsForTheVehicleThatIsAskedUntilTheScenariosOwnIsAskedFor) {
+  const Asked slow = ask({"--vehicle=2", "--max_speed=0.5"});
+  EXPECT_EQ(slow.code, 0) << slow.output;
+  EXPECT_THAT(slow.output, HasSubstr("vehicle 2: in force from step"));
+  EXPECT_THAT(slow.output, HasSubstr("B, at most 0.5 m/s"));
+  EXPECT_THAT(lab_.log("high_level_controller_2"), HasSubstr("plans on subgraph B, at most 0.5"));
+  constexpr double kTracking_mps = 0.05;
+  EXPECT_TRUE(eventually(
+      kPatience, [&] { return top_speed_mps(2) < 0.5 + kTracking_mps && top_speed_mps(1) > 0.6; }))
+      << "vehicle 2 at " << top_speed_mps(2) << " m/s, vehicle 1 at " << top_speed_mps(1);
+
+  const Asked own = ask({"--vehicle=2"});
+  EXPECT_EQ(own.code, 0) << own.output;
+  EXPECT_TRUE(eventually(kPatience, [&] { return top_speed_mps(2) > 0.6; }));
+  expect_good_end();
+}
+
+TEST_F(Reconfiguration, AllAreAskedForAnotherLabelFromATimeOn) {
+  const Asked asked = ask({"--criterion=J3", "--in_s=1"});
+  EXPECT_EQ(asked.code, 0) << asked.output;
+  for (const char* vehicle : {"1", "2", "3"}) {
+    const std::string name = std::string("vehicle ") + vehicle;
+    EXPECT_THAT(asked.output, HasSubstr(name + ": accepted: B, label J3"));
+    EXPECT_THAT(asked.output, HasSubstr(name + ": in force from step"));
+  }
+  expect_good_end();
+}
+
+TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
+  const Asked refused = ask({"--vehicle=2", "--max_speed=0.1"});
+  EXPECT_EQ(refused.code, 1) << refused.output;
+  EXPECT_THAT(refused.output,
+              HasSubstr("vehicle 2: refused: speed limit 0.1 m/s, allowed at least 0.4"));
+  EXPECT_EQ(ask({"--vehicle=2", "--criterion=J9"}).code, 1);
+  EXPECT_EQ(ask({"--vehicle=2", "--edges_off=1-2"}).code, 2);
+  EXPECT_EQ(ask({"--vehicle=2,2"}).code, 2);
+  const Asked nobody = ask({"--vehicle=7", "--timeout_s=1"});
+  EXPECT_EQ(nobody.code, 3);
+  EXPECT_THAT(nobody.output, HasSubstr("high_level_controller_7"));
+  const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
+  EXPECT_TRUE(
+      eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 5; }));
+  expect_good_end();
+}
+
+}  // namespace
+}  // namespace hlc::test

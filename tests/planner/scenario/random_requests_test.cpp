@@ -1,0 +1,97 @@
+// Requests for other subgraphs at random times while three cars drive.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "planner/automaton/subgraph_request.hpp"
+#include "planner/rollout/rollout.hpp"
+#include "planner/scenario/scenario.hpp"
+#include "planner/scenario/starts.hpp"
+#include "tests/support/folders.hpp"
+#include "tests/support/num_seeds.hpp"
+#include "tests/support/plans_in_force.hpp"
+
+namespace hlc::random_requests_test {
+namespace {
+
+using Random = std::mt19937_64;
+
+std::size_t draw(Random& random, std::size_t last) {
+  return std::uniform_int_distribution<std::size_t>{0, last}(random);
+}
+
+SubgraphRequest random_request(Random& random) {
+  SubgraphRequest request;
+  const char* const labels[] = {"J1", "J2", "J3"};
+  if (draw(random, 2) > 0) request.labels = {labels[draw(random, 2)]};
+  if (draw(random, 2) == 0) {
+    request.max_speed_mps = 0.4 + 0.1 * static_cast<double>(draw(random, 16));
+  }
+  for (std::size_t k = draw(random, 2); k > 0; --k) {
+    request.trims_off.push_back({1 + draw(random, 10)});
+  }
+  for (std::size_t k = draw(random, 2); k > 0; --k) {
+    request.edges_off.push_back({{draw(random, 11)}, {draw(random, 11)}});
+  }
+  return request;
+}
+
+/// One that is not refused.
+std::shared_ptr<const Subgraph> random_subgraph(const Subgraph& base, std::size_t horizon_steps,
+                                                Random& random) {
+  while (true) {
+    try {
+      return requested_subgraph(base, random_request(random), horizon_steps);
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+  }
+}
+
+TEST(RandomRequests, NeverLeaveACarWithoutAPlanNorLeadToACollision) {
+  Scenario three_cars = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/reconfiguration.yaml"});
+  const Subgraph& base = *three_cars.subgraph;
+  std::size_t requests = 0;
+  std::size_t planned = 0;
+  std::size_t infeasible_by_switch = 0;
+  const std::uint64_t seeds = test::num_seeds(20);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random random(seed);
+    Rollout rollout = make_rollout(with_random_starts(three_cars, seed));
+    for (std::size_t k = 0; k < 150; ++k) {
+      Rollout without = rollout.clone();
+      std::optional<std::size_t> asked;
+      if (k > 2 && draw(random, 2) == 0) {
+        asked = draw(random, 2);
+        rollout.controllers()[*asked]->switch_to(
+            random_subgraph(base, three_cars.horizon_steps, random));
+        ++requests;
+      }
+      const std::vector<Report> reports = rollout.step();
+      ASSERT_TRUE(test::plans_in_force_are_free(rollout)) << "step " << k;
+      for (std::size_t i = 0; i < reports.size(); ++i) {
+        const Report& report = reports[i];
+        planned += report.status == StepStatus::kPlanned ? 1U : 0U;
+        EXPECT_NE(report.quality, PlanQuality::kBudget) << "step " << k;
+        EXPECT_LE(report.expanded, three_cars.search.max_expansions);
+        const Controller& controller = *rollout.controllers()[i];
+        const Plan& plan = controller.plan_in_force();
+        EXPECT_TRUE(base.automaton().trims[plan.trim_at(plan.end()).index].is_equilibrium());
+      }
+      if (asked && reports[*asked].reason == FallbackReason::kInfeasible) {
+        const std::vector<Report> otherwise = without.step();
+        if (otherwise[*asked].status == StepStatus::kPlanned) ++infeasible_by_switch;
+      }
+    }
+  }
+  EXPECT_EQ(infeasible_by_switch, 0U) << "of " << requests << " requests";
+  EXPECT_GT(requests, 40 * seeds);
+  EXPECT_GT(planned, 300 * seeds) << "the cars are to drive";
+}
+
+}  // namespace
+}  // namespace hlc::random_requests_test
