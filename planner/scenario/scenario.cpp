@@ -179,7 +179,7 @@ const SubgraphSpec& chosen_subgraph(const YamlNode& node, const ScenarioChoices&
   const std::string name = choices.subgraph.value_or(configured);
   if (const SubgraphSpec* spec = find_subgraph(subgraphs, name)) return *spec;
   if (choices.subgraph) {
-    throw std::invalid_argument("--subgraph = " + name + ", allowed " + names_of(subgraphs));
+    throw std::invalid_argument("subgraph " + name + ", allowed " + names_of(subgraphs));
   }
   node.fail("subgraph", names_of(subgraphs));
 }

@@ -34,7 +34,8 @@ fail() { # exit code, message
   exit "$1"
 }
 mkdir -p "$(dirname "$dir")" || exit 2
-exec {lock}>"$dir.lock" && flock -w 600 "$lock" || fail 4 "another installation does not end"
+exec {lock}>"$dir.lock" || exit 2
+flock -w 600 "$lock" || fail 4 "another installation does not end"
 [[ $(cat "$dir/installed" 2>/dev/null) != "$wanted" ]] || exit 0
 rm -rf "$dir"
 timeout 300 python3 -m venv "$dir" >"$log" 2>&1 || fail 4 "python3 -m venv makes no environment in $dir"

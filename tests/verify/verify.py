@@ -73,10 +73,12 @@ def name_of(folder: Path) -> str:
     return ", ".join([Path(wanted["scenario"]).stem, *choices]) + f" ({folder})"
 
 
-def verify(program: Path, folder: Path) -> bool:
+def verify(program: Path, folder: Path, xml: Path | None) -> bool:
+    """`xml` None: the run is exported first."""
     with tempfile.TemporaryDirectory() as place:
-        xml = Path(place) / "run.xml"
-        export(program, folder, xml)
+        if xml is None:
+            xml = Path(place) / "run.xml"
+            export(program, folder, xml)
         findings, lines = check_file(xml, folder)
     print(f"{'REJECTED' if findings else 'accepted'}  {name_of(folder)}")
     for line in lines:
@@ -113,10 +115,15 @@ def main() -> int:
         metavar="RUN",
         help="the same for a run in which plans are set down anew",
     )
+    parser.add_argument(
+        "--xml", type=Path, help="a CommonRoad file of the one run, instead of its export"
+    )
     parser.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="run folder")
     arguments = parser.parse_args()
+    if arguments.xml and len(arguments.runs) != 1:
+        parser.error(f"--xml {arguments.xml}: {len(arguments.runs)} run folders, allowed one")
     try:
-        accepted = [verify(arguments.export, folder) for folder in arguments.runs]
+        accepted = [verify(arguments.export, folder, arguments.xml) for folder in arguments.runs]
         if arguments.controls:
             accepted.append(verify_controls(arguments.export, arguments.controls, False))
         if arguments.controls_anew:

@@ -6,12 +6,13 @@ root=$(cd "$here/../.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: verify.sh [--bin DIR] [--environment DIR] [RUN_FOLDER...]
+usage: verify.sh [--bin DIR] [--environment DIR] [--xml FILE] [RUN_FOLDER...]
 Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
 with real processes over DDS, checks all of them, and the negative controls of two.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   where the packages are, or are installed (default build/release/verify_environment)
+  --xml FILE          a CommonRoad file of the one run folder, as export_commonroad writes it; default: its export
 Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input,
             3 skipped: the packages are not there and PyPI is out of reach, 4 installation or a drive failed
 TEXT
@@ -21,12 +22,18 @@ fail() { echo "verify.sh: $1" >&2; exit 2; }
 
 bin=$root/build/release/bin
 environment=$root/build/release/verify_environment
+xml=()
 runs=()
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     --bin=*) bin=${1#*=} ;;
     --environment=*) environment=${1#*=} ;;
+    --xml=*) xml=(--xml "${1#*=}") ;;
+    --xml)
+      (($# >= 2)) || fail "$1 needs a value"
+      xml=(--xml "$2")
+      shift ;;
     --bin | --environment)
       (($# >= 2)) || fail "$1 needs a value"
       printf -v "${1#--}" '%s' "$2"
@@ -38,6 +45,10 @@ while (($#)); do
   esac
   shift
 done
+if ((${#xml[@]} > 0)); then
+  [[ -f ${xml[1]} ]] || fail "--xml ${xml[1]} is no file"
+  ((${#runs[@]} == 1)) || fail "--xml with ${#runs[@]} run folders, allowed one"
+fi
 [[ -x $bin/export_commonroad ]] || fail "no export_commonroad in $bin; build first, or give --bin"
 
 "$here/environment.sh" "$environment" || exit
@@ -45,7 +56,7 @@ verify=(timeout 600 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$he
   --export "$bin/export_commonroad")
 
 if ((${#runs[@]} > 0)); then
-  "${verify[@]}" "${runs[@]}"
+  "${verify[@]}" "${xml[@]}" "${runs[@]}"
   exit
 fi
 

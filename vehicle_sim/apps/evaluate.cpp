@@ -73,8 +73,15 @@ hlc::Campaign read(Choices& choices) {
   check_each_once("--profile", choices.plan.profiles);
   check_each_once("--subgraphs", choices.plan.subgraphs);
   hlc::FigureChoices& figures = choices.figures;
-  if (std::ranges::find(figures.names, kAllFigures) != figures.names.end()) {
-    figures.names = hlc::figure_names();
+  const auto is_asked_for = [&](const char* name) {
+    return std::ranges::find(figures.names, name) != figures.names.end();
+  };
+  const bool draws_all = is_asked_for(kAllFigures);
+  if (draws_all) figures.names = hlc::figure_names();
+  if (!figures.pareto_configuration.empty() && !is_asked_for("pareto_set")) {
+    throw std::invalid_argument(
+        "--pareto_configuration = " + figures.pareto_configuration.string() +
+        ", allowed with --figures=pareto_set");
   }
   if (figures.pareto_configuration.empty()) {
     figures.pareto_configuration =
@@ -89,7 +96,14 @@ hlc::Campaign read(Choices& choices) {
   }
   try {
     hlc::check_figures(figures);
-    return hlc::Campaign(choices.plan);
+    hlc::Campaign campaign(choices.plan);
+    const auto is_alone = [&](const hlc::CampaignRun& run) {
+      return campaign.scenario_of(run).vehicles.size() == 1;
+    };
+    if (!draws_all && is_asked_for("distance") && std::ranges::all_of(campaign.runs(), is_alone)) {
+      throw std::invalid_argument("--figures = distance, allowed with a scenario of several cars");
+    }
+    return campaign;
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(error.what());
   }

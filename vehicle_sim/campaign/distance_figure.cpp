@@ -11,6 +11,8 @@
 namespace hlc {
 namespace {
 
+constexpr double kShown_m = 0.6;
+
 /// None of those that vehicles have.
 std::string pair_colour(std::size_t pair) { return series_colour(pair + 3); }
 
@@ -26,13 +28,17 @@ PlotPanel distance_panel(const DrivenRun& run) {
       const VehicleDescription& b = description.vehicles[j];
       const Drives& drives = run.experiment.drives;
       PlotPoints points;
+      bool is_shown = false;
       for (const TimedDistance& one :
            footprint_distances(a, drives.at(a.id.value), b, drives.at(b.id.value), from, to)) {
         points.emplace_back(seconds_after(one.t, from), one.distance_m);
+        is_shown = is_shown || one.distance_m < kShown_m;
       }
       panel.lines.push_back({.points = std::move(points), .colour = pair_colour(pair)});
-      panel.legend.push_back(
-          {.text = a.name + " and " + b.name, .colour = pair_colour(pair), .radius_px = 0.0});
+      if (is_shown) {
+        panel.legend.push_back(
+            {.text = a.name + " and " + b.name, .colour = pair_colour(pair), .radius_px = 0.0});
+      }
       ++pair;
     }
   }
@@ -53,7 +59,6 @@ PlotPanel distance_panel(const DrivenRun& run) {
 }  // namespace
 
 std::string distance_figure(std::span<const DrivenRun> runs) {
-  constexpr double kShown_m = 0.6;
   std::vector<PlotPanel> panels;
   double end_s = 0.0;
   for (const DrivenRun& run : runs) {

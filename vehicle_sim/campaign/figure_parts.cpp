@@ -49,8 +49,14 @@ void add_series(std::size_t series, const std::string& name, PlotPoints points, 
 }
 
 std::vector<PlotLegend> taken_legend(std::vector<PlotPanel>& panels) {
-  std::vector<PlotLegend> legend = panels.front().legend;
-  for (PlotPanel& panel : panels) panel.legend.clear();
+  std::vector<PlotLegend> legend;
+  for (PlotPanel& panel : panels) {
+    for (const PlotLegend& entry : panel.legend) {
+      const auto same = [&](const PlotLegend& other) { return other.text == entry.text; };
+      if (std::ranges::none_of(legend, same)) legend.push_back(entry);
+    }
+    panel.legend.clear();
+  }
   return legend;
 }
 

@@ -45,7 +45,7 @@ void add_series(std::size_t series, const std::string& name, PlotPoints points, 
 /// What lies below dashed lines still shows.
 void bring_dashed_to_front(PlotPanel& panel);
 
-/// The legend of the first panel, which then stands above them all; takes it from all of them.
+/// One legend for all panels, which then stands above them: each text once; takes it from them.
 [[nodiscard]] std::vector<PlotLegend> taken_legend(std::vector<PlotPanel>& panels);
 
 /// The same ranges for all panels, from x = 0, so that they can be compared.

@@ -111,8 +111,10 @@ std::string paths_figure(std::span<const DrivenRun> runs, const std::optional<La
 
 std::string error_figure(std::span<const DrivenRun> runs) {
   const ScenarioVehicle& vehicle = first_vehicle(runs.front());
-  PlotPanel panel{.x_label = "arc length along the lane's centre, from the start [m]",
-                  .y_label = "distance to the lane's centre [mm]"};
+  const std::string path =
+      runs.front().scenario.map_file ? "the lane's centre" : "the reference path";
+  PlotPanel panel{.x_label = "arc length along " + path + ", from the start [m]",
+                  .y_label = "distance to " + path + " [mm]"};
   double highest_mm = 0.0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Progress progress = progress_along(vehicle.path, planned_positions(runs[i]));

@@ -57,7 +57,7 @@ TEST(RandomRequests, NeverLeaveACarWithoutAPlanNorLeadToACollision) {
   std::size_t requests = 0;
   std::size_t planned = 0;
   std::size_t infeasible_by_switch = 0;
-  const std::uint64_t seeds = test::num_seeds(20);
+  const std::uint64_t seeds = test::num_costly_seeds(20);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);

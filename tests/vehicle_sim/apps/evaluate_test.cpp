@@ -252,6 +252,10 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--seed -5", "--seed"},
                                        {"--noise_seed 99999999999999999999999", "--noise_seed"},
                                        {"--figures path", "--figures"},
+                                       {"--figures distance --scenario paper_red_alone",
+                                        "--figures = distance, allowed with a scenario of several"},
+                                       {"--figures paths --pareto_configuration x.yaml",
+                                        "--pareto_configuration = x.yaml, allowed with"},
                                        {"--unheard_of", "unheard_of"}}) {
     const Outcome outcome =
         run_program(std::string("evaluate --out ") + out_.string() + kScenarios + " " + flags);
