@@ -1,6 +1,7 @@
 #include "planner/road/corridor.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hlc {
@@ -24,33 +25,42 @@ void append_pieces(std::vector<Corridor::Piece>& pieces, const Corridor::Bound& 
 }  // namespace
 
 Corridor::Corridor(std::vector<Piece> pieces, double route_length_m)
-    : pieces_(std::move(pieces)), route_length_m_(route_length_m) {}
+    : pieces_(std::move(pieces)), route_length_m_(route_length_m) {
+  list_windows();
+}
 
 Corridor::Corridor(std::vector<Bound> bounds, double route_length_m, const Box& ground_m)
     : bounds_(std::move(bounds)), route_length_m_(route_length_m), ground_m_(ground_m) {
   for (const Bound& bound : bounds_) append_pieces(pieces_, bound);
+  list_windows();
+}
+
+void Corridor::list_windows() {
+  windows_.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) {
+    double to_s_m = piece.to_s_m;
+    if (route_length_m_ > 0.0) {
+      to_s_m -= std::floor(to_s_m / route_length_m_) * route_length_m_;
+      if (to_s_m >= route_length_m_) to_s_m = 0.0;  // by rounding
+    }
+    windows_.push_back({to_s_m - (piece.to_s_m - piece.from_s_m), to_s_m});
+  }
 }
 
 std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const {
   std::vector<Segment> boundary;
   boundary.reserve(pieces_.size());
-  if (route_length_m_ <= 0.0) {
-    for (const Piece& piece : pieces_) {
-      if (piece.from_s_m <= to_s_m && piece.to_s_m >= from_s_m) boundary.push_back(piece.segment);
-    }
-    return boundary;
-  }
-  // On a closed route the piece lies at [from, to] + k * length for every integer k. The smallest k
-  // for which it does not end before the window is the one that can meet it. With the window's
-  // begin in [0, length), k is small: no division.
-  const double turns_m = std::floor(from_s_m / route_length_m_) * route_length_m_;
+  // On a closed route a window lies at [from, to] + k * length for every integer k. The smallest k
+  // for which it does not end before what is asked for is the one that can meet it: 0 or 1, with
+  // the begin of what is asked for in [0, length), too.
+  const bool is_closed = route_length_m_ > 0.0;
+  const double turns_m = is_closed ? std::floor(from_s_m / route_length_m_) * route_length_m_ : 0.0;
   const double from = from_s_m - turns_m;
   const double to = to_s_m - turns_m;
-  for (const Piece& piece : pieces_) {
-    double shift = 0.0;
-    while (piece.to_s_m + shift < from) shift += route_length_m_;
-    while (piece.to_s_m + shift - route_length_m_ >= from) shift -= route_length_m_;
-    if (piece.from_s_m + shift <= to) boundary.push_back(piece.segment);
+  const double next_m = is_closed ? route_length_m_ : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    const double shift = windows_[i].to_s_m < from ? next_m : 0.0;
+    if (windows_[i].from_s_m + shift <= to) boundary.push_back(pieces_[i].segment);
   }
   return boundary;
 }

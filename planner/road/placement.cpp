@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace hlc {
@@ -31,29 +32,51 @@ bool is_in_window(double s_m, double from_s_m, double to_s_m, double length_m) {
   return s_m + turns * length_m <= to_s_m;
 }
 
-/// Distance of the bound from the path at s, along the normal there; infinite if there is none.
-double bound_m(const Corridor& corridor, Side side, double s_m, const Point& origin_m,
-               double heading_rad) {
-  const Point direction = along(heading_rad);
-  const Point normal = outwards(heading_rad, side);
-  double nearest_m = kInfinity;
+/// A piece of a bound that belongs to s in [middle - reach, middle + reach].
+struct BoundPiece {
+  Point from_m;
+  Point to_m;
+  double middle_s_m;
+  double reach_m;
+};
+
+/// The side's pieces that belong to some s in [from, to].
+std::vector<BoundPiece> pieces_between(const Corridor& corridor, Side side, double from_s_m,
+                                       double to_s_m) {
+  std::vector<BoundPiece> pieces;
   for (const Corridor::Bound& bound : corridor.bounds()) {
     if (bound.side != side) continue;
     for (std::size_t i = 0; i + 1 < bound.points_m.size(); ++i) {
-      const double middle_s_m = (bound.s_m[i] + bound.s_m[i + 1]) / 2.0;
-      const double reach_m = (bound.s_m[i + 1] - bound.s_m[i]) / 2.0 + kAround_m / 4.0;
-      if (!is_in_window(middle_s_m, s_m - reach_m, s_m + reach_m, corridor.route_length_m())) {
-        continue;
+      const BoundPiece piece{bound.points_m[i], bound.points_m[i + 1],
+                             (bound.s_m[i] + bound.s_m[i + 1]) / 2.0,
+                             (bound.s_m[i + 1] - bound.s_m[i]) / 2.0 + kAround_m / 4.0};
+      if (is_in_window(piece.middle_s_m, from_s_m - piece.reach_m, to_s_m + piece.reach_m,
+                       corridor.route_length_m())) {
+        pieces.push_back(piece);
       }
-      const Point from = bound.points_m[i] - origin_m;
-      const Point to = bound.points_m[i + 1] - origin_m;
-      const double a = direction.dot(from);
-      const double b = direction.dot(to);
-      if (a * b > 0.0 || a == b) continue;
-      const double t = a / (a - b);
-      const double across_m = normal.dot((1.0 - t) * from + t * to);
-      if (across_m > 0.0) nearest_m = std::min(nearest_m, across_m);
     }
+  }
+  return pieces;
+}
+
+/// Distance of the bound from the path at s, along the normal there; infinite if there is none.
+double bound_m(std::span<const BoundPiece> pieces, Side side, double route_length_m, double s_m,
+               const Point& origin_m, double heading_rad) {
+  const Point direction = along(heading_rad);
+  const Point normal = outwards(heading_rad, side);
+  double nearest_m = kInfinity;
+  for (const BoundPiece& piece : pieces) {
+    if (!is_in_window(piece.middle_s_m, s_m - piece.reach_m, s_m + piece.reach_m, route_length_m)) {
+      continue;
+    }
+    const Point from = piece.from_m - origin_m;
+    const Point to = piece.to_m - origin_m;
+    const double a = direction.dot(from);
+    const double b = direction.dot(to);
+    if (a * b > 0.0 || a == b) continue;
+    const double t = a / (a - b);
+    const double across_m = normal.dot((1.0 - t) * from + t * to);
+    if (across_m > 0.0) nearest_m = std::min(nearest_m, across_m);
   }
   return nearest_m;
 }
@@ -71,14 +94,17 @@ std::vector<Point> outline(const ConvexPolygon& area) {
 
 double beyond_m(const DrivableRoute& route, double s_m, Side side,
                 const std::vector<Point>& outline_m) {
+  const Corridor& corridor = route.corridor;
+  const std::vector<BoundPiece> pieces =
+      pieces_between(corridor, side, s_m - kAround_m, s_m + kAround_m);
   double result = -kInfinity;
   for (const Point& point : outline_m) {
     const double at_s_m = route.path.project_within(point, s_m - kAround_m, s_m + kAround_m).s_m;
     const Point origin_m = route.path.at(at_s_m);
     const double heading_rad = route.path.heading_rad_at(at_s_m);
     const double across_m = outwards(heading_rad, side).dot(point - origin_m);
-    result =
-        std::max(result, across_m - bound_m(route.corridor, side, at_s_m, origin_m, heading_rad));
+    result = std::max(result, across_m - bound_m(pieces, side, corridor.route_length_m(), at_s_m,
+                                                 origin_m, heading_rad));
   }
   return result;
 }
