@@ -94,6 +94,12 @@ int main(int argc, char** argv) {
   app.get_option("--scenario")
       ->required(false)
       ->description("scenario file (YAML); default: this and the following from the run folder");
+  for (CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (name != "--help" && name != "--run" && name != "--out" && name != "--scenario") {
+      option->needs("--scenario");
+    }
+  }
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   try {

@@ -38,7 +38,7 @@ constexpr auto kLabTable = std::to_array<LabRow>({
     // clang-format off
     // topic                        domain              lab writer             lab reader            loopback: w, r, late
     {TopicId::kVehicleStateList,    DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffort,        16,   16, false},
-    {TopicId::kVehicleCommand,     DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffort,        16,   16, false},
+    {TopicId::kVehicleCommand,     DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffortAll,     16,   16, false},
     {TopicId::kReadyStatus,         DomainRole::kLocal, Lab::kReliable,        Lab::kReliableAll,       16,   64, false},
     {TopicId::kSystemTrigger,       DomainRole::kLocal, Lab::kReliable,        Lab::kReliable,         512,  512, false},
 

@@ -1,5 +1,6 @@
 #include "planner/road/corridor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -44,12 +45,14 @@ void Corridor::list_windows() {
       if (to_s_m >= route_length_m_) to_s_m = 0.0;  // by rounding
     }
     windows_.push_back({to_s_m - (piece.to_s_m - piece.from_s_m), to_s_m});
+    if ((windows_.size() - 1) % kBlock == 0) blocks_.push_back(windows_.back());
+    blocks_.back().from_s_m = std::min(blocks_.back().from_s_m, windows_.back().from_s_m);
+    blocks_.back().to_s_m = std::max(blocks_.back().to_s_m, windows_.back().to_s_m);
   }
 }
 
 std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const {
   std::vector<Segment> boundary;
-  boundary.reserve(pieces_.size());
   // On a closed route a window lies at [from, to] + k * length for every integer k. The smallest k
   // for which it does not end before what is asked for is the one that can meet it: 0 or 1, with
   // the begin of what is asked for in [0, length), too.
@@ -58,9 +61,14 @@ std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const 
   const double from = from_s_m - turns_m;
   const double to = to_s_m - turns_m;
   const double next_m = is_closed ? route_length_m_ : std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < windows_.size(); ++i) {
-    const double shift = windows_[i].to_s_m < from ? next_m : 0.0;
-    if (windows_[i].from_s_m + shift <= to) boundary.push_back(pieces_[i].segment);
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    const Window& all = blocks_[block];
+    if ((all.to_s_m < from || all.from_s_m > to) && all.from_s_m + next_m > to) continue;
+    const std::size_t end = std::min(windows_.size(), (block + 1) * kBlock);
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      const double shift = windows_[i].to_s_m < from ? next_m : 0.0;
+      if (windows_[i].from_s_m + shift <= to) boundary.push_back(pieces_[i].segment);
+    }
   }
   return boundary;
 }

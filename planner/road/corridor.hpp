@@ -50,6 +50,8 @@ class Corridor {
   [[nodiscard]] std::vector<Segment> boundary_m(double from_s_m, double to_s_m) const;
 
  private:
+  static constexpr std::size_t kBlock = 16;
+
   /// A piece's [from, to]; on a closed route moved by whole lengths so that its end lies in
   /// [0, length).
   struct Window {
@@ -59,7 +61,8 @@ class Corridor {
   void list_windows();
 
   std::vector<Piece> pieces_;
-  std::vector<Window> windows_;  ///< of all pieces, beside each other: every step looks at them all
+  std::vector<Window> windows_;  ///< of all pieces
+  std::vector<Window> blocks_;   ///< hulls of kBlock windows each: every step looks at them all
   std::vector<Bound> bounds_;
   double route_length_m_{};
   Box ground_m_;

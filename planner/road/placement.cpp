@@ -1,6 +1,7 @@
 #include "planner/road/placement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -92,21 +93,33 @@ std::vector<Point> outline(const ConvexPolygon& area) {
   return points;
 }
 
-double beyond_m(const DrivableRoute& route, double s_m, Side side,
-                const std::vector<Point>& outline_m) {
+/// Fills in how far the outline reaches beyond the bounds.
+void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m,
+                 Placement& placement) {
   const Corridor& corridor = route.corridor;
-  const std::vector<BoundPiece> pieces =
-      pieces_between(corridor, side, s_m - kAround_m, s_m + kAround_m);
-  double result = -kInfinity;
+  const double from_s_m = placement.s_m - kAround_m;
+  const double to_s_m = placement.s_m + kAround_m;
+  struct OneSide {
+    Side side;
+    double& beyond_m;
+    std::vector<BoundPiece> pieces;
+  };
+  std::array<OneSide, 2> sides{OneSide{Side::kLeft, placement.beyond_left_m,
+                                       pieces_between(corridor, Side::kLeft, from_s_m, to_s_m)},
+                               OneSide{Side::kRight, placement.beyond_right_m,
+                                       pieces_between(corridor, Side::kRight, from_s_m, to_s_m)}};
+  for (OneSide& one : sides) one.beyond_m = -kInfinity;
   for (const Point& point : outline_m) {
-    const double at_s_m = route.path.project_within(point, s_m - kAround_m, s_m + kAround_m).s_m;
+    const double at_s_m = route.path.project_within(point, from_s_m, to_s_m).s_m;
     const Point origin_m = route.path.at(at_s_m);
     const double heading_rad = route.path.heading_rad_at(at_s_m);
-    const double across_m = outwards(heading_rad, side).dot(point - origin_m);
-    result = std::max(result, across_m - bound_m(pieces, side, corridor.route_length_m(), at_s_m,
-                                                 origin_m, heading_rad));
+    for (OneSide& one : sides) {
+      const double across_m = outwards(heading_rad, one.side).dot(point - origin_m);
+      const double room_m =
+          bound_m(one.pieces, one.side, corridor.route_length_m(), at_s_m, origin_m, heading_rad);
+      one.beyond_m = std::max(one.beyond_m, across_m - room_m);
+    }
   }
-  return result;
 }
 
 /// Of every segment of the path the nearest point; the best of them all.
@@ -141,9 +154,7 @@ bool fits(const Placement& placement, const DrivableRoute& route) {
 Placement placement_on(const DrivableRoute& route, const Pose& pose, const Footprint& footprint) {
   Placement placement = best_place(route.path, pose);
   const ConvexPolygon area = footprint_area(footprint, pose);
-  const std::vector<Point> points_m = outline(area);
-  placement.beyond_left_m = beyond_m(route, placement.s_m, Side::kLeft, points_m);
-  placement.beyond_right_m = beyond_m(route, placement.s_m, Side::kRight, points_m);
+  look_beyond(route, outline(area), placement);
   if (!route.corridor.bounds().empty()) {
     const Box box = bounding_box(area);
     const Box& ground = route.corridor.ground_m();

@@ -107,6 +107,12 @@ def cut_plan(root: Element) -> None:
         state.getparent().remove(state)
 
 
+def slow_down(root: Element) -> None:
+    for state in motion(root, PLANNED_IDS, 2) + motion(root, DRIVEN_IDS, 2):
+        time = state.find("time/exact")
+        time.text = str(3 * int(time.text))
+
+
 def renumber_drive(root: Element) -> None:
     root.find(f"dynamicObstacle[@id='{DRIVEN_IDS + 2}']").set("id", str(DRIVEN_IDS + 9))
 
@@ -190,10 +196,10 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
             lambda r: shift(planned(r), 0.2, 0.0),
         ),
         Control(
-            "one driven sample 0.5 m aside",
+            "one driven sample 50 mm aside",
             "driving",
-            ("vehicle 2",),
-            lambda r: shift(motion(r, DRIVEN_IDS, 2)[777:778], 0.5, 0.0),
+            ("its speed says",),
+            lambda r: shift(motion(r, DRIVEN_IDS, 2)[777:778], 0.05, 0.0),
         ),
         Control(
             "a driven car 0.3 m beside its plan",
@@ -204,7 +210,8 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
         Control("no plan of a car", "record", ("no plan",), lambda r: without(r, PLANNED_IDS)),
         Control("no drive of a car", "record", ("no drive",), lambda r: without(r, DRIVEN_IDS)),
         Control("a plan of 3 s", "record", ("plan of",), cut_plan),
-        Control("a drive of another car", "record", ("vehicle",), renumber_drive),
+        Control("a drive of another car", "record", ("does not name it",), renumber_drive),
+        Control("a car in thrice the time", "record", ("of another time",), slow_down),
         Control("a narrower car", "size", ("element",), make_narrower),
         Control("an id twice", "schema", ("Duplicate",), repeat_id),
         Control("a state without orientation", "schema", ("orientation",), without_orientation),

@@ -76,7 +76,12 @@ def check_lanes(run: Run) -> tuple[list[Finding], str]:
     findings = []
     least_m = np.inf
     for vehicle, obstacle in sorted(run.planned.items()):
-        route = configuration.routes[configuration.route_of[vehicle]][map_name]
+        route_name = configuration.route_of[vehicle]
+        route = configuration.routes[route_name].get(map_name)
+        if route is None:
+            text = f"vehicle {vehicle}: route {route_name} has no lanes on map {map_name}"
+            findings.append(Finding("lanes", text))
+            continue
         area = area_of(drivable(run.scenario.lanelet_network, route))
         shapely.prepare(area)
         rectangles = shapely.polygons(footprints(obstacle))

@@ -39,10 +39,19 @@ def check_whole(run: Run, folder: Path) -> tuple[list[Finding], str]:
             elif vehicle not in vehicles:
                 text = f"vehicle {vehicle}: a {kind}, but run.json does not name it"
                 findings.append(Finding("record", text))
+            elif (at := first_wrong_time(motions[vehicle])) is not None:
+                text = f"vehicle {vehicle}: state {at} of the {kind} is of another time"
+                findings.append(Finding("record", text))
             elif (length_s := length_of(motions[vehicle], run)) < duration_s - 0.5 * run.scenario.dt:
                 text = f"vehicle {vehicle}: {kind} of {length_s:.2f} s, the run has {duration_s:.2f} s"
                 findings.append(Finding("record", text))
     return findings, f"{len(vehicles)} cars, {duration_s:.1f} s planned and driven"
+
+
+def first_wrong_time(obstacle: DynamicObstacle) -> int | None:
+    """The first state whose time step is not its place: all checks take the one for the other."""
+    all_states = [obstacle.initial_state, *obstacle.prediction.trajectory.state_list]
+    return next((i for i, s in enumerate(all_states) if s.time_step != i), None)
 
 
 def length_of(obstacle: DynamicObstacle, run: Run) -> float:

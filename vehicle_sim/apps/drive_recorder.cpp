@@ -8,13 +8,15 @@
 
 namespace hlc {
 
-DriveRecorder::DriveRecorder(const std::string& file) : stream_(file) {
-  if (!stream_) {
-    throw std::runtime_error("--record: cannot write " + file);
-  }
+DriveRecorder::DriveRecorder(const std::string& file) : file_(file), stream_(file) {
   stream_.imbue(std::locale::classic());
   stream_.precision(std::numeric_limits<double>::max_digits10);
   stream_ << kDriveHeading << '\n' << std::flush;
+  check();
+}
+
+void DriveRecorder::check() const {
+  if (!stream_) throw std::runtime_error(file_ + ": cannot be written");
 }
 
 void DriveRecorder::write(const DrivenSample& sample) {
@@ -22,6 +24,7 @@ void DriveRecorder::write(const DrivenSample& sample) {
           << sample.pose.heading_rad << ',' << sample.speed_mps << ',' << sample.throttle << ','
           << sample.steering << ',' << sample.command_create << '\n'
           << std::flush;
+  check();
 }
 
 }  // namespace hlc

@@ -18,9 +18,13 @@ class DriveRecorder {
   /// @throws std::runtime_error if the file cannot be written
   explicit DriveRecorder(const std::string& file);
 
+  /// @throws std::runtime_error if the row cannot be written
   void write(const DrivenSample& sample);
 
  private:
+  void check() const;
+
+  std::string file_;
   std::ofstream stream_;
 };
 

@@ -34,6 +34,7 @@ struct Choices {
 };
 
 constexpr char kAllFigures[] = "all";
+constexpr int kExitNotWritten = 3;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 
 /// A file, or the name of one in the folder of scenarios.
@@ -222,11 +223,12 @@ int main(int argc, char** argv) {
   }
   app.footer(
       "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
-      "input.");
+      "input, 3 a record, table or figure cannot be written; what is there stays.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   choices.is_sweep = sweep->count() > 0;
   int code = 0;
   const int problem =
       hlc::exit_code_of("evaluate", [&] { code = run(choices, command_line(argc, argv)); });
-  return problem != 0 ? problem : code;
+  // A run that fails is recorded: what else goes wrong is an output.
+  return problem == 1 ? kExitNotWritten : problem != 0 ? problem : code;
 }

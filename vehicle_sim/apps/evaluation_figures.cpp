@@ -74,15 +74,18 @@ class Drawing {
       choices_.say("the Pareto set of Fig. 1");
       write("pareto_set", pareto_set(choices_.pareto_configuration));
     }
-    std::set<fs::path> automata;
+    std::map<std::string, fs::path> automata;  // by name: two of one name are told by the scenario
+    std::set<std::string> drawn;
     std::set<fs::path> scenarios;
     for (const CampaignRun& run : campaign_.runs()) {
       const Scenario& scenario = campaign_.scenario_of(run);
       const std::string name = run.scenario.stem().string();
-      if (is_wanted("automaton") && automata.insert(scenario.automaton_file).second) {
+      const std::string stem = scenario.automaton_file.stem().string();
+      const fs::path& first = automata.try_emplace(stem, scenario.automaton_file).first->second;
+      const std::string figure = first == scenario.automaton_file ? stem : stem + "_of_" + name;
+      if (is_wanted("automaton") && drawn.insert(figure).second) {
         choices_.say("the automaton of " + name);
-        write("automaton_" + scenario.automaton_file.stem().string(),
-              automaton(scenario.automaton_file));
+        write("automaton_" + figure, automaton(scenario.automaton_file));
       }
       if (is_wanted("scenario") && scenarios.insert(run.scenario).second) {
         write("scenario_" + name, scenario_plot(scenario, map_of(scenario)));

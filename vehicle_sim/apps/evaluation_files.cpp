@@ -32,13 +32,7 @@ Json heading_of(const Campaign& campaign) {
 }
 
 RunFigures figures_of(const Campaign& campaign, std::size_t run, const Json& record) {
-  RunFigures figures = campaign.heading_of(run);
-  // Only a run that could not be driven to its end has none.
-  if (record.contains("figures") || record.at("failure").is_null()) {
-    figures = read_figures(record.at("figures"), std::move(figures));
-  }
-  if (!record.at("failure").is_null()) figures.failure = record.at("failure").get<std::string>();
-  return figures;
+  return figures_of_record(record, campaign.heading_of(run));
 }
 
 }  // namespace

@@ -66,4 +66,14 @@ RunFigures read_figures(const Json& record, RunFigures heading) {
   return figures;
 }
 
+RunFigures figures_of_record(const Json& record, RunFigures heading) {
+  RunFigures figures = std::move(heading);
+  const Json& failure = record.at("failure");
+  if (record.contains("figures") || failure.is_null()) {
+    figures = read_figures(record.at("figures"), std::move(figures));
+  }
+  if (!failure.is_null()) figures.failure = failure.get<std::string>();
+  return figures;
+}
+
 }  // namespace hlc

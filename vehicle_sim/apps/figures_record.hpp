@@ -14,4 +14,10 @@ namespace hlc {
 /// @throws nlohmann::json::exception if it is none
 [[nodiscard]] RunFigures read_figures(const nlohmann::ordered_json& record, RunFigures heading);
 
+/// The heading with what a whole record of runs.jsonl says: `failure`, null or a reason, and
+/// `figures`, which only a run that could not be driven to its end has not.
+/// @throws nlohmann::json::exception if it is none
+[[nodiscard]] RunFigures figures_of_record(const nlohmann::ordered_json& record,
+                                           RunFigures heading);
+
 }  // namespace hlc

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "hlc_bridge/record/text_file.hpp"
@@ -84,9 +86,14 @@ void RunLog::refuse(const std::string& what) const {
 void RunLog::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  const int reason = errno;
   if (lock_ >= 0) ::close(lock_);
-  throw std::invalid_argument("--out = " + folder_.string() +
-                              ": another evaluate writes to it, allowed one at a time");
+  const std::string out = "--out = " + folder_.string() + ": ";
+  if (reason == EWOULDBLOCK) {
+    throw std::invalid_argument(out + "another evaluate writes to it, allowed one at a time");
+  }
+  throw std::invalid_argument(out + "cannot be locked, " + std::generic_category().message(reason) +
+                              ", allowed a folder that can be read and written");
 }
 
 void RunLog::open() {

@@ -27,13 +27,7 @@ Json heading_of(const Sweep& sweep) {
 }
 
 RunFigures figures_of(const Sweep& sweep, std::size_t run, const Json& record) {
-  RunFigures figures = sweep.heading_of(run);
-  // Only a run that could not be driven to its end has none.
-  if (record.contains("figures") || record.at("failure").is_null()) {
-    figures = read_figures(record.at("figures"), std::move(figures));
-  }
-  if (!record.at("failure").is_null()) figures.failure = record.at("failure").get<std::string>();
-  return figures;
+  return figures_of_record(record, sweep.heading_of(run));
 }
 
 }  // namespace

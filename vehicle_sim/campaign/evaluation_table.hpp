@@ -1,25 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
 namespace hlc {
-
-/// A cell of the paper's Table 2 that does not depend on the machine: reference error, lap,
-/// vertices.
-struct PapersCell {
-  std::string scenario;  ///< paper_three_cars (the paper's simulation), paper_red_alone (its lab)
-  std::string subgraph;
-  std::string quantity;  ///< its key in the table as comma-separated values
-  double value{};
-  std::optional<double> (*of)(const RunFigures&){};  ///< ours
-};
-
-/// All of them, by scenario, subgraph, quantity.
-[[nodiscard]] std::vector<PapersCell> papers_cells();
 
 /// Where the figures come from.
 struct EvaluationOrigin {

@@ -28,7 +28,7 @@ namespace hlc {
 [[nodiscard]] std::string vertices_figure(std::span<const DrivenRun> runs);
 
 /// Planning times of all vehicles on a logarithmic scale: how they are distributed, and the share
-/// that took longer than a time. Planning times of 0 are left out.
+/// that took at least so long. Planning times of 0 are left out.
 [[nodiscard]] std::string planning_time_figure(std::span<const DrivenRun> runs);
 
 /// Distance of the driven footprints, pair by pair, over time, one panel per subgraph, with

@@ -6,16 +6,13 @@
 namespace hlc {
 namespace {
 
-constexpr char kThreeCars[] = "paper_three_cars";
-constexpr char kRedAlone[] = "paper_red_alone";
-
 std::vector<PapersCell> compared_cells() {
   std::vector<PapersCell> cells = papers_cells();
   std::vector<PapersCell> alone;
   for (PapersCell cell : cells) {
-    if (cell.scenario != kThreeCars || cell.subgraph != "A") continue;
+    if (cell.scenario != kPaperSimulation || cell.subgraph != "A") continue;
     if (cell.quantity == "generated_sum_max") continue;  // of three cars
-    cell.scenario = kRedAlone;
+    cell.scenario = kPaperLab;
     alone.push_back(cell);
   }
   cells.insert(cells.end(), alone.begin(), alone.end());

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vehicle_sim/campaign/evaluation_table.hpp"
+#include "vehicle_sim/campaign/paper_table.hpp"
 
 namespace hlc {
 

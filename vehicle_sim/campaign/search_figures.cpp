@@ -1,13 +1,12 @@
 #include "vehicle_sim/campaign/figures.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "planner/plot/scenario_plot.hpp"
+#include "vehicle_sim/campaign/distribution.hpp"
 #include "vehicle_sim/campaign/figure_parts.hpp"
 
 namespace hlc {
@@ -66,44 +65,6 @@ std::vector<double> planning_times_ms(const DrivenRun& run) {
   return times_ms;
 }
 
-/// Ten bins a decade, as steps; heights are percentages of the sample.
-PlotPoints histogram(const std::vector<double>& sorted) {
-  constexpr double kBinsPerDecade = 10.0;
-  const auto bin_of = [](double value) {
-    return static_cast<int>(std::floor(kBinsPerDecade * std::log10(value)));
-  };
-  std::map<int, std::size_t> counts;
-  for (const double value : sorted) ++counts[bin_of(value)];
-  PlotPoints points;
-  if (sorted.empty()) return points;
-  const auto add = [&](int bin, double height) {
-    points.emplace_back(std::pow(10.0, bin / kBinsPerDecade), height);
-  };
-  const int first = counts.begin()->first;
-  const int last = counts.rbegin()->first;
-  add(first, 0.0);
-  for (int bin = first; bin <= last; ++bin) {
-    const double height =
-        100.0 * static_cast<double>(counts[bin]) / static_cast<double>(sorted.size());
-    add(bin, height);
-    add(bin + 1, height);
-  }
-  add(last + 1, 0.0);
-  return points;
-}
-
-/// Share [%] of the sample above each of its values; the largest has none above it and ends the
-/// line at the share of itself.
-PlotPoints exceedance(const std::vector<double>& sorted) {
-  PlotPoints points;
-  const auto count = static_cast<double>(sorted.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const double at_least = 100.0 * (count - static_cast<double>(i)) / count;
-    points.emplace_back(sorted[i], at_least);
-  }
-  return points;
-}
-
 }  // namespace
 
 std::string vertices_figure(std::span<const DrivenRun> runs) {
@@ -130,7 +91,7 @@ std::string planning_time_figure(std::span<const DrivenRun> runs) {
   double lowest = 100.0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::vector<double> times_ms = planning_times_ms(runs[i]);
-    const PlotPoints bars = histogram(times_ms);
+    const PlotPoints bars = decade_histogram(times_ms);
     for (const Eigen::Vector2d& point : bars) highest = std::max(highest, point.y());
     if (!times_ms.empty()) lowest = std::min(lowest, 100.0 / static_cast<double>(times_ms.size()));
     add_series(i, subgraph_name(runs[i]), bars, density);

@@ -76,6 +76,14 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combination
       }
     }
   }
+  std::map<std::string, std::size_t> by_name;
+  for (const auto& [key, scenario] : scenarios_) {
+    const auto [same, is_new] = by_name.emplace(scenario.name, key.first);
+    if (same->second == key.first) continue;
+    throw std::invalid_argument(scenario.file.string() + ": name = " + scenario.name + " as in " +
+                                plan_.scenarios[same->second].string() +
+                                ", allowed scenarios of different names");
+  }
   if (plan_.starts == 1) return;
   for (const auto& [key, scenario] : scenarios_) {
     static_cast<void>(with_random_starts(scenario, plan_.seed + 1));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <optional>
 
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
@@ -11,27 +12,27 @@
 namespace hlc {
 namespace {
 
-struct TableQuantity {
+struct SweepQuantity {
   const char* title;
   const char* key;
   int decimals;
-  double (*of)(const RunFigures&);  ///< @pre the run has a lap
+  std::optional<double> (*of)(const RunFigures&);
 };
 
-constexpr std::array kTableQuantities{
-    TableQuantity{"error, planned [mm]", "error_mean_mm", 1,
-                  [](const RunFigures& run) { return run.error_mean_mm.value(); }},
-    TableQuantity{"error, driven [mm]", "driven_error_mean_mm", 1,
-                  [](const RunFigures& run) { return run.driven_error_mean_mm.value_or(0.0); }},
-    TableQuantity{"lap [s]", "lap_s", 2, [](const RunFigures& run) { return run.lap_s.value(); }},
-    TableQuantity{"max. generated", "generated_max", 0,
-                  [](const RunFigures& run) { return run.generated_max; }}};
+constexpr std::array kSweepQuantities{
+    SweepQuantity{"error, planned [mm]", "error_mean_mm", 1,
+                  [](const RunFigures& run) { return run.error_mean_mm; }},
+    SweepQuantity{"error, driven [mm]", "driven_error_mean_mm", 1,
+                  [](const RunFigures& run) { return run.driven_error_mean_mm; }},
+    SweepQuantity{"lap [s]", "lap_s", 2, [](const RunFigures& run) { return run.lap_s; }},
+    SweepQuantity{"max. generated", "generated_max", 0,
+                  [](const RunFigures& run) { return std::optional(run.generated_max); }}};
 
 /// One row: a group's runs in one scenario with one subgraph.
 struct TableRow {
   std::size_t runs{};
   std::size_t laps{};
-  std::array<ValuesByStart, kTableQuantities.size()> values;
+  std::array<ValuesByStart, kSweepQuantities.size()> values;
 };
 
 class Tables {
@@ -51,8 +52,9 @@ class Tables {
         ++row.runs;
         if (!has_lap(runs_[i])) continue;
         ++row.laps;
-        for (std::size_t q = 0; q < kTableQuantities.size(); ++q) {
-          row.values[q][what.start].push_back(kTableQuantities[q].of(runs_[i]));
+        for (std::size_t q = 0; q < kSweepQuantities.size(); ++q) {
+          const std::optional<double> value = kSweepQuantities[q].of(runs_[i]);
+          if (value) row.values[q][what.start].push_back(*value);
         }
       }
     }
@@ -69,7 +71,7 @@ class Tables {
     }
     text += " subgraph | combinations | laps |";
     rule += "---|---|---|";
-    for (const TableQuantity& quantity : kTableQuantities) {
+    for (const SweepQuantity& quantity : kSweepQuantities) {
       text += std::string(" ") + quantity.title + " |";
       rule += "---|";
     }
@@ -81,9 +83,9 @@ class Tables {
         for (const std::string& value : group.values) text += " " + value + " |";
         text += " " + plan.subgraphs[s] + " | " + std::to_string(group.combinations.size()) +
                 " | " + std::to_string(cells.laps) + " of " + std::to_string(cells.runs) + " |";
-        for (std::size_t q = 0; q < kTableQuantities.size(); ++q) {
+        for (std::size_t q = 0; q < kSweepQuantities.size(); ++q) {
           text += " " +
-                  in_words(interval_over_starts(cells.values[q]), kTableQuantities[q].decimals) +
+                  in_words(interval_over_starts(cells.values[q]), kSweepQuantities[q].decimals) +
                   " |";
         }
         text += "\n";
@@ -103,11 +105,11 @@ class Tables {
       }
       for (std::size_t s = 0; s < plan.subgraphs.size(); ++s) {
         const TableRow cells = row(group, scenario, s);
-        for (std::size_t q = 0; q < kTableQuantities.size(); ++q) {
+        for (std::size_t q = 0; q < kSweepQuantities.size(); ++q) {
           const std::optional<Interval> interval = interval_over_starts(cells.values[q]);
           text += heading + "," + plan.subgraphs[s] + "," +
                   std::to_string(group.combinations.size()) + "," + std::to_string(cells.runs) +
-                  "," + std::to_string(cells.laps) + "," + kTableQuantities[q].key + "," +
+                  "," + std::to_string(cells.laps) + "," + kSweepQuantities[q].key + "," +
                   (interval ? number(interval->mean, 6) : "") + "," +
                   (interval && interval->half_width ? number(*interval->half_width, 6) : "") + "\n";
         }

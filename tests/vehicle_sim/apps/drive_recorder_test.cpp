@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "hlc_bridge/record/drive_file.hpp"
+#include "tests/support/full_disk.hpp"
 
 namespace hlc {
 namespace {
@@ -58,6 +59,19 @@ TEST_F(DriveRecorderTest, FileThatCannotBeWrittenIsNamed) {
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("no_such_folder"), std::string::npos);
+  }
+}
+
+// Else a drive would end where the disk was full, and nobody would know.
+TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsAnError) {
+  const std::filesystem::path file = folder_ / "drive.csv";
+  DriveRecorder recorder(file);
+  const test::FullDisk disk(std::filesystem::file_size(file) + 5);
+  try {
+    recorder.write({.t = 20'000'000});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), file.string() + ": cannot be written");
   }
 }
 

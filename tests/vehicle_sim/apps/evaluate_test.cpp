@@ -181,14 +181,13 @@ TEST_F(Evaluate, SharesOfTheWallTimeAreInTheRecords) {
 TEST_F(Evaluate, DrawsTheFiguresThatAreAskedForAlsoLater) {
   ASSERT_EQ(evaluate("").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(out_ / "figures"));
-  const Outcome later = evaluate("--figures scenario,paths,distance");
+  const Outcome later = evaluate("--figures scenario,paths");
   EXPECT_EQ(later.exit_code, 0) << later.output;
   EXPECT_THAT(later.output, HasSubstr("4 of 4 runs are there already"));
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(out_ / "figures")) {
     files.insert(entry.path().filename());
   }
-  // No distance: there is one car.
   EXPECT_EQ(files, (std::set<std::string>{"scenario_paper_red_alone.svg",
                                           "paths_paper_red_alone_default.svg"}));
 }
@@ -295,18 +294,17 @@ TEST_F(Evaluate, KeepsRunFoldersAlsoOfRunsThatAreThereAlready) {
   EXPECT_TRUE(std::filesystem::exists(out_ / "runs" / "2" / "run.json"));
 }
 
-TEST_F(Evaluate, ARunThatCannotBeDrivenIsRecordedByItsScenariosNameAndSubgraph) {
+TEST_F(Evaluate, ARunFolderThatCannotBeWrittenIsNoFailureOfTheRun) {
   const Outcome done = run_program("evaluate --scenario paper_red_alone --steps 20" + kScenarios +
                                    " --out " + out_.string());
   ASSERT_EQ(done.exit_code, 0) << done.output;
+  const nlohmann::json before = results();
   put(out_ / "runs", "a file where the run folders go");
   const Outcome failed = run_program("evaluate --keep_runs --scenario paper_red_alone --steps 20" +
                                      kScenarios + " --out " + out_.string());
-  EXPECT_EQ(failed.exit_code, 1) << failed.output;
-  const nlohmann::json run = results()["runs"][0];
-  EXPECT_THAT(run["failure"].get<std::string>(), HasSubstr("cannot be made"));
-  EXPECT_EQ(run["scenario"], "paper_red_alone");
-  EXPECT_EQ(run["subgraph"], "B");
+  EXPECT_EQ(failed.exit_code, 3) << failed.output;
+  EXPECT_THAT(failed.output, HasSubstr("runs/0: cannot be made"));
+  EXPECT_EQ(results(), before);
 }
 
 TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {
@@ -321,6 +319,10 @@ TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {
     EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
     EXPECT_FALSE(std::filesystem::exists(out)) << message;
   };
+  const Outcome of_d = run_program("export_commonroad --subgraph D --run " + run.string() +
+                                   " --out " + out.string());
+  EXPECT_EQ(of_d.exit_code, 2);
+  EXPECT_THAT(of_d.output, HasSubstr("--subgraph requires --scenario"));
   refused(folder_ / "nowhere", "nowhere/run.json: cannot be read");
   refused(out_, "run.json: cannot be read");
   const std::string reports = text_of(run / "reports.csv");

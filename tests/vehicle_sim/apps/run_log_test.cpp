@@ -2,12 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <stdexcept>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
@@ -17,27 +16,6 @@ using testing::HasSubstr;
 
 constexpr char kHeading[] = R"({"seed":1,"files":["a"]})";
 
-/// Files of this process can grow to `bytes` only, as on a full disk: what is longer is written in
-/// part.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
-
 TEST(RunLog, OfAnAppendThatFailedNothingStays) {
   const TemporaryFolder folder;
   {
@@ -46,7 +24,7 @@ TEST(RunLog, OfAnAppendThatFailedNothingStays) {
     const std::filesystem::path file = folder / "out" / "runs.jsonl";
     const std::string before = test::read_text(file);
     {
-      const FullDisk disk(before.size() + 5);
+      const test::FullDisk disk(before.size() + 5);
       EXPECT_THROW(log.append(1, R"({"run":1})"), std::runtime_error);
     }
     EXPECT_EQ(test::read_text(file), before);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "vehicle_sim/campaign/paper_comparison.hpp"
@@ -41,6 +44,24 @@ RunFigures papers_run(RunFigures run) {
   run.generated_max = 291.0;
   run.lap_s = 16.0;
   return run;
+}
+
+TEST(Sweep, TwoScenariosOfOneNameAreRefused) {
+  const TemporaryFolder folder;
+  std::ifstream stream(kScenario);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;) {
+    text.replace(at, 3, test::source_folder() + "/launch_scripts/");
+  }
+  put(folder / "copy.yaml", text);
+  put(folder / "sweep.yaml", "scenarios: [" + kScenario + ", copy.yaml]\nsubgraphs: [B]\n" +
+                                 "settings: {lap: [standing]}");
+  try {
+    const Sweep sweep(read_sweep(folder / "sweep.yaml"));
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("name = paper_red_alone as in"));
+  }
 }
 
 TEST(Sweep, OfTheFilesOwnSettingsDrivesAsThePlainCampaign) {
