@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kRequestInterval{100};
 constexpr std::chrono::milliseconds kLookInterval{500};
+constexpr std::chrono::seconds kNextRequestInterval{1};
 constexpr std::chrono::nanoseconds kSilence{kMessageTimeout};
 constexpr std::chrono::milliseconds kLeaveTime{500};
 
@@ -92,10 +93,11 @@ MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
       trigger_writer_(local_, topics::system_trigger(), [this] { signal_.notify(); }),
       ready_writer_(lab_, topics::ready_status(), [this] { signal_.notify(); }),
       request_writer_(lab_, topics::parameter_request()),
-      parameter_reader_(lab_, topics::parameter(),
-                        [this](const Parameter& parameter) {
-                          signal_.post([&] { parameters_.take(parameter); });
-                        }),
+      parameter_reader_(
+          lab_, topics::parameter(),
+          [this](const Parameter& parameter) {
+            signal_.post([&] { (between_experiments_ ? next_ : parameters_).take(parameter); });
+          }),
       trigger_reader_(
           lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) { take(trigger); },
           [this] { signal_.notify(); }),
@@ -233,22 +235,58 @@ bool MiddlewareProcess::wait_for_everybody(Clock::time_point deadline) {
       });
 }
 
-std::string MiddlewareProcess::parameter_problem() const {
-  if (parameters_.period() <= options_.offset) {
+std::string MiddlewareProcess::parameter_problem(const RunParameters& parameters) const {
+  if (parameters.period() <= options_.offset) {
     return fmt::format("{} = {} ms, must be more than --offset_nanoseconds = {}", kPeriodParameter,
-                       parameters_.period() / kNanosecondsPerMillisecond, options_.offset);
+                       parameters.period() / kNanosecondsPerMillisecond, options_.offset);
   }
   const auto is_wrong = [](std::int32_t id) { return id < 1 || id > 255; };
-  const auto is_active_once = [this](std::uint8_t id) {
-    return std::ranges::count(parameters_.active_ids(), id) == 1;
+  const auto is_active_once = [&](std::uint8_t id) {
+    return std::ranges::count(parameters.active_ids(), id) == 1;
   };
-  if (std::ranges::any_of(parameters_.active_ids(), is_wrong) ||
+  if (std::ranges::any_of(parameters.active_ids(), is_wrong) ||
       !std::ranges::all_of(options_.vehicle_ids, is_active_once)) {
     return fmt::format("{} = {}, must be in 1 ... 255 and hold --vehicle_ids = {} once",
-                       kActiveIdsParameter, fmt::join(parameters_.active_ids(), ","),
+                       kActiveIdsParameter, fmt::join(parameters.active_ids(), ","),
                        fmt::join(options_.vehicle_ids, ","));
   }
   return {};
+}
+
+/// Whoever is told that this vehicle is ready may start the experiment: lists must hold its
+/// vehicles by then, also those that the operator has added since the last one.
+bool MiddlewareProcess::knows_next_experiment() {
+  if (!signal_.locked([this] { return between_experiments_; })) return true;
+  ask_for_next_experiment();
+  const RunParameters next = signal_.locked([this] { return next_; });
+  if (next.complete()) {
+    std::string problem = parameter_problem(next);
+    if (problem.empty() && next.period() != parameters_.period()) {
+      problem = fmt::format("{} = {} ms, allowed the {} ms of this process's start",
+                            kPeriodParameter, next.period() / kNanosecondsPerMillisecond,
+                            parameters_.period() / kNanosecondsPerMillisecond);
+    }
+    if (problem != next_problem_ && !problem.empty()) {
+      spdlog::error("{}: not ready for the next experiment: {}", options_.node_id, problem);
+    }
+    next_problem_ = problem;
+    signal_.locked([&] {
+      knows_next_ = problem.empty();
+      if (knows_next_) parameters_ = next;
+    });
+    if (problem.empty()) listen_to_vehicles();
+  }
+  return signal_.locked([this] { return knows_next_; });
+}
+
+/// Again and again: the operator may change his mind until he starts it.
+void MiddlewareProcess::ask_for_next_experiment() {
+  if (Clock::now() < next_request_) return;
+  next_request_ = Clock::now() + kNextRequestInterval;
+  signal_.locked([this] { next_ = RunParameters{}; });
+  for (const char* name : {kPeriodParameter, kActiveIdsParameter}) {
+    request_writer_.write({.name = name});
+  }
 }
 
 void MiddlewareProcess::listen_to_vehicles() {
@@ -286,7 +324,7 @@ int MiddlewareProcess::prepare() {
   if (signal_.locked([this] { return stop_; })) {
     return kExitGood;
   }
-  if (const std::string problem = parameter_problem(); !problem.empty()) {
+  if (const std::string problem = parameter_problem(parameters_); !problem.empty()) {
     spdlog::error("{}: {}", options_.node_id, problem);
     return kExitBadInput;
   }
@@ -353,10 +391,12 @@ void MiddlewareProcess::send_ready(Nanoseconds next_tick) {
 // --- the period ---------------------------------------------------------------------------------
 
 void MiddlewareProcess::tick(Nanoseconds t_now) {
+  bool knows_vehicles = true;
   if (options_.logical_time) {
     wait_for_states(t_now);
   } else {
     tell_missed_answer();
+    knows_vehicles = knows_next_experiment();
   }
   const auto [list, unready] = signal_.locked([&] {
     newest_list_ = t_now;
@@ -378,9 +418,9 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
   list_writer_.write(list);
   if (options_.logical_time) {
     wait_for_answer(t_now);
-  } else if (unready && unready->empty()) {
+  } else if (unready && knows_vehicles && unready->empty()) {
     ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_ids)});
-  } else if (unready && wait_notice_.is_due()) {
+  } else if (unready && !unready->empty() && wait_notice_.is_due()) {
     spdlog::info("{}: waits for {} to be ready", options_.node_id, fmt::join(*unready, ", "));
   }
 }
@@ -456,7 +496,10 @@ void MiddlewareProcess::take(const SystemTrigger& trigger) {
   signal_.post([&] {
     between_experiments_ = options_.keep_running && is_stop;
     triggered_ = !between_experiments_;
-    if (between_experiments_) ready_controllers_.clear();
+    if (between_experiments_) {
+      ready_controllers_.clear();
+      knows_next_ = false;
+    }
     stop_symbol_ = stop_symbol_ || (is_stop && !options_.keep_running);
     if (logical_timer_ != nullptr) {
       logical_timer_->on_trigger(trigger.next_start);

@@ -60,7 +60,8 @@ struct MiddlewareOptions {
 /// Real time: lists come from the first period on, whoever is there. When all controllers are
 /// ready, the lab control is told every period until its first trigger. With `keep_running` the
 /// stop symbol ends the experiment, not the process: lists go on, commands are kept back until the
-/// next trigger, and controllers must say anew that they are ready.
+/// next trigger, controllers must say anew that they are ready, and the lab control is asked every
+/// second for the next experiment's vehicles: it is told nothing before they are known.
 ///
 /// Logical time: before its first tick all its endpoints are matched. A tick waits for the state of
 /// every active vehicle that must be in the list, writes the list, and waits until every
@@ -95,7 +96,9 @@ class MiddlewareProcess {
   [[nodiscard]] int prepare();
   void take(const SystemTrigger& trigger);
   [[nodiscard]] bool learn_parameters(Clock::time_point deadline);
-  [[nodiscard]] std::string parameter_problem() const;
+  [[nodiscard]] std::string parameter_problem(const RunParameters& parameters) const;
+  [[nodiscard]] bool knows_next_experiment();
+  void ask_for_next_experiment();
   [[nodiscard]] bool wait_for_everybody(Clock::time_point deadline);
   void listen_to_vehicles();
   [[nodiscard]] bool is_connected() const;
@@ -129,6 +132,8 @@ class MiddlewareProcess {
   std::set<std::uint8_t> ready_controllers_;
   bool triggered_{};
   bool between_experiments_{};  ///< the stop symbol has come, and no trigger since
+  RunParameters next_;          ///< told since they were asked for last, between experiments
+  bool knows_next_{};           ///< and once told and served since the stop symbol
   bool stop_{};
   bool stop_symbol_{};
   Timer* timer_in_use_{};
@@ -144,6 +149,8 @@ class MiddlewareProcess {
   // Of the period:
   std::uint64_t missed_answers_{};
   WaitNotice wait_notice_;
+  Clock::time_point next_request_{};
+  std::string next_problem_;  ///< told last
   bool lab_control_lost_{};
   std::optional<Nanoseconds> lab_control_lost_at_;  ///< real time
 

@@ -390,6 +390,7 @@ TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
   ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
   const auto drive = [&](std::size_t commands_before) {
     ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+    if (commands_before > 0) lab_.tell_parameters(20, {1, 2, 5});
     const std::size_t told = lab_.ready.wait_for(0).size();
     ASSERT_GE(lab_.ready.wait_for(told + 1).size(), told + 1);
     lab_.triggers.write({5});
@@ -404,7 +405,12 @@ TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
   controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));  // kept back
   ASSERT_GE(controller_->lists.wait_for(lists + 3).size(), lists + 3);                // lists go on
   EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(controller_->lists.wait_for(1).back().active_vehicle_ids,
+            (std::vector<std::int32_t>{1, 2}));
   drive(1);
+  EXPECT_EQ(controller_->lists.wait_for(1).back().active_vehicle_ids,
+            (std::vector<std::int32_t>{1, 2, 5}))
+      << "the operator has added a car";
   process_->stop();
   EXPECT_EQ(exit_code(), kExitGood);
 }
