@@ -173,7 +173,7 @@ bool HlcProcess::is_middleware_gone_for_good() {
                   middleware_);
     middleware_lost_at_ = Clock::now();
   }
-  return options_.logical_time || signal_.locked([this] { return drive_out_; }) ||
+  return options_.logical_time || drives_out() ||
          Clock::now() > *middleware_lost_at_ + options_.startup_timeout;
 }
 
@@ -216,13 +216,23 @@ void HlcProcess::send_ready_now_and_then() {
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
-/// Without the lab control nobody can stop the cars: they drive out their plans.
 void HlcProcess::watch_lab_control() {
-  if (lab_control_lost_at_ || !lab_.is_lost(kLabControlName)) return;
-  spdlog::error("{}: {} is gone; the running plan is driven to its end", options_.node_id,
-                kLabControlName);
-  lab_control_lost_at_ = Clock::now();
-  signal_.post([this] { drive_out_ = true; });
+  switch (lab_control_.look(lab_.is_lost(kLabControlName), stop_request_writer_.matched(),
+                            Clock::now())) {
+    case LabControlWatch::Change::kNone:
+      return;
+    case LabControlWatch::Change::kLost:
+      spdlog::error("{}: {} is gone; the running plan is driven to its end", options_.node_id,
+                    kLabControlName);
+      return;
+    case LabControlWatch::Change::kBack:
+      spdlog::info("{}: {} is back; planning goes on", options_.node_id, kLabControlName);
+      return;
+  }
+}
+
+bool HlcProcess::drives_out() const {
+  return lab_control_.is_lost() || signal_.locked([this] { return drive_out_; });
 }
 
 HlcProcess::Event HlcProcess::wait_for_event() {
@@ -238,7 +248,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
     const bool happened = signal_.wait_until(wake, [this] {
       const bool is_lost = has_lost_middleware();
       return stop_ || !lists_.empty() || is_lost != middleware_lost_at_.has_value() ||
-             (is_lost && drive_out_);
+             (is_lost && (drive_out_ || lab_control_.is_lost()));
     });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
     if (is_middleware_gone_for_good()) return Event::kMiddlewareLost;
@@ -247,10 +257,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
             started_at_ + (options_.logical_time ? kTwinStaysInLogicalTime : kTwinStays)) {
       return Event::kTwin;
     }
-    if (lab_control_lost_at_ &&
-        Clock::now() > *lab_control_lost_at_ + std::chrono::nanoseconds(kControllerStays)) {
-      return Event::kLabControlLost;
-    }
+    if (lab_control_.is_lost_for_good(Clock::now())) return Event::kLabControlLost;
     if (happened && signal_.locked([this] { return !lists_.empty(); })) return Event::kList;
     if (!is_ready_ && Clock::now() > started_at_ + options_.startup_timeout) return Event::kTimeout;
   }
@@ -441,7 +448,7 @@ std::vector<VehicleId> HlcProcess::present(std::vector<VehicleId> vehicles) cons
 ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observation& observation) {
   ReportRecord record;
   Controller& controller = core_.controller();
-  if (signal_.locked([this] { return drive_out_; })) controller.drive_out();
+  controller.set_drives_out(drives_out());
 
   const auto until = [&list](double share) { return deadline_in_step(list, share); };
   const StepDeadlines& deadlines = options_.deadlines;

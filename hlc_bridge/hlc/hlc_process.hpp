@@ -16,6 +16,7 @@
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/hlc/command_sender.hpp"
+#include "hlc_bridge/hlc/lab_control_watch.hpp"
 #include "hlc_bridge/hlc/lab_log.hpp"
 #include "hlc_bridge/hlc/step_exchange.hpp"
 #include "hlc_bridge/hlc/subgraph_preparation.hpp"
@@ -67,7 +68,13 @@ struct HlcProcessOptions {
 ///
 /// Without its middleware it waits for it to be started again, as long as at the start, and plans
 /// on then; meanwhile the vehicle drives out what it was sent. In logical time, or when the others
-/// drive out their plans too, it leaves at once. A vehicle follows one controller: where another
+/// drive out their plans too, it leaves at once.
+///
+/// Without the lab control nobody can stop the cars: the plan in force is driven out. If it is back
+/// within kControllerStays (a network cut for longer than the lease), planning goes on; else this
+/// one leaves.
+///
+/// A vehicle follows one controller: where another
 /// one of that name is, this one says nothing, and leaves.
 ///
 /// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
@@ -95,6 +102,7 @@ class HlcProcess {
 
   [[nodiscard]] Event wait_for_event();
   void watch_lab_control();
+  [[nodiscard]] bool drives_out() const;
   void check_plan_fits_commands() const;
   void prepare_thread() const;
   void send_ready_now_and_then();
@@ -138,7 +146,7 @@ class HlcProcess {
   std::optional<Nanoseconds> start_;
   bool joins_{};  ///< learnt of the start by the others' traffic
   bool stop_{};
-  bool drive_out_{};
+  bool drive_out_{};  ///< the lab control said so
 
   Participant lab_;
   Participant local_;
@@ -154,7 +162,7 @@ class HlcProcess {
   Reconfiguration reconfiguration_;
 
   std::vector<VehicleId> active_;
-  std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
+  LabControlWatch lab_control_;
   std::optional<std::chrono::steady_clock::time_point> middleware_lost_at_;
   WaitNotice wait_notice_;
   bool had_middleware_{};

@@ -1,0 +1,87 @@
+// What a controller does when the lab control or its middleware is lost, and when it is to stop.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "hlc_bridge/core/exit_codes.hpp"
+#include "tests/hlc_bridge/hlc/running_hlc_process.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenLists{50};
+
+const Pose& start_pose() {
+  static const Pose pose = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  return pose;
+}
+
+/// Until `holds`, the controller sees its vehicle standing at its start.
+template <class Condition>
+bool comes_to(FakeMiddleware& middleware, Condition holds) {
+  return Signal{}.repeat_until(soon(), kBetweenLists, holds,
+                               [&] { middleware.lists.write(list_of(start_pose(), 0.0)); });
+}
+
+class HlcProcessLossTest : public HlcProcessTest {
+ protected:
+  using HlcProcessTest::HlcProcessTest;
+
+  [[nodiscard]] bool has_ended() const {
+    return code_.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
+  }
+};
+
+/// The lab's control centre, which bears the name of all the lab's programs.
+class Centre {
+ public:
+  explicit Centre(int domain)
+      : participant_{on_loopback("ParticipantSingleton", domain, DomainRole::kLab)} {
+    listen();
+    // Announced after the other reader: who draws knows both.
+    drawings_ = std::make_unique<Mailbox<Visualization>>(participant_, topics::visualization());
+  }
+
+  void listen() {
+    stop_requests_ = std::make_unique<Mailbox<StopRequest>>(participant_, topics::stop_request());
+  }
+  void leave() { stop_requests_ = nullptr; }
+  [[nodiscard]] bool is_known() const { return !drawings_->now().empty(); }
+
+ private:
+  Participant participant_;
+  std::unique_ptr<Mailbox<StopRequest>> stop_requests_;
+  std::unique_ptr<Mailbox<Visualization>> drawings_;
+};
+
+TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItIsBackInTime) {
+  Centre centre{domains_.first()};
+  FakeMiddleware middleware{local()};
+  Others others{controllers()};
+  const auto reports = [&] { return others.reports.now(); };
+  const auto drives_out = [&] {
+    return !reports().empty() && reports().back().report.status == StepStatus::kDriveOut;
+  };
+  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(gets_ready(middleware));
+  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, soon()));
+  middleware.triggers.write({.next_start = 1});
+  ASSERT_TRUE(comes_to(middleware, [&] { return centre.is_known(); }));
+  const std::size_t before = reports().size();  // it looks for the centre once a step
+  ASSERT_TRUE(comes_to(middleware, [&] { return reports().size() >= before + 3; }));
+  EXPECT_NE(reports().back().report.status, StepStatus::kStandby);
+  ASSERT_FALSE(drives_out());
+
+  centre.leave();
+  ASSERT_TRUE(comes_to(middleware, drives_out));
+  centre.listen();
+  EXPECT_TRUE(comes_to(middleware, [&] { return !drives_out(); }));
+  EXPECT_FALSE(has_ended());
+
+  centre.leave();
+  ASSERT_TRUE(comes_to(middleware, [&] { return has_ended(); }));
+  EXPECT_EQ(code_.get(), kExitDied);
+}
+
+}  // namespace
+}  // namespace hlc
