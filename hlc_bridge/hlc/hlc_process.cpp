@@ -105,6 +105,10 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
         signal_.post([&] { lists_.push_back(list); });
       }) {
   check_plan_fits_commands();
+  if (options_.logical_time) return;  // 50 triggers a second and no car that a stop could save
+  lab_stop_reader_.emplace(lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) {
+    if (trigger.next_start == kStopSymbol) stop();
+  });
 }
 
 void HlcProcess::check_plan_fits_commands() const {

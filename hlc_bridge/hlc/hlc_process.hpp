@@ -74,6 +74,10 @@ struct HlcProcessOptions {
 /// within kControllerStays (a network cut for longer than the lease), planning goes on; else this
 /// one leaves.
 ///
+/// The stop symbol comes by the middleware and, in real time, on the lab domain, too: one that the
+/// middleware did not live to carry on must not be forgotten when it is started again. Other
+/// triggers count on the local domain alone, as the lab's controllers have them.
+///
 /// A vehicle follows one controller: where another
 /// one of that name is, this one says nothing, and leaves.
 ///
@@ -178,6 +182,7 @@ class HlcProcess {
   Reader<AutomatonRequest> automaton_request_reader_;
   Reader<RunState> run_state_reader_;
   Reader<SystemTrigger> trigger_reader_;
+  std::optional<Reader<SystemTrigger>> lab_stop_reader_;  ///< not in logical time
   Reader<VehicleStateList> list_reader_;
 };
 

@@ -83,5 +83,25 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
   EXPECT_EQ(code_.get(), kExitDied);
 }
 
+TEST_F(HlcProcessLossTest, TakesTheStopAndNothingElseFromTheLabDomain) {
+  Participant centre{on_loopback("ParticipantSingleton", domains_.first(), DomainRole::kLab)};
+  Writer<SystemTrigger> triggers{centre, topics::system_trigger()};
+  Others others{controllers()};
+  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
+  auto middleware = std::make_unique<FakeMiddleware>(local());
+  ASSERT_TRUE(gets_ready(*middleware));
+  ASSERT_TRUE(triggers.wait_for_matched(1, soon()));
+  triggers.write({.next_start = 1});
+  const std::size_t before = others.reports.now().size();
+  ASSERT_TRUE(comes_to(*middleware, [&] { return others.reports.now().size() >= before + 5; }));
+  for (const ReportRecord& record : others.reports.now()) {
+    EXPECT_EQ(record.report.status, StepStatus::kStandby);
+  }
+  middleware = nullptr;
+  triggers.write({.next_start = kStopSymbol});
+  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  EXPECT_EQ(code_.get(), kExitGood);
+}
+
 }  // namespace
 }  // namespace hlc
