@@ -93,12 +93,9 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
                         }),
       trigger_reader_(local_, topics::system_trigger(),
                       [this](const SystemTrigger& trigger) {
+                        if (trigger.next_start == kStopSymbol) return take_stop_symbol();
                         signal_.post([&] {
-                          if (trigger.next_start == kStopSymbol) {
-                            stop_ = true;
-                          } else if (!start_) {
-                            start_ = trigger.next_start;
-                          }
+                          if (!start_) start_ = trigger.next_start;
                         });
                       }),
       list_reader_(local_, topics::vehicle_state_list(), [this](const VehicleStateList& list) {
@@ -107,7 +104,7 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
   check_plan_fits_commands();
   if (options_.logical_time) return;  // 50 triggers a second and no car that a stop could save
   lab_stop_reader_.emplace(lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) {
-    if (trigger.next_start == kStopSymbol) stop();
+    if (trigger.next_start == kStopSymbol) take_stop_symbol();
   });
 }
 
@@ -125,6 +122,10 @@ void HlcProcess::check_plan_fits_commands() const {
 
 void HlcProcess::stop() {
   signal_.post([this] { stop_ = true; });
+}
+
+void HlcProcess::take_stop_symbol() {
+  signal_.post([this] { stop_ = stop_symbol_ = true; });
 }
 
 std::vector<VehicleId> HlcProcess::others(const Observation& observation) const {
@@ -241,7 +242,7 @@ bool HlcProcess::drives_out() const {
 
 HlcProcess::Event HlcProcess::wait_for_event() {
   while (true) {
-    if (signal_.locked([this] { return stop_; })) commands_.drop_copy();
+    if (signal_.locked([this] { return stop_symbol_; })) commands_.drop_copy();
     commands_.send_copy_when_due();
     watch_lab_control();
     note_who_is_there();
@@ -280,6 +281,19 @@ void HlcProcess::prepare_thread() const {
 
 int HlcProcess::run() {
   prepare_thread();  // not earlier: only this thread plans
+  const int code = drive();
+  leave_vehicle_its_plan();
+  return code;
+}
+
+/// The copy of its last command may still wait.
+void HlcProcess::leave_vehicle_its_plan() {
+  const std::optional<Clock::time_point> due = commands_.copy_due();
+  if (!due || signal_.wait_until(*due, [this] { return stop_symbol_; })) return;
+  commands_.send_copy_when_due();
+}
+
+int HlcProcess::drive() {
   while (true) {
     switch (wait_for_event()) {
       case Event::kStop:

@@ -98,13 +98,17 @@ class HlcProcess {
   /// middleware or the lab control died.
   int run();
 
-  /// Ends `run` soon; from any thread.
+  /// Ends `run` soon; from any thread. Unlike the stop symbol, after which the vehicle is to hear
+  /// nothing, this leaves it its whole plan, which it drives to standstill.
   void stop();
 
  private:
   enum class Event { kList, kStop, kMiddlewareLost, kLabControlLost, kTwin, kTimeout };
 
+  [[nodiscard]] int drive();
   [[nodiscard]] Event wait_for_event();
+  void leave_vehicle_its_plan();
+  void take_stop_symbol();
   void watch_lab_control();
   [[nodiscard]] bool drives_out() const;
   void check_plan_fits_commands() const;
@@ -150,7 +154,8 @@ class HlcProcess {
   std::optional<Nanoseconds> start_;
   bool joins_{};  ///< learnt of the start by the others' traffic
   bool stop_{};
-  bool drive_out_{};  ///< the lab control said so
+  bool stop_symbol_{};  ///< it stops since everybody is to stop
+  bool drive_out_{};    ///< the lab control said so
 
   Participant lab_;
   Participant local_;

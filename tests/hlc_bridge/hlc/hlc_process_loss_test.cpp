@@ -1,8 +1,11 @@
 // What a controller does when the lab control or its middleware is lost, and when it is to stop.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 
+#include "hlc_bridge/core/command.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "tests/hlc_bridge/hlc/running_hlc_process.hpp"
 
@@ -101,6 +104,40 @@ TEST_F(HlcProcessLossTest, TakesTheStopAndNothingElseFromTheLabDomain) {
   triggers.write({.next_start = kStopSymbol});
   ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitGood);
+}
+
+/// On the lab's transport, where the copy of a command waits; told to stop while it does.
+class InterruptedHlcProcessTest : public HlcProcessLossTest {
+ protected:
+  InterruptedHlcProcessTest() : HlcProcessLossTest(stops_after_a_step(*this)) {}
+
+  static HlcProcessOptions stops_after_a_step(InterruptedHlcProcessTest& test) {
+    HlcProcessOptions options;
+    options.transport = Transport::kLab;
+    options.after_step = [&test](const Controller& controller) {
+      test.last_step_ = controller.last_step().value;
+      test.process_->stop();
+    };
+    return options;
+  }
+
+  std::atomic<std::uint64_t> last_step_{};
+};
+
+TEST_F(InterruptedHlcProcessTest, LeavesItsVehicleTheCopyOfItsLastCommand) {
+  FakeMiddleware middleware{local(), Transport::kLab};
+  ASSERT_TRUE(gets_ready(middleware));
+  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, soon()));
+  middleware.triggers.write({.next_start = 1});
+  ASSERT_TRUE(comes_to(middleware, [&] { return has_ended(); }));
+  EXPECT_EQ(code_.get(), kExitGood);
+  const auto is_last_copy = [&](const TrajectoryCommand& command) {
+    return step_at(command.create_stamp, kPeriod) == last_step_ &&
+           command.valid_after_stamp == command.create_stamp + kCopyDelay;
+  };
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{10},
+      [&] { return std::ranges::any_of(middleware.commands.now(), is_last_copy); }, [] {}));
 }
 
 }  // namespace
