@@ -30,22 +30,6 @@ constexpr std::chrono::seconds kTwinStaysInLogicalTime{12};
 constexpr Nanoseconds kLateBegin = 2;     // steps after the trigger's time
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 
-ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
-                             std::optional<int> domain, DomainRole role) {
-  return {.name = controller_name(vehicle.value),
-          .domain_id = domain.value(),
-          .role = role,
-          .transport = options.transport,
-          .logical_time = options.logical_time,
-          .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
-          .peers = role == DomainRole::kController ? options.controller_peers
-                                                   : std::vector<std::string>{},
-          .version = options.version,
-          .on_loss = [id = options.node_id](const std::string& line) {
-            spdlog::warn("{}: {}", id, line);
-          }};
-}
-
 std::string joined(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -62,13 +46,10 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       step_ns_(static_cast<Nanoseconds>(
           std::llround(1e9 * core_.controller().subgraph().automaton().step_s))),
       started_at_(Clock::now()),
-      lab_(on_domain(options_, vehicle_, options_.domains.lab, DomainRole::kLab),
-           [this] { signal_.notify(); }),
-      local_(on_domain(options_, vehicle_, options_.domains.local, DomainRole::kLocal),
-             [this] { signal_.notify(); }),
-      controllers_(
-          on_domain(options_, vehicle_, options_.domains.controller, DomainRole::kController),
-          [this] { signal_.notify(); }),
+      lab_(on_domain(options_.domains.lab, DomainRole::kLab), [this] { signal_.notify(); }),
+      local_(on_domain(options_.domains.local, DomainRole::kLocal), [this] { signal_.notify(); }),
+      controllers_(on_domain(options_.domains.controller, DomainRole::kController),
+                   [this] { signal_.notify(); }),
       commands_(local_, options_.logical_time, [this] { signal_.notify(); }),
       ready_writer_(local_, topics::ready_status()),
       report_writer_(controllers_, topics::report()),
@@ -106,6 +87,21 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
   lab_stop_reader_.emplace(lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) {
     if (trigger.next_start == kStopSymbol) take_stop_symbol();
   });
+}
+
+ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, DomainRole role) {
+  return {.name = controller_name(vehicle_.value),
+          .domain_id = domain.value(),
+          .role = role,
+          .transport = options_.transport,
+          .logical_time = options_.logical_time,
+          .discovery_server = role == DomainRole::kLab ? options_.discovery_server : std::nullopt,
+          .peers = role == DomainRole::kController ? options_.controller_peers
+                                                   : std::vector<std::string>{},
+          .version = options_.version,
+          .on_loss = [this](const std::string& line) {
+            signal_.post([&] { losses_.push_back(line); });
+          }};
 }
 
 void HlcProcess::check_plan_fits_commands() const {
@@ -221,6 +217,12 @@ void HlcProcess::send_ready_now_and_then() {
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
+void HlcProcess::tell_losses() {
+  for (const std::string& line : signal_.locked([this] { return std::exchange(losses_, {}); })) {
+    spdlog::warn("{}: {}", options_.node_id, line);
+  }
+}
+
 void HlcProcess::watch_lab_control() {
   switch (lab_control_.look(lab_.is_lost(kLabControlName), stop_request_writer_.matched(),
                             Clock::now())) {
@@ -244,6 +246,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
   while (true) {
     if (signal_.locked([this] { return stop_symbol_; })) commands_.drop_copy();
     commands_.send_copy_when_due();
+    tell_losses();
     watch_lab_control();
     note_who_is_there();
     send_ready_now_and_then();
@@ -283,6 +286,7 @@ int HlcProcess::run() {
   prepare_thread();  // not earlier: only this thread plans
   const int code = drive();
   leave_vehicle_its_plan();
+  tell_losses();
   return code;
 }
 

@@ -109,7 +109,9 @@ class HlcProcess {
   [[nodiscard]] Event wait_for_event();
   void leave_vehicle_its_plan();
   void take_stop_symbol();
+  void tell_losses();
   void watch_lab_control();
+  [[nodiscard]] ParticipantOptions on_domain(std::optional<int> domain, DomainRole role);
   [[nodiscard]] bool drives_out() const;
   void check_plan_fits_commands() const;
   void prepare_thread() const;
@@ -154,8 +156,9 @@ class HlcProcess {
   std::optional<Nanoseconds> start_;
   bool joins_{};  ///< learnt of the start by the others' traffic
   bool stop_{};
-  bool stop_symbol_{};  ///< it stops since everybody is to stop
-  bool drive_out_{};    ///< the lab control said so
+  bool stop_symbol_{};               ///< it stops since everybody is to stop
+  bool drive_out_{};                 ///< the lab control said so
+  std::vector<std::string> losses_;  ///< to be told by this process's own thread (LabLog writes)
 
   Participant lab_;
   Participant local_;

@@ -1,9 +1,16 @@
-// What a controller does when the lab control or its middleware is lost, and when it is to stop.
+// What a controller does when the lab control, its middleware or what is sent is lost, and when it
+// is told to stop.
 #include <gtest/gtest.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
 
 #include "hlc_bridge/core/command.hpp"
 #include "hlc_bridge/core/exit_codes.hpp"
@@ -138,6 +145,56 @@ TEST_F(InterruptedHlcProcessTest, LeavesItsVehicleTheCopyOfItsLastCommand) {
   EXPECT_TRUE(Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{10},
       [&] { return std::ranges::any_of(middleware.commands.now(), is_last_copy); }, [] {}));
+}
+
+/// Lines of the log, and who logs them.
+class LogListener : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  /// The thread that logged a line with this text; 0: nobody.
+  [[nodiscard]] std::size_t thread_that_said(const std::string& text) {
+    const std::lock_guard lock{mutex_};
+    for (const auto& [thread, line] : lines_) {
+      if (line.find(text) != std::string::npos) return thread;
+    }
+    return 0;
+  }
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    lines_.emplace_back(message.thread_id,
+                        std::string(message.payload.begin(), message.payload.end()));
+  }
+  void flush_() override {}
+
+ private:
+  std::vector<std::pair<std::size_t, std::string>> lines_;
+};
+
+/// Listens before the process begins and until it has ended.
+class ListenedTo {
+ protected:
+  ListenedTo() { spdlog::set_default_logger(std::make_shared<spdlog::logger>("", log_)); }
+  ~ListenedTo() { spdlog::set_default_logger(former_); }
+
+  std::shared_ptr<spdlog::logger> former_{spdlog::default_logger()};
+  std::shared_ptr<LogListener> log_{std::make_shared<LogListener>()};
+};
+
+class ListenedToHlcProcessTest : private ListenedTo, public HlcProcessLossTest {
+ protected:
+  [[nodiscard]] LogListener& log() { return *log_; }
+};
+
+TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) {
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(gets_ready(middleware));
+  VehicleStateList list = list_of(start_pose(), 0.0);
+  list.states[0].pose.x_m = std::numeric_limits<double>::quiet_NaN();
+  const std::string line = "topic vehicleStateList: what came holds something that is not valid";
+  ASSERT_TRUE(Signal{}.repeat_until(
+      soon(), kBetweenLists, [&] { return log().thread_that_said(line) != 0; },
+      [&] { middleware.lists.write(list); }));
+  EXPECT_EQ(log().thread_that_said(line), log().thread_that_said("ready, waits for a trigger"));
 }
 
 }  // namespace
