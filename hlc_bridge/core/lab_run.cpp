@@ -84,17 +84,17 @@ LabRunActions LabRun::advance(Nanoseconds now) {
   if (finished()) {
     return actions;
   }
-  now_ = now;
+  now_ = std::max(now_, now);
   for (const std::uint8_t id : std::exchange(just_heard_, {})) {
-    last_heard_[id] = now;
+    last_heard_[id] = now_;
   }
   if (!started_ || progress_) {
-    last_progress_ = now;
+    last_progress_ = now_;
     progress_ = false;
   }
   if (!started_) {
     started_ = true;
-    gathering_since_ = now;
+    gathering_since_ = now_;
   }
   if (phase_ == Phase::kGathering) {
     gather(actions);

@@ -97,7 +97,8 @@ class LabRun {
   void interrupt();
   void stop_requested(std::uint8_t vehicle_id);
 
-  /// @param now  wall time; never goes back. Real time: since the epoch. Logical time: any.
+  /// @param now  wall time. Real time: since the epoch. Logical time: any. If the clock is set
+  ///     back, time stands still until it has caught up.
   [[nodiscard]] LabRunActions advance(Nanoseconds now);
   /// Wall time at which advance() must be called even if nothing arrives.
   [[nodiscard]] Nanoseconds wake_up() const;

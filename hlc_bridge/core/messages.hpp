@@ -27,8 +27,8 @@ struct VehicleState {
   std::uint8_t vehicle_id{};
   Nanoseconds create_stamp{};
   Nanoseconds valid_after_stamp{};
-  Pose pose;  ///< heading_rad is the vehicle's yaw
-  Nanoseconds ips_update_age{};
+  Pose pose;                     ///< heading_rad is the vehicle's yaw
+  Nanoseconds ips_update_age{};  ///< since the lab's cameras measured the position, at create_stamp
   double odometer_distance_m{};
   double imu_acceleration_forward_mps2{};
   double imu_acceleration_left_mps2{};

@@ -21,8 +21,9 @@ Nanoseconds deadline_in_step(const VehicleStateList& list, double share) {
 }
 
 bool is_usable(const VehicleState& state, Nanoseconds t_now) {
-  return state.vehicle_id != 0 && is_finite(state) && state.valid_after_stamp <= t_now &&
-         state.create_stamp <= t_now && t_now - state.create_stamp <= kMaxStateAge;
+  return state.vehicle_id != 0 && is_finite(state) && is_located(state) &&
+         state.valid_after_stamp <= t_now && state.create_stamp <= t_now &&
+         t_now - state.create_stamp <= kMaxStateAge;
 }
 
 Observation observation_of(const VehicleStateList& list) {

@@ -17,8 +17,8 @@ namespace hlc {
 /// list.period_ms > 0
 [[nodiscard]] Nanoseconds deadline_in_step(const VehicleStateList& list, double share);
 
-/// A state that may be used at t_now: of a vehicle (placeholders have id 0), finite, already valid,
-/// and not older than kMaxStateAge_s.
+/// A state that may be used at t_now: of a vehicle (placeholders have id 0), finite, located
+/// (settled_states.hpp), already valid, and not older than kMaxStateAge_s.
 [[nodiscard]] bool is_usable(const VehicleState& state, Nanoseconds t_now);
 
 /// What the list tells the controller: usable states only, with their age at t(k). Vehicle ids out

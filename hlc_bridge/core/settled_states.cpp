@@ -21,8 +21,10 @@ bool is_finite(const VehicleState& state) {
          std::isfinite(state.pose.heading_rad) && std::isfinite(state.speed_mps);
 }
 
+bool is_located(const VehicleState& state) { return state.ips_update_age <= kMaxPositionAge; }
+
 void SettledStates::add(const VehicleState& state) {
-  if (!is_finite(state)) {
+  if (!is_finite(state) || !is_located(state)) {
     last_.reset();
     return;
   }

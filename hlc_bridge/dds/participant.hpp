@@ -30,7 +30,8 @@ struct ParticipantOptions {
   /// Of the program, told to all others on the domain.
   std::string version{};
   /// Called on a DDS thread, once per reader and kind, with a line for the log: a message held
-  /// something invalid, or was lost (Reader::dropped, Reader::lost).
+  /// something invalid, or was lost (Reader::dropped, Reader::lost). It must only queue where a
+  /// line of the log goes to a topic, too.
   std::function<void(const std::string& line)> on_loss{};
 };
 

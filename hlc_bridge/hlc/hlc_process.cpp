@@ -30,22 +30,6 @@ constexpr std::chrono::seconds kTwinStaysInLogicalTime{12};
 constexpr Nanoseconds kLateBegin = 2;     // steps after the trigger's time
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 
-ParticipantOptions on_domain(const HlcProcessOptions& options, VehicleId vehicle,
-                             std::optional<int> domain, DomainRole role) {
-  return {.name = controller_name(vehicle.value),
-          .domain_id = domain.value(),
-          .role = role,
-          .transport = options.transport,
-          .logical_time = options.logical_time,
-          .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
-          .peers = role == DomainRole::kController ? options.controller_peers
-                                                   : std::vector<std::string>{},
-          .version = options.version,
-          .on_loss = [id = options.node_id](const std::string& line) {
-            spdlog::warn("{}: {}", id, line);
-          }};
-}
-
 std::string joined(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -62,13 +46,10 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       step_ns_(static_cast<Nanoseconds>(
           std::llround(1e9 * core_.controller().subgraph().automaton().step_s))),
       started_at_(Clock::now()),
-      lab_(on_domain(options_, vehicle_, options_.domains.lab, DomainRole::kLab),
-           [this] { signal_.notify(); }),
-      local_(on_domain(options_, vehicle_, options_.domains.local, DomainRole::kLocal),
-             [this] { signal_.notify(); }),
-      controllers_(
-          on_domain(options_, vehicle_, options_.domains.controller, DomainRole::kController),
-          [this] { signal_.notify(); }),
+      lab_(on_domain(options_.domains.lab, DomainRole::kLab), [this] { signal_.notify(); }),
+      local_(on_domain(options_.domains.local, DomainRole::kLocal), [this] { signal_.notify(); }),
+      controllers_(on_domain(options_.domains.controller, DomainRole::kController),
+                   [this] { signal_.notify(); }),
       commands_(local_, options_.logical_time, [this] { signal_.notify(); }),
       ready_writer_(local_, topics::ready_status()),
       report_writer_(controllers_, topics::report()),
@@ -93,18 +74,34 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
                         }),
       trigger_reader_(local_, topics::system_trigger(),
                       [this](const SystemTrigger& trigger) {
+                        if (trigger.next_start == kStopSymbol) return take_stop_symbol();
                         signal_.post([&] {
-                          if (trigger.next_start == kStopSymbol) {
-                            stop_ = true;
-                          } else if (!start_) {
-                            start_ = trigger.next_start;
-                          }
+                          if (!start_) start_ = trigger.next_start;
                         });
                       }),
       list_reader_(local_, topics::vehicle_state_list(), [this](const VehicleStateList& list) {
         signal_.post([&] { lists_.push_back(list); });
       }) {
   check_plan_fits_commands();
+  if (options_.logical_time) return;  // 50 triggers a second and no car that a stop could save
+  lab_stop_reader_.emplace(lab_, topics::system_trigger(), [this](const SystemTrigger& trigger) {
+    if (trigger.next_start == kStopSymbol) take_stop_symbol();
+  });
+}
+
+ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, DomainRole role) {
+  return {.name = controller_name(vehicle_.value),
+          .domain_id = domain.value(),
+          .role = role,
+          .transport = options_.transport,
+          .logical_time = options_.logical_time,
+          .discovery_server = role == DomainRole::kLab ? options_.discovery_server : std::nullopt,
+          .peers = role == DomainRole::kController ? options_.controller_peers
+                                                   : std::vector<std::string>{},
+          .version = options_.version,
+          .on_loss = [this](const std::string& line) {
+            signal_.post([&] { losses_.push_back(line); });
+          }};
 }
 
 void HlcProcess::check_plan_fits_commands() const {
@@ -121,6 +118,10 @@ void HlcProcess::check_plan_fits_commands() const {
 
 void HlcProcess::stop() {
   signal_.post([this] { stop_ = true; });
+}
+
+void HlcProcess::take_stop_symbol() {
+  signal_.post([this] { stop_ = stop_symbol_ = true; });
 }
 
 std::vector<VehicleId> HlcProcess::others(const Observation& observation) const {
@@ -173,7 +174,7 @@ bool HlcProcess::is_middleware_gone_for_good() {
                   middleware_);
     middleware_lost_at_ = Clock::now();
   }
-  return options_.logical_time || signal_.locked([this] { return drive_out_; }) ||
+  return options_.logical_time || drives_out() ||
          Clock::now() > *middleware_lost_at_ + options_.startup_timeout;
 }
 
@@ -216,19 +217,36 @@ void HlcProcess::send_ready_now_and_then() {
   next_ready_at_ = Clock::now() + kReadyRepeat;
 }
 
-/// Without the lab control nobody can stop the cars: they drive out their plans.
+void HlcProcess::tell_losses() {
+  for (const std::string& line : signal_.locked([this] { return std::exchange(losses_, {}); })) {
+    spdlog::warn("{}: {}", options_.node_id, line);
+  }
+}
+
 void HlcProcess::watch_lab_control() {
-  if (lab_control_lost_at_ || !lab_.is_lost(kLabControlName)) return;
-  spdlog::error("{}: {} is gone; the running plan is driven to its end", options_.node_id,
-                kLabControlName);
-  lab_control_lost_at_ = Clock::now();
-  signal_.post([this] { drive_out_ = true; });
+  switch (lab_control_.look(lab_.is_lost(kLabControlName), stop_request_writer_.matched(),
+                            Clock::now())) {
+    case LabControlWatch::Change::kNone:
+      return;
+    case LabControlWatch::Change::kLost:
+      spdlog::error("{}: {} is gone; the running plan is driven to its end", options_.node_id,
+                    kLabControlName);
+      return;
+    case LabControlWatch::Change::kBack:
+      spdlog::info("{}: {} is back; planning goes on", options_.node_id, kLabControlName);
+      return;
+  }
+}
+
+bool HlcProcess::drives_out() const {
+  return lab_control_.is_lost() || signal_.locked([this] { return drive_out_; });
 }
 
 HlcProcess::Event HlcProcess::wait_for_event() {
   while (true) {
-    if (signal_.locked([this] { return stop_; })) commands_.drop_copy();
+    if (signal_.locked([this] { return stop_symbol_; })) commands_.drop_copy();
     commands_.send_copy_when_due();
+    tell_losses();
     watch_lab_control();
     note_who_is_there();
     send_ready_now_and_then();
@@ -238,7 +256,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
     const bool happened = signal_.wait_until(wake, [this] {
       const bool is_lost = has_lost_middleware();
       return stop_ || !lists_.empty() || is_lost != middleware_lost_at_.has_value() ||
-             (is_lost && drive_out_);
+             (is_lost && (drive_out_ || lab_control_.is_lost()));
     });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
     if (is_middleware_gone_for_good()) return Event::kMiddlewareLost;
@@ -247,10 +265,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
             started_at_ + (options_.logical_time ? kTwinStaysInLogicalTime : kTwinStays)) {
       return Event::kTwin;
     }
-    if (lab_control_lost_at_ &&
-        Clock::now() > *lab_control_lost_at_ + std::chrono::nanoseconds(kControllerStays)) {
-      return Event::kLabControlLost;
-    }
+    if (lab_control_.is_lost_for_good(Clock::now())) return Event::kLabControlLost;
     if (happened && signal_.locked([this] { return !lists_.empty(); })) return Event::kList;
     if (!is_ready_ && Clock::now() > started_at_ + options_.startup_timeout) return Event::kTimeout;
   }
@@ -269,6 +284,20 @@ void HlcProcess::prepare_thread() const {
 
 int HlcProcess::run() {
   prepare_thread();  // not earlier: only this thread plans
+  const int code = drive();
+  leave_vehicle_its_plan();
+  tell_losses();
+  return code;
+}
+
+/// The copy of its last command may still wait.
+void HlcProcess::leave_vehicle_its_plan() {
+  const std::optional<Clock::time_point> due = commands_.copy_due();
+  if (!due || signal_.wait_until(*due, [this] { return stop_symbol_; })) return;
+  commands_.send_copy_when_due();
+}
+
+int HlcProcess::drive() {
   while (true) {
     switch (wait_for_event()) {
       case Event::kStop:
@@ -441,7 +470,7 @@ std::vector<VehicleId> HlcProcess::present(std::vector<VehicleId> vehicles) cons
 ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observation& observation) {
   ReportRecord record;
   Controller& controller = core_.controller();
-  if (signal_.locked([this] { return drive_out_; })) controller.drive_out();
+  controller.set_drives_out(drives_out());
 
   const auto until = [&list](double share) { return deadline_in_step(list, share); };
   const StepDeadlines& deadlines = options_.deadlines;

@@ -16,6 +16,7 @@
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/hlc/command_sender.hpp"
+#include "hlc_bridge/hlc/lab_control_watch.hpp"
 #include "hlc_bridge/hlc/lab_log.hpp"
 #include "hlc_bridge/hlc/step_exchange.hpp"
 #include "hlc_bridge/hlc/subgraph_preparation.hpp"
@@ -67,7 +68,17 @@ struct HlcProcessOptions {
 ///
 /// Without its middleware it waits for it to be started again, as long as at the start, and plans
 /// on then; meanwhile the vehicle drives out what it was sent. In logical time, or when the others
-/// drive out their plans too, it leaves at once. A vehicle follows one controller: where another
+/// drive out their plans too, it leaves at once.
+///
+/// Without the lab control nobody can stop the cars: the plan in force is driven out. If it is back
+/// within kControllerStays (a network cut for longer than the lease), planning goes on; else this
+/// one leaves.
+///
+/// The stop symbol comes by the middleware and, in real time, on the lab domain, too: one that the
+/// middleware did not live to carry on must not be forgotten when it is started again. Other
+/// triggers count on the local domain alone, as the lab's controllers have them.
+///
+/// A vehicle follows one controller: where another
 /// one of that name is, this one says nothing, and leaves.
 ///
 /// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
@@ -87,14 +98,21 @@ class HlcProcess {
   /// middleware or the lab control died.
   int run();
 
-  /// Ends `run` soon; from any thread.
+  /// Ends `run` soon; from any thread. Unlike the stop symbol, after which the vehicle is to hear
+  /// nothing, this leaves it its whole plan, which it drives to standstill.
   void stop();
 
  private:
   enum class Event { kList, kStop, kMiddlewareLost, kLabControlLost, kTwin, kTimeout };
 
+  [[nodiscard]] int drive();
   [[nodiscard]] Event wait_for_event();
+  void leave_vehicle_its_plan();
+  void take_stop_symbol();
+  void tell_losses();
   void watch_lab_control();
+  [[nodiscard]] ParticipantOptions on_domain(std::optional<int> domain, DomainRole role);
+  [[nodiscard]] bool drives_out() const;
   void check_plan_fits_commands() const;
   void prepare_thread() const;
   void send_ready_now_and_then();
@@ -138,7 +156,9 @@ class HlcProcess {
   std::optional<Nanoseconds> start_;
   bool joins_{};  ///< learnt of the start by the others' traffic
   bool stop_{};
-  bool drive_out_{};
+  bool stop_symbol_{};               ///< it stops since everybody is to stop
+  bool drive_out_{};                 ///< the lab control said so
+  std::vector<std::string> losses_;  ///< to be told by this process's own thread (LabLog writes)
 
   Participant lab_;
   Participant local_;
@@ -154,7 +174,7 @@ class HlcProcess {
   Reconfiguration reconfiguration_;
 
   std::vector<VehicleId> active_;
-  std::optional<std::chrono::steady_clock::time_point> lab_control_lost_at_;
+  LabControlWatch lab_control_;
   std::optional<std::chrono::steady_clock::time_point> middleware_lost_at_;
   WaitNotice wait_notice_;
   bool had_middleware_{};
@@ -170,6 +190,7 @@ class HlcProcess {
   Reader<AutomatonRequest> automaton_request_reader_;
   Reader<RunState> run_state_reader_;
   Reader<SystemTrigger> trigger_reader_;
+  std::optional<Reader<SystemTrigger>> lab_stop_reader_;  ///< not in logical time
   Reader<VehicleStateList> list_reader_;
 };
 

@@ -104,8 +104,9 @@ class Controller {
   /// measurement of the own vehicle the former plan, if any, stays.
   [[nodiscard]] Report stand_by(const Observation& observation);
 
-  /// From now on nothing new is planned; the plan in force is driven to its end.
-  void drive_out() { drives_out_ = true; }
+  /// From the next step on nothing new is planned, and the plan in force is driven to its end; or
+  /// planning goes on, from what is left of it.
+  void set_drives_out(bool drives_out) { drives_out_ = drives_out; }
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
   [[nodiscard]] Traffic observe(const Observation& observation);

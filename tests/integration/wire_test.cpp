@@ -103,6 +103,7 @@ const std::vector<Part> kLabParts{
     {controller_name(1), true, "visualization"},
     {controller_name(1), true, "log"},
     {controller_name(1), false, "logLevel"},
+    {controller_name(1), false, "systemTrigger"},  // of ours alone: the stop without a middleware
     {kLabControlName, false, "readyStatus"},
     {kLabControlName, true, "systemTrigger"},
     {kLabControlName, false, "parameterRequest"},

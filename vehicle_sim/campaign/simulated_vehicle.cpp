@@ -16,6 +16,7 @@ VehicleState state_message(std::uint8_t vehicle_id, Nanoseconds t_now,
   state.create_stamp = t_now;
   state.valid_after_stamp = t_now + kStateDelay;
   state.pose = estimate.pose;
+  state.ips_update_age = 0;  // measured in this very tick
   state.odometer_distance_m = measured.odometer_m;
   state.imu_acceleration_forward_mps2 = measured.acceleration_forward_mps2;
   state.imu_acceleration_left_mps2 = measured.acceleration_left_mps2;

@@ -55,6 +55,18 @@ TEST(Observation, StaleInvalidAndBrokenStatesAreNotUsed) {
   EXPECT_FALSE(is_usable(broken, now));
 }
 
+TEST(Observation, AStateWhosePositionWasNotMeasuredForLongIsNotUsed) {
+  const Nanoseconds now = 1'000 * kMillisecond + 1;
+  VehicleState reckoned = state(1, 940 * kMillisecond);
+  reckoned.ips_update_age = 500 * kMillisecond;
+  EXPECT_TRUE(is_usable(reckoned, now));
+  // The last one: of a vehicle that was never located, by a clock of our time.
+  for (const Nanoseconds age : {500 * kMillisecond + 1, 1'700'000'000'000 * kMillisecond}) {
+    reckoned.ips_update_age = age;
+    EXPECT_FALSE(is_usable(reckoned, now)) << age;
+  }
+}
+
 TEST(Observation, TheAgeIsThatAtTheBeginOfTheStep) {
   const Observation observation =
       observation_of(list_at(1'000 * kMillisecond + 1, {state(1, 940 * kMillisecond)}));

@@ -107,6 +107,14 @@ TEST_F(RealTimeRunTest, TimerNamesAreNoSignOfReadinessInRealTime) {
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
 }
 
+TEST_F(RealTimeRunTest, AClockThatIsSetBackIsNoTimeThatHasPassed) {
+  (void)run_.advance(kStart);
+  EXPECT_THAT(run_.advance(kStart - 10 * kSecond).triggers, IsEmpty());
+  EXPECT_FALSE(run_.finished()) << run_.result().reason;
+  make_ready();
+  EXPECT_THAT(run_.advance(kStart - 9 * kSecond).triggers, ElementsAre(kStart + kSecond));
+}
+
 TEST_F(RealTimeRunTest, StopsOnePeriodAfterTheLastStepAndFinishesAfterBraking) {
   make_ready();
   (void)run_.advance(kStart);

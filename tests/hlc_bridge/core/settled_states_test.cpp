@@ -27,13 +27,15 @@ TEST(SettledStates, OneSecondOfThemSettlesAndNoLess) {
   EXPECT_TRUE(states.have_settled());
 }
 
-TEST(SettledStates, AJumpAPauseANanOrAStepBackBeginsANewSecond) {
+TEST(SettledStates, AJumpAPauseANanAStepBackOrALostPositionBeginsANewSecond) {
   const Nanoseconds next = 51 * kVehiclePeriod;
   VehicleState broken = state_at(next);
   broken.speed_mps = std::numeric_limits<double>::quiet_NaN();
+  VehicleState unseen = state_at(next);
+  unseen.ips_update_age = kMaxPositionAge + 1;
   for (const VehicleState& odd :
        {state_at(next, 1.2), state_at(50 * kVehiclePeriod + SettledStates::kMostPause + 1), broken,
-        state_at(49 * kVehiclePeriod)}) {
+        unseen, state_at(49 * kVehiclePeriod)}) {
     SettledStates states;
     add_standing(states, 0, 50 * kVehiclePeriod);
     ASSERT_TRUE(states.have_settled());
@@ -55,6 +57,17 @@ TEST(SettledStates, ADrivingVehicleAndRepeatedStatesDoNotDisturb) {
     states.add(state_at(t, 4.0 * 1e-9 * static_cast<double>(t)));
   }
   EXPECT_TRUE(states.have_settled());
+}
+
+TEST(SettledStates, AVehicleThatWasNeverLocatedDoesNotSettle) {
+  // In logical time, too, where its clock and so its position's age begins at nothing.
+  SettledStates states;
+  for (Nanoseconds t = 0; t <= 3 * kNanosecondsPerSecond; t += kVehiclePeriod) {
+    VehicleState state = state_at(t);
+    state.ips_update_age = t;
+    states.add(state);
+    ASSERT_FALSE(states.have_settled()) << t;
+  }
 }
 
 }  // namespace

@@ -8,82 +8,11 @@
 #include <memory>
 
 #include "hlc_bridge/core/exit_codes.hpp"
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/core/time_grid.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
 #include "planner/geometry/footprint.hpp"
-#include "planner/scenario/scenario.hpp"
-#include "tests/hlc_bridge/dds/loopback.hpp"
-#include "tests/support/domain_reservation.hpp"
-#include "tests/support/folders.hpp"
+#include "tests/hlc_bridge/hlc/running_hlc_process.hpp"
 
 namespace hlc {
 namespace {
-
-constexpr Nanoseconds kPeriod = 200'000'000;
-
-const Scenario& red_alone() {
-  static const Scenario scenario =
-      read_scenario({.file = std::filesystem::path{test::source_folder()} /
-                             "launch_scripts/scenarios/paper_red_alone.yaml"});
-  return scenario;
-}
-
-/// The controller of vehicle 1 in real time, as the lab starts it: with a node id without a number.
-class HlcProcessTest : public testing::Test {
- protected:
-  explicit HlcProcessTest(std::chrono::seconds startup_timeout = std::chrono::seconds{30}) {
-    HlcProcessOptions options;
-    options.startup_timeout = startup_timeout;
-    options.node_id = "high_level_controller";
-    options.transport = Transport::kLoopback;
-    options.domains = {.lab = domains_.first(), .local = local(), .controller = controllers()};
-    process_ = std::make_unique<HlcProcess>(options, make_controller(red_alone(), {1}));
-    code_ = std::async(std::launch::async, [this] { return process_->run(); });
-  }
-  ~HlcProcessTest() override { process_->stop(); }
-
-  [[nodiscard]] int local() const { return domains_.first() + 1; }
-  [[nodiscard]] int controllers() const { return domains_.first() + 50; }
-
-  DomainReservation domains_{2};
-  std::unique_ptr<HlcProcess> process_;
-  std::future<int> code_;
-};
-
-class FakeMiddleware {
- public:
-  explicit FakeMiddleware(int domain)
-      : participant{on_loopback("ParticipantSingleton", domain, DomainRole::kLocal)},
-        lists{participant, topics::vehicle_state_list()},
-        commands{participant, topics::command()},
-        ready{participant, topics::ready_status()} {}
-
-  Participant participant;
-  Writer<VehicleStateList> lists;
-  Mailbox<TrajectoryCommand> commands;
-  Mailbox<ReadyStatus> ready;
-};
-
-VehicleStateList list_of_nobody() {
-  return {.t_now = next_on_grid(real_time_now(), kPeriod, kListOffset),
-          .period_ms = 200,
-          .states = {},
-          .observations = {},
-          .active_vehicle_ids = {1}};
-}
-
-/// A list of now that shows vehicle 1 there.
-VehicleStateList list_of(const Pose& pose, double speed_mps) {
-  VehicleStateList list = list_of_nobody();
-  list.t_now = real_time_now() / kPeriod * kPeriod + kListOffset;
-  list.states = {{.vehicle_id = 1,
-                  .create_stamp = list.t_now - 60'000'000,
-                  .valid_after_stamp = list.t_now,
-                  .pose = pose,
-                  .speed_mps = speed_mps}};
-  return list;
-}
 
 TEST_F(HlcProcessTest, BearsItsVehiclesNameWhateverItsNodeId) {
   const Participant lab{on_loopback("observer", domains_.first(), DomainRole::kLab)};
@@ -92,15 +21,6 @@ TEST_F(HlcProcessTest, BearsItsVehiclesNameWhateverItsNodeId) {
   for (const Participant* observer : {&lab, &local_observer, &peer}) {
     EXPECT_TRUE(observer->wait_for({controller_name(1)}, soon()));
   }
-}
-
-/// Vehicle 1 has no peers: it is ready when it has stood for a horizon.
-bool gets_ready(FakeMiddleware& middleware) {
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  return middleware.lists.wait_for_matched(1, soon()) &&
-         Signal{}.repeat_until(
-             soon(), std::chrono::milliseconds{50}, [&] { return !middleware.ready.now().empty(); },
-             [&] { middleware.lists.write(list_of(start, 0.0)); });
 }
 
 TEST_F(HlcProcessTest, IsNotDisturbedWhenAnotherControllerOfItsMachineLeaves) {
@@ -144,7 +64,13 @@ TEST_F(HlcProcessTest, LeavesWithoutItsMiddlewareWhenTheOthersDriveOut) {
 
 class ImpatientHlcProcessTest : public HlcProcessTest {
  protected:
-  ImpatientHlcProcessTest() : HlcProcessTest(std::chrono::seconds{8}) {}
+  ImpatientHlcProcessTest() : HlcProcessTest(impatient()) {}
+
+  static HlcProcessOptions impatient() {
+    HlcProcessOptions options = on_loopback_alone();
+    options.startup_timeout = std::chrono::seconds{8};
+    return options;
+  }
 };
 
 TEST_F(ImpatientHlcProcessTest, LeavesWhenItsMiddlewareStaysAway) {
@@ -183,30 +109,6 @@ TEST_F(HlcProcessTest, StaysWhenAnotherControllerOfItsVehicleComesLater) {
       [&] { return middleware.commands.now().size() >= before + 30; },
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
-
-/// The lab control centre's part that looks on.
-class Operator {
- public:
-  explicit Operator(int domain)
-      : participant{on_loopback("operator", domain, DomainRole::kLab)},
-        level{participant, topics::log_level()},
-        log{participant, topics::log()},
-        drawings{participant, topics::visualization()},
-        stop_requests{participant, topics::stop_request()} {}
-
-  /// Until all of it is matched in both directions.
-  [[nodiscard]] bool sees(const HlcProcess&) {
-    return level.wait_for_matched(1, soon()) && log.reader().wait_for_matched(1, soon()) &&
-           drawings.reader().wait_for_matched(1, soon()) &&
-           stop_requests.reader().wait_for_matched(1, soon());
-  }
-
-  Participant participant;
-  Writer<LogLevel> level;
-  Mailbox<Log> log;
-  Mailbox<Visualization> drawings;
-  Mailbox<StopRequest> stop_requests;
-};
 
 TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   Operator lab_control{domains_.first()};
@@ -267,19 +169,6 @@ TEST_F(HlcProcessTest, TellsTheOperatorThatItsVehicleFitsNoRouteAndIsNotReadyUnt
       soon(), std::chrono::milliseconds{50}, [&] { return !middleware.ready.wait_for(0).empty(); },
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
-
-/// What the others on the controllers' domain say and hear.
-class Others {
- public:
-  explicit Others(int domain)
-      : participant{on_loopback(controller_name(2), domain, DomainRole::kController)},
-        traffic{participant, topics::traffic()},
-        reports{participant, topics::report()} {}
-
-  Participant participant;
-  Writer<Traffic> traffic;
-  Mailbox<ReportRecord> reports;
-};
 
 /// Whoever says something is heard from now on.
 bool are_matched(FakeMiddleware& middleware, Others& others) {

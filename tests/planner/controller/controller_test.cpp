@@ -399,17 +399,20 @@ TEST_F(Deviation, TheMeasurementIsComparedWithThePlanOfItsOwnTime) {
   EXPECT_NEAR(step(*one_, at(106, {old})).deviation_m, 0.0, 1e-9);
 }
 
-TEST(Controller, DrivingOutPlansNothingNew) {
+TEST(Controller, DrivingOutPlansNothingNewUntilItEnds) {
   const auto one = controller(1);
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
   static_cast<void>(step(*one, at(101, {seen(1, 0.0, 0.0)})));
   const StepIndex end = one->plan_in_force().end();
-  one->drive_out();
+  one->set_drives_out(true);
   for (std::uint64_t k = 102; k < 112; ++k) {
     const Report report = step(*one, at(k, {following(*one, k)}));
     EXPECT_EQ(report.status, StepStatus::kDriveOut);
     EXPECT_EQ(one->plan_in_force().end(), end);
   }
+  one->set_drives_out(false);
+  EXPECT_EQ(step(*one, at(112, {following(*one, 112)})).status, StepStatus::kPlanned);
+  EXPECT_GT(one->plan_in_force().end(), StepIndex{112});
 }
 
 TEST(Controller, ACloneGoesItsOwnWay) {

@@ -39,6 +39,7 @@ TEST(SimulatedVehicle, StateIsStampedAsInTheLab) {
     EXPECT_EQ(state.create_stamp, t);
     EXPECT_EQ(state.valid_after_stamp, t + 60 * kMillisecond);
     EXPECT_EQ(state.pose, kStart);
+    EXPECT_EQ(state.ips_update_age, 0U);
     EXPECT_EQ(state.imu_yaw_rad, kStart.heading_rad);
     EXPECT_EQ(state.speed_mps, 0.0);
     EXPECT_EQ(state.battery_voltage_v, 7.8);
