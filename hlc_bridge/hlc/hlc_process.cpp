@@ -59,7 +59,7 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       automaton_answer_writer_(controllers_, topics::automaton_answer()),
       preparation_(core_.controller().shared_subgraph(),
                    core_.controller().options().horizon_steps),
-      exchange_(controllers_, signal_, options_.logical_time, options_.node_id,
+      exchange_(vehicle_, controllers_, signal_, options_.logical_time, options_.node_id,
                 [this] { return stop_; }),
       automaton_request_reader_(controllers_, topics::automaton_request(),
                                 [this](const AutomatonRequest& request) {
@@ -149,13 +149,19 @@ void HlcProcess::note_who_is_there() {
   had_middleware_ = had_middleware_ || commands_.matched() > 0;
   const bool joins = !options_.logical_time && !active_.empty() && commands_.matched() > 0 &&
                      signal_.locked([this] { return start_.has_value(); });
-  is_ready_ = is_ready_ || (!has_twin() && (joins || has_everybody()));
+  if (is_ready_ || has_twin() || !(joins || has_everybody())) return;
+  is_ready_ = true;
+  exchange_.forget_twin();
 }
 
 bool HlcProcess::has_twin() const { return lab_.is_alive(controller_name(vehicle_.value)); }
 
-/// The one that was ready first stays.
-bool HlcProcess::yields_to_twin() const { return !is_ready_ && has_twin(); }
+/// The one that was ready first stays. Where both are (one was cut off or stopped for longer than
+/// its lease, and has been replaced), the vehicle would follow now the one, now the other, and
+/// nobody could reckon with what it drives: each leaves as soon as it hears the other.
+bool HlcProcess::yields_to_twin() const {
+  return is_ready_ ? exchange_.has_heard_twin() : has_twin();
+}
 
 /// Others on the local domain may come and go: in the lab it holds all controllers of a computer.
 bool HlcProcess::has_lost_middleware() const {

@@ -78,8 +78,8 @@ struct HlcProcessOptions {
 /// middleware did not live to carry on must not be forgotten when it is started again. Other
 /// triggers count on the local domain alone, as the lab's controllers have them.
 ///
-/// A vehicle follows one controller: where another
-/// one of that name is, this one says nothing, and leaves.
+/// A vehicle follows one controller: where another one of that name is, this one says nothing, and
+/// leaves. Ready ones leave as soon as they hear somebody else speak for their vehicle.
 ///
 /// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
 /// the step from which it holds, and answers. In logical time that step waits for what is being

@@ -25,9 +25,10 @@ StepExchange::Channel<Message>::Channel(StepExchange& exchange, const Topic<Mess
       reader(exchange.controllers_, topic,
              [&exchange](const Message& message) { exchange.take(message); }) {}
 
-StepExchange::StepExchange(Participant& controllers, Signal& signal, bool logical_time,
-                           std::string node_id, std::function<bool()> is_over)
-    : controllers_(controllers),
+StepExchange::StepExchange(VehicleId own, Participant& controllers, Signal& signal,
+                           bool logical_time, std::string node_id, std::function<bool()> is_over)
+    : own_(own),
+      controllers_(controllers),
       signal_(signal),
       logical_time_(logical_time),
       node_id_(std::move(node_id)),
@@ -116,6 +117,12 @@ void StepExchange::wait_for(const std::vector<VehicleId>& from, Nanoseconds dead
 template <class Message>
 std::vector<Message> StepExchange::heard() const {
   return signal_.locked([this] { return channel<Message>().inbox.all(); });
+}
+
+bool StepExchange::has_heard_twin() const { return newest_traffic(own_).has_value(); }
+
+void StepExchange::forget_twin() {
+  signal_.locked([this] { newest_traffic_.erase(own_); });
 }
 
 std::optional<StepIndex> StepExchange::newest_traffic(VehicleId vehicle) const {

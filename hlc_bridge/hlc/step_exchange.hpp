@@ -24,11 +24,12 @@ namespace hlc {
 /// Message: Traffic, Prediction or Outcome.
 class StepExchange {
  public:
+  /// @param own  the vehicle for which is spoken here
   /// @param controllers, signal  must outlive this object; `signal` guards what has come
   /// @param node_id  for the log
   /// @param is_over  asked under the signal's lock: whether waiting has no use any more
-  StepExchange(Participant& controllers, Signal& signal, bool logical_time, std::string node_id,
-               std::function<bool()> is_over);
+  StepExchange(VehicleId own, Participant& controllers, Signal& signal, bool logical_time,
+               std::string node_id, std::function<bool()> is_over);
   StepExchange(const StepExchange&) = delete;  // its readers refer to it
   StepExchange& operator=(const StepExchange&) = delete;
 
@@ -48,6 +49,10 @@ class StepExchange {
   template <class Message>
   [[nodiscard]] std::vector<Message> heard() const;
 
+  /// Somebody else speaks for the own vehicle, or has since forget_twin. (What is said here is not
+  /// heard here.)
+  [[nodiscard]] bool has_heard_twin() const;
+  void forget_twin();
   /// The step of the vehicle's newest traffic, whenever it came.
   [[nodiscard]] std::optional<StepIndex> newest_traffic(VehicleId vehicle) const;
 
@@ -69,6 +74,7 @@ class StepExchange {
   void take(const Message& message);
   [[nodiscard]] bool is_awaited(VehicleId vehicle) const;
 
+  VehicleId own_;
   Participant& controllers_;
   Signal& signal_;
   bool logical_time_;

@@ -110,6 +110,40 @@ TEST_F(HlcProcessTest, StaysWhenAnotherControllerOfItsVehicleComesLater) {
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
 
+/// Of a vehicle that drives far away.
+Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
+  const ConvexPolygon far = footprint_area({.length_m = 0.2, .width_m = 0.1}, {90.0, 90.0, 0.0});
+  Traffic traffic;
+  traffic.vehicle = {vehicle};
+  traffic.step = {step};
+  traffic.running.first = traffic.step;
+  traffic.running.final_area_m = far;
+  traffic.reachable_area_m = far;
+  return traffic;
+}
+
+// As two that are ready, which neither knew of the other: one was cut off and has been replaced.
+TEST_F(HlcProcessTest, LeavesWhenAnotherOneSpeaksForItsVehicle) {
+  FakeMiddleware middleware{local()};
+  Others others{controllers()};
+  ASSERT_TRUE(others.traffic.wait_for_matched(1, soon()));
+  others.traffic.write(traffic_of(1, 1));  // before it is ready: it may be gone by then
+  ASSERT_TRUE(gets_ready(middleware));
+  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const std::size_t before = middleware.commands.now().size();
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), std::chrono::milliseconds{50},
+      [&] { return middleware.commands.now().size() >= before + 5; },
+      [&] { middleware.lists.write(list_of(start, 0.0)); }));
+  const auto has_left = [this] {
+    return code_.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
+  };
+  ASSERT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{50}, has_left, [&] {
+    others.traffic.write(traffic_of(1, real_time_now() / kPeriod));
+  }));
+  EXPECT_EQ(code_.get(), kExitBadInput);
+}
+
 TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   Operator lab_control{domains_.first()};
   FakeMiddleware middleware{local()};
@@ -175,18 +209,6 @@ bool are_matched(FakeMiddleware& middleware, Others& others) {
   return middleware.lists.wait_for_matched(1, soon()) &&
          others.traffic.wait_for_matched(1, soon()) &&
          others.reports.reader().wait_for_matched(1, soon());
-}
-
-/// Of a vehicle that drives far away.
-Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
-  const ConvexPolygon far = footprint_area({.length_m = 0.2, .width_m = 0.1}, {90.0, 90.0, 0.0});
-  Traffic traffic;
-  traffic.vehicle = {vehicle};
-  traffic.step = {step};
-  traffic.running.first = traffic.step;
-  traffic.running.final_area_m = far;
-  traffic.reachable_area_m = far;
-  return traffic;
 }
 
 TEST_F(HlcProcessTest, NeitherTrafficOfWhoTakesNoPartNorOfAnotherTimeStartsItsVehicle) {
