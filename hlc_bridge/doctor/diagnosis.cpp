@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/settled_states.hpp"
 #include "hlc_bridge/core/time_grid.hpp"
 
 namespace hlc {
@@ -47,6 +48,12 @@ Finding of_vehicle(int id, const Heard& heard) {
   const HeardVehicle& vehicle = found->second;
   const double rate_hz = static_cast<double>(vehicle.states) / heard.listened_s.count();
   const std::string states = rounded(rate_hz) + " states per second";
+  if (!vehicle.is_located) {
+    return {Verdict::kBad,
+            name + "the cameras have not seen it for more than " +
+                milliseconds(static_cast<std::int64_t>(kMaxPositionAge)),
+            "put it where they see it, switch it on, and see that the positioning system runs"};
+  }
   if (vehicle.logical_time) {
     return {Verdict::kGood, name + states + ", in logical time: clocks do not matter", ""};
   }
@@ -106,6 +113,7 @@ void note(const VehicleState& state, Nanoseconds now, Heard& heard) {
   HeardVehicle& vehicle = found->second;
   ++vehicle.states;
   vehicle.least_age_ns = is_first ? age_ns : std::min(vehicle.least_age_ns, age_ns);
+  vehicle.is_located = is_located(state);
   vehicle.logical_time = state.create_stamp < kThisCentury;
 }
 

@@ -20,6 +20,7 @@ struct HeardVehicle {
   /// how much its clock is behind ours (negative: it is ahead).
   std::int64_t least_age_ns{};
   bool logical_time{};  ///< its stamps are not of this century
+  bool is_located{};    ///< by its last state (core/settled_states.hpp)
 };
 
 /// What was heard of a run, or of a lab before a run.

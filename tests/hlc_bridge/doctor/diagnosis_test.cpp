@@ -73,6 +73,19 @@ TEST(Diagnosis, TakesTheYoungestStateForTheClock) {
   EXPECT_TRUE(bad_ones({1}, heard).empty()) << "one late state is no clock that differs";
 }
 
+TEST(Diagnosis, TellsOfAVehicleThatTheCamerasDoNotSeeAnyMore) {
+  Heard heard = good();
+  const auto note_with_age = [&heard](Nanoseconds age) {
+    note({.vehicle_id = 1, .create_stamp = kNow, .ips_update_age = age}, kNow, heard);
+  };
+  note_with_age(600'000'000);
+  const auto findings = bad_ones({1}, heard);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].what, "vehicle 1: the cameras have not seen it for more than 500.0 ms");
+  note_with_age(80'000'000);
+  EXPECT_TRUE(bad_ones({1}, heard).empty());
+}
+
 TEST(Diagnosis, DoesNotCompareLogicalTimeWithAClock) {
   Heard heard = good();
   heard.vehicles.clear();
