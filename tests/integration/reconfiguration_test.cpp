@@ -41,7 +41,7 @@ class Reconfiguration : public testing::Test {
   [[nodiscard]] Asked ask(const std::vector<std::string>& flags) const {
     std::vector<std::string> command{build_folder() + "/bin/automaton_request",
                                      "--dds_domain=" + std::to_string(lab_.lab_domain()),
-                                     "--transport=loopback", "--timeout_s=30"};
+                                     "--transport=loopback"};
     command.insert(command.end(), flags.begin(), flags.end());
     const std::filesystem::path log = lab_.folder() / "automaton_request.log";
     ChildProcess program(command, log);
@@ -53,7 +53,8 @@ class Reconfiguration : public testing::Test {
   [[nodiscard]] double top_speed_mps(std::uint8_t vehicle) const {
     const Nanoseconds now = real_time_now();
     double top_mps = 0.0;
-    for (const DrivenSample& sample : lab_.drives().at(vehicle)) {
+    const Drives drives = lab_.drives();
+    for (const DrivenSample& sample : drives.at(vehicle)) {
       if (sample.t + kNanosecondsPerSecond > now) top_mps = std::max(top_mps, sample.speed_mps);
     }
     return top_mps;
@@ -69,19 +70,21 @@ class Reconfiguration : public testing::Test {
 };
 
 TEST_F(Reconfiguration, ASpeedLimitHoldsForTheVehicleThatIsAskedUntilTheScenariosOwnIsAskedFor) {
-  const Asked slow = ask({"--vehicle=2", "--max_speed=0.5"});
+  // The paper's automaton drives straight on at 0.8 m/s alone: a lower limit leaves few ways.
+  const Asked slow = ask({"--vehicle=2", "--max_speed=0.7"});
   EXPECT_EQ(slow.code, 0) << slow.output;
   EXPECT_THAT(slow.output, HasSubstr("vehicle 2: in force from step"));
-  EXPECT_THAT(slow.output, HasSubstr("B, at most 0.5 m/s"));
-  EXPECT_THAT(lab_.log("high_level_controller_2"), HasSubstr("plans on subgraph B, at most 0.5"));
-  constexpr double kTracking_mps = 0.05;
+  EXPECT_THAT(slow.output, HasSubstr("B, at most 0.7 m/s"));
+  EXPECT_THAT(lab_.log("high_level_controller_2"), HasSubstr("plans on subgraph B, at most 0.7"));
+  constexpr double kBetween_mps = 0.76;  // of the trims' 0.7 and 0.8 m/s
   EXPECT_TRUE(eventually(
-      kPatience, [&] { return top_speed_mps(2) < 0.5 + kTracking_mps && top_speed_mps(1) > 0.6; }))
+      kPatience,
+      [&] { return top_speed_mps(2) < kBetween_mps && top_speed_mps(1) > kBetween_mps; }))
       << "vehicle 2 at " << top_speed_mps(2) << " m/s, vehicle 1 at " << top_speed_mps(1);
 
   const Asked own = ask({"--vehicle=2"});
   EXPECT_EQ(own.code, 0) << own.output;
-  EXPECT_TRUE(eventually(kPatience, [&] { return top_speed_mps(2) > 0.6; }));
+  EXPECT_TRUE(eventually(kPatience, [&] { return top_speed_mps(2) > kBetween_mps; }));
   expect_good_end();
 }
 
