@@ -27,9 +27,9 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
   --noise_seed N          measurement noise from this seed (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
-  --on_death WHAT         stop (default): a controller that is killed fails the run; continue: it may be started again
+  --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be started again
   --only NAME             start one alone, again: hlc, middleware or vehicle. Flags that are not given are those with
-                          which the vehicle of the run in --out was started
+                          which the vehicle of the run in --out was started; a car stands where it was last
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
   --bin DIR               folder of the programs (default: build/release/bin)
   --startup_timeout_s N   how long to wait for the others (default 30)
@@ -104,6 +104,9 @@ fi
 [[ -n $out ]] || out=$root/runs/vehicle_$id
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
 out=$(cd "$out" && pwd)
+if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
+  fail "--out = $out: a finished run, allowed a new folder, or --only for one that is under way"
+fi
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
 choices=(--scenario "$scenario" --profile "$profile")
@@ -111,6 +114,13 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
+record=$out/vehicle_$id.csv
+appends=() # a car that is started again stands where it was last, and its record goes on
+if [[ $only == vehicle && -s $record ]]; then
+  appends=(--append_record)
+  last=$(grep -E '^[0-9]+(,[^,]+){7}$' "$record" | tail -n 1 | cut -d, -f2-4)
+  pose=${last:-$pose}
+fi
 if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
   pose=$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
@@ -122,7 +132,7 @@ common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transpor
 for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port; do
   [[ -z ${!name} ]] || common+=("--$name=${!name}")
 done
-vehicle=(--vehicle_id="$id" --pose="$pose" --record="$out/vehicle_$id.csv")
+vehicle=(--vehicle_id="$id" --pose="$pose" --record="$record" "${appends[@]}")
 [[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
 controller=("${choices[@]}")
@@ -187,8 +197,9 @@ while true; do
     kill -0 "$pid" 2>/dev/null && continue
     wait "$pid"
     code=$?
-    if ((code > 128)) && [[ $on_death == continue && ${names[$pid]} == high_level_controller_$id ]]; then
-      echo "${names[$pid]} was killed; again: $0 --id $id --only hlc --out $out" >&2
+    if ((code > 128)) && [[ $on_death == continue ]]; then
+      which=${names[$pid]%_*}
+      echo "${names[$pid]} was killed; again: $0 --id $id --only ${which/high_level_controller/hlc} --out $out" >&2
     elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code

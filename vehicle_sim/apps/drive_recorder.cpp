@@ -1,17 +1,34 @@
 #include "vehicle_sim/apps/drive_recorder.hpp"
 
+#include <filesystem>
 #include <limits>
 #include <locale>
 #include <stdexcept>
 
 #include "hlc_bridge/record/drive_file.hpp"
+#include "hlc_bridge/record/text_file.hpp"
 
 namespace hlc {
 
-DriveRecorder::DriveRecorder(const std::string& file) : file_(file), stream_(file) {
+namespace {
+
+/// Its heading and whole rows stay. False: there are none.
+bool ends_with_a_row(const std::string& file) {
+  if (!std::filesystem::exists(file)) return false;
+  const std::string text = read_file(file);
+  const std::size_t end = text.rfind('\n') + 1;  // 0 without a whole line
+  if (end < text.size()) std::filesystem::resize_file(file, end);
+  return end > 0;
+}
+
+}  // namespace
+
+DriveRecorder::DriveRecorder(const std::string& file, bool append) : file_(file) {
+  const bool goes_on = append && ends_with_a_row(file);
+  stream_.open(file, goes_on ? std::ios::app : std::ios::trunc);
   stream_.imbue(std::locale::classic());
   stream_.precision(std::numeric_limits<double>::max_digits10);
-  stream_ << kDriveHeading << '\n' << std::flush;
+  if (!goes_on) stream_ << kDriveHeading << '\n' << std::flush;
   check();
 }
 

@@ -15,8 +15,10 @@ namespace hlc {
 /// flushed: the record survives a crash.
 class DriveRecorder {
  public:
+  /// @param append  behind the rows that are there, of a process that ended before; a row that it
+  ///                did not finish goes
   /// @throws std::runtime_error if the file cannot be written
-  explicit DriveRecorder(const std::string& file);
+  explicit DriveRecorder(const std::string& file, bool append = false);
 
   /// @throws std::runtime_error if the row cannot be written
   void write(const DrivenSample& sample);

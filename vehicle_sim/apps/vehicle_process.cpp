@@ -46,8 +46,10 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
       middleware_(middleware_name(options_.vehicle.vehicle_id)),
       controller_(controller_name(options_.vehicle.vehicle_id)),
       vehicle_(options_.vehicle),
-      recorder_(options_.record_file.empty() ? std::nullopt
-                                             : std::optional<DriveRecorder>(options_.record_file)),
+      recorder_(options_.record_file.empty()
+                    ? std::nullopt
+                    : std::optional<DriveRecorder>(std::in_place, options_.record_file,
+                                                   options_.append_record)),
       // The lab's controllers do not answer before the start. Ours is heard soon enough.
       gave_up_waiting_(options_.transport == Transport::kLab),
       timer_(make_timer()),

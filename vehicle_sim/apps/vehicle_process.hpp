@@ -32,6 +32,7 @@ struct VehicleProcessOptions {
   bool keep_running{};  ///< after a stop brake, then listen again instead of ending
   std::chrono::seconds startup_timeout{30};
   std::string record_file;  ///< empty: no record
+  bool append_record{};     ///< DriveRecorder
 };
 
 /// One simulated vehicle on the lab domain: every 20 ms it takes the commands that have come, makes

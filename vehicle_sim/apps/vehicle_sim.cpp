@@ -24,6 +24,7 @@ struct Flags {
   std::optional<std::uint64_t> noise_seed;
   double gains_scale{1.0};
   std::string record;
+  bool append_record{};
   bool keep_running{false};
 };
 
@@ -40,7 +41,11 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
       ->capture_default_str();
-  app.add_option("--record", flags.record, "CSV file for what is truly driven, one row per tick");
+  CLI::Option* const record = app.add_option("--record", flags.record,
+                                             "CSV file for what is truly driven, one row per tick");
+  app.add_flag("--append_record", flags.append_record,
+               "behind what a process that ended before has recorded there")
+      ->needs(record);
   app.add_flag("--keep_running", flags.keep_running,
                "listen again after a stop, as the lab's vehicle does");
   app.footer(
@@ -67,7 +72,8 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
           .logical_time = flags.network.simulated_time,
           .keep_running = flags.keep_running,
           .startup_timeout = flags.network.startup_timeout(),
-          .record_file = flags.record};
+          .record_file = flags.record,
+          .append_record = flags.append_record};
 }
 
 }  // namespace

@@ -62,6 +62,21 @@ TEST_F(DriveRecorderTest, FileThatCannotBeWrittenIsNamed) {
   }
 }
 
+TEST_F(DriveRecorderTest, OfACarThatIsStartedAgainTheWholeDriveIsThere) {
+  const std::filesystem::path file = folder_ / "drive.csv";
+  DriveRecorder(file).write({.t = 20'000'000});
+  { std::ofstream(file, std::ios::app) << "40000000,0.1,0"; }  // killed in the middle of a row
+  DriveRecorder(file, true).write({.t = 60'000'000});
+  DriveRecorder(file, true).write({.t = 80'000'000});
+  const Drive drive = read_drive(file);
+  ASSERT_EQ(drive.size(), 3U);
+  EXPECT_EQ(drive[1].t, 60'000'000U);
+  DriveRecorder(folder_ / "new.csv", true).write({.t = 20'000'000});
+  EXPECT_EQ(read_drive(folder_ / "new.csv").size(), 1U);
+  DriveRecorder(file).write({.t = 20'000'000});
+  EXPECT_EQ(read_drive(file).size(), 1U);
+}
+
 // Else a drive would end where the disk was full, and nobody would know.
 TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsAnError) {
   const std::filesystem::path file = folder_ / "drive.csv";
