@@ -127,7 +127,6 @@ TEST_F(HlcProcessTest, LeavesWhenAnotherOneSpeaksForItsVehicle) {
   FakeMiddleware middleware{local()};
   Others others{controllers()};
   ASSERT_TRUE(others.traffic.wait_for_matched(1, soon()));
-  others.traffic.write(traffic_of(1, 1));  // before it is ready: it may be gone by then
   ASSERT_TRUE(gets_ready(middleware));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const std::size_t before = middleware.commands.now().size();
