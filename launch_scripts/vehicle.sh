@@ -88,6 +88,10 @@ done
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + id))
+[[ -n $out ]] || out=$root/runs/vehicle_$id
+if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
+  fail "--out = $out: a finished run, allowed a new folder, or --only for one that is under way"
+fi
 
 # run_lab.sh has reserved its domains for itself, and says so. By hand a domain is shared with other vehicles.
 share_domain() { # flag, domain
@@ -101,12 +105,8 @@ if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; 
   share_domain --dds_domain "$((10#$dds_domain))"
   share_domain --middleware_domain "$((10#$middleware_domain))"
 fi
-[[ -n $out ]] || out=$root/runs/vehicle_$id
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
 out=$(cd "$out" && pwd)
-if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
-  fail "--out = $out: a finished run, allowed a new folder, or --only for one that is under way"
-fi
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
 choices=(--scenario "$scenario" --profile "$profile")
