@@ -20,8 +20,9 @@ class RealTimeRun : public LabRun {
   /// From the trigger to the start.
   static constexpr Nanoseconds kStartDelay = 1 * kNanosecondsPerSecond;
 
-  /// As long as the lease, after which a process without signs of life is lost.
-  static constexpr Nanoseconds kReportTimeout = 2 * kNanosecondsPerSecond;
+  /// Longer than the lease of 2 s, after which a process without signs of life is lost: a controller
+  /// whose middleware is gone gets no lists to report, and is not the one to be named.
+  static constexpr Nanoseconds kReportTimeout = 2'500'000'000;
 
   explicit RealTimeRun(LabRunSettings settings) : LabRun{std::move(settings)} {}
 

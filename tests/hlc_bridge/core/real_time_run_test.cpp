@@ -17,7 +17,7 @@ constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
 constexpr Nanoseconds kStart = 1'700'000'000 * kSecond;
 
-LabRunSettings settings() { return {.vehicle_ids = {1, 2}, .period = kPeriod, .steps = 10}; }
+LabRunSettings settings() { return {.vehicle_ids = {1, 2}, .period = kPeriod, .steps = 20}; }
 
 const std::set<std::string> kAll{vehicle_name(1),    vehicle_name(2),    middleware_name(1),
                                  middleware_name(2), controller_name(1), controller_name(2)};
@@ -120,10 +120,11 @@ TEST_F(RealTimeRunTest, StopsOnePeriodAfterTheLastStepAndFinishesAfterBraking) {
   (void)run_.advance(kStart);
   const std::uint64_t k0 = step_at(kStart + kSecond, kPeriod);
   (void)advance_with_reports(kStart + kSecond - 1, StepStatus::kStandby, StepStatus::kStandby);
-  for (std::uint64_t step = k0; step < k0 + 11; ++step) {
+  const std::uint64_t after_last = k0 + settings().steps + 1;
+  for (std::uint64_t step = k0; step < after_last; ++step) {
     (void)advance_with_reports(step * kPeriod, StepStatus::kPlanned, StepStatus::kFallback);
   }
-  const Nanoseconds end = (k0 + 11) * kPeriod;
+  const Nanoseconds end = after_last * kPeriod;
   EXPECT_EQ(run_.wake_up(), end);
   EXPECT_THAT(run_.advance(end - 1).triggers, IsEmpty());
   EXPECT_THAT(run_.advance(end).triggers, ElementsAre(kStopSymbol));
@@ -284,6 +285,25 @@ TEST_F(RealTimeRunTest, AControllerThatHangsIsNamedThoughItsParticipantLives) {
   EXPECT_EQ(actions.deaths.front().process, controller_name(2));
   EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
   EXPECT_EQ(run_.result().exit_code, kExitDied);
+}
+
+// Its lease ends up to 2 s after the last list; the library looks a little later.
+TEST_F(RealTimeRunTest, AMiddlewareThatIsGoneIsNamedAndNotItsControllerThatGetsNoLists) {
+  make_ready();
+  (void)run_.advance(kStart);
+  Nanoseconds t = kStart + kSecond;
+  (void)advance_with_reports(t, StepStatus::kPlanned, StepStatus::kPlanned);
+  const Nanoseconds noticed = t + 2 * kSecond + kPeriod;
+  for (t += kPeriod; t < noticed; t += kPeriod) {
+    run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
+    EXPECT_THAT(run_.advance(t).deaths, IsEmpty());
+  }
+  std::set<std::string> others = kAll;
+  others.erase(middleware_name(2));
+  run_.presence(others, {middleware_name(2)});
+  const LabRunActions actions = run_.advance(noticed);
+  ASSERT_EQ(actions.deaths.size(), 1U);
+  EXPECT_EQ(actions.deaths.front().process, middleware_name(2));
 }
 
 TEST_F(RealTimeRunTest, AControllerThatNeverReportsIsNamed) {
