@@ -286,6 +286,7 @@ void Controller::note_who_stands() {
 void Controller::add_coupled_obstacles(HorizonProblem& problem) const {
   const std::uint64_t now = step_.observation.step.value;
   const bool strict = options_.settle_rule == SettleRule::kStrict;
+  for (auto& areas : problem.obstacles_m) areas.reserve(2 * step_.coupled.size());
   for (const VehicleId other : step_.coupled) {
     const Traffic& traffic = step_.heard.at(other);
     const auto respected = step_.respected.find(other);

@@ -8,6 +8,7 @@ namespace hlc {
 CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic) {
   std::ranges::sort(traffic, {}, [](const Traffic* one) { return one->vehicle; });
   neighbours_.resize(traffic.size());
+  vehicles_.reserve(traffic.size());
   for (const Traffic* one : traffic) vehicles_.push_back(one->vehicle);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     for (std::size_t j = i + 1; j < traffic.size(); ++j) {
@@ -30,9 +31,10 @@ bool CouplingGraph::are_coupled(VehicleId a, VehicleId b) const {
 }
 
 std::vector<VehicleId> CouplingGraph::neighbours(VehicleId vehicle) const {
+  const auto& neighbours = neighbours_[index(vehicle)];
   std::vector<VehicleId> result;
-  for (const std::size_t i : neighbours_[index(vehicle)]) result.push_back(vehicles_[i]);
-  std::ranges::sort(result);
+  result.reserve(neighbours.size());
+  for (const std::size_t i : neighbours) result.push_back(vehicles_[i]);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <vector>
 
@@ -26,7 +27,7 @@ class CouplingGraph {
   [[nodiscard]] std::size_t index(VehicleId vehicle) const;
 
   std::vector<VehicleId> vehicles_;
-  std::vector<std::vector<std::size_t>> neighbours_;
+  std::vector<boost::container::small_vector<std::size_t, 8>> neighbours_;  ///< each sorted
 };
 
 }  // namespace hlc

@@ -1,7 +1,7 @@
 #include "planner/coordination/priority.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cassert>
 
 namespace hlc {
 
@@ -19,15 +19,15 @@ std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
   // In the order of planning every predecessor's level is known before it is needed.
   std::vector<VehicleId> order = graph.vehicles();
   std::ranges::sort(order, plans_before);
-  std::map<VehicleId, std::uint32_t> levels;
-  for (const VehicleId one : order) {
-    std::uint32_t level = 0;
-    for (const VehicleId other : predecessors(graph, one)) {
-      level = std::max(level, levels.at(other) + 1);
+  std::vector<std::uint32_t> levels(order.size(), 0);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (graph.are_coupled(order[i], order[j])) levels[i] = std::max(levels[i], levels[j] + 1);
     }
-    levels[one] = level;
+    if (order[i] == vehicle) return levels[i];
   }
-  return levels.at(vehicle);
+  assert(false);  // no vehicle of the graph
+  return 0;
 }
 
 }  // namespace hlc
