@@ -45,8 +45,9 @@ State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters&
   const std::size_t intervals = maneuver.inputs.size();
   const double interval_s = maneuver.duration_s / static_cast<double>(intervals);
   const std::size_t interval = std::min(static_cast<std::size_t>(time / interval_s), intervals - 1);
-  return integrated(maneuver.states[interval], maneuver.inputs[interval],
-                    time - static_cast<double>(interval) * interval_s, vehicle);
+  const double rest_s = time - static_cast<double>(interval) * interval_s;
+  if (rest_s == 0.0) return maneuver.states[interval];
+  return integrated(maneuver.states[interval], maneuver.inputs[interval], rest_s, vehicle);
 }
 
 }  // namespace hlc

@@ -193,6 +193,7 @@ void Controller::take_route(const Pose& measured) {
 Traffic Controller::observe(const Observation& observation) {
   assert(has_plan());
   const StepIndex now = observation.step;
+  former_heard_ = std::move(step_.heard);
   step_ = Step{};
   step_.observation = observation;
   step_.report = {.vehicle = options_.vehicle, .step = now};
@@ -210,9 +211,11 @@ Traffic Controller::observe(const Observation& observation) {
   traffic.next_pose = in_force_->base().pose_at(next);
   traffic.next_trim = in_force_->base().trim_at(next);
   traffic.running = in_force_->areas_to_tell(now);
-  std::vector<ConvexPolygon> reach{
+  std::vector<ConvexPolygon> reach;
+  reach.reserve(traffic.running.areas_m.size() + 3);
+  reach.push_back(
       transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
-                  traffic.next_pose)};
+                  traffic.next_pose));
   const auto add = [&reach](const ConvexPolygon& area) {  // most lie within the first
     if (!contains(reach.front(), area)) reach.push_back(area);
   };
@@ -242,7 +245,7 @@ void Controller::couple(std::span<const Traffic> heard) {
       step_.report.missing.push_back(other);
       continue;
     }
-    traffic.push_back(&(step_.heard[other] = *message));
+    traffic.push_back(&note_heard(*message));
     last_heard_[other] = now;
   }
   note_who_lives();
@@ -260,6 +263,14 @@ void Controller::couple(std::span<const Traffic> heard) {
       step_.obstacle = FallbackReason::kMissing;
     }
   }
+}
+
+/// Written over what the same vehicle said a step ago: as many areas again.
+const Traffic& Controller::note_heard(const Traffic& message) {
+  auto node = former_heard_.extract(message.vehicle);
+  if (node.empty()) return step_.heard[message.vehicle] = message;
+  node.mapped() = message;
+  return step_.heard.insert(std::move(node)).position->second;
 }
 
 /// Of every other vehicle the last step in which its controller may have agreed to something.
@@ -286,7 +297,8 @@ void Controller::note_who_stands() {
 void Controller::add_coupled_obstacles(HorizonProblem& problem) const {
   const std::uint64_t now = step_.observation.step.value;
   const bool strict = options_.settle_rule == SettleRule::kStrict;
-  for (auto& areas : problem.obstacles_m) areas.reserve(2 * step_.coupled.size());
+  const std::size_t most = strict ? 2 * step_.coupled.size() : step_.predecessors.size();
+  for (auto& areas : problem.obstacles_m) areas.reserve(most);
   for (const VehicleId other : step_.coupled) {
     const Traffic& traffic = step_.heard.at(other);
     const auto respected = step_.respected.find(other);
@@ -433,7 +445,7 @@ void Controller::search_candidate(StepIndex next) {
   step_.report.gap_m2 = is_optimal ? 0.0 : result.cost - result.lower_bound;
   step_.candidate = in_force_->base().continued(
       next, result.maneuvers, *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
-  step_.candidate_areas_m = in_force_->areas_of(*step_.candidate, next);
+  step_.prediction.areas = in_force_->areas_of(*step_.candidate, next);
   if (!is_candidate_drivable()) {
     step_.candidate.reset();
     step_.obstacle = FallbackReason::kUndrivable;
@@ -484,11 +496,10 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
       search_candidate(next);
     }
   }
-  step_.prediction = {
-      .vehicle = options_.vehicle,
-      .step = now,
-      .is_new = step_.candidate.has_value(),
-      .areas = step_.candidate ? step_.candidate_areas_m : in_force_->areas_to_tell(next)};
+  step_.prediction.vehicle = options_.vehicle;
+  step_.prediction.step = now;
+  step_.prediction.is_new = step_.candidate.has_value();
+  if (!step_.candidate) step_.prediction.areas = in_force_->areas_to_tell(next);
   return step_.prediction;
 }
 
@@ -496,17 +507,17 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
 /// be larger.
 bool Controller::is_candidate_free() const {
   const std::uint64_t next = step_.observation.step.value + 1;
+  const OccupiedAreas& areas = step_.prediction.areas;
   const auto is_in_reach = [this](const ConvexPolygon& area) {
     return contains(step_.traffic.reachable_area_m, area, kReachRounding_m);
   };
   if (in_force_->may_drift(*step_.candidate) &&
-      !(std::ranges::all_of(step_.candidate_areas_m.areas_m, is_in_reach) &&
-        is_in_reach(step_.candidate_areas_m.final_area_m))) {
+      !(std::ranges::all_of(areas.areas_m, is_in_reach) && is_in_reach(areas.final_area_m))) {
     return false;
   }
   const auto& obstacles_m = step_.problems.back().obstacles_m;
   for (std::size_t j = 0; j < obstacles_m.size(); ++j) {
-    const ConvexPolygon& area = step_.candidate_areas_m.during({next + j});
+    const ConvexPolygon& area = areas.during({next + j});
     if (std::ranges::any_of(obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
           return intersects(area, obstacle);
         })) {
@@ -557,8 +568,7 @@ Report Controller::give_up(FallbackReason reason) { return finish(false, reason)
 Report Controller::finish(bool accepted, FallbackReason reason) {
   Report& report = step_.report;
   if (accepted) {
-    in_force_->replace(std::move(*step_.candidate), step_.candidate_areas_m,
-                       step_.observation.step);
+    in_force_->replace(std::move(*step_.candidate), step_.prediction.areas, step_.observation.step);
     report.status = StepStatus::kPlanned;
   } else {
     report.status = drives_out_ ? StepStatus::kDriveOut : StepStatus::kFallback;

@@ -160,8 +160,7 @@ class Controller {
     std::vector<HorizonProblem> problems;       ///< the last is the one to solve
     std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
     std::optional<Plan> candidate;
-    OccupiedAreas candidate_areas_m;                 ///< from t(k+1) on
-    Prediction prediction;                           ///< own
+    Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
   };
 
@@ -185,6 +184,7 @@ class Controller {
   void search_candidate(StepIndex next);
   [[nodiscard]] bool is_candidate_free() const;
   [[nodiscard]] bool is_candidate_drivable() const;
+  const Traffic& note_heard(const Traffic& message);
   void note_who_lives();
   void note_who_stands();
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const;
@@ -218,6 +218,7 @@ class Controller {
   std::map<VehicleId, StepIndex> last_not_standing_;
   bool drives_out_{false};
   Step step_;
+  std::map<VehicleId, Traffic> former_heard_;  ///< a step ago; only its memory is of use
 };
 
 }  // namespace hlc

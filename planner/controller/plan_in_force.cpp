@@ -127,10 +127,12 @@ OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const
 }
 
 void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
-  OccupiedAreas told{.first = now, .areas_m = {told_.during(now)}, .final_area_m = {}};
-  told.areas_m.insert(told.areas_m.end(), areas.areas_m.begin(), areas.areas_m.end());
-  told.final_area_m = areas.final_area_m;
-  told_ = std::move(told);
+  const ConvexPolygon under_way = told_.during(now);
+  told_.first = now;
+  told_.areas_m.resize(1 + areas.areas_m.size());
+  told_.areas_m.front() = under_way;
+  std::ranges::copy(areas.areas_m, told_.areas_m.begin() + 1);
+  told_.final_area_m = areas.final_area_m;
   plan_ = std::move(candidate);
 }
 

@@ -12,6 +12,8 @@ namespace {
 constexpr double kShortestSegment_m = 1e-6;
 /// A boundary piece also counts this far before and after the arc length that it projects to [m].
 constexpr double kPieceOverlap_m = 0.05;
+/// About as many lie along a horizon.
+constexpr std::size_t kUsualPieces = 128;
 
 void append_pieces(std::vector<Corridor::Piece>& pieces, const Corridor::Bound& bound) {
   for (std::size_t i = 0; i + 1 < bound.points_m.size(); ++i) {
@@ -53,6 +55,7 @@ void Corridor::list_windows() {
 
 std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const {
   std::vector<Segment> boundary;
+  boundary.reserve(kUsualPieces);
   // On a closed route a window lies at [from, to] + k * length for every integer k. The smallest k
   // for which it does not end before what is asked for is the one that can meet it: 0 or 1, with
   // the begin of what is asked for in [0, length), too.

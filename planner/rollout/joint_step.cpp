@@ -33,6 +33,10 @@ std::vector<Report> joint_step(std::span<Controller* const> controllers,
   std::vector<Prediction> predictions;
   std::vector<Outcome> outcomes;
   std::vector<Report> reports;
+  traffic.reserve(controllers.size());
+  predictions.reserve(controllers.size());
+  outcomes.reserve(controllers.size());
+  reports.reserve(controllers.size());
   for (Controller* one : controllers) {
     traffic.push_back(one->observe(observation));
     if (rules.told) rules.told(*one, traffic.back());

@@ -31,19 +31,23 @@ class OmplHorizonPlanner final : public HorizonPlanner {
   }
 
   SearchResult plan(const HorizonProblem& problem) override {
-    planner_.clear();
-    planner_.setProblemDefinition(
-        std::make_shared<HorizonProblemDefinition>(si_, subgraph_, problem));
+    if (definition_) {
+      definition_->pose(problem);
+      planner_.clear();
+    } else {
+      definition_ = std::make_shared<HorizonProblemDefinition>(si_, subgraph_, problem);
+      planner_.setProblemDefinition(definition_);
+    }
     planner_.solve(ob::plannerNonTerminatingCondition());
-    SearchResult result = planner_.take_result();
-    planner_.setProblemDefinition(nullptr);  // it refers to `problem`
-    return result;
+    return planner_
+        .take_result();  // the definition refers to `problem`: nobody may ask it any more
   }
 
  private:
   const Subgraph& subgraph_;
   ob::SpaceInformationPtr si_;
   RecedingHorizonPlanner planner_;
+  std::shared_ptr<HorizonProblemDefinition> definition_;
 };
 
 /// @throws std::invalid_argument, which ParamSet turns into a refusal

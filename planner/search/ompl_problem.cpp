@@ -70,28 +70,28 @@ HorizonState read_state(const ob::State& from) {
 
 StandstillGoal::StandstillGoal(const ob::SpaceInformationPtr& si, const Subgraph& subgraph,
                                const HorizonProblem& problem, double radius_m)
-    : Goal(si), subgraph_(subgraph), problem_(problem), radius_m_(radius_m) {}
+    : Goal(si), subgraph_(subgraph), problem_(&problem), radius_m_(radius_m) {}
 
 bool StandstillGoal::isSatisfied(const ob::State* state) const {
   const HorizonState reached = read_state(*state);
-  if (reached.step != problem_.horizon_steps() ||
+  if (reached.step != problem_->horizon_steps() ||
       !subgraph_.automaton().trims[reached.trim.index].is_equilibrium()) {
     return false;
   }
-  return problem_.reference_m.empty() ||
-         (reached.pose.position_m() - problem_.reference_m.back()).norm() <= radius_m_;
+  return problem_->reference_m.empty() ||
+         (reached.pose.position_m() - problem_->reference_m.back()).norm() <= radius_m_;
 }
 
 SquaredDistanceObjective::SquaredDistanceObjective(const ob::SpaceInformationPtr& si,
                                                    const std::vector<Point>& reference_m)
-    : OptimizationObjective(si), reference_m_(reference_m) {
+    : OptimizationObjective(si), reference_m_(&reference_m) {
   description_ = "sum of squared distances to the reference points";
 }
 
 ob::Cost SquaredDistanceObjective::stateCost(const ob::State* state) const {
   const HorizonState reached = read_state(*state);
-  if (reached.step == 0 || reached.step > reference_m_.size()) return identityCost();
-  return ob::Cost((reached.pose.position_m() - reference_m_[reached.step - 1]).squaredNorm());
+  if (reached.step == 0 || reached.step > reference_m_->size()) return identityCost();
+  return ob::Cost((reached.pose.position_m() - (*reference_m_)[reached.step - 1]).squaredNorm());
 }
 
 ob::Cost SquaredDistanceObjective::motionCost(const ob::State* /*from*/,
@@ -102,12 +102,22 @@ ob::Cost SquaredDistanceObjective::motionCost(const ob::State* /*from*/,
 HorizonProblemDefinition::HorizonProblemDefinition(const ob::SpaceInformationPtr& si,
                                                    const Subgraph& subgraph,
                                                    const HorizonProblem& problem)
-    : ProblemDefinition(si) {
+    : ProblemDefinition(si),
+      standstill_(std::make_shared<StandstillGoal>(si, subgraph, problem)),
+      distances_(std::make_shared<SquaredDistanceObjective>(si, problem.reference_m)) {
   ob::State* start = si->allocState();
   write_state({problem.start, problem.start_trim, 0}, *start);
   startStates_.push_back(start);  // addStartState would make a copy, which takes as long again
-  setGoal(std::make_shared<StandstillGoal>(si, subgraph, problem));
-  setOptimizationObjective(std::make_shared<SquaredDistanceObjective>(si, problem.reference_m));
+  setGoal(standstill_);
+  setOptimizationObjective(distances_);
+}
+
+void HorizonProblemDefinition::pose(const HorizonProblem& problem) {
+  write_state({problem.start, problem.start_trim, 0}, *startStates_.front());
+  standstill_->pose(problem);
+  distances_->pose(problem.reference_m);
+  clearSolutionPaths();
+  clearSolutionNonExistenceProof();
 }
 
 }  // namespace hlc

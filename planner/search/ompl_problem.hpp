@@ -49,16 +49,19 @@ void write_state(const HorizonState& from, ompl::base::State& to);
 /// whoever made it, is one that RecedingHorizonPlanner solves.
 class StandstillGoal final : public ompl::base::Goal {
  public:
-  /// @param subgraph, problem  must outlive this object, `problem` unchanged
+  /// @param subgraph  must outlive this object
+  /// @param problem   must live on, unchanged, as long as this object poses it
   StandstillGoal(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                  const HorizonProblem& problem,
                  double radius_m = std::numeric_limits<double>::infinity());
   bool isSatisfied(const ompl::base::State* state) const override;
-  [[nodiscard]] const HorizonProblem& problem() const { return problem_; }
+  [[nodiscard]] const HorizonProblem& problem() const { return *problem_; }
+  /// From now on the goal of another problem.
+  void pose(const HorizonProblem& problem) { problem_ = &problem; }
 
  private:
   const Subgraph& subgraph_;
-  const HorizonProblem& problem_;
+  const HorizonProblem* problem_;
   double radius_m_;
 };
 
@@ -66,9 +69,11 @@ class StandstillGoal final : public ompl::base::Goal {
 /// [m^2].
 class SquaredDistanceObjective final : public ompl::base::OptimizationObjective {
  public:
-  /// @param reference_m  must outlive this object
+  /// @param reference_m  must live on as long as this object measures from it
   SquaredDistanceObjective(const ompl::base::SpaceInformationPtr& si,
                            const std::vector<Point>& reference_m);
+  /// From now on distances to these points.
+  void pose(const std::vector<Point>& reference_m) { reference_m_ = &reference_m; }
   /// The term of the state's own step; 0 for the start and beyond the horizon.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
   /// The term of the step that ends in `to`.
@@ -76,15 +81,23 @@ class SquaredDistanceObjective final : public ompl::base::OptimizationObjective 
                               const ompl::base::State* to) const override;
 
  private:
-  const std::vector<Point>& reference_m_;
+  const std::vector<Point>* reference_m_;
 };
 
 /// A horizon problem in OMPL's terms: start state, StandstillGoal, SquaredDistanceObjective.
 class HorizonProblemDefinition final : public ompl::base::ProblemDefinition {
  public:
-  /// @param subgraph, problem  must outlive this object, `problem` unchanged
+  /// @param subgraph  must outlive this object
+  /// @param problem   must live on, unchanged, as long as this object poses it
   HorizonProblemDefinition(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                            const HorizonProblem& problem);
+  /// Poses another problem of the same subgraph, without solutions yet: making a definition takes
+  /// longer than many a search. A planner that has this one must be cleared.
+  void pose(const HorizonProblem& problem);
+
+ private:
+  std::shared_ptr<StandstillGoal> standstill_;
+  std::shared_ptr<SquaredDistanceObjective> distances_;
 };
 
 }  // namespace hlc

@@ -115,6 +115,34 @@ TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
   }
 }
 
+TEST_F(OmplPlannerTest, ADefinitionThatPosesAnotherProblemIsLikeANewOne) {
+  const HorizonProblem open = test::straight_problem(kMaxSteps);
+  const HorizonProblem closed = infeasible_problem();
+  HorizonProblem ahead = test::straight_problem(kMaxSteps);
+  ahead.start.x_m += 1.0;
+  for (Point& point : ahead.reference_m) point.x() += 2.0;
+
+  RecedingHorizonPlanner planner = make_planner();
+  const auto definition = define(open);
+  planner.setProblemDefinition(definition);
+  for (const HorizonProblem* problem :
+       std::initializer_list<const HorizonProblem*>{&open, &closed, &ahead}) {
+    definition->pose(*problem);
+    planner.clear();
+    EXPECT_FALSE(definition->hasSolution());
+    EXPECT_FALSE(definition->hasSolutionNonExistenceProof());
+    EXPECT_EQ(read_state(*definition->getStartState(0)).pose.x_m, problem->start.x_m);
+    (void)planner.solve(ob::plannerNonTerminatingCondition());
+    EXPECT_EQ(definition->hasSolution(), problem != &closed);
+    EXPECT_EQ(definition->hasSolutionNonExistenceProof(), problem == &closed);
+    const SearchResult plan = make_engine()->search(*problem, never_stop);
+    if (problem == &closed) continue;
+    auto& path = *definition->getSolutionPath()->as<ompl::geometric::PathGeometric>();
+    expect_path_is_plan(path, plan, *problem);
+    EXPECT_NEAR(path.cost(definition->getOptimizationObjective()).value(), plan.cost, 1e-9);
+  }
+}
+
 TEST_F(OmplPlannerTest, ProvesThatNoPathExists) {
   const HorizonProblem problem = infeasible_problem();
   const auto definition = define(problem);
