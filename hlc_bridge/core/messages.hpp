@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -142,6 +143,13 @@ struct Log {
 /// Programs send the lines whose level is not above this.
 struct LogLevel {
   std::uint16_t level{1};
+};
+
+/// A goal of a CommonRoad planning problem, which the control centre tells the controllers of a
+/// scenario. Middlewares carry it on and read nothing of it: what is in it only `hlc_bridge/dds`
+/// knows.
+struct GoalState {
+  std::any carried;
 };
 
 /// What a Visualization draws of its points. In the lab's order.

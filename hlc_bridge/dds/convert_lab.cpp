@@ -361,6 +361,17 @@ void to_wire(const LogLevel& message, ::LogLevel& wire) {
 
 Incoming<LogLevel> from_wire(const ::LogLevel& wire) { return {LogLevel{wire.log_level()}, 0}; }
 
+void to_wire(const GoalState& message, ::CommonroadDDSGoalState& wire) {
+  wire = std::any_cast<const ::CommonroadDDSGoalState&>(message.carried);
+}
+
+Incoming<GoalState> from_wire(const ::CommonroadDDSGoalState& wire) {
+  const auto& position = wire.position();
+  const std::size_t most = std::max({position.circles().size(), position.polygons().size(),
+                                     position.rectangles().size(), position.lanelet_refs().size()});
+  return valid_if(most <= kMaxEntries, GoalState{wire});
+}
+
 void to_wire(const Visualization& message, ::Visualization& wire) {
   const auto& [id, kind, time_to_live, points_m, size_m, text, anchor, color] = message;
   const auto& [alpha, red, green, blue] = color;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CommonroadDDSGoalState.h>
 #include <Log.h>
 #include <LogLevel.h>
 #include <Parameter.h>
@@ -25,7 +26,8 @@
 /// from_wire refuses a message with a number that is not finite, an unknown enumeration value, more
 /// entries than anybody sends, or a state list with a period of 0. One vehicle's invalid state or
 /// observation in a list, or an active id outside 1 ... 255, does not make the list invalid: it is
-/// left out, and the others are handed on.
+/// left out, and the others are handed on. A goal is carried on as it is: it has fields that are
+/// not set.
 namespace hlc {
 
 void to_wire(const VehicleState& message, ::VehicleState& wire);
@@ -42,6 +44,7 @@ void to_wire(const ParameterRequest& message, ::ParameterRequest& wire);
 void to_wire(const StopRequest& message, ::StopRequest& wire);
 void to_wire(const Log& message, ::Log& wire);
 void to_wire(const LogLevel& message, ::LogLevel& wire);
+void to_wire(const GoalState& message, ::CommonroadDDSGoalState& wire);
 void to_wire(const Visualization& message, ::Visualization& wire);
 
 [[nodiscard]] Incoming<VehicleState> from_wire(const ::VehicleState& wire);
@@ -58,6 +61,7 @@ void to_wire(const Visualization& message, ::Visualization& wire);
 [[nodiscard]] Incoming<StopRequest> from_wire(const ::StopRequest& wire);
 [[nodiscard]] Incoming<Log> from_wire(const ::Log& wire);
 [[nodiscard]] Incoming<LogLevel> from_wire(const ::LogLevel& wire);
+[[nodiscard]] Incoming<GoalState> from_wire(const ::CommonroadDDSGoalState& wire);
 [[nodiscard]] Incoming<Visualization> from_wire(const ::Visualization& wire);
 
 }  // namespace hlc

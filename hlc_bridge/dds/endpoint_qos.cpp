@@ -41,6 +41,7 @@ constexpr auto kLabTable = std::to_array<LabRow>({
     {TopicId::kVehicleCommand,     DomainRole::kLocal, Lab::kBestEffort,      Lab::kBestEffortAll,     16,   16, false},
     {TopicId::kReadyStatus,         DomainRole::kLocal, Lab::kReliable,        Lab::kReliableAll,       16,   64, false},
     {TopicId::kSystemTrigger,       DomainRole::kLocal, Lab::kReliable,        Lab::kReliable,         512,  512, false},
+    {TopicId::kGoalState,           DomainRole::kLocal, Lab::kReliableAllLate, Lab::kReliableAllLate,  256,  256, true},
 
     {TopicId::kVehicleState,        DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffortAll,     64,   64, false},
     {TopicId::kVehicleObservation,  DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffortAll,     64,   64, false},
@@ -53,6 +54,7 @@ constexpr auto kLabTable = std::to_array<LabRow>({
     {TopicId::kLog,                 DomainRole::kLab,   Lab::kReliable,        Lab::kReliable,         256, 1024, false},
     {TopicId::kLogLevel,            DomainRole::kLab,   Lab::kReliableAllLate, Lab::kReliableLate,       1,    1, true},
     {TopicId::kVisualization,       DomainRole::kLab,   Lab::kBestEffort,      Lab::kBestEffort,        16,  256, false},
+    {TopicId::kGoalState,           DomainRole::kLab,   Lab::kReliableAllLate, Lab::kReliableAllLate,  256,  256, true},
     // clang-format on
 });
 

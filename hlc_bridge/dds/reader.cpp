@@ -83,6 +83,7 @@ template class Reader<StopRequest>;
 template class Reader<Log>;
 template class Reader<LogLevel>;
 template class Reader<Visualization>;
+template class Reader<GoalState>;
 template class Reader<Traffic>;
 template class Reader<Prediction>;
 template class Reader<Outcome>;

@@ -66,6 +66,8 @@ Topic<Log> log() { return {TopicId::kLog, "log"}; }
 
 Topic<LogLevel> log_level() { return {TopicId::kLogLevel, "logLevel"}; }
 
+Topic<GoalState> goal_state() { return {TopicId::kGoalState, "commonroad_dds_goal_states"}; }
+
 Topic<Visualization> visualization() { return {TopicId::kVisualization, "visualization"}; }
 
 Topic<Traffic> traffic() { return {TopicId::kTraffic, "hlc/traffic"}; }

@@ -24,6 +24,7 @@ enum class TopicId : std::uint8_t {
   kLog,
   kLogLevel,
   kVisualization,
+  kGoalState,
   kTraffic,
   kPrediction,
   kOutcome,
@@ -58,6 +59,7 @@ template <class Command = TrajectoryCommand>
 // Lab and local domain
 [[nodiscard]] Topic<ReadyStatus> ready_status();
 [[nodiscard]] Topic<SystemTrigger> system_trigger();
+[[nodiscard]] Topic<GoalState> goal_state();  ///< late joiners get all
 
 // Lab domain
 [[nodiscard]] Topic<Parameter> parameter();

@@ -2,6 +2,7 @@
 
 #include <AutomatonAnswerMessagePubSubTypes.h>
 #include <AutomatonRequestMessagePubSubTypes.h>
+#include <CommonroadDDSGoalStatePubSubTypes.h>
 #include <LogLevelPubSubTypes.h>
 #include <LogPubSubTypes.h>
 #include <OutcomeMessagePubSubTypes.h>
@@ -65,6 +66,7 @@ template <> struct Wire<ParameterRequest> : LabWire<::ParameterRequest, Paramete
 template <> struct Wire<StopRequest> : LabWire<::StopRequest, StopRequestPubSubType> {};
 template <> struct Wire<Log> : LabWire<::Log, LogPubSubType> {};
 template <> struct Wire<LogLevel> : LabWire<::LogLevel, LogLevelPubSubType> {};
+template <> struct Wire<GoalState> : LabWire<::CommonroadDDSGoalState, CommonroadDDSGoalStatePubSubType> {};
 template <> struct Wire<Visualization> : LabWire<::Visualization, VisualizationPubSubType> {};
 template <> struct Wire<Traffic> : OwnWire<TrafficMessage, TrafficMessagePubSubType> {};
 template <> struct Wire<Prediction> : OwnWire<PredictionMessage, PredictionMessagePubSubType> {};

@@ -68,6 +68,7 @@ template class Writer<StopRequest>;
 template class Writer<Log>;
 template class Writer<LogLevel>;
 template class Writer<Visualization>;
+template class Writer<GoalState>;
 template class Writer<Traffic>;
 template class Writer<Prediction>;
 template class Writer<Outcome>;

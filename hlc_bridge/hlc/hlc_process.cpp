@@ -204,8 +204,15 @@ bool HlcProcess::wait_for_everybody() {
 }
 
 void HlcProcess::tell_whom_it_waits_for() {
-  if (is_ready_ || !wait_notice_.is_due()) return;
-  spdlog::info("{}: waits: {}", options_.node_id, who_is_missing());
+  if (!is_ready_ && wait_notice_.is_due()) {
+    spdlog::info("{}: waits: {}", options_.node_id, who_is_missing());
+  }
+  // In logical time lists come as fast as everybody is done, or as somebody presses a button.
+  if (is_ready_ && !options_.logical_time && list_notice_.is_due()) {
+    const std::chrono::duration<double> silence = Clock::now() - last_list_at_;
+    spdlog::warn("{}: waits: {} has sent no state list for {:.0f} s", options_.node_id, middleware_,
+                 silence.count());
+  }
 }
 
 void HlcProcess::send_ready_now_and_then() {
@@ -321,6 +328,8 @@ int HlcProcess::drive() {
                       options_.startup_timeout.count());
         return kExitMissing;
       case Event::kList:
+        last_list_at_ = Clock::now();
+        list_notice_ = WaitNotice{last_list_at_};
         break;
     }
     const VehicleStateList list = signal_.locked([this] {

@@ -177,6 +177,8 @@ class HlcProcess {
   LabControlWatch lab_control_;
   std::optional<std::chrono::steady_clock::time_point> middleware_lost_at_;
   WaitNotice wait_notice_;
+  std::chrono::steady_clock::time_point last_list_at_;
+  WaitNotice list_notice_;  ///< of lists that do not come any more
   bool had_middleware_{};
   bool is_ready_{};
   bool has_bad_period_{};

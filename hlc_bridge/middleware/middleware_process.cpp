@@ -11,6 +11,7 @@
 
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/middleware/goal_forwarder.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 
 namespace hlc {
@@ -64,7 +65,8 @@ struct MiddlewareProcess::LabEndpoints {
   explicit LabEndpoints(MiddlewareProcess& process)
       : path_tracking{reader<PathTrackingCommand>(process)},
         speed_curvature{reader<SpeedCurvatureCommand>(process)},
-        direct{reader<DirectCommand>(process)} {}
+        direct{reader<DirectCommand>(process)},
+        goals{process.lab_, process.local_} {}
 
   template <class Command>
   static Reader<Command> reader(MiddlewareProcess& process) {
@@ -82,6 +84,7 @@ struct MiddlewareProcess::LabEndpoints {
   Reader<PathTrackingCommand> path_tracking;
   Reader<SpeedCurvatureCommand> speed_curvature;
   Reader<DirectCommand> direct;
+  GoalForwarder goals;
   std::map<std::uint8_t, Reader<VehicleObservation>> observations;
 };
 
@@ -398,7 +401,7 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
     tell_missed_answer();
     knows_vehicles = knows_next_experiment();
   }
-  const auto [list, unready] = signal_.locked([&] {
+  const auto [list, unready, has_been_triggered] = signal_.locked([&] {
     newest_list_ = t_now;
     states_.forget_before(t_now);
     VehicleStateList composed =
@@ -412,16 +415,19 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
     for (const std::uint8_t id : options_.vehicle_ids) {
       if (!ready_controllers_.contains(id)) unready_controllers.push_back(controller_name(id));
     }
-    return std::pair{std::move(composed),
-                     triggered_ ? std::nullopt : std::optional{std::move(unready_controllers)}};
+    return std::tuple{std::move(composed), std::move(unready_controllers), triggered_};
   });
   list_writer_.write(list);
+  if (lab_endpoints_ && unready.empty()) lab_endpoints_->goals.forward();
   if (options_.logical_time) {
     wait_for_answer(t_now);
-  } else if (unready && knows_vehicles && unready->empty()) {
+  } else if (has_been_triggered) {
+    return;
+  } else if (!unready.empty()) {
+    if (!wait_notice_.is_due()) return;
+    spdlog::info("{}: waits for {} to be ready", options_.node_id, fmt::join(unready, ", "));
+  } else if (knows_vehicles) {
     ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_ids)});
-  } else if (unready && !unready->empty() && wait_notice_.is_due()) {
-    spdlog::info("{}: waits for {} to be ready", options_.node_id, fmt::join(*unready, ", "));
   }
 }
 

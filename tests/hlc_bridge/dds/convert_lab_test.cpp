@@ -16,10 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Message>
 class LabConversion : public testing::Test {};
-using LabMessages =
-    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
-                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
-                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel>;
+using LabMessages = testing::Types<VehicleState, VehicleObservation, VehicleStateList,
+                                   TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand,
+                                   DirectCommand, ReadyStatus, SystemTrigger, Parameter,
+                                   ParameterRequest, StopRequest, Log, LogLevel, GoalState>;
 TYPED_TEST_SUITE(LabConversion, LabMessages);
 
 TYPED_TEST(LabConversion, EveryFieldSurvivesTheWayOverTheWire) {

@@ -30,6 +30,8 @@ const std::vector<Place> kOfTheLab{{TopicId::kVehicleState, DomainRole::kLab},
                                    {TopicId::kLog, DomainRole::kLab},
                                    {TopicId::kLogLevel, DomainRole::kLab},
                                    {TopicId::kVisualization, DomainRole::kLab},
+                                   {TopicId::kGoalState, DomainRole::kLab},
+                                   {TopicId::kGoalState, DomainRole::kLocal},
                                    {TopicId::kVehicleStateList, DomainRole::kLocal},
                                    {TopicId::kVehicleCommand, DomainRole::kLocal},
                                    {TopicId::kReadyStatus, DomainRole::kLocal},
@@ -125,6 +127,12 @@ TEST(TopicQos, LabTransportIsTheContract) {
   const auto level = lab(TopicId::kLogLevel, DomainRole::kLab);
   EXPECT_EQ(level.writer.durability, Durability::kTransientLocal);
   EXPECT_EQ(level.reader.durability, Durability::kTransientLocal);
+  for (const DomainRole role : {DomainRole::kLab, DomainRole::kLocal}) {
+    const auto goal = lab(TopicId::kGoalState, role);
+    EXPECT_EQ(goal.writer.durability, Durability::kTransientLocal);
+    EXPECT_EQ(goal.writer.history_depth, 0);
+    EXPECT_EQ(goal.reader.reliability, Reliability::kReliable);
+  }
 }
 
 TEST(TopicQos, ATopicOnTheWrongDomainIsRefused) {

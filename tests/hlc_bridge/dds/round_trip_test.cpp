@@ -31,6 +31,7 @@ template <> struct Place<ParameterRequest> { static auto topic() { return topics
 template <> struct Place<StopRequest> { static auto topic() { return topics::stop_request(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Log> { static auto topic() { return topics::log(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<LogLevel> { static auto topic() { return topics::log_level(); } static constexpr auto kRole = DomainRole::kLab; };
+template <> struct Place<GoalState> { static auto topic() { return topics::goal_state(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Visualization> { static auto topic() { return topics::visualization(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Traffic> { static auto topic() { return topics::traffic(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<Prediction> { static auto topic() { return topics::prediction(); } static constexpr auto kRole = DomainRole::kController; };
@@ -47,7 +48,7 @@ using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
                    PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
                    SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, Traffic, Prediction, Outcome, ReportRecord, RunState,
+                   Visualization, GoalState, Traffic, Prediction, Outcome, ReportRecord, RunState,
                    AutomatonRequest, AutomatonAnswer>;
 TYPED_TEST_SUITE(RoundTrip, Messages);
 

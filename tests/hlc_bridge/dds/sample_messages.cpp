@@ -1,5 +1,7 @@
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 
+#include <CommonroadDDSGoalState.h>
+
 #include <iomanip>
 #include <sstream>
 #include <type_traits>
@@ -91,6 +93,30 @@ void put_message(std::ostream& out, const Log& value) {
   put_all(out, a, b, c, d);
 }
 void put_message(std::ostream& out, const LogLevel& value) { put_all(out, value.level); }
+void put_message(std::ostream& out, const ::CommonroadDDSPoint& value) {
+  put_all(out, value.x(), value.y());
+}
+void put_message(std::ostream& out, const ::CommonroadDDSInterval& value) {
+  put_all(out, value.interval_start(), value.interval_end());
+}
+void put_message(std::ostream& out, const ::CommonroadDDSCircle& value) {
+  put_all(out, value.center(), value.radius());
+}
+void put_message(std::ostream& out, const ::CommonroadDDSPolygon& value) {
+  put_list(out, value.points());
+}
+void put_message(std::ostream& out, const ::CommonroadDDSRectangle& value) {
+  put_all(out, value.length(), value.width(), value.center(), value.orientation());
+}
+void put_message(std::ostream& out, const ::CommonroadDDSPositionInterval& value) {
+  put_all(out, value.circles(), value.polygons(), value.rectangles(), value.lanelet_refs());
+}
+void put_message(std::ostream& out, const GoalState& value) {
+  const auto& goal = std::any_cast<const ::CommonroadDDSGoalState&>(value.carried);
+  put_all(out, goal.time(), goal.time_set(), goal.has_exact_position(), goal.exact_position(),
+          goal.position(), goal.orientation(), goal.velocity(), goal.planning_problem_id(),
+          goal.goal_state_pos());
+}
 void put_message(std::ostream& out, const DrawingColor& value) {
   put_all(out, value.alpha, value.red, value.green, value.blue);
 }
@@ -330,6 +356,55 @@ LogLevel sample(Random& random) {
 }
 
 template <>
+GoalState sample(Random& random) {
+  const auto dds_point = [](Random& r) {
+    ::CommonroadDDSPoint result;
+    result.x(number(r));
+    result.y(number(r));
+    return result;
+  };
+  const auto interval = [&random] {
+    ::CommonroadDDSInterval result;
+    result.interval_start(number(random));
+    result.interval_end(number(random));
+    return result;
+  };
+  ::CommonroadDDSPositionInterval position;
+  position.circles(list(random, 3, [&](Random& r) {
+    ::CommonroadDDSCircle circle;
+    circle.center(dds_point(r));
+    circle.radius(number(r));
+    return circle;
+  }));
+  position.polygons(list(random, 3, [&](Random& r) {
+    ::CommonroadDDSPolygon polygon;
+    polygon.points(list(r, 5, dds_point));
+    return polygon;
+  }));
+  position.rectangles(list(random, 3, [&](Random& r) {
+    ::CommonroadDDSRectangle rectangle;
+    rectangle.length(number(r));
+    rectangle.width(number(r));
+    rectangle.center(dds_point(r));
+    rectangle.orientation(number(r));
+    return rectangle;
+  }));
+  position.lanelet_refs(
+      list(random, 4, [](Random& r) { return static_cast<std::int32_t>(whole(r, 9999)); }));
+  ::CommonroadDDSGoalState goal;
+  goal.time(interval());
+  goal.time_set(whole(random, 1) == 1);
+  goal.has_exact_position(whole(random, 1) == 1);
+  goal.exact_position(dds_point(random));
+  goal.position(position);
+  goal.orientation(interval());
+  goal.velocity(interval());
+  goal.planning_problem_id(static_cast<std::int32_t>(whole(random, 99)));
+  goal.goal_state_pos(static_cast<std::int32_t>(whole(random, 99)));
+  return {goal};
+}
+
+template <>
 Visualization sample(Random& random) {
   const auto byte = [&random] { return static_cast<std::uint8_t>(whole(random, 255)); };
   Visualization message{.id = random(),
@@ -427,6 +502,7 @@ std::string text(const StopRequest& message) { return text_of(message); }
 std::string text(const Log& message) { return text_of(message); }
 std::string text(const LogLevel& message) { return text_of(message); }
 std::string text(const Visualization& message) { return text_of(message); }
+std::string text(const GoalState& message) { return text_of(message); }
 std::string text(const Traffic& message) { return text_of(message); }
 std::string text(const Prediction& message) { return text_of(message); }
 std::string text(const Outcome& message) { return text_of(message); }

@@ -31,6 +31,7 @@ template <class Message>
 [[nodiscard]] std::string text(const Log& message);
 [[nodiscard]] std::string text(const LogLevel& message);
 [[nodiscard]] std::string text(const Visualization& message);
+[[nodiscard]] std::string text(const GoalState& message);
 [[nodiscard]] std::string text(const Traffic& message);
 [[nodiscard]] std::string text(const Prediction& message);
 [[nodiscard]] std::string text(const Outcome& message);

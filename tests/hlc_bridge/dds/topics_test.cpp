@@ -18,6 +18,7 @@ TEST(Topics, HaveTheLabsNames) {
   EXPECT_EQ(topics::stop_request().name, "stopRequest");
   EXPECT_EQ(topics::log().name, "log");
   EXPECT_EQ(topics::log_level().name, "logLevel");
+  EXPECT_EQ(topics::goal_state().name, "commonroad_dds_goal_states");
 }
 
 }  // namespace

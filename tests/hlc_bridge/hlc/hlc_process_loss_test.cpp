@@ -197,5 +197,14 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
   EXPECT_EQ(log().thread_that_said(line), log().thread_that_said("ready, waits for a trigger"));
 }
 
+TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(gets_ready(middleware));
+  EXPECT_TRUE(Signal{}.repeat_until(
+      soon(), kBetweenLists,
+      [&] { return log().thread_that_said("waits: middleware_1 has sent no state list") != 0; },
+      [] {}));
+}
+
 }  // namespace
 }  // namespace hlc

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-
 #include <future>
 #include <memory>
 
 #include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/node_names.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
 #include "tests/support/domain_reservation.hpp"
 
 namespace hlc {
@@ -419,6 +419,27 @@ class MiddlewareBesideTheLabTest : public MiddlewareTest {
  protected:
   MiddlewareBesideTheLabTest() : MiddlewareTest{Transport::kLab} {}
 };
+
+TEST_F(MiddlewareBesideTheLabTest, HoldsGoalsBackUntilItsControllersAreReady) {
+  std::mt19937_64 random{1};
+  std::vector<GoalState> goals;
+  for (int i = 0; i < 3; ++i) goals.push_back(sample<GoalState>(random));
+  Writer<GoalState> centre{lab_.participant(), topics::goal_state()};
+  Mailbox<GoalState> heard{controller_->participant(), topics::goal_state()};
+  centre.write(goals[0]);  // before the middleware is there
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  centre.write(goals[1]);
+  ASSERT_GE(controller_->lists.wait_for(10).size(), 10U);
+  EXPECT_TRUE(heard.now().empty());
+
+  controller_->ready.write({.source_id = controller_ready_id(1)});
+  EXPECT_EQ(heard.wait_for(2).size(), 2U);
+  centre.write(goals[2]);
+  ASSERT_EQ(heard.wait_for(3).size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(text(heard.now()[i]), text(goals[i]));
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
 
 TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations) {
   Writer<VehicleObservation> observations{lab_.participant(), topics::vehicle_observation(2)};
