@@ -144,6 +144,11 @@ TEST(Participant, AProcessThatIsKilledIsLostAfterItsLease) {
   const DomainReservation domain;
   Watcher watcher{domain.first()};
   Mailbox<Outcome> mailbox{watcher.participant(), topics::outcome()};
+  // The library keeps what it knew of one that has left for the next one that comes.
+  Peer former{"former", domain.first()};
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("former"); }));
+  EXPECT_EQ(former.end(SIGTERM), 0);
+  ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_lost("former"); }));
   Peer peer{"peer", domain.first()};
   ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("peer"); }));
   ASSERT_TRUE(mailbox.reader().wait_for_matched({"peer"}, soon()));
