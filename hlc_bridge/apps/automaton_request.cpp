@@ -56,7 +56,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::within(0.0, 100.0));
   const auto add_trims = [&app](const std::string& name, std::vector<int>& trims,
                                 const std::string& what) {
-    app.add_option(name, trims, what)->delimiter(',')->check(CLI::Range(1, 100'000));
+    app.add_option(name, trims, what)->delimiter(',')->check(hlc::whole(1, 100'000));
   };
   add_trims("--trims_on", flags.trims_on, "trims beside the scenario's, numbered from 1");
   add_trims("--trims_off", flags.trims_off, "trims of the scenario's that are not to be used");

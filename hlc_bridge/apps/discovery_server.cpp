@@ -1,8 +1,14 @@
 // A discovery server for the lab domain, where multicast does not pass and no lab control centre
 // runs one. Debian's own (fast-discovery-server 2.9.1) does not know the lab's types and dies when
 // it meets them.
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
@@ -31,6 +37,26 @@ void declare(CLI::App& app, Flags& flags) {
       "Runs until it is stopped. The others find each other through it with "
       "--discovery_mode=client and the same --discovery_server_... flags. "
       "Exit codes: 0 stopped, 2 bad input.");
+}
+
+/// The library says nothing about an address that nobody can be served at.
+/// @throws std::invalid_argument
+void check_can_listen(const std::string& ip, std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  inet_pton(AF_INET, ip.c_str(), &address.sin_addr);
+  const int listener = socket(AF_INET, SOCK_DGRAM, 0);
+  const int result = bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  const int error = errno;
+  close(listener);
+  if (result == 0) return;
+  if (error == EADDRNOTAVAIL) {
+    throw std::invalid_argument("--discovery_server_ip: " + ip +
+                                " is not allowed, an address of this machine");
+  }
+  throw std::invalid_argument("--discovery_server_port: " + std::to_string(port) +
+                              " is not allowed, one that is free here");
 }
 
 /// Serves until it is stopped.
@@ -62,6 +88,7 @@ std::shared_ptr<Server> make_server(const Flags& flags) {
   options.transport = hlc::transport_from_name(flags.transport);
   options.discovery_server = hlc::discovery_from_flags("client", flags.id, flags.ip, flags.port);
   options.is_discovery_server = true;
+  check_can_listen(options.discovery_server->ip, options.discovery_server->port);
   auto server = std::make_shared<Server>(options);
   std::cout << "discovery_server: serves domain " << flags.dds_domain << " at " << flags.ip << ":"
             << flags.port << std::endl;

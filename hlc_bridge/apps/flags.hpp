@@ -16,7 +16,7 @@
 /// value`.
 namespace hlc {
 
-[[nodiscard]] inline CLI::Range vehicle_id_range() { return {1, static_cast<int>(kMaxVehicleId)}; }
+[[nodiscard]] inline CLI::Validator vehicle_id_range() { return whole(1, kMaxVehicleId); }
 
 /// @throws std::invalid_argument naming the flag if an id is there twice
 inline void check_each_once(const std::string& flag, std::vector<int> ids) {
@@ -57,7 +57,7 @@ struct NetworkFlags {
     app.add_option("--startup_timeout_s", startup_timeout_s,
                    "exit code 3 if somebody is not there by then")
         ->capture_default_str()
-        ->check(CLI::Range(1, 3600));
+        ->check(whole(1, 3600));
   }
 
   /// Without what only a run needs.

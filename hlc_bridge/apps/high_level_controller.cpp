@@ -78,9 +78,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--thread_priority", flags.thread_priority,
                  "real-time priority of the thread that plans, where the system allows it; 0: none")
       ->capture_default_str()
-      ->check(CLI::Range(0, hlc::kMaxThreadPriority));
+      ->check(hlc::whole(0, hlc::kMaxThreadPriority));
   app.add_option("--core", flags.core, "processor core on which it plans; default: any")
-      ->check(CLI::NonNegativeNumber);
+      ->check(hlc::whole(0, 1023));
   flags.network.declare(app);
   app.footer(
       "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "

@@ -38,10 +38,10 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::vehicle_id_range());
   app.add_option("--steps", flags.steps, "control steps of the run")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10000));
+      ->check(hlc::whole(1, 10000));
   app.add_option("--period_ms", flags.period_ms, "of the control steps")
       ->capture_default_str()
-      ->check(CLI::Range(20, 10000));
+      ->check(hlc::whole(20, 10000));
   app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
   app.add_option(
          "--on_death", flags.on_death,

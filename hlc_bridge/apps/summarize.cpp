@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   app.add_option("--run", run, "run folder")->required();
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
-      ->check(CLI::NonNegativeNumber);
+      ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
       "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left its plan or touched another "
       "one.");

@@ -64,6 +64,7 @@ std::vector<std::string> check_domains(const Domains& domains, Transport transpo
 }
 
 int default_controller_domain(int lab_domain) {
+  check_domain_id("--dds_domain", lab_domain);
   const int domain = lab_domain + 50;
   if (domain > 100) {
     refuse("--controller_domain", "the default --dds_domain + 50 = " + std::to_string(domain),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "hlc_bridge/core/command.hpp"
@@ -290,8 +291,8 @@ void HlcProcess::prepare_thread() const {
                  options_.node_id);
   }
   if (options_.core && !stay_on_core(*options_.core)) {
-    spdlog::warn("{}: --core = {}: this machine has no such core for it", options_.node_id,
-                 *options_.core);
+    spdlog::warn("{}: --core = {}: this machine has no such core for it, allowed 0 ... {}",
+                 options_.node_id, *options_.core, std::thread::hardware_concurrency() - 1);
   }
 }
 

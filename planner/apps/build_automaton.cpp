@@ -110,9 +110,9 @@ int main(int argc, char** argv) {
   hlc::declare_output(app, choices.plot, "draw trims and maneuvers (SVG)");
   app.add_option("--intervals", choices.intervals,
                  "intervals of constant input, instead of the configuration's")
-      ->check(CLI::Range(10, 1000));
+      ->check(hlc::whole(10, 1000));
   app.add_option("--jobs", choices.jobs, "maneuvers designed at a time")
-      ->check(CLI::Range(1, 256))
+      ->check(hlc::whole(1, 256))
       ->capture_default_str();
   app.footer("Exit codes: 0 good, 1 a file cannot be written, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;

@@ -229,7 +229,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--count", count, "number of trims, standstill included")
       ->capture_default_str()
-      ->check(CLI::Range(2, 200));
+      ->check(hlc::whole(2, 200));
   app.add_option(
       "--config", configuration,
       "file with the keys `vehicle` and `limits` of an automaton configuration; default: the "

@@ -18,6 +18,18 @@
 /// unknown flags refused, one line and exit code 2 for bad ones.
 namespace hlc {
 
+/// What a flag's text may be that its type does not take, as ", allowed ..."; empty if unknown.
+inline std::string allowed_by_type(const CLI::App& app, const std::string& message) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (message.find(": " + option->get_name() + " = ") == std::string::npos) continue;
+    const std::string type = option->get_type_name();
+    if (type.starts_with("BOOLEAN")) return ", allowed true or false";
+    if (type.starts_with("INT") || type.starts_with("UINT")) return ", allowed a whole number";
+    if (type.starts_with("FLOAT")) return ", allowed a number";
+  }
+  return {};
+}
+
 /// Nothing if the flags are good; else the exit code, after the help or one line about the bad
 /// flag.
 inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
@@ -26,6 +38,13 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
     return std::nullopt;
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::ExtrasError& error) {
+    std::cerr << app.get_name() << ": " << error.what() << ", allowed what --help lists\n";
+    return 2;
+  } catch (const CLI::ConversionError& error) {
+    std::cerr << app.get_name() << ": " << error.what() << allowed_by_type(app, error.what())
+              << '\n';
+    return 2;
   } catch (const CLI::ParseError& error) {
     std::cerr << app.get_name() << ": " << error.what() << '\n';
     return 2;

@@ -75,14 +75,14 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::within(0.001, 3600.0))
       ->capture_default_str();
   app.add_option("--runs", flags.runs, "of each planner")
-      ->check(CLI::Range(1, 10000))
+      ->check(hlc::whole(1, 10000))
       ->capture_default_str();
   app.add_option("--radius_m", flags.radius_m,
                  "of the goal: standing after the last step, not farther than this from the last "
                  "reference point")
       ->check(hlc::within(0.0, 1e4))
       ->capture_default_str();
-  app.add_option("--seed", flags.seed, "of OMPL's random numbers")->check(CLI::Range(1, 1 << 30));
+  app.add_option("--seed", flags.seed, "of OMPL's random numbers")->check(hlc::whole(1, 1 << 30));
   hlc::declare_output(app, flags.log,
                       "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
   app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");

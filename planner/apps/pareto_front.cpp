@@ -53,7 +53,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::finite())
       ->required();
   app.add_option("--points", flags.points, "of the front")
-      ->check(CLI::Range(2, 1000))
+      ->check(hlc::whole(2, 1000))
       ->capture_default_str();
   CLI::Option* const duration =
       app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
@@ -66,7 +66,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->excludes(duration);
   app.add_option("--intervals", flags.intervals,
                  "of constant input, instead of the configuration's")
-      ->check(CLI::Range(2, 1000));
+      ->check(hlc::whole(2, 1000));
   app.add_option("--criteria", flags.criteria,
                  "two criteria; the first is minimised, the second "
                  "bounded")

@@ -55,7 +55,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--engine", flags.scenario.engine, "instead of the scenario's");
   app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
-      ->check(CLI::Range(1, 100000));
+      ->check(hlc::whole(1, 100000));
   app.footer("Exit codes: 0 good, 1 the deadline leaves no time to search, 2 bad input.");
 }
 

@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
   hlc::ScenarioChoices choices;
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
-      ->check(CLI::Range(1, 100000));
+      ->check(hlc::whole(1, 100000));
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   try {

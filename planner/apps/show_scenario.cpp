@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   hlc::OutputFile plot{"--plot", {}};
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
-      ->check(CLI::Range(1, 100000));
+      ->check(hlc::whole(1, 100000));
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");

@@ -89,9 +89,9 @@ int main(int argc, char** argv) {
   app.get_option("--scenario")->required(false)->capture_default_str();
   choices.file = "launch_scripts/scenarios/paper_three_cars.yaml";
   app.add_option("--steps", choices.steps, "instead of the scenario's")
-      ->check(CLI::Range(1, 100000));
+      ->check(hlc::whole(1, 100000));
   app.add_option("--repeats", repeats, "how often")
-      ->check(CLI::Range(1, 10000))
+      ->check(hlc::whole(1, 10000))
       ->capture_default_str();
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(all_sets()));
   app.add_option("--problems", choices.problems, "only the first so many of each set")
-      ->check(CLI::Range(1, 1000000));
+      ->check(hlc::whole(1, 1000000));
   app.add_option("--only", choices.only, "run this engine alone, once per problem")
       ->check(CLI::IsMember(hlc::test::contestant_names()));
   app.add_flag("--list", choices.lists, "name the sets and end");

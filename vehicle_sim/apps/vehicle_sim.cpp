@@ -38,7 +38,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->expected(3);
   app.add_option("--noise_seed", flags.noise_seed,
                  "measure the pose with the lab's noise (2 mm, 0.01 rad); default: exactly")
-      ->check(CLI::NonNegativeNumber);
+      ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
       ->capture_default_str();
   CLI::Option* const record = app.add_option("--record", flags.record,

@@ -28,8 +28,8 @@ TEST_P(VehicleSimRefuses, InOneLineWithExitCodeTwo) {
 INSTANTIATE_TEST_SUITE_P(
     Flags, VehicleSimRefuses,
     testing::Values(
-        BadFlags{"", "--vehicle_id"}, BadFlags{"--vehicle_id=0", "1 to 30"},
-        BadFlags{"--vehicle_id=31", "1 to 30"}, BadFlags{"--vehicle_id=two", "--vehicle_id"},
+        BadFlags{"", "--vehicle_id"}, BadFlags{"--vehicle_id=0", "1 ... 30"},
+        BadFlags{"--vehicle_id=31", "1 ... 30"}, BadFlags{"--vehicle_id=two", "--vehicle_id"},
         BadFlags{"--vehicle_id=24", "--pose"}, BadFlags{"--vehicle_id=1 --speed=3", "--speed=3"},
         BadFlags{"--vehicle_id=1 --pose=1,2", "--pose"},
         BadFlags{"--vehicle_id=1 --pose=1,2,north", "--pose"},
