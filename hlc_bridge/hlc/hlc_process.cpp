@@ -169,7 +169,9 @@ bool HlcProcess::has_lost_middleware() const {
   return local_.is_lost(middleware_) || (had_middleware_ && commands_.matched() == 0);
 }
 
-/// True when there is no use in waiting for it to be started again.
+/// True when there is no use in waiting for it to be started again. A lab control that is gone,
+/// too, is no reason: to a process that got no processor for the time of a lease all others are
+/// gone.
 bool HlcProcess::is_middleware_gone_for_good() {
   if (!has_lost_middleware()) {
     if (middleware_lost_at_) spdlog::info("{}: {} is back", options_.node_id, middleware_);
@@ -181,7 +183,7 @@ bool HlcProcess::is_middleware_gone_for_good() {
                   middleware_);
     middleware_lost_at_ = Clock::now();
   }
-  return options_.logical_time || drives_out() ||
+  return options_.logical_time || signal_.locked([this] { return drive_out_; }) ||
          Clock::now() > *middleware_lost_at_ + options_.startup_timeout;
 }
 
@@ -270,7 +272,7 @@ HlcProcess::Event HlcProcess::wait_for_event() {
     const bool happened = signal_.wait_until(wake, [this] {
       const bool is_lost = has_lost_middleware();
       return stop_ || !lists_.empty() || is_lost != middleware_lost_at_.has_value() ||
-             (is_lost && (drive_out_ || lab_control_.is_lost()));
+             (is_lost && drive_out_);
     });
     if (signal_.locked([this] { return stop_; })) return Event::kStop;
     if (is_middleware_gone_for_good()) return Event::kMiddlewareLost;

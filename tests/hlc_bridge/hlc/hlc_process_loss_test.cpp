@@ -206,5 +206,35 @@ TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
       [] {}));
 }
 
+// It left at once, as if the lab had ended, though it was itself that had not run for a while.
+TEST_F(ListenedToHlcProcessTest, OutlivesAMomentInWhichAllOthersAreGone) {
+  Centre centre{domains_.first()};
+  Others others{controllers()};
+  auto middleware = std::make_unique<FakeMiddleware>(local());
+  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(gets_ready(*middleware));
+  ASSERT_TRUE(middleware->triggers.wait_for_matched(1, soon()));
+  middleware->triggers.write({.next_start = 1});
+  ASSERT_TRUE(comes_to(*middleware, [&] { return centre.is_known(); }));
+
+  const auto has_said = [&](const char* text) { return log().thread_that_said(text) != 0; };
+  middleware = nullptr;
+  centre.leave();
+  ASSERT_TRUE(Signal{}.repeat_until(
+      soon(), kBetweenLists,
+      [&] {
+        return has_said("lab_control is gone") && has_said("nothing reaches the vehicle any more");
+      },
+      [] {}));
+  middleware = std::make_unique<FakeMiddleware>(local());
+  centre.listen();
+  EXPECT_TRUE(comes_to(*middleware, [&] {
+    return has_said("lab_control is back") && has_said("middleware_1 is back");
+  }));
+  const std::size_t before = others.reports.now().size();
+  EXPECT_TRUE(comes_to(*middleware, [&] { return others.reports.now().size() > before; }));
+  EXPECT_FALSE(has_ended());
+}
+
 }  // namespace
 }  // namespace hlc
