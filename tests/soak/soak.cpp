@@ -8,6 +8,7 @@
 #include "planner/apps/flags.hpp"
 #include "tests/soak/soak_run.hpp"
 #include "tests/support/own_shared_memory.hpp"
+#include "tests/support/standstill_watch.hpp"
 
 namespace {
 
@@ -46,6 +47,9 @@ std::string exit_code(const SoakResult& result) {
 void end_row(const SoakResult& result, Total& total) {
   std::printf("  %s\n", result.problems.empty() ? "good" : "FAILED");
   for (const std::string& problem : result.problems) std::printf("      %s\n", problem.c_str());
+  if (result.standstill_s >= std::chrono::duration<double>(hlc::test::kStandstill).count()) {
+    std::printf("      the machine stood still for %.1f s\n", result.standstill_s);
+  }
   std::fflush(stdout);
   ++total.runs;
   total.failed += result.problems.empty() ? 0U : 1U;

@@ -18,6 +18,7 @@
 #include "tests/integration/lab_processes.hpp"
 #include "tests/integration/run_reports.hpp"
 #include "tests/support/own_shared_memory.hpp"
+#include "tests/support/standstill_watch.hpp"
 
 namespace hlc::test {
 namespace {
@@ -95,11 +96,13 @@ void look_for_leftovers(SoakResult& result) {
 template <class Run>
 SoakResult watched(Run run) {
   SoakResult result;
+  StandstillWatch standstill;
   try {
     run(result);
   } catch (const std::exception& error) {
     result.problems.emplace_back(error.what());
   }
+  result.standstill_s = std::chrono::duration<double>(standstill.end()).count();
   look_for_leftovers(result);
   return result;
 }

@@ -17,6 +17,7 @@ struct SoakResult {
   std::optional<double> min_distance_m{};  ///< of them, over the whole run
   std::vector<std::string> problems;       ///< one line each; empty: good
   bool may_leave_files{};                  ///< who is killed on the lab's transport cannot clean up
+  double standstill_s{};  ///< for how long the machine did not run, the longest time
   // of runs without faults:
   std::size_t deadline_misses{};  ///< of all cars
   std::size_t fallback_steps{};
