@@ -80,7 +80,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->check(hlc::whole(0, hlc::kMaxThreadPriority));
   app.add_option("--core", flags.core, "processor core on which it plans; default: any")
-      ->check(hlc::whole(0, 1023));
+      ->check(hlc::whole(0, hlc::kMaxCore));
   flags.network.declare(app);
   app.footer(
       "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "

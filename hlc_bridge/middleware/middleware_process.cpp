@@ -419,15 +419,12 @@ void MiddlewareProcess::tick(Nanoseconds t_now) {
   });
   list_writer_.write(list);
   if (lab_endpoints_ && unready.empty()) lab_endpoints_->goals.forward();
-  if (options_.logical_time) {
-    wait_for_answer(t_now);
-  } else if (has_been_triggered) {
-    return;
-  } else if (!unready.empty()) {
-    if (!wait_notice_.is_due()) return;
-    spdlog::info("{}: waits for {} to be ready", options_.node_id, fmt::join(unready, ", "));
-  } else if (knows_vehicles) {
+  if (options_.logical_time) return wait_for_answer(t_now);
+  if (has_been_triggered) return;
+  if (unready.empty() && knows_vehicles) {
     ready_writer_.write({.source_id = middleware_ready_id(options_.vehicle_ids)});
+  } else if (!unready.empty() && wait_notice_.is_due()) {
+    spdlog::info("{}: waits for {} to be ready", options_.node_id, fmt::join(unready, ", "));
   }
 }
 

@@ -16,7 +16,8 @@ bool take_precedence(int priority) {
 }
 
 bool stay_on_core(int core) {
-  if (core < 0 || core >= CPU_SETSIZE) return false;
+  static_assert(kMaxCore == CPU_SETSIZE - 1);
+  if (core < 0 || core > kMaxCore) return false;
   cpu_set_t cores;
   CPU_ZERO(&cores);
   CPU_SET(static_cast<unsigned>(core), &cores);

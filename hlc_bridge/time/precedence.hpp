@@ -13,6 +13,8 @@ inline constexpr int kMaxThreadPriority = 99;
 /// CAP_SYS_NICE (root has it) or an rtprio limit of at least `priority` (`ulimit -r`)
 bool take_precedence(int priority);
 
+inline constexpr int kMaxCore = 1023;  ///< the highest number that a set of cores can hold
+
 /// Keeps the calling thread, and those that it starts from now on, on one core.
 ///
 /// @return false if there is no such core for this process, and nothing has changed

@@ -39,8 +39,8 @@ class OmplHorizonPlanner final : public HorizonPlanner {
       planner_.setProblemDefinition(definition_);
     }
     planner_.solve(ob::plannerNonTerminatingCondition());
-    return planner_
-        .take_result();  // the definition refers to `problem`: nobody may ask it any more
+    // The definition still refers to `problem`: nobody may ask it before it poses the next one.
+    return planner_.take_result();
   }
 
  private:
