@@ -59,6 +59,8 @@ class BranchAndBound::Core {
     search.plan = &plan;
     area_.resize(tables.most_blocks());
     search.placed = area_.data();
+    to_go_.resize(2 * tables.most_edges());
+    search.to_go = to_go_.data();
     search.decides = [](const void* core, const Question& question) {
       return static_cast<const Core*>(core)->decides(question);
     };
@@ -76,7 +78,6 @@ class BranchAndBound::Core {
       reference_y_.resize(n);
       reference_dx_.resize(n + kFloatLanes);
       reference_dy_.resize(n + kFloatLanes);
-      projections_.resize(branch_and_bound::kBoundAxes * (n + kFloatLanes));
       path.resize(n + 1);
       keys_.resize((n + 1) * tables.most_edges());
       best_edges.resize(n + 1);
@@ -101,7 +102,6 @@ class BranchAndBound::Core {
     }
     search.levels = levels_.data();
     search.path = path.data();
-    search.projections = projections_.data();
     search.best_cost = kNoPath;
     search.best_edges = best_edges.data();
     search.best_x = best_x.data();
@@ -153,7 +153,7 @@ class BranchAndBound::Core {
   std::vector<double> reference_y_;
   std::vector<float> reference_dx_;
   std::vector<float> reference_dy_;
-  std::vector<float> projections_;
+  std::vector<float> to_go_;
   std::vector<double> keys_;
   std::vector<branch_and_bound::Level> levels_;
   std::vector<branch_and_bound::PolygonBlock> area_;  ///< room for a placed area

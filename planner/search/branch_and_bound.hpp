@@ -39,10 +39,11 @@ namespace hlc {
 /// the edge can cost, whatever they do.
 ///
 /// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
-/// step is left out once per plan (PreparedObstacles). Of the rest, circles around obstacles and
-/// rectangles around eight boundary segments in a row leave out most; then a separating-axis test
-/// in single precision decides, unless two areas touch to within its rounding: there the very test
-/// of CollisionCheck does.
+/// step is left out once per plan (PreparedObstacles). Most of the rest is decided eight obstacles
+/// at a time by rectangles: one around each area and one inside it, apart if the outer ones are,
+/// met if the inner ones are; and for boundaries by rectangles around eight segments in a row. What
+/// is left is decided by a separating-axis test in single precision, unless two areas touch to
+/// within its rounding: there by the very test of CollisionCheck.
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
 /// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,

@@ -1,12 +1,12 @@
 // The collision test of BranchAndBound's inner loop: separating axes in single precision, eight
-// edges, corners or boundary segments at a time. Long-winded for speed; compiled twice, as
-// branch_and_bound_kernel.hpp, and for the same reason self-contained.
+// obstacles, edges, corners or boundary segments at a time. Long-winded for speed; compiled twice,
+// as branch_and_bound_kernel.hpp, and for the same reason self-contained.
 //
 // Distances are computed relative to the plan's start, where coordinates are small. Each step of
 // the computation rounds by half a unit in the last place, 2^-24 of the largest coordinate S, or
-// twice that after a rotation; from corners, normals and placements to a distance they add up to
-// less than 64 of them. The tolerance is 2^-18 S. What is apart or overlaps by more is certain;
-// what is between is asked of Search::decides.
+// twice that after a rotation; from corners, normals, rectangles and placements to a distance they
+// add up to less than 64 of them. The tolerance is 2^-18 S. What is apart or overlaps by more is
+// certain; what is between is asked of Search::decides.
 #pragma once
 
 #include "planner/search/branch_and_bound_data.hpp"
@@ -55,10 +55,12 @@ HLC_INLINE Floats beyond_edges(const PolygonBlock& block, const PolygonBlock* ot
   const Floats normal_y = load(block.normal_y);
   Floats nearest = all(kFarAway);
   for (std::uint32_t i = 0; i < num_blocks; ++i) {
-#pragma GCC unroll 8
-    for (std::uint32_t k = 0; k < kFloatLanes; ++k) {
-      nearest = smaller(normal_x * all(other[i].x[k]) + normal_y * all(other[i].y[k]), nearest);
-    }
+    const auto along = [&](std::uint32_t k) {
+      return normal_x * all(other[i].x[k]) + normal_y * all(other[i].y[k]);
+    };
+    const Floats low = smaller(smaller(along(0), along(1)), smaller(along(2), along(3)));
+    const Floats high = smaller(smaller(along(4), along(5)), smaller(along(6), along(7)));
+    nearest = smaller(smaller(low, high), nearest);
   }
   return nearest - load(block.offset);
 }
@@ -82,16 +84,38 @@ HLC_INLINE Answer compare(const PolygonBlock* area, std::uint32_t area_blocks,
   return lanes_less(most_apart, inside) == kEveryLane ? Answer::kMeet : Answer::kTooClose;
 }
 
-/// Does a point lie deep in a polygon?
-HLC_INLINE bool contains(const PolygonBlock* polygon, std::uint32_t num_blocks, const Floats& x,
-                         const Floats& y, const Floats& tolerance) {
-  Floats most_outside = all(-kFarAway);
-  for (std::uint32_t i = 0; i < num_blocks; ++i) {
-    const Floats outside =
-        load(polygon[i].normal_x) * x + load(polygon[i].normal_y) * y - load(polygon[i].offset);
-    most_outside = larger(outside, most_outside);
-  }
-  return lanes_less(most_outside, all(0.0F) - tolerance) == kEveryLane;
+/// Rectangles of an area beside those of eight obstacles.
+struct Beside {
+  Floats ahead;  ///< distance of the centres along the area's axes
+  Floats aside;
+  Floats other_ahead;  ///< along the obstacle's axes
+  Floats other_aside;
+  Floats c;  ///< cosine and sine between the axes; all six without their signs
+  Floats s;
+};
+
+HLC_INLINE Beside beside(const RectanglesBlock& block, const Floats& x, const Floats& y,
+                         const Floats& along_x, const Floats& along_y) {
+  const Floats dx = load(block.x) - x;
+  const Floats dy = load(block.y) - y;
+  const Floats other_x = load(block.along_x);
+  const Floats other_y = load(block.along_y);
+  return {absolute(dx * along_x + dy * along_y),
+          absolute(dy * along_x - dx * along_y),
+          absolute(dx * other_x + dy * other_y),
+          absolute(dy * other_x - dx * other_y),
+          absolute(along_x * other_x + along_y * other_y),
+          absolute(along_x * other_y - along_y * other_x)};
+}
+
+/// How far rectangles with half these sizes are apart on the axis that separates them most.
+HLC_INLINE Floats most_apart(const Beside& at, const Floats& along, const Floats& aside,
+                             const Floats& other_along, const Floats& other_aside) {
+  const Floats own = larger(at.ahead - (along + (at.c * other_along + at.s * other_aside)),
+                            at.aside - (aside + (at.s * other_along + at.c * other_aside)));
+  const Floats other = larger(at.other_ahead - (other_along + (at.c * along + at.s * aside)),
+                              at.other_aside - (other_aside + (at.s * along + at.c * aside)));
+  return larger(own, other);
 }
 
 bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step, const Placement& at,
@@ -99,39 +123,42 @@ bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step, 
   const Plan& plan = *search.plan;
   const Area& area = search.tables->edges[edge].swept;
   if (area.num_blocks == 0) return false;
-  const Floats centre_x =
-      at.x + (at.cos_heading * all(area.centre_x) - at.sin_heading * all(area.centre_y));
-  const Floats centre_y =
-      at.y + (at.sin_heading * all(area.centre_x) + at.cos_heading * all(area.centre_y));
-  const Floats radius = all(area.radius + plan.tolerance);
+  const Rectangles& own = search.tables->edges[edge].swept_rectangles;
+  const Floats c = at.cos_heading;
+  const Floats s = at.sin_heading;
+  const Floats x = at.x + (c * all(own.x) - s * all(own.y));
+  const Floats y = at.y + (s * all(own.x) + c * all(own.y));
+  const Floats along_x = c * all(own.along_x) - s * all(own.along_y);
+  const Floats along_y = s * all(own.along_x) + c * all(own.along_y);
   const Floats tolerance = all(plan.tolerance);
   bool is_placed = false;
-  for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];
-       i += kFloatLanes) {
-    const Floats dx = load(plan.circle_x + i) - centre_x;
-    const Floats dy = load(plan.circle_y + i) - centre_y;
-    const Floats reach = load(plan.circle_radius + i) + radius;
+  for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];) {
+    const RectanglesBlock& block = plan.obstacle_rectangles[i / kFloatLanes];
+    const Beside beside_them = beside(block, x, y, along_x, along_y);
+    const Floats outer = most_apart(beside_them, all(own.outer_along), all(own.outer_aside),
+                                    load(block.outer_along), load(block.outer_aside));
     // What is not surely apart, so that what is no number is looked at.
-    std::uint32_t near = kEveryLane & ~lanes_less(reach * reach, dx * dx + dy * dy);
+    std::uint32_t near = kEveryLane & ~lanes_less(tolerance, outer);
+    std::uint32_t fresh = near & ~block.is_ready;
+    if (fresh != 0) {
+      for (; fresh != 0; fresh &= fresh - 1) {
+        make_ready(plan, i + static_cast<std::uint32_t>(__builtin_ctz(fresh)));
+      }
+      continue;  // with their own rectangles now
+    }
+    if (near != 0) {
+      const Floats inner = most_apart(beside_them, all(own.inner_along), all(own.inner_aside),
+                                      load(block.inner_along), load(block.inner_aside));
+      if (lanes_less(inner, all(0.0F) - tolerance) != 0) return true;
+    }
     for (; near != 0; near &= near - 1) {
       const std::uint32_t item = i + static_cast<std::uint32_t>(__builtin_ctz(near));
-      ObstacleData& obstacle = plan.obstacles[item];
-      const PolygonData& polygon = plan.polygons[obstacle.polygon];
-      if (!obstacle.is_ready) {
-        make_ready(plan, polygon);
-        obstacle.is_ready = true;
-      }
-      const PolygonBlock* const blocks = plan.obstacle_blocks + polygon.first_block;
-      // The centre of the area's box lies in the area, which is convex. In a large obstacle it
-      // tells at once; of areas alike it hardly ever does.
-      if (plan.circle_radius[item] > 2.0F * area.radius &&
-          contains(blocks, polygon.num_blocks, centre_x, centre_y, tolerance)) {
-        return true;
-      }
       if (!is_placed) {
         place(search.tables->area_blocks + area.first_block, at, area.num_blocks, search.placed);
         is_placed = true;
       }
+      const PolygonData& polygon = plan.polygons[plan.obstacles[item]];
+      const PolygonBlock* const blocks = plan.obstacle_blocks + polygon.first_block;
       const Answer answer =
           compare(search.placed, area.num_blocks, blocks, polygon.num_blocks, tolerance);
       if (answer == Answer::kMeet) return true;
@@ -140,6 +167,7 @@ bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step, 
         return true;
       }
     }
+    i += kFloatLanes;
   }
   return false;
 }
@@ -223,7 +251,7 @@ bool meets_segment(const Search& search, std::uint32_t edge, const Placement& at
   const Floats half_y = all(area.half_y + plan.tolerance);
   for (std::uint32_t i = 0; i < plan.num_blocks; i += kFloatLanes) {
     // How far the boxes of eight rectangles, in the area's frame, are from that of the area.
-    const RectangleBlock& rectangles = plan.rectangles[i / kFloatLanes];
+    const SegmentRectanglesBlock& rectangles = plan.segment_rectangles[i / kFloatLanes];
     const Floats dx = load(rectangles.x) - at.x;
     const Floats dy = load(rectangles.y) - at.y;
     const Floats along_x = load(rectangles.half_x);

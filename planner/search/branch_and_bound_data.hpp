@@ -30,8 +30,6 @@ inline constexpr double kNoPath = 1e299;
 /// f of what must not be taken.
 inline constexpr double kForbidden = 1e300;
 
-/// What a circle's radius is multiplied by, above the rounding of squares.
-inline constexpr float kMore = 1.0F + 0x1p-20F;
 /// Offset of an edge that everything is inside of.
 inline constexpr float kSeparatesNothing = 1e30F;
 
@@ -46,6 +44,36 @@ struct alignas(32) PolygonBlock {
   float offset[kFloatLanes];
 };
 
+/// Of a convex polygon: a rectangle that contains it, and one with the same centre and axes that it
+/// contains. Two polygons are apart if the outer ones are, and meet if the inner ones do.
+struct Rectangles {
+  float x;  ///< centre
+  float y;
+  float along_x;  ///< unit vector of the first axis
+  float along_y;
+  float outer_along;  ///< half the size, per axis
+  float outer_aside;
+  float inner_along;  ///< kNoInner: unknown
+  float inner_aside;
+};
+/// Half the size of an inner rectangle that meets nothing.
+inline constexpr float kNoInner = -1e15F;
+
+/// Those of eight obstacles. At first the outer one is the box, and there is no inner one.
+struct alignas(32) RectanglesBlock {
+  float x[kFloatLanes];
+  float y[kFloatLanes];
+  float along_x[kFloatLanes];
+  float along_y[kFloatLanes];
+  float outer_along[kFloatLanes];
+  float outer_aside[kFloatLanes];
+  float inner_along[kFloatLanes];
+  float inner_aside[kFloatLanes];
+  /// One bit per obstacle: its rectangles, and the blocks of its corners, are written. Done when
+  /// they are first needed.
+  std::uint32_t is_ready;
+};
+
 /// An area of a maneuver in the frame of its start.
 struct Area {
   std::uint32_t first_block;  ///< of `Tables::area_blocks`
@@ -54,7 +82,6 @@ struct Area {
   float centre_y;
   float half_x;
   float half_y;
-  float radius;  ///< of a circle around the centre that contains the area
 };
 
 struct EdgeData {
@@ -65,6 +92,7 @@ struct EdgeData {
   double cost;       ///< of the maneuver itself (EdgeCosts::above_least)
   std::uint32_t to;  ///< trim
   Area swept;
+  Rectangles swept_rectangles;  ///< in the frame of the start
   Area lane;
 };
 
@@ -98,12 +126,6 @@ struct PolygonData {
   std::uint32_t num_blocks;
 };
 
-/// An obstacle that can be met in its step.
-struct ObstacleData {
-  std::uint32_t polygon;  ///< among those of the problem
-  bool is_ready;          ///< its blocks are written: done when first needed
-};
-
 /// Eight boundary segments in a row, with their directions (larger component 1; a segment without
 /// length has 0). What is missing to eight repeats the last.
 struct alignas(32) SegmentBlock {
@@ -115,9 +137,9 @@ struct alignas(32) SegmentBlock {
   float along_y[kFloatLanes];
 };
 
-/// Oriented rectangles around eight blocks of segments: centre, half the length as a vector, half
+/// Rectangles around eight blocks of segments: centre, half the length as a vector, half
 /// the width.
-struct alignas(32) RectangleBlock {
+struct alignas(32) SegmentRectanglesBlock {
   float x[kFloatLanes];
   float y[kFloatLanes];
   float half_x[kFloatLanes];
@@ -148,19 +170,17 @@ struct Plan {
   double origin_y;
   double scale;  ///< largest coordinate of a float, or more [m]
   /// Obstacles [first_obstacle[j - 1], first_obstacle[j]) are those of step j; every step's begin
-  /// at a multiple of eight. The padding has circles that nothing meets.
+  /// at a multiple of eight. The padding is where nothing meets it.
   std::uint32_t* first_obstacle;
-  float* circle_x;  ///< a circle that contains the obstacle
-  float* circle_y;
-  float* circle_radius;
-  ObstacleData* obstacles;
+  std::uint32_t* obstacles;  ///< its number among the polygons
+  RectanglesBlock* obstacle_rectangles;
   PolygonBlock* obstacle_blocks;
   double* corners;  ///< scratch: x and y of the largest obstacle's corners, one more
   std::size_t corner_stride;
   std::uint32_t num_blocks;       ///< of boundary segments that can be met
   std::uint32_t* segment_source;  ///< per block, the number of its first segment in the problem
   SegmentBlock* segment_blocks;
-  RectangleBlock* rectangles;
+  SegmentRectanglesBlock* segment_rectangles;
   /// Bound on the rounding of a distance in single precision [m].
   float tolerance;
 };
@@ -205,7 +225,7 @@ struct Search {
   Plan* plan;
   const Level* levels;   ///< n
   VertexData* path;      ///< n + 1 vertices; the first is the start
-  float* projections;    ///< per eight steps, kBoundAxes rows of eight
+  float* to_go;          ///< scratch: per edge of a trim, two
   PolygonBlock* placed;  ///< room for the largest area
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;

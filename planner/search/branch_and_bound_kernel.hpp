@@ -23,91 +23,147 @@ constexpr float kSurely = 1.0F - 0x5p-20F;
 constexpr float kCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
 constexpr float kSin = 0x1.87de2ap-2F;
 
-/// How far two reference points, the second and the third argument's `pair`, lie beyond the
-/// intervals of four edges each, on the axis that has most; 0 within them all.
-HLC_INLINE Floats distance_beyond(const BoundPair& bound, const float* along, std::size_t pair) {
-  Floats beyond = all(0.0F);
-#pragma GCC unroll 8
-  for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
-    const Floats from_centre =
-        absolute(four_times_two(along + axis * kFloatLanes, pair) - load(bound.centre[axis]));
-    beyond = larger(from_centre - load(bound.half_width[axis]), beyond);
-  }
-  return beyond;
+/// The reference points of eight steps, seen from a vertex, along each axis.
+using Along = Floats[kBoundAxes];
+
+HLC_INLINE void project(const float* reference_dx, const float* reference_dy, const Placement& at,
+                        Along& along) {
+  const Floats dx = load(reference_dx) - at.x;
+  const Floats dy = load(reference_dy) - at.y;
+  const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
+  const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
+  const Floats ahead_cos = ahead * all(kCos);
+  const Floats ahead_sin = ahead * all(kSin);
+  const Floats aside_cos = aside * all(kCos);
+  const Floats aside_sin = aside * all(kSin);
+  along[0] = ahead;
+  along[1] = ahead_cos + aside_sin;
+  along[2] = (ahead + aside) * all(static_cast<float>(kDiagonal));
+  along[3] = ahead_sin + aside_cos;
+  along[4] = aside;
+  along[5] = aside_cos - ahead_sin;
+  along[6] = (aside - ahead) * all(static_cast<float>(kDiagonal));
+  along[7] = aside_sin - ahead_cos;
+}
+
+/// Squared distance of reference points number 2 kPair and 2 kPair + 1 from the intervals of four
+/// edges each, on the axis that has most; 0 within them all.
+template <int kPair>
+HLC_INLINE Floats squared_beyond(const BoundPair& bound, const Along& along) {
+  const auto beyond = [&](std::size_t axis) {
+    return absolute(four_times_two<kPair>(along[axis]) - load(bound.centre[axis])) -
+           load(bound.half_width[axis]);
+  };
+  // By twos: a processor has the largest of eight after three steps.
+  const Floats first = larger(larger(beyond(0), beyond(1)), larger(beyond(2), beyond(3)));
+  const Floats second = larger(larger(beyond(4), beyond(5)), larger(beyond(6), beyond(7)));
+  const Floats most = larger(larger(first, second), all(0.0F));
+  return most * most;
 }
 
 /// As long as there is no path, costs-to-go only order the children. They know nothing of what is
 /// in the way: where after so many expansions there still is none, they are not worth their time.
 constexpr std::uint64_t kPatience = 4096;
 
-/// How many of the level's pairs of steps the keys of its children look ahead.
-HLC_INLINE std::size_t pairs_ahead(const Search& search, std::size_t depth, double best) {
-  return best < kNoPath || search.expanded < kPatience ? search.levels[depth].num_pairs : 0;
-}
+/// What the keys of a vertex' children are computed from.
+struct Expansion {
+  std::size_t first_group;
+  std::size_t num_edges;  ///< with padding
+  const double* penalty;  ///< these and the next of the first edge
+  const double* displacement_x;
+  const double* displacement_y;
+  Doubles ahead;  ///< the next reference point, seen from the vertex
+  Doubles aside;
+  Doubles cost_to_come;
+};
 
-/// Writes the keys of a vertex' children, with costs-to-go of the first `num_pairs` pairs of steps.
-HLC_INLINE void expand(Search& search, VertexData& vertex, std::size_t depth,
-                       std::size_t num_pairs) {
-  constexpr std::size_t kPairs = kFloatLanes / 2;
-  constexpr std::size_t kRow = kBoundAxes * kFloatLanes;
+HLC_INLINE Expansion begin_expansion(Search& search, VertexData& vertex, std::size_t depth) {
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
   const Level& level = search.levels[depth];
-
-  // The reference points after that of the edge, seen from the vertex, along each axis.
-  const Placement at = placement_of(plan, vertex);
-  float* along = search.projections;
-  for (std::size_t pair = 0; pair < num_pairs; pair += kPairs) {
-    const Floats dx = load(plan.reference_dx + depth + 1 + 2 * pair) - at.x;
-    const Floats dy = load(plan.reference_dy + depth + 1 + 2 * pair) - at.y;
-    const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
-    const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
-    const Floats ahead_cos = ahead * all(kCos);
-    const Floats ahead_sin = ahead * all(kSin);
-    const Floats aside_cos = aside * all(kCos);
-    const Floats aside_sin = aside * all(kSin);
-    store(along, ahead);
-    store(along + kFloatLanes, ahead_cos + aside_sin);
-    store(along + 2 * kFloatLanes, (ahead + aside) * all(static_cast<float>(kDiagonal)));
-    store(along + 3 * kFloatLanes, ahead_sin + aside_cos);
-    store(along + 4 * kFloatLanes, aside);
-    store(along + 5 * kFloatLanes, aside_cos - ahead_sin);
-    store(along + 6 * kFloatLanes, (aside - ahead) * all(static_cast<float>(kDiagonal)));
-    store(along + 7 * kFloatLanes, aside_sin - ahead_cos);
-    along += kRow;
-  }
-
-  const double dx = plan.reference_x[depth] - vertex.x;
-  const double dy = plan.reference_y[depth] - vertex.y;
-  const Doubles ahead = all(dx * vertex.cos_heading + dy * vertex.sin_heading);
-  const Doubles aside = all(dy * vertex.cos_heading - dx * vertex.sin_heading);
-  const Doubles cost_to_come = all(vertex.cost_to_come);
   const std::size_t first_group = tables.first_group[vertex.trim];
   const std::size_t first_edge = kLanes * first_group;
-  const std::size_t end_edge = std::size_t{kLanes} * tables.first_group[vertex.trim + 1];
+  const std::size_t num_edges = kLanes * (tables.first_group[vertex.trim + 1] - first_group);
   vertex.first_edge = static_cast<std::uint32_t>(first_edge);
-  vertex.num_edges = static_cast<std::uint32_t>(end_edge - first_edge);
-  const BoundPair* bounds = tables.bounds + first_group * tables.bound_size;
-  double* const keys = vertex.keys;
-  for (std::size_t edge = first_edge; edge < end_edge; edge += kLanes) {
-    const Doubles beside_x = ahead - load(tables.displacement_x + edge);
-    const Doubles beside_y = aside - load(tables.displacement_y + edge);
-    const Doubles f =
-        load(level.penalty + edge) + cost_to_come + (beside_x * beside_x + beside_y * beside_y);
-    Floats to_go = all(0.0F);
-    along = search.projections;
-    for (std::size_t pair = 0; pair < num_pairs; ++pair) {
-      const Floats beyond =
-          distance_beyond(bounds[level.bounds[pair]], along + pair / kPairs * kRow, pair % kPairs);
-      to_go += beyond * beyond;
-    }
-    store(keys + (edge - first_edge),
-          numbered(f + halves_added(to_go * all(kSurely)), tables.index_mask,
-                   load(tables.numbers + (edge - first_edge))));
-    bounds += tables.bound_size;
-  }
+  vertex.num_edges = static_cast<std::uint32_t>(num_edges);
   search.generated += level.permitted[vertex.trim];
   ++search.expanded;
+  const double dx = plan.reference_x[depth] - vertex.x;
+  const double dy = plan.reference_y[depth] - vertex.y;
+  return {first_group,
+          num_edges,
+          level.penalty + first_edge,
+          tables.displacement_x + first_edge,
+          tables.displacement_y + first_edge,
+          all(dx * vertex.cos_heading + dy * vertex.sin_heading),
+          all(dy * vertex.cos_heading - dx * vertex.sin_heading),
+          all(vertex.cost_to_come)};
+}
+
+/// Cost-to-come of four edges' ends and what surely has to be paid after them.
+HLC_INLINE Doubles cost_without_bound(const Expansion& expansion, std::size_t edge) {
+  const Doubles beside_x = expansion.ahead - load(expansion.displacement_x + edge);
+  const Doubles beside_y = expansion.aside - load(expansion.displacement_y + edge);
+  return load(expansion.penalty + edge) + expansion.cost_to_come +
+         (beside_x * beside_x + beside_y * beside_y);
+}
+
+HLC_INLINE Doubles keep_key(const Tables& tables, VertexData& vertex, std::size_t edge,
+                            const Doubles& f) {
+  const Doubles key = numbered(f, tables.index_mask, load(tables.numbers + edge));
+  store(vertex.keys + edge, key);
+  return key;
+}
+
+/// Writes the keys of a vertex' children without what the steps after their edges cost at least.
+/// Returns the least.
+HLC_INLINE double expand_without_bound(Search& search, VertexData& vertex, std::size_t depth) {
+  const Tables& tables = *search.tables;
+  const Expansion expansion = begin_expansion(search, vertex, depth);
+  Doubles lowest = keep_key(tables, vertex, 0, cost_without_bound(expansion, 0));
+  for (std::size_t edge = kLanes; edge < expansion.num_edges; edge += kLanes) {
+    lowest = smaller(keep_key(tables, vertex, edge, cost_without_bound(expansion, edge)), lowest);
+  }
+  return least(lowest);
+}
+
+/// Writes the keys of a vertex' children. Returns the least.
+HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) {
+  constexpr std::size_t kPairs = kFloatLanes / 2;
+  const Tables& tables = *search.tables;
+  const Plan& plan = *search.plan;
+  const std::size_t num_pairs = search.levels[depth].num_pairs;
+  const Placement at = placement_of(plan, vertex);
+  const Expansion expansion = begin_expansion(search, vertex, depth);
+  Doubles lowest = all(kForbidden);
+  for (std::size_t pair = 0;; pair += kPairs) {
+    // Eight steps at a time; what those before add up to waits in memory.
+    const bool is_last = num_pairs <= pair + kPairs;
+    const std::size_t step = depth + 1 + 2 * pair;
+    Along along;
+    project(plan.reference_dx + step, plan.reference_dy + step, at, along);
+    const std::uint32_t* const places = search.levels[depth].bounds + pair;
+    const BoundPair* bounds = tables.bounds + expansion.first_group * tables.bound_size;
+    for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
+      Floats to_go = squared_beyond<0>(bounds[places[0]], along);
+      if (pair != 0) to_go += load(search.to_go + 2 * edge);
+      if (num_pairs > pair + 1) {
+        to_go += squared_beyond<1>(bounds[places[1]], along);
+        if (num_pairs > pair + 2) {
+          to_go += squared_beyond<2>(bounds[places[2]], along);
+          if (num_pairs > pair + 3) to_go += squared_beyond<3>(bounds[places[3]], along);
+        }
+      }
+      bounds += tables.bound_size;
+      if (is_last) {
+        const Doubles f = cost_without_bound(expansion, edge) + halves_added(to_go * all(kSurely));
+        lowest = smaller(keep_key(tables, vertex, edge, f), lowest);
+      } else {
+        store(search.to_go + 2 * edge, to_go);
+      }
+    }
+    if (is_last) return least(lowest);
+  }
 }
 
 /// The least key of a vertex' children.
@@ -141,37 +197,46 @@ void give_up(Search& search, std::size_t depth, double bound) {
   search.gave_up = true;
 }
 
-HLC_INLINE bool may_expand(const Search& search) {
-  constexpr std::uint64_t kStopInterval = 64;
-  return search.expanded != search.max_expansions &&
-         (search.expanded % kStopInterval != 0 || !search.stop(search.stop_context));
+/// Expansions between two looks at whether to stop.
+constexpr std::uint64_t kStopInterval = 64;
+
+/// So many expansions may be done before the next look.
+HLC_INLINE std::uint64_t next_look(const Search& search) {
+  const std::uint64_t next = search.expanded + kStopInterval;
+  return next < search.max_expansions ? next : search.max_expansions;
 }
 
 void run(Search& search) {
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
   const std::size_t n = plan.horizon_steps;
-  if (!may_expand(search)) {
+  if (search.max_expansions == 0 || search.stop(search.stop_context)) {
     search.gave_up = true;  // the caller knows a bound for the start
     return;
   }
-  expand(search, search.path[0], 0, search.levels[0].num_pairs);
+  std::uint64_t look_at = next_look(search);
+  double key = search.levels[0].num_pairs == 0 ? expand_without_bound(search, search.path[0], 0)
+                                               : expand(search, search.path[0], 0);
 
   VertexData* vertex = search.path;
   std::size_t depth = 0;
   double best = search.best_cost;
+  bool has_patience = true;
   for (;;) {
-    const double key = least_key(*vertex);
     if (!(key < best)) {
       if (depth == 0) break;
       --depth;
       --vertex;
+      key = least_key(*vertex);
       continue;
     }
     const auto number = static_cast<std::uint32_t>(bits(key) & tables.index_mask);
     vertex->keys[number] = kForbidden;
     const std::uint32_t edge = vertex->first_edge + number;
-    if (!is_free(search, edge, depth + 1, *vertex)) continue;
+    if (!is_free(search, edge, depth + 1, *vertex)) {
+      key = least_key(*vertex);
+      continue;
+    }
 
     const EdgeData& data = tables.edges[edge];
     const double c = vertex->cos_heading;
@@ -184,30 +249,43 @@ void run(Search& search) {
     const double dy = child.y - plan.reference_y[depth];
     child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy) + data.cost;
     if (depth + 1 == n) {
-      if (!(child.cost_to_come < best)) continue;
-      best = child.cost_to_come;
-      for (std::size_t k = 0; k < n; ++k) {
-        search.best_edges[k] = search.path[k + 1].from_edge;
-        search.best_x[k] = search.path[k + 1].x;
-        search.best_y[k] = search.path[k + 1].y;
+      if (child.cost_to_come < best) {
+        best = child.cost_to_come;
+        has_patience = true;
+        for (std::size_t k = 0; k < n; ++k) {
+          search.best_edges[k] = search.path[k + 1].from_edge;
+          search.best_x[k] = search.path[k + 1].x;
+          search.best_y[k] = search.path[k + 1].y;
+        }
       }
+      key = least_key(*vertex);
       continue;
     }
     child.cos_heading = c * data.cos_heading - s * data.sin_heading;
     child.sin_heading = s * data.cos_heading + c * data.sin_heading;
     child.trim = data.to;
-    if (!may_expand(search)) {
-      give_up(search, depth, key);
-      break;
+    if (search.expanded == look_at) {
+      if (look_at == search.max_expansions || search.stop(search.stop_context)) {
+        give_up(search, depth, key);
+        break;
+      }
+      look_at = next_look(search);
+      has_patience = best < kNoPath || search.expanded < kPatience;
     }
     ++depth;
     ++vertex;
-    expand(search, child, depth, pairs_ahead(search, depth, best));
+    key = search.levels[depth].num_pairs != 0 && has_patience
+              ? expand(search, child, depth)
+              : expand_without_bound(search, child, depth);
   }
   search.best_cost = best;
 }
 
-void expand_start(Search& search) { expand(search, search.path[0], 0, search.levels[0].num_pairs); }
+void expand_start(Search& search) {
+  static_cast<void>(search.levels[0].num_pairs == 0
+                        ? expand_without_bound(search, search.path[0], 0)
+                        : expand(search, search.path[0], 0));
+}
 
 bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step,
                    const VertexData& vertex) {

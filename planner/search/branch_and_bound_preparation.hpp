@@ -15,7 +15,7 @@ constexpr double kDiagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
 constexpr std::uint32_t kEveryLane = 0xff;
 
 /// Corners, normals and offsets of an obstacle.
-void make_ready(const Plan& plan, const PolygonData& polygon) {
+HLC_INLINE void write_corners(const Plan& plan, const PolygonData& polygon) {
   double* const x = plan.corners;
   double* const y = plan.corners + plan.corner_stride;
   const std::uint32_t padded = polygon.num_blocks * kFloatLanes;
@@ -52,6 +52,84 @@ void make_ready(const Plan& plan, const PolygonData& polygon) {
     last.offset[i % kFloatLanes] = kSeparatesNothing;
 }
 
+/// From where to where a polygon's corners lie along an axis.
+struct Extent {
+  float low;
+  float high;
+};
+
+HLC_INLINE Extent extent(const PolygonBlock* blocks, std::uint32_t num_blocks, float axis_x,
+                         float axis_y) {
+  Floats low = load(blocks[0].x) * all(axis_x) + load(blocks[0].y) * all(axis_y);
+  Floats high = low;
+  for (std::uint32_t i = 1; i < num_blocks; ++i) {
+    const Floats place = load(blocks[i].x) * all(axis_x) + load(blocks[i].y) * all(axis_y);
+    low = smaller(place, low);
+    high = larger(place, high);
+  }
+  return {least(low), largest(high)};
+}
+
+/// Rectangles of an obstacle, along its longest edge, and everything else that is needed of it.
+void make_ready(const Plan& plan, std::uint32_t item) {
+  const PolygonData& polygon = plan.polygons[plan.obstacles[item]];
+  write_corners(plan, polygon);
+  const double* const x = plan.corners;
+  const double* const y = plan.corners + plan.corner_stride;
+  double along_x = 1.0;
+  double along_y = 0.0;
+  double longest = 0.0;
+  for (std::uint32_t i = 0; i < polygon.size; ++i) {
+    const double dx = x[i + 1] - x[i];
+    const double dy = y[i + 1] - y[i];
+    const double squared = dx * dx + dy * dy;
+    const bool is_longer = squared > longest;
+    longest = is_longer ? squared : longest;
+    along_x = is_longer ? dx : along_x;
+    along_y = is_longer ? dy : along_y;
+  }
+  const double scale = longest > 0.0 ? 1.0 / __builtin_sqrt(longest) : 1.0;
+  const auto axis_x = static_cast<float>(along_x * scale);
+  const auto axis_y = static_cast<float>(along_y * scale);
+  const PolygonBlock* const blocks = plan.obstacle_blocks + polygon.first_block;
+  const Extent along = extent(blocks, polygon.num_blocks, axis_x, axis_y);
+  const Extent aside = extent(blocks, polygon.num_blocks, -axis_y, axis_x);
+  const float middle_along = 0.5F * (along.low + along.high);
+  const float middle_aside = 0.5F * (aside.low + aside.high);
+  const float half_along = 0.5F * (along.high - along.low);
+  const float half_aside = 0.5F * (aside.high - aside.low);
+  const float centre_x = middle_along * axis_x - middle_aside * axis_y;
+  const float centre_y = middle_along * axis_y + middle_aside * axis_x;
+
+  // The share of the outer rectangle that every edge leaves inside. An edge without direction
+  // leaves nothing: of such a polygon the exact test alone knows what it meets.
+  Floats share = all(1.0F);
+  for (std::uint32_t i = 0; i < polygon.num_blocks; ++i) {
+    const Floats normal_x = load(blocks[i].normal_x);
+    const Floats normal_y = load(blocks[i].normal_y);
+    const Floats inside =
+        load(blocks[i].offset) - (normal_x * all(centre_x) + normal_y * all(centre_y));
+    const Floats taken =
+        absolute(normal_x * all(axis_x) + normal_y * all(axis_y)) * all(half_along) +
+        absolute(normal_y * all(axis_x) - normal_x * all(axis_y)) * all(half_aside);
+    share = smaller(if_less(all(0.0F), taken, inside / taken, inside), share);
+  }
+  const float inner = least(share);
+  const bool has_inner = inner > 0.0F;
+
+  RectanglesBlock& block = plan.obstacle_rectangles[item / kFloatLanes];
+  const std::uint32_t lane = item % kFloatLanes;
+  block.x[lane] = centre_x;
+  block.y[lane] = centre_y;
+  block.along_x[lane] = axis_x;
+  block.along_y[lane] = axis_y;
+  block.outer_along[lane] = half_along;
+  block.outer_aside[lane] = half_aside;
+  block.inner_along[lane] = has_inner ? inner * half_along : kNoInner;
+  block.inner_aside[lane] = has_inner ? inner * half_aside : kNoInner;
+  block.is_ready |= 1U << lane;
+}
+
 /// Places along the axes of the start's frame.
 struct Axes {
   Doubles x;
@@ -67,10 +145,25 @@ HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double*
   return (lanes_less(load(reach + kAxes), low) | lanes_less(high, load(reach))) != 0;
 }
 
-/// Obstacles that can be met in their step, with a circle around each.
+/// Nothing meets what is in a block before obstacles are written into it.
+HLC_INLINE void write_padding(RectanglesBlock& block) {
+  store(block.x, all(kFarAway));
+  store(block.y, all(kFarAway));
+  store(block.along_x, all(1.0F));
+  store(block.along_y, all(0.0F));
+  store(block.outer_along, all(0.0F));
+  store(block.outer_aside, all(0.0F));
+  store(block.inner_along, all(kNoInner));
+  store(block.inner_aside, all(kNoInner));
+  block.is_ready = 0;
+}
+
+/// Obstacles that can be met in their step, with a box around each.
 HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
+  const Axes absolute_axes{absolute(axes.x), absolute(axes.y)};
   std::uint32_t count = 0;
   std::size_t next = 0;
+  double scale = plan.scale;
   plan.first_obstacle[0] = 0;
   for (std::size_t step = 0; step < plan.horizon_steps; ++step) {
     for (; next < plan.num_polygons && plan.polygons[next].step == step; ++next) {
@@ -91,30 +184,32 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
       const double max_y = highest[1] > highest[3] ? highest[1] : highest[3];
       const double centre_x = 0.5 * (min_x + max_x) - plan.origin_x;
       const double centre_y = 0.5 * (min_y + max_y) - plan.origin_y;
-      const double radius = 0.5 * __builtin_sqrt((max_x - min_x) * (max_x - min_x) +
-                                                 (max_y - min_y) * (max_y - min_y));
+      const double half_x = 0.5 * (max_x - min_x);
+      const double half_y = 0.5 * (max_y - min_y);
       const Doubles centre = along_axes(axes, centre_x, centre_y);
-      if (is_beyond(centre - all(radius), centre + all(radius), plan.reach[step])) continue;
-      plan.circle_x[count] = static_cast<float>(centre_x);
-      plan.circle_y[count] = static_cast<float>(centre_y);
-      plan.circle_radius[count] = static_cast<float>(radius) * kMore;
-      plan.obstacles[count] = {static_cast<std::uint32_t>(next), false};
+      const Doubles half = along_axes(absolute_axes, half_x, half_y);
+      if (is_beyond(centre - half, centre + half, plan.reach[step])) continue;
+      const std::uint32_t lane = count % kFloatLanes;
+      RectanglesBlock& block = plan.obstacle_rectangles[count / kFloatLanes];
+      if (lane == 0) write_padding(block);
+      block.x[lane] = static_cast<float>(centre_x);
+      block.y[lane] = static_cast<float>(centre_y);
+      block.outer_along[lane] = static_cast<float>(half_x);
+      block.outer_aside[lane] = static_cast<float>(half_y);
+      plan.obstacles[count] = static_cast<std::uint32_t>(next);
       ++count;
-      const double size = absolute(centre_x) + absolute(centre_y) + radius;
-      plan.scale = size > plan.scale ? size : plan.scale;
+      const double size = absolute(centre_x) + absolute(centre_y) + half_x + half_y;
+      scale = size > scale ? size : scale;
     }
-    for (; count % kFloatLanes != 0; ++count) {
-      plan.circle_x[count] = kFarAway;
-      plan.circle_y[count] = kFarAway;
-      plan.circle_radius[count] = 0.0F;
-    }
+    count = (count + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
     plan.first_obstacle[step + 1] = count;
   }
+  plan.scale = scale;
 }
 
 /// An oriented rectangle that contains eight segments in a row, along the line from the first one's
 /// begin to the last one's end.
-HLC_INLINE void enclose(const SegmentBlock& segments, RectangleBlock& rectangles,
+HLC_INLINE void enclose(const SegmentBlock& segments, SegmentRectanglesBlock& rectangles,
                         std::uint32_t lane) {
   constexpr std::uint32_t kLast = kFloatLanes - 1;
   float along_x = segments.to_x[kLast] - segments.from_x[0];
@@ -229,7 +324,7 @@ HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double*
     write_segments(plan, source, block);
     if (is_beyond(block, x, y, reachable)) continue;
     plan.segment_source[count] = static_cast<std::uint32_t>(source);
-    enclose(block, plan.rectangles[count / kFloatLanes], count % kFloatLanes);
+    enclose(block, plan.segment_rectangles[count / kFloatLanes], count % kFloatLanes);
     const Floats from = absolute(load(block.from_x)) + absolute(load(block.from_y));
     const Floats to = absolute(load(block.to_x)) + absolute(load(block.to_y));
     largest_coordinate = larger(larger(from, to), largest_coordinate);
@@ -237,7 +332,7 @@ HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double*
   }
   plan.num_blocks = count;
   for (; count % kFloatLanes != 0; ++count) {
-    RectangleBlock& rectangles = plan.rectangles[count / kFloatLanes];
+    SegmentRectanglesBlock& rectangles = plan.segment_rectangles[count / kFloatLanes];
     const std::uint32_t lane = count % kFloatLanes;
     rectangles.x[lane] = kFarAway;
     rectangles.y[lane] = kFarAway;

@@ -22,6 +22,76 @@ struct Interval {
   double high{-std::numeric_limits<double>::infinity()};
 };
 
+Interval interval_along(const ConvexPolygon& area_m, const Point& axis) {
+  Interval interval;
+  for (const Point& corner_m : area_m.vertices_m) {
+    interval.low = std::min(interval.low, axis.dot(corner_m));
+    interval.high = std::max(interval.high, axis.dot(corner_m));
+  }
+  return interval;
+}
+
+/// Half the size of the largest rectangle in an area with that centre and axes; zero if an edge has
+/// no direction: of such an area the exact test alone knows what it meets.
+Point largest_inside(const ConvexPolygon& area_m, const Point& centre, const Point& along,
+                     const Point& aside, const Point& outer) {
+  const auto& corners = area_m.vertices_m;
+  Point largest = Point::Zero();
+  constexpr int kSizes = 64;
+  for (int size = 1; size <= kSizes; ++size) {
+    const double half_along = outer.x() * size / kSizes;
+    double half_aside = outer.y();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Point edge = corners[(i + 1) % corners.size()] - corners[i];
+      if (edge.norm() <= kLeastEdge_m) return Point::Zero();
+      const Point normal{edge.y(), -edge.x()};
+      const double left =
+          normal.dot(corners[i] - centre) - std::abs(normal.dot(along)) * half_along;
+      const double across = std::abs(normal.dot(aside));
+      if (left <= 0.0) {
+        half_aside = 0.0;
+      } else if (across * half_aside > left) {
+        half_aside = left / across;
+      }
+    }
+    if (half_along * half_aside > largest.prod()) largest = {half_along, half_aside};
+  }
+  return largest;
+}
+
+/// The smallest rectangle around an area with one side along an edge, and the largest one inside
+/// with its centre and axes.
+Rectangles rectangles_of(const ConvexPolygon& area_m) {
+  const auto& corners = area_m.vertices_m;
+  Rectangles best{0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, kNoInner, kNoInner};
+  double least_size_m2 = std::numeric_limits<double>::infinity();
+  for (std::size_t edge = 0; edge < corners.size(); ++edge) {
+    const Point side = corners[(edge + 1) % corners.size()] - corners[edge];
+    const double length_m = side.norm();
+    if (length_m <= kLeastEdge_m) continue;
+    const Point along = side / length_m;
+    const Point aside{-along.y(), along.x()};
+    const Interval ahead = interval_along(area_m, along);
+    const Interval left = interval_along(area_m, aside);
+    const Point outer{0.5 * (ahead.high - ahead.low), 0.5 * (left.high - left.low)};
+    if (!(outer.prod() < least_size_m2)) continue;
+    least_size_m2 = outer.prod();
+    const Point centre =
+        0.5 * (ahead.low + ahead.high) * along + 0.5 * (left.low + left.high) * aside;
+    const Point inner = largest_inside(area_m, centre, along, aside, outer);
+    const bool has_inner = inner.prod() > 0.0;
+    best = {static_cast<float>(centre.x()),
+            static_cast<float>(centre.y()),
+            static_cast<float>(along.x()),
+            static_cast<float>(along.y()),
+            static_cast<float>(outer.x()),
+            static_cast<float>(outer.y()),
+            has_inner ? static_cast<float>(inner.x()) : kNoInner,
+            has_inner ? static_cast<float>(inner.y()) : kNoInner};
+  }
+  return best;
+}
+
 }  // namespace
 
 TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
@@ -58,7 +128,8 @@ void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
       edges_.push_back({displacement.origin_m.x(), displacement.origin_m.y(),
                         displacement.cos_heading, displacement.sin_heading,
                         costs.above_least(maneuver), static_cast<std::uint32_t>(edge.to.index),
-                        add_area(maneuver.swept_area_m), add_area(maneuver.lane_area_m)});
+                        add_area(maneuver.swept_area_m), rectangles_of(maneuver.swept_area_m),
+                        add_area(maneuver.lane_area_m)});
     }
     while (edges_.size() % kLanes != 0 || edges_.size() == kLanes * first_group_.back()) {
       maneuvers_.push_back(nullptr);
@@ -108,7 +179,6 @@ Area TableStore::add_area(const ConvexPolygon& area_m) {
     block.normal_x[lane] = static_cast<float>(normal.x());
     block.normal_y[lane] = static_cast<float>(normal.y());
     block.offset[lane] = is_padding ? kSeparatesNothing : static_cast<float>(normal.dot(from));
-    area.radius = std::max(area.radius, kMore * static_cast<float>((from - centre).norm()));
     area_radius_m_ = std::max(area_radius_m_, from.norm());
   }
   return area;

@@ -52,8 +52,8 @@ HLC_INLINE V larger(const V& a, const V& b) {
   return a > b ? a : b;
 }
 /// Per element: a < b ? then : otherwise.
-HLC_INLINE Doubles if_less(const Doubles& a, const Doubles& b, const Doubles& then,
-                           const Doubles& otherwise) {
+template <class V>
+HLC_INLINE V if_less(const V& a, const V& b, const V& then, const V& otherwise) {
   return a < b ? then : otherwise;
 }
 HLC_INLINE Doubles absolute(const Doubles& a) {
@@ -81,12 +81,13 @@ HLC_INLINE std::uint32_t lanes_less(const Floats& a, const Floats& b) {
 HLC_INLINE std::uint32_t lanes_less(const Doubles& a, const Doubles& b) {
   return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(a < b)));
 }
-/// Of eight floats in memory number 2 pair four times, then number 2 pair + 1 four times.
-HLC_INLINE Floats four_times_two(const float* from, std::size_t pair) {
-  const int first = static_cast<int>(2 * pair);
-  const int second = first + 1;
-  return __builtin_shuffle(load(from),
-                           FloatBits{first, first, first, first, second, second, second, second});
+/// Of eight floats number 2 kPair four times, then number 2 kPair + 1 four times.
+template <int kPair>
+HLC_INLINE Floats four_times_two(const Floats& a) {
+  constexpr int kFirst = 2 * kPair;
+  constexpr int kSecond = kFirst + 1;
+  return __builtin_shufflevector(a, a, kFirst, kFirst, kFirst, kFirst, kSecond, kSecond, kSecond,
+                                 kSecond);
 }
 /// Elements 0 and 4, 1 and 5, 2 and 6, 3 and 7.
 HLC_INLINE Doubles halves_added(const Floats& a) {
@@ -164,8 +165,9 @@ template <class Half>
 HLC_INLINE Pair<Half> larger(const Pair<Half>& a, const Pair<Half>& b) {
   return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
 }
-HLC_INLINE Doubles if_less(const Doubles& a, const Doubles& b, const Doubles& then,
-                           const Doubles& otherwise) {
+template <class Half>
+HLC_INLINE Pair<Half> if_less(const Pair<Half>& a, const Pair<Half>& b, const Pair<Half>& then,
+                              const Pair<Half>& otherwise) {
   return {a.low < b.low ? then.low : otherwise.low, a.high < b.high ? then.high : otherwise.high};
 }
 HLC_INLINE HalfDoubles masked(const HalfDoubles& a, std::uint64_t mask) {
@@ -192,10 +194,13 @@ HLC_INLINE Floats absolute(const Floats& a) {
 HLC_INLINE Doubles numbered(const Doubles& a, std::uint64_t mask, const Doubles& number) {
   return {joined(masked(a.low, ~mask), number.low), joined(masked(a.high, ~mask), number.high)};
 }
-HLC_INLINE Floats four_times_two(const float* from, std::size_t pair) {
-  const float first = from[2 * pair];
-  const float second = from[2 * pair + 1];
-  return {HalfFloats{first, first, first, first}, HalfFloats{second, second, second, second}};
+template <int kPair>
+HLC_INLINE Floats four_times_two(const Floats& a) {
+  constexpr int kFirst = 2 * kPair % 4;
+  constexpr int kSecond = kFirst + 1;
+  const HalfFloats& both = kPair < 2 ? a.low : a.high;
+  return {__builtin_shufflevector(both, both, kFirst, kFirst, kFirst, kFirst),
+          __builtin_shufflevector(both, both, kSecond, kSecond, kSecond, kSecond)};
 }
 HLC_INLINE Doubles halves_added(const Floats& a) {
   const HalfFloats sum = a.low + a.high;

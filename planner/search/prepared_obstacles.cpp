@@ -36,16 +36,16 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   }
   grow(first_obstacle_, n + 1);
   // Every step's obstacles are padded.
-  const std::size_t num_obstacles = num_polygons_ + n * (kFloatLanes - 1);
-  grow(obstacles_, num_obstacles);
-  grow(circles_, 3 * num_obstacles);
+  const std::size_t rectangle_blocks = blocks_of(num_polygons_) + n;
+  grow(obstacles_, rectangle_blocks * kFloatLanes);
+  grow(obstacle_rectangles_, rectangle_blocks);
   grow(obstacle_blocks_, num_blocks_);
   const std::size_t corner_stride = most_blocks_ * kFloatLanes + 1;
   grow(corners_, 2 * corner_stride);
   const std::size_t segment_blocks = blocks_of(problem.boundary_m.size());
   grow(segment_source_, segment_blocks);
   grow(segment_blocks_, segment_blocks);
-  grow(rectangles_, blocks_of(segment_blocks));
+  grow(segment_rectangles_, blocks_of(segment_blocks));
 
   plan.horizon_steps = n;
   plan.polygons = polygons_.data();
@@ -56,15 +56,13 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   plan.scale = tables_.reach_m(n);
   plan.first_obstacle = first_obstacle_.data();
   plan.obstacles = obstacles_.data();
-  plan.circle_x = circles_.data();
-  plan.circle_y = plan.circle_x + num_obstacles;
-  plan.circle_radius = plan.circle_y + num_obstacles;
+  plan.obstacle_rectangles = obstacle_rectangles_.data();
   plan.obstacle_blocks = obstacle_blocks_.data();
   plan.corners = corners_.data();
   plan.corner_stride = corner_stride;
   plan.segment_source = segment_source_.data();
   plan.segment_blocks = segment_blocks_.data();
-  plan.rectangles = rectangles_.data();
+  plan.segment_rectangles = segment_rectangles_.data();
 }
 
 void PreparedObstacles::list_polygons() {

@@ -27,7 +27,7 @@ class PreparedObstacles {
 
   /// What an obstacle or a segment of the plan is in the problem.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
-    return *sources_[obstacles_[item].polygon];
+    return *sources_[obstacles_[item]];
   }
   [[nodiscard]] const Segment& segment(std::uint32_t item) const {
     const std::size_t number = segment_source_[item / kFloatLanes] + item % kFloatLanes;
@@ -46,13 +46,13 @@ class PreparedObstacles {
   std::vector<const ConvexPolygon*> sources_;  ///< of `polygons_`
   std::vector<const double*> reach_;
   std::vector<std::uint32_t> first_obstacle_;
-  std::vector<ObstacleData> obstacles_;
-  std::vector<float> circles_;  ///< x, y, radius
+  std::vector<std::uint32_t> obstacles_;
+  std::vector<RectanglesBlock> obstacle_rectangles_;
   std::vector<PolygonBlock> obstacle_blocks_;
   std::vector<double> corners_;
   std::vector<std::uint32_t> segment_source_;
   std::vector<SegmentBlock> segment_blocks_;
-  std::vector<RectangleBlock> rectangles_;
+  std::vector<SegmentRectanglesBlock> segment_rectangles_;
 };
 
 }  // namespace hlc::branch_and_bound
