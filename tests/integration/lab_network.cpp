@@ -33,11 +33,12 @@ std::string peers_of(int machine) {
 
 }  // namespace
 
-Network::Network(bool multicast) : prefix_("hlc_" + std::to_string(getpid()) + "_") {
+Network::Network(bool multicast)
+    : prefix_("hlc_" + std::to_string(getpid()) + "_"), multicast_(multicast) {
   is_made_ = succeeds("ip netns add " + switch_name()) &&
              in(switch_name(), "link add br0 type bridge mcast_snooping 0") &&
              in(switch_name(), "link set br0 up");
-  for (int i = 1; i <= kMachines && is_made_; ++i) is_made_ = add_machine(i, multicast);
+  for (int i = 1; i <= kMachines && is_made_; ++i) is_made_ = add_machine(i);
 }
 
 Network::~Network() {
@@ -55,23 +56,23 @@ std::vector<std::string> Network::on(int i, const std::string& command) const {
               " /dev/shm && exec " + command + "'"};
 }
 
+// Taken off the bridge, the port has its carrier still. A carrier that comes back is noticed by the
+// kernel up to a second late (it looks once a second), and until then the machine sends nothing.
 void Network::cut_off(int machine) const {
-  in(switch_name(), "link set p" + std::to_string(machine) + " down");
+  in(switch_name(), "link set " + port(machine) + " nomaster");
 }
 
-void Network::join(int machine) const {
-  in(switch_name(), "link set p" + std::to_string(machine) + " up");
+bool Network::join(int machine) const {
+  return in(switch_name(), "link set " + port(machine) + " master br0") &&
+         in(switch_name(), "link set " + port(machine) + " type bridge_slave mcast_flood " +
+                               (multicast_ ? "on" : "off"));
 }
 
-bool Network::add_machine(int i, bool multicast) const {
-  const std::string number = std::to_string(i);
-  const std::string port = "p" + number;
+bool Network::add_machine(int i) const {
   return succeeds("ip netns add " + machine(i)) && in(machine(i), "link set lo up") &&
-         succeeds("ip link add eth0 netns " + machine(i) + " type veth peer name " + port +
+         succeeds("ip link add eth0 netns " + machine(i) + " type veth peer name " + port(i) +
                   " netns " + switch_name()) &&
-         in(switch_name(), "link set " + port + " master br0 up") &&
-         in(switch_name(),
-            "link set " + port + " type bridge_slave mcast_flood " + (multicast ? "on" : "off")) &&
+         in(switch_name(), "link set " + port(i) + " up") && join(i) &&
          in(machine(i), "addr add " + address(i) + "/24 dev eth0") &&
          in(machine(i), "link set eth0 up") && in(machine(i), "route add 224.0.0.0/4 dev eth0");
 }

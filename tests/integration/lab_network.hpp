@@ -26,15 +26,17 @@ class Network {
 
   /// A command line that runs on a machine, with the shared memory of that machine.
   [[nodiscard]] std::vector<std::string> on(int machine, const std::string& command) const;
-  void cut_off(int machine) const;
-  void join(int machine) const;
+  void cut_off(int machine) const;  ///< from its return on
+  bool join(int machine) const;     ///< false if that cannot be
 
  private:
   [[nodiscard]] std::string switch_name() const { return prefix_ + "switch"; }
   [[nodiscard]] std::string machine(int i) const { return prefix_ + std::to_string(i); }
-  [[nodiscard]] bool add_machine(int i, bool multicast) const;
+  [[nodiscard]] static std::string port(int machine) { return "p" + std::to_string(machine); }
+  [[nodiscard]] bool add_machine(int i) const;
 
   std::string prefix_;
+  bool multicast_;
   TemporaryFolder shared_memories_;
   bool is_made_{};
 };

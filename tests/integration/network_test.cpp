@@ -56,7 +56,7 @@ TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThe
       before + kNanosecondsPerSecond - std::min(fault, before + kNanosecondsPerSecond);
   ::usleep(static_cast<useconds_t>(rest / 1000));
   const Nanoseconds joined = real_time_now();
-  network.join(2);
+  ASSERT_TRUE(network.join(2));
   const Nanoseconds after = real_time_now();
   EXPECT_THAT(lab.still_running_after(180s), testing::IsEmpty());
   expect_only_the_last_plans(lab, fault, joined);
