@@ -4,12 +4,27 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/controller/plan_in_force.hpp"
+
 namespace hlc {
 namespace {
+
+/// More than the rounding of a step.
+constexpr double kSamePlace_m = 1e-6;
 
 [[noreturn]] void refuse(const StepRecord& row, const std::string& what) {
   throw std::runtime_error("vehicle " + std::to_string(row.record.report.vehicle.value) +
                            ", step " + std::to_string(row.step) + ": " + what);
+}
+
+/// True if the plan may have been set down anew in that step: then it does not lead where it led.
+///
+/// That goes by the position alone. The deviation that is reported may be less: it is how far the
+/// footprint leaves what the planned one covers with and without its slip.
+bool may_have_moved(const Report& report, const Subgraph& automaton) {
+  constexpr double kLeastReported = 0.2;
+  return report.deviation_m > kLeastReported * DeviationRules{}.reanchor_share *
+                                  automaton.automaton().vehicle.safety_margin_m;
 }
 
 /// Pose at the begin of a motion of which the end is known.
@@ -26,18 +41,25 @@ const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
       report.planned_trim.index >= automaton.automaton().trims.size()) {
     return nullptr;
   }
+  const Report& after = next->record.report;
+  const auto missed_m = [&](const Maneuver& maneuver) {
+    const Pose end = compose(report.planned_pose, maneuver.displacement);
+    return (end.position_m() - after.planned_pose.position_m()).norm();
+  };
   const Maneuver* nearest = nullptr;
-  double nearest_m = 0.0;
   for (const Edge& edge : automaton.successors(report.planned_trim)) {
-    if (edge.to != next->record.report.planned_trim) continue;
-    const Pose end = compose(report.planned_pose, edge.maneuver->displacement);
-    const double distance_m =
-        (end.position_m() - next->record.report.planned_pose.position_m()).norm();
-    if (nearest != nullptr && distance_m >= nearest_m) continue;
-    nearest = edge.maneuver;
-    nearest_m = distance_m;
+    if (edge.to != after.planned_trim) continue;
+    if (nearest == nullptr || missed_m(*edge.maneuver) < missed_m(*nearest)) {
+      nearest = edge.maneuver;
+    }
   }
-  return nearest;
+  if (nearest != nullptr && missed_m(*nearest) <= kSamePlace_m) return nearest;
+  for (const Maneuver& maneuver : automaton.automaton().maneuvers) {
+    const bool fits = maneuver.from == report.planned_trim && maneuver.to == after.planned_trim;
+    if (fits && missed_m(maneuver) <= kSamePlace_m) return &maneuver;
+  }
+  const bool is_own_step = report.planned_trim == after.planned_trim;
+  return is_own_step || may_have_moved(report, automaton) ? nearest : nullptr;
 }
 
 std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanoseconds period,
@@ -56,7 +78,8 @@ std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanos
                       .steering_rad = trim.steering_rad});
     if (k + 1 == rows.size() || rows[k + 1]->step != k + 1) continue;
     const Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
-    if (maneuver == nullptr) refuse(*rows[k], "no maneuver leads to the next planned trim");
+    if (maneuver == nullptr)
+      refuse(*rows[k], "no maneuver of the automaton leads to the next planned pose");
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
     for (Nanoseconds t = interval; t < period; t += interval) {
       State state = state_at(*maneuver, 1e-9 * static_cast<double>(t), vehicle);

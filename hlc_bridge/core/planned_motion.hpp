@@ -10,8 +10,11 @@
 namespace hlc {
 
 /// The maneuver planned for the step of `row`: of the edges between the two trims, the one that
-/// leads nearest to the next planned pose. nullptr if the reports do not say.
-/// @param next  the vehicle's next row; nullptr: none
+/// leads nearest to the next planned pose; if none leads there, one of the whole automaton that
+/// does: the vehicle planned on another subgraph then. nullptr if the reports do not say, or if it
+/// must have been a maneuver that the automaton does not hold, of new weights (weight_design.hpp).
+/// @param next       the vehicle's next row; nullptr: none
+/// @param automaton  the scenario's subgraph
 [[nodiscard]] const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
                                               const Subgraph& automaton);
 
