@@ -1,6 +1,7 @@
 // Asks controllers that drive to plan on another subgraph, and tells what they answer.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -34,6 +35,7 @@ struct Flags {
   std::vector<std::string> controller_peers;
   std::vector<int> vehicles;
   std::vector<std::string> criteria;
+  std::vector<std::string> weights;
   std::optional<double> max_speed_mps;
   std::vector<int> trims_on;
   std::vector<int> trims_off;
@@ -49,9 +51,15 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle", flags.vehicles, "vehicles that are asked, e.g. 1,2; default: all")
       ->delimiter(',')
       ->check(hlc::vehicle_id_range());
-  app.add_option("--criterion", flags.criteria,
-                 "labels of the maneuvers, e.g. J2, or J1,J2; default: the scenario's")
-      ->delimiter(',');
+  auto* const criterion =
+      app.add_option("--criterion", flags.criteria,
+                     "labels of the maneuvers, e.g. J2, or J1,J2; default: the scenario's")
+          ->delimiter(',');
+  app.add_option("--weights", flags.weights,
+                 "instead: maneuvers that are optimal for a weighted sum of criteria, e.g. "
+                 "J1=0.3,J2=0.7; what is not there is made beside the run")
+      ->delimiter(',')
+      ->excludes(criterion);
   app.add_option("--max_speed", flags.max_speed_mps, "speed limit [m/s]; default: the scenario's")
       ->check(hlc::within(0.0, 100.0));
   const auto add_trims = [&app](const std::string& name, std::vector<int>& trims,
@@ -117,8 +125,26 @@ std::vector<hlc::TrimPair> edges_of(const std::string& flag,
   return pairs;
 }
 
+std::vector<hlc::CriterionWeight> weights_of(const std::vector<std::string>& texts) {
+  std::vector<hlc::CriterionWeight> weights;
+  for (const std::string& text : texts) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    hlc::CriterionWeight one{.criterion = text.substr(0, equals)};
+    const char* const begin = text.data() + std::min(equals + 1, text.size());
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), one.weight);
+    if (one.criterion.empty() || error != std::errc{} || end != text.data() + text.size() ||
+        !std::isfinite(one.weight) || one.weight < 0.0) {
+      throw std::invalid_argument("--weights: '" + hlc::one_line(text) +
+                                  "', allowed criterion=number, at least 0");
+    }
+    weights.push_back(std::move(one));
+  }
+  return weights;
+}
+
 hlc::SubgraphRequest subgraph_request(const Flags& flags) {
   return {.labels = flags.criteria,
+          .weights = weights_of(flags.weights),
           .max_speed_mps = flags.max_speed_mps,
           .trims_on = trims_of(flags.trims_on),
           .trims_off = trims_of(flags.trims_off),

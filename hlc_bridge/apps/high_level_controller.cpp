@@ -18,6 +18,7 @@
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/hlc/hlc_process.hpp"
 #include "hlc_bridge/time/precedence.hpp"
+#include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/problem_dump.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -119,6 +120,9 @@ std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags, const hlc::Sce
                                               int vehicle_id) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
   hlc::HlcProcessOptions options = process_options(flags, id);
+  options.configuration = [file = scenario.automaton_file] {
+    return hlc::read_configuration_of(file);
+  };
   if (flags.problem_folder) {
     options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file)](
                              const hlc::Controller& controller) { dump.write(controller); };

@@ -6,10 +6,18 @@
 namespace hlc {
 
 PreparedRequest prepare(const Subgraph& base, const AutomatonRequest& request,
-                        std::size_t horizon_steps) {
+                        std::size_t horizon_steps, WeightDesign* weights,
+                        const std::stop_token& stop) {
   PreparedRequest prepared{.request = request, .subgraph = {}, .reachable = {}, .refusal = {}};
   try {
-    const auto subgraph = requested_subgraph(base, request.subgraph, horizon_steps);
+    std::shared_ptr<const UniversalAutomaton> automaton;
+    if (weights != nullptr && !request.subgraph.weights.empty()) {
+      automaton = weights->automaton_for(requested_spec(base, request.subgraph),
+                                         request.subgraph.weights, stop);
+    }
+    const auto subgraph =
+        requested_subgraph(base, request.subgraph, horizon_steps, std::move(automaton));
+    if (weights != nullptr) weights->check(*subgraph);
     prepared.reachable = std::make_shared<const ReachableSets>(*subgraph, horizon_steps + 1);
     prepared.subgraph = subgraph;
   } catch (const std::exception& error) {

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "hlc_bridge/core/automaton_messages.hpp"
+#include "hlc_bridge/core/weight_design.hpp"
 #include "planner/controller/controller.hpp"
 
 namespace hlc {
@@ -20,10 +22,15 @@ struct PreparedRequest {
 };
 
 /// Makes the subgraph and its tables: milliseconds for a dozen trims, a good part of a second for a
-/// hundred. Needs nothing of a controller: on any thread, ahead.
-/// @param base  the scenario's subgraph
+/// hundred, and for new weights the time that their maneuvers take (WeightDesign). Needs nothing of
+/// a controller: on any thread, ahead.
+/// @param base     the scenario's subgraph
+/// @param weights  what makes and checks maneuvers; without, only what the automaton holds can be
+/// asked for
+/// @param stop     nobody wants it any more: it is refused soon
 [[nodiscard]] PreparedRequest prepare(const Subgraph& base, const AutomatonRequest& request,
-                                      std::size_t horizon_steps);
+                                      std::size_t horizon_steps, WeightDesign* weights = nullptr,
+                                      const std::stop_token& stop = {});
 
 /// Which request of a vehicle is in force when. No clock, no thread.
 ///

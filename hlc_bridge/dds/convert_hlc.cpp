@@ -187,13 +187,32 @@ std::vector<TrimPair> edges_from_wire(const std::vector<EdgeMessage>& wire) {
   return edges;
 }
 
+std::vector<CriterionWeightMessage> weights_to_wire(const std::vector<CriterionWeight>& weights) {
+  std::vector<CriterionWeightMessage> wire(weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const auto& [criterion, weight] = weights[i];
+    wire[i].criterion(criterion);
+    wire[i].weight(weight);
+  }
+  return wire;
+}
+
+std::vector<CriterionWeight> weights_from_wire(const std::vector<CriterionWeightMessage>& wire) {
+  std::vector<CriterionWeight> weights;
+  for (const CriterionWeightMessage& one : wire) weights.push_back({one.criterion(), one.weight()});
+  return weights;
+}
+
 bool is_valid(const AutomatonRequestMessage& wire) {
   const auto is_short = [](const auto& entries) { return entries.size() <= kMaxEntries; };
   return is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
-         is_short(wire.labels()) && is_short(wire.trims_on()) && is_short(wire.trims_off()) &&
-         is_short(wire.edges_on()) && is_short(wire.edges_off()) &&
+         is_short(wire.labels()) && is_short(wire.weights()) && is_short(wire.trims_on()) &&
+         is_short(wire.trims_off()) && is_short(wire.edges_on()) && is_short(wire.edges_off()) &&
          std::ranges::all_of(wire.labels(),
-                             [](const std::string& label) { return label.size() <= kMaxText; });
+                             [](const std::string& label) { return label.size() <= kMaxText; }) &&
+         std::ranges::all_of(wire.weights(), [](const CriterionWeightMessage& one) {
+           return one.criterion().size() <= kMaxText && all_finite(one.weight());
+         });
 }
 
 bool is_valid(const ReportMessage& wire) {
@@ -335,11 +354,12 @@ Incoming<RunState> from_wire(const RunStateMessage& wire) {
 
 void to_wire(const AutomatonRequest& message, AutomatonRequestMessage& wire) {
   const auto& [vehicle, id, valid_from, subgraph] = message;
-  const auto& [labels, max_speed_mps, trims_on, trims_off, edges_on, edges_off] = subgraph;
+  const auto& [labels, weights, max_speed_mps, trims_on, trims_off, edges_on, edges_off] = subgraph;
   wire.vehicle_id(vehicle.value);
   wire.id(id);
   wire.valid_from(valid_from);
   wire.labels(labels);
+  wire.weights(weights_to_wire(weights));
   wire.limits_speed(max_speed_mps.has_value());
   wire.max_speed_mps(max_speed_mps.value_or(0.0));
   wire.trims_on(trims_to_wire(trims_on));
@@ -353,6 +373,7 @@ Incoming<AutomatonRequest> from_wire(const AutomatonRequestMessage& wire) {
     return {std::nullopt, 1};
   }
   SubgraphRequest subgraph{.labels = wire.labels(),
+                           .weights = weights_from_wire(wire.weights()),
                            .max_speed_mps = {},
                            .trims_on = trims_from_wire(wire.trims_on()),
                            .trims_off = trims_from_wire(wire.trims_off()),

@@ -51,6 +51,8 @@ struct HlcProcessOptions {
   int thread_priority{1};   ///< of the thread that plans (time/precedence); 0: an ordinary one
   std::optional<int> core;  ///< on which it stays
   StepDeadlines deadlines;
+  /// Of the scenario's automaton, for new weights (WeightDesign).
+  WeightDesign::Source configuration;
   /// Called with the controller after the command of a step has been sent. What it throws is logged
   /// once, and it is not called again.
   std::function<void(const Controller&)> after_step;

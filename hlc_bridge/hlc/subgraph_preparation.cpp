@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "hlc_bridge/time/precedence.hpp"
+
 namespace hlc {
 namespace {
 
@@ -13,10 +15,14 @@ constexpr std::chrono::hours kLong{1};
 }  // namespace
 
 SubgraphPreparation::SubgraphPreparation(std::shared_ptr<const Subgraph> base,
-                                         std::size_t horizon_steps)
-    : base_(std::move(base)), horizon_steps_(horizon_steps), thread_([this] { run(); }) {}
+                                         std::size_t horizon_steps, WeightDesign weights)
+    : base_(std::move(base)),
+      horizon_steps_(horizon_steps),
+      weights_(std::move(weights)),
+      thread_([this] { run(); }) {}
 
 SubgraphPreparation::~SubgraphPreparation() {
+  stop_.request_stop();
   signal_.post([this] { ends_ = true; });
   thread_.join();
 }
@@ -38,6 +44,7 @@ void SubgraphPreparation::wait() const {
 }
 
 void SubgraphPreparation::run() {
+  give_precedence();
   while (true) {
     static_cast<void>(signal_.wait_until(std::chrono::steady_clock::now() + kLong,
                                          [this] { return !asked_.empty() || ends_; }));
@@ -53,7 +60,8 @@ void SubgraphPreparation::run() {
       if (signal_.locked([this] { return ends_; })) return;
       continue;
     }
-    PreparedRequest prepared = prepare(*base_, *request, horizon_steps_);
+    PreparedRequest prepared =
+        prepare(*base_, *request, horizon_steps_, &weights_, stop_.get_token());
     signal_.post([&] {
       done_.push_back(std::move(prepared));
       is_working_ = false;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <deque>
 #include <memory>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -11,12 +12,14 @@
 
 namespace hlc {
 
-/// Prepares requested subgraphs on a thread of its own while the controller drives.
+/// Prepares requested subgraphs on a thread of its own while the controller drives. The thread
+/// gives way to others, since making maneuvers takes a core for a good while.
 class SubgraphPreparation {
  public:
   /// @param base  the scenario's subgraph
-  SubgraphPreparation(std::shared_ptr<const Subgraph> base, std::size_t horizon_steps);
-  /// Waits for the one in work.
+  SubgraphPreparation(std::shared_ptr<const Subgraph> base, std::size_t horizon_steps,
+                      WeightDesign weights);
+  /// Waits for the one in work, of new weights for the maneuver in work.
   ~SubgraphPreparation();
   SubgraphPreparation(const SubgraphPreparation&) = delete;
   SubgraphPreparation& operator=(const SubgraphPreparation&) = delete;
@@ -37,6 +40,8 @@ class SubgraphPreparation {
 
   const std::shared_ptr<const Subgraph> base_;
   const std::size_t horizon_steps_;
+  WeightDesign weights_;  ///< the thread's
+  std::stop_source stop_;
 
   Signal signal_;
   // Guarded by signal_:

@@ -20,4 +20,8 @@ inline constexpr int kMaxCore = 1023;  ///< the highest number that a set of cor
 /// @return false if there is no such core for this process, and nothing has changed
 bool stay_on_core(int core);
 
+/// Lets the calling thread run after ordinary ones where they want the same core: for work beside
+/// the control loop that may take its time. Threads that it starts do so, too.
+void give_precedence();
+
 }  // namespace hlc

@@ -20,6 +20,14 @@ double top_speed_mps(const Maneuver& maneuver) {
   return largest_mps;
 }
 
+double top_speed_mps(const UniversalAutomaton& automaton) {
+  double largest_mps = 0.0;
+  for (const Maneuver& maneuver : automaton.maneuvers) {
+    largest_mps = std::max(largest_mps, top_speed_mps(maneuver));
+  }
+  return largest_mps;
+}
+
 double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
                              const IdentifiedVehicle& identified) {
   return slip_angle_rad(steering_rad, vehicle) -
@@ -44,9 +52,14 @@ State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters&
   }
   const std::size_t intervals = maneuver.inputs.size();
   const double interval_s = maneuver.duration_s / static_cast<double>(intervals);
+  // Times are sums of ticks: where an interval ends to within their rounding, its state is known.
+  constexpr double kSameInstant_s = 1e-12;
+  const auto knot = static_cast<std::size_t>(std::lround(time / interval_s));
+  if (std::abs(time - static_cast<double>(knot) * interval_s) < kSameInstant_s) {
+    return maneuver.states[knot];
+  }
   const std::size_t interval = std::min(static_cast<std::size_t>(time / interval_s), intervals - 1);
   const double rest_s = time - static_cast<double>(interval) * interval_s;
-  if (rest_s == 0.0) return maneuver.states[interval];
   return integrated(maneuver.states[interval], maneuver.inputs[interval], rest_s, vehicle);
 }
 

@@ -37,6 +37,13 @@ struct CriterionValue {
   friend bool operator==(const CriterionValue&, const CriterionValue&) = default;
 };
 
+/// Share of a criterion in a weighted sum.
+struct CriterionWeight {
+  std::string criterion;  ///< see planner/maneuver_design/criteria.hpp
+  double weight{};
+  friend bool operator==(const CriterionWeight&, const CriterionWeight&) = default;
+};
+
 /// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step,
 /// the trim driven for one step, for every label).
 ///
@@ -82,6 +89,9 @@ struct UniversalAutomaton {
 /// Largest speed along the motion, at its ends and between them: a maneuver may outrun both its
 /// trims. Exact, because the speed is linear between two states.
 [[nodiscard]] double top_speed_mps(const Maneuver& maneuver);
+
+/// The same over all its maneuvers, whatever of them is on.
+[[nodiscard]] double top_speed_mps(const UniversalAutomaton& automaton);
 
 /// Angle from a planned heading to the yaw at which the identified vehicle drives the same path:
 /// course = heading + beta(delta) = yaw + slip(curvature(delta)), so yaw - heading = beta(delta) -

@@ -38,7 +38,14 @@ void check_trim(TrimId trim, const UniversalAutomaton& automaton) {
 }
 
 void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
-                   const std::vector<std::string>& labels) {
+                   const SubgraphRequest& request) {
+  const std::vector<std::string>& labels = request.labels;
+  if (!request.weights.empty()) {
+    if (!labels.empty()) refuse("labels " + listed(labels) + " and weights, allowed one of both");
+    spec.labels = {label_of(request.weights)};
+    spec.edges.clear();
+    return;
+  }
   if (labels.empty()) return;
   std::set<std::string> known;
   for (const Maneuver& maneuver : automaton.maneuvers) {
@@ -106,6 +113,7 @@ std::string name_of(const std::string& base, const SubgraphRequest& request) {
   if (!request.labels.empty()) {
     add((request.labels.size() == 1 ? "label " : "labels ") + listed(request.labels));
   }
+  if (!request.weights.empty()) add("weights " + label_of(request.weights));
   if (request.max_speed_mps) add("at most " + shortest_text(*request.max_speed_mps) + " m/s");
   if (!request.trims_on.empty()) add("with trims " + listed(request.trims_on));
   if (!request.trims_off.empty()) add("without trims " + listed(request.trims_off));
@@ -116,19 +124,35 @@ std::string name_of(const std::string& base, const SubgraphRequest& request) {
 
 }  // namespace
 
-std::shared_ptr<const Subgraph> requested_subgraph(const Subgraph& base,
-                                                   const SubgraphRequest& request,
-                                                   std::size_t horizon_steps) {
+std::string label_of(std::vector<CriterionWeight> weights) {
+  std::ranges::stable_sort(weights, {}, &CriterionWeight::criterion);
+  std::string label;
+  for (const CriterionWeight& one : weights) {
+    if (one.weight == 0.0) continue;
+    label += (label.empty() ? "" : " ") + one.criterion + " " + shortest_text(one.weight);
+  }
+  return label;
+}
+
+SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request) {
   const UniversalAutomaton& automaton = base.automaton();
   SubgraphSpec spec = base.spec();
   spec.name = name_of(spec.name, request);
-  change_labels(spec, automaton, request.labels);
+  change_labels(spec, automaton, request);
   for (const TrimId trim : request.trims_on) switch_on(spec, automaton, trim);
   for (const TrimId trim : request.trims_off) switch_off(spec, automaton, trim);
   for (const TrimPair& edge : request.edges_on) switch_on(spec, automaton, edge);
   for (const TrimPair& edge : request.edges_off) switch_off(spec, automaton, edge);
   if (request.max_speed_mps) limit_speed(spec, automaton, *request.max_speed_mps);
-  auto subgraph = std::make_shared<const Subgraph>(base.shared_automaton(), std::move(spec));
+  return spec;
+}
+
+std::shared_ptr<const Subgraph> requested_subgraph(
+    const Subgraph& base, const SubgraphRequest& request, std::size_t horizon_steps,
+    std::shared_ptr<const UniversalAutomaton> automaton) {
+  if (!automaton) automaton = base.shared_automaton();
+  auto subgraph =
+      std::make_shared<const Subgraph>(std::move(automaton), requested_spec(base, request));
   check_driving(*subgraph, horizon_steps);
   return subgraph;
 }

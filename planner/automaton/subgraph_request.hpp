@@ -16,6 +16,10 @@ namespace hlc {
 struct SubgraphRequest {
   /// Of all maneuvers between different trims, instead of the scenario's; empty: as they are.
   std::vector<std::string> labels{};
+  /// Instead of labels: what all maneuvers between different trims are to be optimal for, a plain
+  /// weighted sum (see planner/maneuver_design). Maneuvers of such weights may have to be made
+  /// first; empty: `labels` say it.
+  std::vector<CriterionWeight> weights{};
   std::optional<double> max_speed_mps{};  ///< instead of the scenario's; absent: as it is
   std::vector<TrimId> trims_on{};         ///< beside those of the scenario
   std::vector<TrimId> trims_off{};
@@ -24,16 +28,28 @@ struct SubgraphRequest {
   friend bool operator==(const SubgraphRequest&, const SubgraphRequest&) = default;
 };
 
-/// The subgraph that is asked for, named after what differs ("B, labels J2, at most 0.6 m/s").
+/// Label of maneuvers that were made for these weights ("J1 0.3 J2 0.7"): the same for the same
+/// weights in any order, without those that are 0.
+[[nodiscard]] std::string label_of(std::vector<CriterionWeight> weights);
+
+/// What is to be on, named after what differs ("B, labels J2, at most 0.6 m/s"). Weights become
+/// their label.
+/// @param base  the scenario's
+/// @throws std::invalid_argument saying in one line what is wrong and what is allowed: an unknown
+/// trim or label, labels and weights, a trim on that is on or off that is off, a speed below the
+/// slowest moving trim
+[[nodiscard]] SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request);
+
+/// The subgraph that is asked for.
 ///
 /// It drives as every declared one does: each trim that is on can be reached from standstill, and
 /// reaches standstill within the horizon.
-/// @param base           the scenario's
-/// @throws std::invalid_argument saying in one line what is wrong and what is allowed: an unknown
-/// trim or label, a trim on that is on or off that is off, a label that the automaton does not hold
-/// for an edge, a speed below the slowest moving trim, standstill cut off
-[[nodiscard]] std::shared_ptr<const Subgraph> requested_subgraph(const Subgraph& base,
-                                                                 const SubgraphRequest& request,
-                                                                 std::size_t horizon_steps);
+/// @param base       the scenario's
+/// @param automaton  with the maneuvers of the weights, if any are asked for; none: the base's
+/// @throws std::invalid_argument as requested_spec; a label that the automaton does not hold for an
+/// edge, standstill cut off
+[[nodiscard]] std::shared_ptr<const Subgraph> requested_subgraph(
+    const Subgraph& base, const SubgraphRequest& request, std::size_t horizon_steps,
+    std::shared_ptr<const UniversalAutomaton> automaton = nullptr);
 
 }  // namespace hlc

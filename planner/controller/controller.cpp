@@ -24,21 +24,13 @@ constexpr double kReachRounding_m = 1e-5;
 /// A route that the vehicle fits is better than any that it does not.
 constexpr double kFitsNot_m = 1e6;
 
-/// Over all maneuvers: another vehicle may drive on any subgraph.
-double top_speed_mps(const UniversalAutomaton& automaton) {
-  double result = 0.0;
-  for (const Maneuver& maneuver : automaton.maneuvers) {
-    result = std::max(result, top_speed_mps(maneuver));
-  }
-  return result;
-}
-
 const Maneuver* own_step(const UniversalAutomaton& automaton, TrimId trim) {
   const Maneuver* step = automaton.find(trim, trim, kOwnStepLabel);
   assert(step != nullptr && "every trim has its own step");
   return step;
 }
 
+/// Over all maneuvers: another vehicle may drive on any subgraph.
 MissingVehicleRules rules_for_missing(const UniversalAutomaton& automaton) {
   const VehicleParameters& vehicle = automaton.vehicle;
   return {
@@ -131,7 +123,7 @@ std::unique_ptr<Controller> Controller::clone() const {
 
 void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
                            std::shared_ptr<const ReachableSets> reachable) {
-  assert(&subgraph->automaton() == &subgraph_->automaton());
+  assert(subgraph->automaton().trims == subgraph_->automaton().trims);
   if (!reachable) {
     reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
   }
@@ -413,27 +405,27 @@ std::vector<const Maneuver*> Controller::incumbent() const {
 }
 
 /// Solves the problem; after a switch, if it has no path, on the former subgraph.
-SearchResult Controller::search() {
-  const auto search_on = [this](HorizonPlanner& planner) {
-    SearchResult result = planner.plan(step_.problems.back());
-    step_.report.generated += result.generated;
-    step_.report.expanded += result.expanded;
-    return result;
+Controller::Found Controller::search() {
+  const auto search_on = [this](HorizonPlanner& planner, const Subgraph& subgraph) {
+    Found found{.result = planner.plan(step_.problems.back()), .on = &subgraph};
+    step_.report.generated += found.result.generated;
+    step_.report.expanded += found.result.expanded;
+    return found;
   };
-  SearchResult result = search_on(*planner_);
-  if (!former_) return result;
+  Found found = search_on(*planner_, *subgraph_);
+  if (!former_) return found;
   const bool found_nothing =
-      result.status == SearchStatus::kFallback && result.reason != NoPath::kBudget;
+      found.result.status == SearchStatus::kFallback && found.result.reason != NoPath::kBudget;
   if (!found_nothing || step_.observation.step > former_->last) {
     former_.reset();
-    return result;
+    return found;
   }
-  return search_on(*former_->planner);
+  return search_on(*former_->planner, *former_->subgraph);
 }
 
 /// What is found is the candidate, unless its drift leads into something.
 void Controller::search_candidate(StepIndex next) {
-  const SearchResult result = search();
+  const auto [result, on] = search();
   if (result.status == SearchStatus::kFallback) {
     step_.obstacle =
         result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;
@@ -444,7 +436,8 @@ void Controller::search_candidate(StepIndex next) {
   step_.report.quality = is_optimal ? PlanQuality::kOptimal : PlanQuality::kBudget;
   step_.report.gap_m2 = is_optimal ? 0.0 : result.cost - result.lower_bound;
   step_.candidate = in_force_->base().continued(
-      next, result.maneuvers, *own_step(subgraph_->automaton(), result.maneuvers.back()->to));
+      next, result.maneuvers, *own_step(on->automaton(), result.maneuvers.back()->to),
+      on->shared_automaton());
   step_.prediction.areas = in_force_->areas_of(*step_.candidate, next);
   if (!is_candidate_drivable()) {
     step_.candidate.reset();
@@ -568,7 +561,8 @@ Report Controller::give_up(FallbackReason reason) { return finish(false, reason)
 Report Controller::finish(bool accepted, FallbackReason reason) {
   Report& report = step_.report;
   if (accepted) {
-    in_force_->replace(std::move(*step_.candidate), step_.prediction.areas, step_.observation.step);
+    step_.replaced = in_force_->replace(std::move(*step_.candidate), step_.prediction.areas,
+                                        step_.observation.step);
     report.status = StepStatus::kPlanned;
   } else {
     report.status = drives_out_ ? StepStatus::kDriveOut : StepStatus::kFallback;

@@ -88,15 +88,17 @@ class Controller {
   /// Step of the last `observe` or `stand_by`.
   [[nodiscard]] StepIndex last_step() const { return step_.observation.step; }
 
-  /// From the next step on plans on another subgraph of the same automaton. Its tables, for one
-  /// step more than the horizon, are computed unless they are given: a matter of milliseconds for a
-  /// dozen trims, not for a hundred (ReachableSets). Not in the middle of a step. The plan in force
-  /// stays, whatever of it is off now, and is the fallback as ever: see Subgraph for the rule.
-  /// Where nothing is found from where the plan in force leads (the way off what is off now leads
-  /// into something), the former subgraph is planned on, until something is, for a horizon at most.
-  /// The other vehicles need not switch in the same step: where a missing one may be is reckoned
-  /// with the highest speed of the whole automaton.
-  /// @pre `subgraph` belongs to the automaton of the former one, `reachable` to `subgraph`
+  /// From the next step on plans on another subgraph, of the same automaton or of one that differs
+  /// from it in its maneuvers alone. Its tables, for one step more than the horizon, are computed
+  /// unless they are given: a matter of milliseconds for a dozen trims, not for a hundred
+  /// (ReachableSets). Not in the middle of a step. The plan in force stays, whatever of it is off
+  /// now, and is the fallback as ever: see Subgraph for the rule. Where nothing is found from where
+  /// the plan in force leads (the way off what is off now leads into something), the former
+  /// subgraph is planned on, until something is, for a horizon at most. The other vehicles need not
+  /// switch in the same step: where a missing one may be is reckoned with the highest speed of the
+  /// whole automaton that was given at first.
+  /// @pre `subgraph` is of the same vehicle, step and trims, and on it nothing is faster than that;
+  /// `reachable` belongs to `subgraph`
   void switch_to(std::shared_ptr<const Subgraph> subgraph,
                  std::shared_ptr<const ReachableSets> reachable = nullptr);
 
@@ -160,8 +162,14 @@ class Controller {
     std::vector<HorizonProblem> problems;       ///< the last is the one to solve
     std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
     std::optional<Plan> candidate;
-    Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
+    std::optional<Plan> replaced;  ///< in force before; keeps the maneuvers of `problems`
+    Prediction prediction;         ///< own; of a candidate its areas, from t(k+1) on
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
+  };
+
+  struct Found {
+    SearchResult result;
+    const Subgraph* on;  ///< the subgraph that was searched
   };
 
   /// What was planned on before a switch.
@@ -180,7 +188,7 @@ class Controller {
   void look_at_lanes();
   [[nodiscard]] double project(const Point& position_m) const;
   [[nodiscard]] double reach_m() const;
-  [[nodiscard]] SearchResult search();
+  [[nodiscard]] Found search();
   void search_candidate(StepIndex next);
   [[nodiscard]] bool is_candidate_free() const;
   [[nodiscard]] bool is_candidate_drivable() const;

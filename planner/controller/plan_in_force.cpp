@@ -21,7 +21,7 @@ PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
       standstill_(&standstill),
       rules_(rules),
       plan_(step, pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
-            standstill),
+            standstill, automaton_),
       told_(plan_.areas_from(step)),
       last_seen_(measured),
       seen_{.step = step, .time_s = 0.0, .pose = measured} {
@@ -126,14 +126,14 @@ OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const
   return areas_with_drift(candidate, next, seen_, *automaton_, tolerated_m());
 }
 
-void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
+Plan PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
   const ConvexPolygon under_way = told_.during(now);
   told_.first = now;
   told_.areas_m.resize(1 + areas.areas_m.size());
   told_.areas_m.front() = under_way;
   std::ranges::copy(areas.areas_m, told_.areas_m.begin() + 1);
   told_.final_area_m = areas.final_area_m;
-  plan_ = std::move(candidate);
+  return std::exchange(plan_, std::move(candidate));
 }
 
 }  // namespace hlc

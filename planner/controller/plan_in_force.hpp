@@ -84,7 +84,8 @@ class PlanInForce {
   [[nodiscard]] OccupiedAreas areas_of(const Plan& candidate, StepIndex next) const;
 
   /// From now on `candidate`, of which `areas` from t(now + 1) on have been told.
-  void replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
+  /// @return the plan before
+  Plan replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
 
  private:
   [[nodiscard]] bool is_inside_told(const Pose& measured, StepIndex step,

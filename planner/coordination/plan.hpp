@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
@@ -11,22 +12,30 @@ namespace hlc {
 /// t(first) on, then standing at the last pose for ever. Because steps are numbered by time, the
 /// same plan one step later is the same object: nothing is shifted, the past is only no longer
 /// asked for.
+///
+/// Its maneuvers may be of several automata, one after the other. Each is kept as long as the plan
+/// has a maneuver of it; of one that was not given the maneuvers must outlive the plan.
 class Plan {
  public:
-  /// Standing at `pose` from t(first) on. `standstill` is the equilibrium trim's own step and, like
-  /// every maneuver of a plan, must outlive the plan (the automaton owns it).
-  Plan(StepIndex first, const Pose& pose, const Maneuver& standstill);
+  using Owner = std::shared_ptr<const UniversalAutomaton>;
+
+  /// Standing at `pose` from t(first) on.
+  /// @param standstill  the equilibrium trim's own step
+  /// @param owner       of it
+  Plan(StepIndex first, const Pose& pose, const Maneuver& standstill, const Owner& owner = {});
 
   /// This plan until t(step), then `continuation`, then `standstill`; what lies before t(step - 2)
   /// is forgotten.
+  /// @param owner  of both
   /// @pre continuation starts with the trim of this plan at t(step) and ends in the trim whose own
   /// step is `standstill`
   [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
-                               const Maneuver& standstill) const;
-  /// The same where the new plan ends in the equilibrium trim in which this one does.
+                               const Maneuver& standstill, const Owner& owner = {}) const;
+  /// The same where the new plan ends in the equilibrium trim in which this one does, and is of the
+  /// same automaton.
   [[nodiscard]] Plan continued(StepIndex step,
                                const std::vector<const Maneuver*>& continuation) const {
-    return continued(step, continuation, *standstill_);
+    return continued(step, continuation, standstill_);
   }
 
   /// The same maneuvers from elsewhere: the whole plan moved rigidly so that `from` comes to `to`.
@@ -48,9 +57,17 @@ class Plan {
   [[nodiscard]] OccupiedAreas areas_from(StepIndex from) const;
 
  private:
+  /// Shares its automaton, if that was given.
+  using Held = std::shared_ptr<const Maneuver>;
+
+  Plan(StepIndex first, const Pose& pose, Held standstill);
+  [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
+                               const Held& standstill) const;
+  [[nodiscard]] const Held& held_during(StepIndex step) const;
+
   StepIndex first_;
-  const Maneuver* standstill_;
-  std::vector<const Maneuver*> maneuvers_;
+  Held standstill_;
+  std::vector<Held> maneuvers_;
   std::vector<Pose> poses_;  ///< at t(first_ + i), one more than maneuvers
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -111,16 +112,42 @@ ManeuverProblem mirrored(ManeuverProblem problem) {
 }
 
 /// Seen in a mirror along the direction of travel. (0 - x, since -0 is printed unlike 0.)
-ManeuverSolution mirrored(ManeuverSolution solution) {
-  for (Input& input : solution.inputs) {
+template <class Motion>
+void mirror_motion(Motion& motion) {
+  for (Input& input : motion.inputs) {
     input.steering_rate_radps = 0.0 - input.steering_rate_radps;
   }
-  for (State& state : solution.states) {
+  for (State& state : motion.states) {
     state.pose.y_m = 0.0 - state.pose.y_m;
     state.pose.heading_rad = 0.0 - state.pose.heading_rad;
     state.steering_rad = 0.0 - state.steering_rad;
   }
+}
+
+ManeuverSolution mirrored(ManeuverSolution solution) {
+  mirror_motion(solution);
   return solution;
+}
+
+/// Its areas are not the mirror image: the identified vehicle leans to one side.
+Maneuver mirrored(Maneuver maneuver, const TrimPair& edge,
+                  const AutomatonConfiguration& configuration) {
+  maneuver.from = edge.from;
+  maneuver.to = edge.to;
+  mirror_motion(maneuver);
+  complete(maneuver, configuration);
+  return maneuver;
+}
+
+/// Of each trim the one that steers as much to the other side; itself if there is none.
+std::vector<TrimId> mirror_trims(const std::vector<Trim>& trims) {
+  std::vector<TrimId> images;
+  for (std::size_t i = 0; i < trims.size(); ++i) {
+    const Trim image{trims[i].speed_mps, 0.0 - trims[i].steering_rad};
+    const auto found = std::ranges::find(trims, image);
+    images.push_back({found == trims.end() ? i : static_cast<std::size_t>(found - trims.begin())});
+  }
+  return images;
 }
 
 /// No criterion, bound or limit tells left from right, so mirrored pairs of trims have mirrored
@@ -282,6 +309,25 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   return maneuver;
 }
 
+std::vector<Maneuver> design(const AutomatonConfiguration& configuration,
+                             const std::vector<DesignTask>& tasks,
+                             const std::function<void()>& before_each) {
+  const std::vector<TrimId> mirror = mirror_trims(configuration.trims);
+  std::vector<Maneuver> designed;
+  std::map<std::pair<TrimPair, std::size_t>, std::size_t> places;  // of edge and criterion
+  for (const DesignTask& task : tasks) {
+    if (before_each) before_each();
+    const TrimPair& edge = task.edge;
+    const auto image =
+        places.find({{mirror[edge.from.index], mirror[edge.to.index]}, task.criterion});
+    places[{edge, task.criterion}] = designed.size();
+    designed.push_back(image == places.end()
+                           ? design(configuration, task)
+                           : mirrored(designed[image->second], edge, configuration));
+  }
+  return designed;
+}
+
 UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
                              std::vector<Maneuver> designed) {
   UniversalAutomaton automaton = without_maneuvers(configuration);
@@ -294,11 +340,7 @@ UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
 }
 
 UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) {
-  std::vector<Maneuver> designed;
-  for (const DesignTask& task : design_tasks(configuration)) {
-    designed.push_back(design(configuration, task));
-  }
-  return assembled(configuration, std::move(designed));
+  return assembled(configuration, design(configuration, design_tasks(configuration)));
 }
 
 std::shared_ptr<const UniversalAutomaton> build_shared_automaton(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -41,12 +42,19 @@ struct DesignTask {
 /// so long that one Runge-Kutta step does not follow the model (see fault_of)
 [[nodiscard]] Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task);
 
+/// The same for many, one after the other, in their order. Of two mirrored ones only the first is
+/// solved.
+/// @param before_each  called before each; what it throws ends it
+[[nodiscard]] std::vector<Maneuver> design(const AutomatonConfiguration& configuration,
+                                           const std::vector<DesignTask>& tasks,
+                                           const std::function<void()>& before_each = {});
+
 /// The automaton: every trim's own step (exact arc, label "trim"), then the designed maneuvers in
 /// their order.
 [[nodiscard]] UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
                                            std::vector<Maneuver> designed);
 
-/// All three, one task after the other.
+/// All three.
 ///
 /// The same configuration gives the same automaton, bit for bit, on one machine.
 [[nodiscard]] UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration);

@@ -9,12 +9,6 @@
 
 namespace hlc {
 
-/// Share of a criterion in a weighted sum.
-struct CriterionWeight {
-  std::string criterion;  ///< a name of criteria.hpp
-  double weight{};
-};
-
 /// A point of the Pareto front of two criteria (epsilon-constraint): J_minimised is least among the
 /// maneuvers with J_bounded <= best + share (worst - best), where best is the optimum of J_bounded
 /// and worst its value at the optimum of J_minimised. On each pair of trims it is another bound.

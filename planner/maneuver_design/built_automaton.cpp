@@ -1,5 +1,6 @@
 #include "planner/maneuver_design/built_automaton.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -40,6 +41,14 @@ std::string canonical_text(const AutomatonConfiguration& c) {
   return text;
 }
 
+/// None if it is not there, or if a built automaton bears its name.
+std::optional<std::filesystem::path> configuration_beside(const AutomatonFile& file,
+                                                          const std::filesystem::path& path) {
+  std::filesystem::path beside = path.parent_path() / file.configuration_file;
+  if (!std::filesystem::exists(beside) || is_automaton_file(beside)) return std::nullopt;
+  return beside;
+}
+
 }  // namespace
 
 std::string configuration_sha256(const AutomatonConfiguration& configuration) {
@@ -72,10 +81,23 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
 
 AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {
   AutomatonFile file = read_automaton_file(path);
-  const std::filesystem::path beside = path.parent_path() / file.configuration_file;
-  const bool is_there = std::filesystem::exists(beside) && !is_automaton_file(beside);
-  if (is_there) check_is_current(file, path, beside);
+  const auto configuration = configuration_beside(file, path);
+  if (configuration) check_is_current(file, path, *configuration);
   return file;
+}
+
+AutomatonConfiguration read_configuration_of(const std::filesystem::path& path) {
+  if (!is_automaton_file(path)) return read_automaton_configuration(path);
+  const AutomatonFile file = read_automaton_file(path);
+  const auto beside = configuration_beside(file, path);
+  if (!beside) {
+    throw std::invalid_argument(path.string() + ": its configuration " + file.configuration_file +
+                                " is not beside it, without which no maneuvers can be designed");
+  }
+  check_is_current(file, path, *beside);
+  AutomatonConfiguration configuration = read_automaton_configuration(*beside);
+  if (file.chosen_intervals) configuration.intervals = *file.chosen_intervals;
+  return configuration;
 }
 
 }  // namespace hlc

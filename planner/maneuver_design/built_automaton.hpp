@@ -32,4 +32,11 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
 /// now. Without it, or if a built automaton bears that name, the file stands for itself.
 [[nodiscard]] AutomatonFile read_current_automaton_file(const std::filesystem::path& path);
 
+/// The configuration of which an automaton is, for designing more of its maneuvers: `path` itself,
+/// or, if that is a built automaton, what lies beside it under the name of its configuration, with
+/// the intervals with which it was built.
+/// @throws std::invalid_argument with one line if there is none, if the file is stale, or as
+/// read_automaton_file and read_automaton_configuration
+[[nodiscard]] AutomatonConfiguration read_configuration_of(const std::filesystem::path& path);
+
 }  // namespace hlc

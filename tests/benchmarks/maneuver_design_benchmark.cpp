@@ -12,6 +12,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/geometry/median.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/criteria.hpp"
@@ -48,6 +49,23 @@ Row measured(const hlc::AutomatonConfiguration& c, const std::set<hlc::TrimPair>
   return row;
 }
 
+/// What a controller does when it is asked for weights that nobody solved before, on the largest
+/// subgraph.
+void print_new_weights(hlc::AutomatonConfiguration configuration, double first, double second) {
+  const auto size = [](const hlc::SubgraphSpec& spec) { return spec.trims.size(); };
+  hlc::SubgraphSpec largest = *std::ranges::max_element(configuration.subgraphs, {}, size);
+  largest.labels = {"J1 " + hlc::shortest_text(first) + " J2 " + hlc::shortest_text(second)};
+  largest.edges.clear();
+  configuration.criteria = {
+      {.label = largest.labels.front(), .weights = {{"J1", first}, {"J2", second}}}};
+  configuration.subgraphs = {largest};
+  const double begin_ms = cpu_ms();
+  const std::vector<hlc::Maneuver> designed =
+      hlc::design(configuration, hlc::design_tasks(configuration));
+  std::printf("%-18s %9.1f  (%zu maneuvers with swept areas)\n", largest.labels.front().c_str(),
+              cpu_ms() - begin_ms, designed.size());
+}
+
 /// What a controller does when it switches to a subgraph.
 void print_switching(const std::shared_ptr<const hlc::UniversalAutomaton>& automaton,
                      const hlc::SubgraphSpec& spec, std::size_t horizon_steps) {
@@ -81,6 +99,9 @@ int main(int argc, char** argv) {
                 row.not_optimal);
   }
   std::printf("%-18s %9.1f\n", "J1, J2, J3", total_ms);
+  print_new_weights(configuration, 0.3, 0.7);
+  print_new_weights(configuration, 1.0, 0.001);
+  print_new_weights(configuration, 1.0, 0.0);
   const double begin_ms = cpu_ms();
   const auto automaton =
       std::make_shared<const hlc::UniversalAutomaton>(hlc::build_automaton(configuration));

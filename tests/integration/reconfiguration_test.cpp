@@ -99,6 +99,22 @@ TEST_F(Reconfiguration, AllAreAskedForAnotherLabelFromATimeOn) {
   expect_good_end();
 }
 
+TEST_F(Reconfiguration, NewWeightsAreSolvedBesideTheRunAndDrivenOn) {
+  const Asked asked = ask({"--vehicle=2", "--weights=J2=0.1,J1=0.9"});
+  EXPECT_EQ(asked.code, 0) << asked.output;
+  EXPECT_THAT(asked.output, HasSubstr("vehicle 2: in force from step"));
+  EXPECT_THAT(asked.output, HasSubstr("B, weights J1 0.9 J2 0.1"));
+  const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
+  EXPECT_TRUE(
+      eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 10; }));
+  const Asked unknown = ask({"--vehicle=2", "--weights=J1=0.3,J9=0.7"});
+  EXPECT_EQ(unknown.code, 1) << unknown.output;
+  EXPECT_THAT(unknown.output, HasSubstr("vehicle 2: refused: weights: criterion 'J9', allowed J1"));
+  EXPECT_EQ(ask({"--vehicle=2", "--weights=J1:0.3"}).code, 2);
+  EXPECT_EQ(ask({"--vehicle=2", "--weights=J1=0.3", "--criterion=J2"}).code, 2);
+  expect_good_end();
+}
+
 TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
   const Asked refused = ask({"--vehicle=2", "--max_speed=0.1"});
   EXPECT_EQ(refused.code, 1) << refused.output;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
@@ -92,6 +93,37 @@ TEST_F(ReconfigurationTest, EveryRequestStartsFromTheScenariosSubgraph) {
             RequestOutcome::kAccepted);
   ASSERT_TRUE(begin(2));
   EXPECT_EQ(controller_->subgraph().spec(), scenario().subgraph->spec());
+}
+
+TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
+  WeightDesign weights(scenario().subgraph->shared_automaton(),
+                       [] { return read_configuration_of(scenario().automaton_file); });
+  const AutomatonRequest request{
+      .vehicle = kRed,
+      .id = 1,
+      .valid_from = 0,
+      .subgraph = {.labels = {}, .weights = {{"J2", 0.7}, {"J1", 0.3}}, .max_speed_mps = 0.7}};
+  const PreparedRequest prepared =
+      prepare(*scenario().subgraph, request, scenario().horizon_steps, &weights);
+  EXPECT_EQ(reconfiguration_.take(prepared, {1}).outcome, RequestOutcome::kAccepted)
+      << prepared.refusal;
+  const std::optional<AutomatonAnswer> in_force = begin(1);
+  ASSERT_TRUE(in_force);
+  EXPECT_EQ(in_force->text, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
+  for (const TrimId from : controller_->subgraph().trims()) {
+    for (const Edge& edge : controller_->subgraph().successors(from)) {
+      EXPECT_TRUE(edge.to == from || edge.maneuver->label == "J1 0.3 J2 0.7");
+    }
+  }
+  AutomatonRequest unknown = request;
+  unknown.id = 2;
+  unknown.subgraph = {.labels = {}, .weights = {{"J9", 1.0}}};
+  const AutomatonAnswer refused = reconfiguration_.take(
+      prepare(*scenario().subgraph, unknown, scenario().horizon_steps, &weights), {2});
+  EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
+  EXPECT_NE(refused.text.find("'J9', allowed J1"), std::string::npos) << refused.text;
+  EXPECT_FALSE(begin(2));
+  EXPECT_EQ(controller_->subgraph().spec().name, in_force->text);
 }
 
 }  // namespace

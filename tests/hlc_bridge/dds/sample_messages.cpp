@@ -148,9 +148,12 @@ void put_message(std::ostream& out, const RunState& value) {
   put_all(out, value.phase, value.start);
 }
 void put_message(std::ostream& out, const TrimPair& value) { put_all(out, value.from, value.to); }
+void put_message(std::ostream& out, const CriterionWeight& value) {
+  put_all(out, value.criterion, value.weight);
+}
 void put_message(std::ostream& out, const SubgraphRequest& value) {
-  const auto& [a, b, c, d, e, f] = value;
-  put_all(out, a, b.has_value(), b.value_or(0.0), c, d, e, f);
+  const auto& [a, b, c, d, e, f, g] = value;
+  put_all(out, a, b, c.has_value(), c.value_or(0.0), d, e, f, g);
 }
 void put_message(std::ostream& out, const AutomatonRequest& value) {
   const auto& [a, b, c, d] = value;
@@ -465,10 +468,12 @@ template <>
 AutomatonRequest sample(Random& random) {
   const auto trim = [](Random& r) { return TrimId{whole(r, 100)}; };
   const auto edge = [&](Random& r) { return TrimPair{trim(r), trim(r)}; };
+  const auto weight = [](Random& r) { return CriterionWeight{words(r), number(r)}; };
   AutomatonRequest request{.vehicle = vehicle(random),
                            .id = random(),
                            .valid_from = random(),
                            .subgraph = {.labels = list(random, 4, words),
+                                        .weights = list(random, 4, weight),
                                         .max_speed_mps = {},
                                         .trims_on = list(random, 4, trim),
                                         .trims_off = list(random, 4, trim),

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/maneuver_design/automaton_builder.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/test_automaton.hpp"
 
 namespace hlc {
@@ -18,7 +20,7 @@ class SubgraphPreparationTest : public testing::Test {
  protected:
   std::shared_ptr<const Subgraph> base_ =
       std::make_shared<const Subgraph>(test::make_test_subgraph());
-  SubgraphPreparation preparation_{base_, 8};
+  SubgraphPreparation preparation_{base_, 8, {base_->shared_automaton(), {}}};
 };
 
 TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHorizon) {
@@ -40,6 +42,46 @@ TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHo
 
 TEST_F(SubgraphPreparationTest, EndsWhateverIsStillAsked) {
   for (std::uint64_t id = 1; id <= 100; ++id) preparation_.ask(slow(id, 0.6));
+}
+
+/// The paper's B, for which weights can be solved.
+class WeightPreparationTest : public testing::Test {
+ protected:
+  static AutomatonConfiguration configuration() {
+    const AutomatonConfiguration whole =
+        read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
+    return needed_by(whole.subgraphs.at(1), whole);
+  }
+  static AutomatonRequest weighted(std::uint64_t id, double weight) {
+    return {.vehicle = {1},
+            .id = id,
+            .valid_from = 0,
+            .subgraph = {.labels = {}, .weights = {{"J2", weight}}}};
+  }
+
+  std::shared_ptr<const Subgraph> base_ = std::make_shared<const Subgraph>(
+      build_shared_automaton(configuration()), configuration().subgraphs.front());
+  SubgraphPreparation preparation_{
+      base_, 8, {base_->shared_automaton(), [] { return configuration(); }}};
+};
+
+TEST_F(WeightPreparationTest, WaitsForTheSolutionAndKeepsIt) {
+  preparation_.ask(weighted(1, 0.7));
+  preparation_.wait();
+  preparation_.ask(weighted(2, 0.7));
+  preparation_.wait();
+  const std::vector<PreparedRequest> prepared = preparation_.take();
+  ASSERT_EQ(prepared.size(), 2U);
+  ASSERT_TRUE(prepared[0].subgraph) << prepared[0].refusal;
+  EXPECT_EQ(prepared[0].subgraph->spec().name, base_->spec().name + ", weights J2 0.7");
+  EXPECT_NE(prepared[0].subgraph->shared_automaton(), base_->shared_automaton());
+  EXPECT_EQ(prepared[1].subgraph->shared_automaton(), prepared[0].subgraph->shared_automaton());
+}
+
+TEST_F(WeightPreparationTest, EndsInTheMiddleOfASolution) {
+  for (std::uint64_t id = 1; id <= 16; ++id) {
+    preparation_.ask(weighted(id, static_cast<double>(id)));
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
 
 #include <thread>
 
@@ -37,6 +38,19 @@ TEST(Precedence, AThreadStaysOnTheCoreThatItIsGiven) {
     EXPECT_FALSE(stay_on_core(CPU_SETSIZE));
     EXPECT_EQ(sched_getcpu(), core);
   }).join();
+}
+
+int niceness() { return getpriority(PRIO_PROCESS, 0); }
+
+TEST(Precedence, IsGivenByOneThreadAlone) {
+  const int before = niceness();
+  int within = before;
+  std::thread([&] {
+    give_precedence();
+    within = niceness();
+  }).join();
+  EXPECT_GT(within, before);
+  EXPECT_EQ(niceness(), before);
 }
 
 }  // namespace

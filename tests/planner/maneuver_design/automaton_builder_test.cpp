@@ -160,6 +160,39 @@ TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuversToTheLastBitAlsoWhereMa
   }
 }
 
+TEST(AutomatonBuilder, ManyManeuversAtOnceAreTheSameToTheLastBitAsOneByOne) {
+  AutomatonConfiguration c = shipped_configuration();
+  c.criteria = {{"J1", {}, false}, {"middle", {{"J1", 0.3}, {"J2", 0.7}}, true}};
+  c.limits.curvature_max_per_m = 4.9;  // a bound of the path to either side
+  std::vector<DesignTask> tasks;
+  for (std::size_t criterion = 0; criterion < c.criteria.size(); ++criterion) {
+    for (const TrimPair& edge : {TrimPair{pi(2), pi(3)},
+                                 {pi(6), pi(7)},
+                                 {pi(7), pi(1)},
+                                 {pi(8), pi(7)},
+                                 {pi(12), pi(11)}}) {
+      tasks.push_back({edge, criterion});
+    }
+  }
+  std::size_t calls = 0;
+  const std::vector<Maneuver> many = design(c, tasks, [&calls] { ++calls; });
+  EXPECT_EQ(calls, tasks.size());
+  ASSERT_EQ(many.size(), tasks.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    SCOPED_TRACE(testing::Message() << "task " << i);
+    const Maneuver one = design(c, tasks[i]);
+    EXPECT_EQ(many[i].from, one.from);
+    EXPECT_EQ(many[i].to, one.to);
+    EXPECT_EQ(many[i].label, one.label);
+    EXPECT_EQ(many[i].inputs, one.inputs);
+    EXPECT_EQ(many[i].states, one.states);
+    EXPECT_EQ(many[i].displacement, one.displacement);
+    EXPECT_EQ(many[i].swept_area_m, one.swept_area_m);
+    EXPECT_EQ(many[i].lane_area_m, one.lane_area_m);
+    EXPECT_EQ(many[i].criteria, one.criteria);
+  }
+}
+
 TEST(AutomatonBuilder, APointOfAFrontLiesBetweenItsEndsAtItsShare) {
   AutomatonConfiguration c = shipped_configuration();
   LabelledCriterion middle;

@@ -164,6 +164,26 @@ TEST_F(BuiltAutomaton, AFileThatBearsTheNameOfItsConfigurationIsNotTakenForIt) {
   EXPECT_NO_THROW(static_cast<void>(read_current_automaton_file(elsewhere / "car.yaml")));
 }
 
+TEST_F(BuiltAutomaton, TheConfigurationOfWhichItIsLiesBesideIt) {
+  const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
+  const std::string sha256 = configuration_sha256(configuration);
+  EXPECT_EQ(configuration_sha256(read_configuration_of(folder_ / "car.yaml")), sha256);
+  EXPECT_EQ(configuration_sha256(read_configuration_of(path_)), sha256);
+  AutomatonConfiguration coarse = configuration;
+  coarse.intervals = 10;
+  write_automaton_file(file_of(configuration, build_automaton(coarse), 10), path_);
+  EXPECT_EQ(read_configuration_of(path_).intervals, 10U);
+  fs::remove(folder_ / "car.yaml");
+  try {
+    static_cast<void>(read_configuration_of(path_));
+    FAIL() << "there is none";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("its configuration car.yaml is not beside it"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(BuiltAutomaton, TheCommandQuotesPathsThatAShellWouldTakeApart) {
   EXPECT_EQ(rebuild_command(file_, "my car/a.yaml", "it's $HOME.yaml"),
             "build_automaton 'it'\\''s $HOME.yaml' --out 'my car/a.yaml'");

@@ -38,12 +38,14 @@ SubgraphRequest random_request(Random& random) {
   return request;
 }
 
-/// One that is not refused.
+/// One that is not refused. Half of them are of another automaton object, as for new weights.
 std::shared_ptr<const Subgraph> random_subgraph(const Subgraph& base, std::size_t horizon_steps,
                                                 Random& random) {
+  std::shared_ptr<const UniversalAutomaton> automaton = base.shared_automaton();
+  if (draw(random, 1) == 0) automaton = std::make_shared<const UniversalAutomaton>(*automaton);
   while (true) {
     try {
-      return requested_subgraph(base, random_request(random), horizon_steps);
+      return requested_subgraph(base, random_request(random), horizon_steps, automaton);
     } catch (const std::invalid_argument&) {
       continue;
     }

@@ -1,6 +1,7 @@
 // Another subgraph between two control steps, with the real controller and search.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -133,6 +134,60 @@ TEST_F(Switching, ToASpeedLimitSlowsDownAtOnce) {
     EXPECT_EQ(report.status, StepStatus::kPlanned);
     EXPECT_LE(top_speed_mps(controller().plan_in_force().maneuver_during(report.step)), 0.5);
   }
+}
+
+/// Another automaton with the same trims and maneuvers of its own, as for new weights.
+class SwitchingAutomata : public Switching {
+ protected:
+  /// Plans on it for a step.
+  void SetUp() override {
+    for (int k = 0; k < 10; ++k) static_cast<void>(step());
+    auto other = std::make_shared<UniversalAutomaton>(*automaton_);
+    first_ = &other->maneuvers.front();
+    last_ = &other->maneuvers.back();
+    watched_ = other;
+    controller().switch_to(std::make_shared<const Subgraph>(std::move(other), specs_.at(1)));
+    EXPECT_EQ(step().status, StepStatus::kPlanned);
+    EXPECT_TRUE(drives_other(rollout_->next_step()));
+    EXPECT_TRUE(drives_other(controller().plan_in_force().end()));
+  }
+  [[nodiscard]] bool drives_other(StepIndex step) {
+    const Maneuver* const maneuver = &controller().plan_in_force().maneuver_during(step);
+    return !std::less<>()(maneuver, first_) && !std::less<>()(last_, maneuver);
+  }
+
+  const Maneuver* first_{};
+  const Maneuver* last_{};
+  std::weak_ptr<const UniversalAutomaton> watched_;
+};
+
+TEST_F(SwitchingAutomata, TheOneBeforeStaysAsLongAsThePlanHasManeuversOfIt) {
+  switch_to("B");
+  for (int k = 0; k < 2; ++k) {
+    const Report report = step();
+    EXPECT_EQ(report.status, StepStatus::kPlanned);
+    EXPECT_EQ(drives_other(report.step), k == 0);
+    EXPECT_FALSE(drives_other({report.step.value + 1}));
+    EXPECT_FALSE(watched_.expired()) << "it is driven, or was a step ago";
+  }
+  for (int k = 0; k < 2; ++k) static_cast<void>(step());
+  EXPECT_TRUE(watched_.expired());
+}
+
+TEST_F(SwitchingAutomata, APlanThatIsDrivenToItsEndStandsOnItsOwn) {
+  switch_to("stuck");
+  controller().set_drives_out(true);
+  for (int k = 0; k < 12; ++k) static_cast<void>(step());
+  EXPECT_GT(rollout_->next_step(), controller().plan_in_force().end());
+  EXPECT_TRUE(drives_other(rollout_->next_step()));
+  controller().set_drives_out(false);
+  switch_to("B");
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_FALSE(watched_.expired());
+    EXPECT_EQ(step().status, StepStatus::kPlanned);
+  }
+  static_cast<void>(step());
+  EXPECT_TRUE(watched_.expired());
 }
 
 TEST_F(Switching, WhereNothingCanBePlannedTheFallbackIsDrivenToStandstill) {
