@@ -123,6 +123,7 @@ std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags, const hlc::Sce
   options.configuration = [file = scenario.automaton_file] {
     return hlc::read_configuration_of(file);
   };
+  options.reconfiguration = scenario.reconfiguration;
   if (flags.problem_folder) {
     options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file)](
                              const hlc::Controller& controller) { dump.write(controller); };

@@ -50,6 +50,14 @@ Observation observation_of(const VehicleStateList& list) {
   return observation;
 }
 
+std::optional<double> battery_voltage_v(const VehicleStateList& list, VehicleId vehicle) {
+  const auto own = std::ranges::find_if(list.states, [&](const VehicleState& state) {
+    return state.vehicle_id == vehicle.value && is_usable(state, list.t_now);
+  });
+  if (own == list.states.end() || !(own->battery_voltage_v > 0.0)) return std::nullopt;
+  return own->battery_voltage_v;
+}
+
 bool is_complete(const Observation& observation) {
   return std::ranges::all_of(observation.active, [&](VehicleId vehicle) {
     return std::ranges::find(observation.states, vehicle, &MeasuredVehicle::vehicle) !=

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "hlc_bridge/core/time_grid.hpp"
 #include "planner/controller/controller.hpp"
 
@@ -24,6 +26,11 @@ namespace hlc {
 /// What the list tells the controller: usable states only, with their age at t(k). Vehicle ids out
 /// of range are left out.
 [[nodiscard]] Observation observation_of(const VehicleStateList& list);
+
+/// The vehicle's battery voltage, as its usable state in the list tells it; none if it tells none
+/// (a vehicle that measures none tells 0).
+[[nodiscard]] std::optional<double> battery_voltage_v(const VehicleStateList& list,
+                                                      VehicleId vehicle);
 
 /// True if every active vehicle has a usable state in the list.
 [[nodiscard]] bool is_complete(const Observation& observation);

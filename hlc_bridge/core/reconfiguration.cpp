@@ -5,21 +5,22 @@
 
 namespace hlc {
 
-PreparedRequest prepare(const Subgraph& base, const AutomatonRequest& request,
-                        std::size_t horizon_steps, WeightDesign* weights,
-                        const std::stop_token& stop) {
-  PreparedRequest prepared{.request = request, .subgraph = {}, .reachable = {}, .refusal = {}};
+PreparedRequest prepare(const RequestBase& base, const AutomatonRequest& request,
+                        WeightDesign* weights, const std::stop_token& stop) {
+  PreparedRequest prepared{.request = request, .choice = {}, .refusal = {}};
   try {
     std::shared_ptr<const UniversalAutomaton> automaton;
     if (weights != nullptr && !request.subgraph.weights.empty()) {
-      automaton = weights->automaton_for(requested_spec(base, request.subgraph),
+      automaton = weights->automaton_for(requested_spec(*base.subgraph.subgraph, request.subgraph),
                                          request.subgraph.weights, stop);
     }
-    const auto subgraph =
-        requested_subgraph(base, request.subgraph, horizon_steps, std::move(automaton));
-    if (weights != nullptr) weights->check(*subgraph);
-    prepared.reachable = std::make_shared<const ReachableSets>(*subgraph, horizon_steps + 1);
-    prepared.subgraph = subgraph;
+    auto choice =
+        std::make_shared<const PreparedChoice>(base.subgraph, request.subgraph, base.limits_mps,
+                                               base.horizon_steps, base.search, automaton);
+    for (const auto& [limit, one] : choice->by_limit()) {
+      if (weights != nullptr) weights->check(*one.subgraph);
+    }
+    prepared.choice = std::move(choice);
   } catch (const std::exception& error) {
     prepared.refusal = error.what();
   }
@@ -34,28 +35,29 @@ AutomatonAnswer Reconfiguration::take(PreparedRequest prepared, StepIndex now) {
                          .step = now,
                          .text = "a later request counts"};
   if (request.id <= newest_id_) return answer;
-  if (!prepared.subgraph) {
+  if (!prepared.choice) {
     answer.outcome = RequestOutcome::kRefused;
     answer.text = std::move(prepared.refusal);
     return answer;
   }
   newest_id_ = request.id;
   answer.outcome = RequestOutcome::kAccepted;
-  answer.text = prepared.subgraph->spec().name;
+  answer.text = prepared.choice->under({}).subgraph->spec().name;
   waiting_ = std::move(prepared);
   return answer;
 }
 
-std::optional<AutomatonAnswer> Reconfiguration::begin_step(Controller& controller, StepIndex step,
+std::optional<AutomatonAnswer> Reconfiguration::begin_step(SubgraphChoice& choice, StepIndex step,
                                                            Nanoseconds t_now) {
   if (!waiting_ || t_now < waiting_->request.valid_from) return std::nullopt;
-  const PreparedRequest now = *std::exchange(waiting_, std::nullopt);
-  controller.switch_to(now.subgraph, now.reachable);
+  PreparedRequest now = *std::exchange(waiting_, std::nullopt);
+  const bool gives_back = now.request.subgraph == SubgraphRequest{};
+  choice.ask(gives_back ? nullptr : std::move(now.choice));
   return AutomatonAnswer{.vehicle = now.request.vehicle,
                          .id = now.request.id,
                          .outcome = RequestOutcome::kInForce,
                          .step = step,
-                         .text = now.subgraph->spec().name};
+                         .text = {}};
 }
 
 }  // namespace hlc

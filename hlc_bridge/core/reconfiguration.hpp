@@ -6,30 +6,37 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "hlc_bridge/core/automaton_messages.hpp"
 #include "hlc_bridge/core/weight_design.hpp"
-#include "planner/controller/controller.hpp"
+#include "planner/policy/subgraph_choice.hpp"
 
 namespace hlc {
+
+/// What requests are prepared on and for, the same for all requests of a run.
+struct RequestBase {
+  PreparedSubgraph subgraph;       ///< the scenario's
+  std::vector<double> limits_mps;  ///< that may be laid on what is asked for (SubgraphChoice)
+  std::size_t horizon_steps{};
+  SearchOptions search;
+};
 
 /// A request with all that planning on its subgraph needs, or with the reason why that cannot be.
 struct PreparedRequest {
   AutomatonRequest request;
-  std::shared_ptr<const Subgraph> subgraph;  ///< none: refused
-  std::shared_ptr<const ReachableSets> reachable;
+  std::shared_ptr<const PreparedChoice> choice;  ///< none: refused
   std::string refusal;
 };
 
-/// Makes the subgraph and its tables: milliseconds for a dozen trims, a good part of a second for a
-/// hundred, and for new weights the time that their maneuvers take (WeightDesign). Needs nothing of
-/// a controller: on any thread, ahead.
-/// @param base     the scenario's subgraph
+/// Makes the subgraph and its tables, under every limit: milliseconds for a dozen trims, seconds
+/// for a hundred, and for new weights the time that their maneuvers take (WeightDesign). Needs
+/// nothing of a controller: on any thread, ahead.
 /// @param weights  what makes and checks maneuvers; without, only what the automaton holds can be
 /// asked for
 /// @param stop     nobody wants it any more: it is refused soon
-[[nodiscard]] PreparedRequest prepare(const Subgraph& base, const AutomatonRequest& request,
-                                      std::size_t horizon_steps, WeightDesign* weights = nullptr,
+[[nodiscard]] PreparedRequest prepare(const RequestBase& base, const AutomatonRequest& request,
+                                      WeightDesign* weights = nullptr,
                                       const std::stop_token& stop = {});
 
 /// Which request of a vehicle is in force when. No clock, no thread.
@@ -42,9 +49,10 @@ class Reconfiguration {
   /// @param now  the step before which it came
   [[nodiscard]] AutomatonAnswer take(PreparedRequest prepared, StepIndex now);
 
-  /// To be called before every step. Switches the controller if a request holds from this step on,
-  /// and says so.
-  [[nodiscard]] std::optional<AutomatonAnswer> begin_step(Controller& controller, StepIndex step,
+  /// To be called before every step, before SubgraphChoice::begin_step. Tells `choice` if a request
+  /// holds from this step on, and says so; the answer's text, the name of what is then planned on,
+  /// is known only after that.
+  [[nodiscard]] std::optional<AutomatonAnswer> begin_step(SubgraphChoice& choice, StepIndex step,
                                                           Nanoseconds t_now);
 
  private:

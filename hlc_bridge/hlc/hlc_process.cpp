@@ -58,9 +58,9 @@ HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> co
       stop_request_writer_(lab_, topics::stop_request()),
       lab_log_(lab_, options_.node_id),
       automaton_answer_writer_(controllers_, topics::automaton_answer()),
-      preparation_(core_.controller().shared_subgraph(), core_.controller().options().horizon_steps,
-                   {core_.controller().subgraph().shared_automaton(), options_.configuration,
-                    core_.controller().options().lab}),
+      choice_(core_.controller(), options_.reconfiguration),
+      preparation_(request_base(), {core_.controller().subgraph().shared_automaton(),
+                                    options_.configuration, core_.controller().options().lab}),
       exchange_(vehicle_, controllers_, signal_, options_.logical_time, options_.node_id,
                 [this] { return stop_; }),
       automaton_request_reader_(controllers_, topics::automaton_request(),
@@ -368,14 +368,19 @@ void HlcProcess::answer(const VehicleStateList& list) {
     core_.note(list, *observation);
     join_if_others_drive(*observation);
   }
-  reconfigure(observation->step, list.t_now);
   exchange_.begin(observation->step);
   const std::optional<Nanoseconds> trigger = signal_.locked([this] { return start_; });
   ReportRecord record;
   const bool had_begun = core_.has_begun();
-  if (is_ready_ && core_.begins(list, *observation, options_.logical_time, trigger)) {
+  const bool is_running =
+      is_ready_ && core_.begins(list, *observation, options_.logical_time, trigger);
+  const Nanoseconds reconfiguring_from = thread_time_now();
+  reconfigure(list, observation->step, is_running);
+  const Nanoseconds reconfiguring_ns = thread_time_now() - reconfiguring_from;
+  if (is_running) {
     if (!had_begun) tell_begin(list, trigger);
     record = run_step(list, *observation);
+    record.planning_ns += reconfiguring_ns;
     tell_if_stuck(record.report);
   } else if (options_.logical_time || (!yields_to_twin() && core_.may_stand_by(*observation))) {
     record.report = core_.controller().stand_by(*observation);
@@ -387,16 +392,41 @@ void HlcProcess::answer(const VehicleStateList& list) {
   report_writer_.write(record);
   draw(record.report, list);
   if (core_.has_begun()) look_back();
+  if (is_running) look_ahead(record.report);
 }
 
-void HlcProcess::reconfigure(StepIndex step, Nanoseconds t_now) {
+RequestBase HlcProcess::request_base() const {
+  const ControllerOptions& options = core_.controller().options();
+  return {.subgraph = choice_.base(),
+          .limits_mps = choice_.limits_mps(),
+          .horizon_steps = options.horizon_steps,
+          .search = options.search};
+}
+
+void HlcProcess::reconfigure(const VehicleStateList& list, StepIndex step, bool is_running) {
   if (options_.logical_time) preparation_.wait();
   for (PreparedRequest& prepared : preparation_.take()) {
     tell(reconfiguration_.take(std::move(prepared), step));
   }
-  if (const auto answer = reconfiguration_.begin_step(core_.controller(), step, t_now)) {
+  std::optional<AutomatonAnswer> answer = reconfiguration_.begin_step(choice_, step, list.t_now);
+  Controller& controller = core_.controller();
+  const bool has_switched =
+      choice_.begin_step(controller, step, is_running, battery_voltage_v(list, vehicle_));
+  if (answer) {
+    answer->text = controller.subgraph().spec().name;
     tell(*answer);
+  } else if (has_switched) {
+    spdlog::info("{}: plans on subgraph {} from step {} on", options_.node_id,
+                 controller.subgraph().spec().name, step.value);
   }
+}
+
+void HlcProcess::look_ahead(const Report& report) {
+  HeardInStep heard;
+  if (choice_.looks_ahead()) {
+    heard = {.traffic = exchange_.heard<Traffic>(), .predictions = exchange_.heard<Prediction>()};
+  }
+  choice_.end_step(core_.controller(), report, heard);
 }
 
 void HlcProcess::tell(const AutomatonAnswer& answer) {

@@ -53,6 +53,7 @@ struct HlcProcessOptions {
   StepDeadlines deadlines;
   /// Of the scenario's automaton, for new weights (WeightDesign).
   WeightDesign::Source configuration;
+  ReconfigurationSettings reconfiguration;  ///< zones and policies
   /// Called with the controller after the command of a step has been sent. What it throws is logged
   /// once, and it is not called again.
   std::function<void(const Controller&)> after_step;
@@ -85,7 +86,8 @@ struct HlcProcessOptions {
 ///
 /// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
 /// the step from which it holds, and answers. In logical time that step waits for what is being
-/// prepared.
+/// prepared. Without being asked it follows its zones and policies (SubgraphChoice); those that
+/// look ahead do so after the step's command has been sent.
 ///
 /// All waiting is here and in StepExchange, and every wait ends: at a deadline (real time), when
 /// whom it waits for is gone from the domain, or after 10 s of silence (logical time).
@@ -129,7 +131,9 @@ class HlcProcess {
   [[nodiscard]] std::set<std::string> peer_names() const;
   [[nodiscard]] bool wait_for_everybody();
 
-  void reconfigure(StepIndex step, Nanoseconds t_now);
+  [[nodiscard]] RequestBase request_base() const;
+  void reconfigure(const VehicleStateList& list, StepIndex step, bool is_running);
+  void look_ahead(const Report& report);
   void tell(const AutomatonAnswer& answer);
   void answer(const VehicleStateList& list);
   [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
@@ -172,6 +176,7 @@ class HlcProcess {
   Writer<StopRequest> stop_request_writer_;
   LabLog lab_log_;
   Writer<AutomatonAnswer> automaton_answer_writer_;
+  SubgraphChoice choice_;
   SubgraphPreparation preparation_;
   Reconfiguration reconfiguration_;
 

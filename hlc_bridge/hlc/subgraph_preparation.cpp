@@ -14,12 +14,8 @@ constexpr std::chrono::hours kLong{1};
 
 }  // namespace
 
-SubgraphPreparation::SubgraphPreparation(std::shared_ptr<const Subgraph> base,
-                                         std::size_t horizon_steps, WeightDesign weights)
-    : base_(std::move(base)),
-      horizon_steps_(horizon_steps),
-      weights_(std::move(weights)),
-      thread_([this] { run(); }) {}
+SubgraphPreparation::SubgraphPreparation(RequestBase base, WeightDesign weights)
+    : base_(std::move(base)), weights_(std::move(weights)), thread_([this] { run(); }) {}
 
 SubgraphPreparation::~SubgraphPreparation() {
   stop_.request_stop();
@@ -60,8 +56,7 @@ void SubgraphPreparation::run() {
       if (signal_.locked([this] { return ends_; })) return;
       continue;
     }
-    PreparedRequest prepared =
-        prepare(*base_, *request, horizon_steps_, &weights_, stop_.get_token());
+    PreparedRequest prepared = prepare(base_, *request, &weights_, stop_.get_token());
     signal_.post([&] {
       done_.push_back(std::move(prepared));
       is_working_ = false;

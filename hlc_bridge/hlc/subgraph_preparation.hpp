@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <memory>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -16,9 +15,7 @@ namespace hlc {
 /// gives way to others, since making maneuvers takes a core for a good while.
 class SubgraphPreparation {
  public:
-  /// @param base  the scenario's subgraph
-  SubgraphPreparation(std::shared_ptr<const Subgraph> base, std::size_t horizon_steps,
-                      WeightDesign weights);
+  SubgraphPreparation(RequestBase base, WeightDesign weights);
   /// Waits for the one in work, of new weights for the maneuver in work.
   ~SubgraphPreparation();
   SubgraphPreparation(const SubgraphPreparation&) = delete;
@@ -38,8 +35,7 @@ class SubgraphPreparation {
 
   void run();
 
-  const std::shared_ptr<const Subgraph> base_;
-  const std::size_t horizon_steps_;
+  const RequestBase base_;
   WeightDesign weights_;  ///< the thread's
   std::stop_source stop_;
 

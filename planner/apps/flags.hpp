@@ -113,6 +113,9 @@ inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
                  "what searches: branch_and_bound or best_first (default: the scenario's, else the "
                  "profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
+  app.add_option("--policy", choices.policy,
+                 "by which the controllers change the subgraph themselves, or none (default: the "
+                 "scenario's)");
   app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
   app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)")
       ->check(whole(1, 30));

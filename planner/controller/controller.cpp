@@ -68,6 +68,11 @@ FallbackReason reason_of(SettleVerdict verdict) {
   return FallbackReason::kNone;
 }
 
+std::unique_ptr<HorizonPlanner> planner_on(const PreparedSubgraph& on,
+                                           const SearchOptions& search) {
+  return make_horizon_planner(*on.subgraph, *on.reachable, search, on.tables);
+}
+
 bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
   return std::ranges::find(vehicles, vehicle) != vehicles.end();
 }
@@ -76,30 +81,31 @@ bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
 
 Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
                        std::vector<DrivableRoute> routes)
-    : Controller(options, subgraph,
-                 std::make_shared<const std::vector<DrivableRoute>>(std::move(routes)),
-                 std::make_shared<const ReachableSets>(*subgraph, options.horizon_steps + 1)) {}
+    : Controller(options,
+                 prepare_subgraph(std::move(subgraph), options.horizon_steps, options.search),
+                 std::make_shared<const std::vector<DrivableRoute>>(std::move(routes))) {}
 
 Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
                        ReferencePath path, Corridor corridor)
     : Controller(options, std::move(subgraph),
                  {{.name = "", .path = std::move(path), .corridor = std::move(corridor)}}) {}
 
-Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-                       std::shared_ptr<const std::vector<DrivableRoute>> routes,
-                       std::shared_ptr<const ReachableSets> reachable)
-    : options_(options),
-      subgraph_(std::move(subgraph)),
+Controller::Controller(ControllerOptions options, PreparedSubgraph on,
+                       std::shared_ptr<const std::vector<DrivableRoute>> routes)
+    : options_(std::move(options)),
+      on_(std::move(on)),
       routes_(std::move(routes)),
-      reachable_(std::move(reachable)),
-      planner_(make_horizon_planner(*subgraph_, *reachable_, options.search)),
-      standstill_(own_step(subgraph_->automaton(), subgraph_->standstill())),
-      missing_rules_(rules_for_missing(subgraph_->automaton())) {
+      planner_(planner_on(on_, options_.search)),
+      standstill_(own_step(subgraph().automaton(), subgraph().standstill())),
+      missing_rules_(rules_for_missing(subgraph().automaton())) {
   assert(!routes_->empty());
 }
 
-std::unique_ptr<Controller> Controller::clone() const {
-  std::unique_ptr<Controller> result(new Controller(options_, subgraph_, routes_, reachable_));
+std::unique_ptr<Controller> Controller::clone(std::optional<std::size_t> max_expansions) const {
+  ControllerOptions options = options_;
+  options.search.max_expansions = max_expansions.value_or(options.search.max_expansions);
+  std::unique_ptr<Controller> result(new Controller(std::move(options), on_, routes_));
+  result->step_.observation.step = last_step();
   result->in_force_ = in_force_;
   result->route_ = route_;
   result->placement_ = placement_;
@@ -112,30 +118,27 @@ std::unique_ptr<Controller> Controller::clone() const {
   result->drives_out_ = drives_out_;
   result->missing_rules_ = missing_rules_;
   if (former_) {
-    result->former_ = Former{
-        .subgraph = former_->subgraph,
-        .reachable = former_->reachable,
-        .planner = make_horizon_planner(*former_->subgraph, *former_->reachable, options_.search),
-        .last = former_->last};
+    result->former_ = Former{.on = former_->on,
+                             .planner = planner_on(former_->on, result->options_.search),
+                             .last = former_->last};
   }
   return result;
 }
 
-void Controller::switch_to(std::shared_ptr<const Subgraph> subgraph,
-                           std::shared_ptr<const ReachableSets> reachable) {
-  assert(subgraph->automaton().trims == subgraph_->automaton().trims);
-  if (!reachable) {
-    reachable = std::make_shared<const ReachableSets>(*subgraph, options_.horizon_steps + 1);
-  }
-  assert(reachable->max_steps() > options_.horizon_steps);
+void Controller::switch_to(const PreparedSubgraph& next) {
+  assert(next.subgraph->automaton().trims == subgraph().automaton().trims);
+  assert(next.reachable->max_steps() > options_.horizon_steps);
   // Of several switches in a row: what the plan in force was found on.
-  if (!former_) former_ = Former{subgraph_, reachable_, std::move(planner_), {}};
+  if (!former_) former_ = Former{on_, std::move(planner_), {}};
   former_->last = {last_step().value + options_.horizon_steps};
-  planner_ = make_horizon_planner(*subgraph, *reachable, options_.search);
-  subgraph_ = std::move(subgraph);
-  reachable_ = std::move(reachable);
-  standstill_ = own_step(subgraph_->automaton(), subgraph_->standstill());
+  on_ = next;
+  planner_ = planner_on(on_, options_.search);
+  standstill_ = own_step(subgraph().automaton(), subgraph().standstill());
   sets_out_ = sets_out_ || !joining_.is_possible;
+}
+
+void Controller::switch_to(std::shared_ptr<const Subgraph> next) {
+  switch_to(prepare_subgraph(std::move(next), options_.horizon_steps, options_.search));
 }
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
@@ -148,7 +151,7 @@ Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;
   if (const MeasuredVehicle* own = measured(options_.vehicle)) {
-    in_force_.emplace(subgraph_->shared_automaton(), *standstill_, options_.deviation, own->pose,
+    in_force_.emplace(subgraph().shared_automaton(), *standstill_, options_.deviation, own->pose,
                       observation.step);
     take_route(own->pose);
   }
@@ -166,7 +169,7 @@ Report Controller::stand_by(const Observation& observation) {
 
 /// The route that the vehicle fits best, and its place there.
 void Controller::take_route(const Pose& measured) {
-  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const UniversalAutomaton& automaton = subgraph().automaton();
   const Pose pose = pose_of_measured(measured, 0.0, automaton.vehicle, automaton.identified);
   std::optional<double> best_m;
   for (std::size_t i = 0; i < routes_->size(); ++i) {
@@ -206,7 +209,7 @@ Traffic Controller::observe(const Observation& observation) {
   std::vector<ConvexPolygon> reach;
   reach.reserve(traffic.running.areas_m.size() + 3);
   reach.push_back(
-      transformed(reachable_->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
+      transformed(on_.reachable->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
                   traffic.next_pose));
   const auto add = [&reach](const ConvexPolygon& area) {  // most lie within the first
     if (!contains(reach.front(), area)) reach.push_back(area);
@@ -215,7 +218,7 @@ Traffic Controller::observe(const Observation& observation) {
   add(traffic.running.final_area_m);
   if (former_) {
     add(transformed(
-        former_->reachable->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
+        former_->on.reachable->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
         traffic.next_pose));
   }
   traffic.reachable_area_m = convex_hull(reach);
@@ -310,7 +313,7 @@ void Controller::add_coupled_obstacles(HorizonProblem& problem) const {
 }
 
 void Controller::add_missing_obstacles(HorizonProblem& problem) const {
-  const double step_s = subgraph_->automaton().step_s;
+  const double step_s = subgraph().automaton().step_s;
   for (const VehicleId other : step_.report.missing) {
     const MeasuredVehicle& state = *measured(other);
     const bool stands = stands_for_good({.now = step_.observation.step,
@@ -330,7 +333,7 @@ double Controller::reach_m() const {
   const auto reach_in = [this](const ReachableSets& reachable) {
     return reachable.max_distance_m(step_.traffic.next_trim, options_.horizon_steps, 0);
   };
-  return std::max(reach_in(*reachable_), former_ ? reach_in(*former_->reachable) : 0.0);
+  return std::max(reach_in(*on_.reachable), former_ ? reach_in(*former_->on.reachable) : 0.0);
 }
 
 double Controller::project(const Point& position_m) const {
@@ -344,7 +347,7 @@ double Controller::project(const Point& position_m) const {
 
 /// Without the other vehicles.
 HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
-  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const UniversalAutomaton& automaton = subgraph().automaton();
   const Traffic& own = step_.traffic;
   HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
   Reference reference =
@@ -363,7 +366,7 @@ HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
 void Controller::look_at_lanes() {
   const StepIndex next{step_.observation.step.value + 1};
   const Plan& base = in_force_->base();
-  const Footprint& footprint = subgraph_->automaton().vehicle.footprint;
+  const Footprint& footprint = subgraph().automaton().vehicle.footprint;
   const auto lies_in_lanes = [&] {
     return keeps_to(base, next, problem_alone(route().corridor).boundary_m) &&
            lies_inside(route(), base.pose_at(std::max(base.end(), next)), footprint);
@@ -412,7 +415,7 @@ Controller::Found Controller::search() {
     step_.report.expanded += found.result.expanded;
     return found;
   };
-  Found found = search_on(*planner_, *subgraph_);
+  Found found = search_on(*planner_, subgraph());
   if (!former_) return found;
   const bool found_nothing =
       found.result.status == SearchStatus::kFallback && found.result.reason != NoPath::kBudget;
@@ -420,7 +423,7 @@ Controller::Found Controller::search() {
     former_.reset();
     return found;
   }
-  return search_on(*former_->planner, *former_->subgraph);
+  return search_on(*former_->planner, *former_->on.subgraph);
 }
 
 /// What is found is the candidate, unless its drift leads into something.
@@ -451,7 +454,7 @@ void Controller::search_candidate(StepIndex next) {
 /// The command that the plan would become is looked at before anybody is told of it.
 bool Controller::is_candidate_drivable() const {
   if (!options_.lab) return true;
-  const UniversalAutomaton& automaton = subgraph_->automaton();
+  const UniversalAutomaton& automaton = subgraph().automaton();
   return !trajectory_fault(
       sample_trajectory(*step_.candidate, step_.observation.step, options_.lab->point_interval_s,
                         0.0, automaton.step_s, automaton.vehicle),
@@ -470,7 +473,7 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
     if (measured(other) == nullptr) step_.obstacle = FallbackReason::kMissing;
   }
   if (step_.obstacle == FallbackReason::kNone &&
-      subgraph_->distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
+      subgraph().distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
     step_.obstacle =
         FallbackReason::kInfeasible;  // a trim that is off, with no way out or a long one
   }

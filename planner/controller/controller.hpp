@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
 #include "planner/controller/joining.hpp"
 #include "planner/controller/plan_in_force.hpp"
+#include "planner/controller/prepared_subgraph.hpp"
 #include "planner/controller/report.hpp"
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/messages.hpp"
@@ -79,28 +79,29 @@ class Controller {
 
   /// A controller in the same state that goes its own way from here: for looking ahead. Shares only
   /// what never changes. Not in the middle of a step.
-  [[nodiscard]] std::unique_ptr<Controller> clone() const;
+  /// @param max_expansions  of its searches; none: as here
+  [[nodiscard]] std::unique_ptr<Controller> clone(
+      std::optional<std::size_t> max_expansions = {}) const;
 
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
-  [[nodiscard]] const Subgraph& subgraph() const { return *subgraph_; }
-  /// The same, to be kept.
-  [[nodiscard]] const std::shared_ptr<const Subgraph>& shared_subgraph() const { return subgraph_; }
+  [[nodiscard]] const Subgraph& subgraph() const { return *on_.subgraph; }
+  /// The same with its tables, to be kept.
+  [[nodiscard]] const PreparedSubgraph& prepared_subgraph() const { return on_; }
   /// Step of the last `observe` or `stand_by`.
   [[nodiscard]] StepIndex last_step() const { return step_.observation.step; }
 
   /// From the next step on plans on another subgraph, of the same automaton or of one that differs
-  /// from it in its maneuvers alone. Its tables, for one step more than the horizon, are computed
-  /// unless they are given: a matter of milliseconds for a dozen trims, not for a hundred
-  /// (ReachableSets). Not in the middle of a step. The plan in force stays, whatever of it is off
-  /// now, and is the fallback as ever: see Subgraph for the rule. Where nothing is found from where
-  /// the plan in force leads (the way off what is off now leads into something), the former
-  /// subgraph is planned on, until something is, for a horizon at most. The other vehicles need not
-  /// switch in the same step: where a missing one may be is reckoned with the highest speed of the
-  /// whole automaton that was given at first.
-  /// @pre `subgraph` is of the same vehicle, step and trims, and on it nothing is faster than that;
-  /// `reachable` belongs to `subgraph`
-  void switch_to(std::shared_ptr<const Subgraph> subgraph,
-                 std::shared_ptr<const ReachableSets> reachable = nullptr);
+  /// from it in its maneuvers alone. Not in the middle of a step. The plan in force stays, whatever
+  /// of it is off now, and is the fallback as ever: see Subgraph for the rule. Where nothing is
+  /// found from where the plan in force leads (the way off what is off now leads into something),
+  /// the former subgraph is planned on, until something is, for a horizon at most. The other
+  /// vehicles need not switch in the same step: where a missing one may be is reckoned with the
+  /// highest speed of the whole automaton that was given at first.
+  /// @pre `next` was prepared for this controller's horizon and search; its subgraph is of the same
+  /// vehicle, step and trims, and on it nothing is faster than that
+  void switch_to(const PreparedSubgraph& next);
+  /// The same, prepared here and now.
+  void switch_to(std::shared_ptr<const Subgraph> next);
 
   /// A step before the start: the plan in force is to stand at the measured pose. Without a
   /// measurement of the own vehicle the former plan, if any, stays.
@@ -143,6 +144,8 @@ class Controller {
   [[nodiscard]] const std::optional<Placement>& placement() const { return placement_; }
   /// True if it did, and fits. @see fits
   [[nodiscard]] bool fits_route() const { return placement_ && fits(*placement_, route()); }
+  /// Arc length on it where planning began in the last step, or where the vehicle was placed.
+  [[nodiscard]] const std::optional<double>& path_s_m() const { return path_s_m_; }
   /// The area in which it comes into its lanes (joining.hpp), while it does.
   [[nodiscard]] const std::optional<Corridor>& joining_area() const { return joining_.area; }
 
@@ -174,15 +177,13 @@ class Controller {
 
   /// What was planned on before a switch.
   struct Former {
-    std::shared_ptr<const Subgraph> subgraph;
-    std::shared_ptr<const ReachableSets> reachable;
+    PreparedSubgraph on;
     std::unique_ptr<HorizonPlanner> planner;
     StepIndex last;  ///< of the steps that may still use it
   };
 
-  Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-             std::shared_ptr<const std::vector<DrivableRoute>> routes,
-             std::shared_ptr<const ReachableSets> reachable);
+  Controller(ControllerOptions options, PreparedSubgraph on,
+             std::shared_ptr<const std::vector<DrivableRoute>> routes);
 
   void take_route(const Pose& measured);
   void look_at_lanes();
@@ -206,9 +207,8 @@ class Controller {
   [[nodiscard]] Report finish(bool accepted, FallbackReason reason);
 
   ControllerOptions options_;
-  std::shared_ptr<const Subgraph> subgraph_;
+  PreparedSubgraph on_;
   std::shared_ptr<const std::vector<DrivableRoute>> routes_;
-  std::shared_ptr<const ReachableSets> reachable_;
   std::unique_ptr<HorizonPlanner> planner_;
   std::optional<Former> former_;  ///< until something was found on what is planned on now
   const Maneuver* standstill_;

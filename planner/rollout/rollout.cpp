@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "planner/controller/followed_plan.hpp"
 #include "planner/coordination/priority.hpp"
 
 namespace hlc {
@@ -10,16 +11,6 @@ namespace {
 
 VehicleId id(const std::unique_ptr<Controller>& controller) {
   return controller->options().vehicle;
-}
-
-/// What `state` looks like in a state list: the vehicle's yaw is not the planner's heading.
-MeasuredVehicle seen(VehicleId vehicle, const State& state, const UniversalAutomaton& automaton,
-                     double age_s) {
-  MeasuredVehicle result{
-      .vehicle = vehicle, .pose = state.pose, .speed_mps = state.speed_mps, .age_s = age_s};
-  result.pose.heading_rad +=
-      yaw_minus_heading_rad(state.steering_rad, automaton.vehicle, automaton.identified);
-  return result;
 }
 
 }  // namespace
@@ -31,10 +22,11 @@ Rollout::Rollout(std::vector<std::unique_ptr<Controller>> controllers,
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
     Controller& controller = *controllers_[i];
     const State standing{.pose = starts[i]};
-    static_cast<void>(controller.stand_by(
-        {.step = next_step_,
-         .active = {id(controllers_[i])},
-         .states = {seen(id(controllers_[i]), standing, controller.subgraph().automaton(), 0.0)}}));
+    static_cast<void>(
+        controller.stand_by({.step = next_step_,
+                             .active = {id(controllers_[i])},
+                             .states = {as_measured(id(controllers_[i]), standing,
+                                                    controller.subgraph().automaton())}}));
   }
   std::ranges::sort(controllers_, plans_before, id);
   ++next_step_.value;
@@ -49,12 +41,7 @@ Rollout Rollout::clone() const {
 
 std::vector<MeasuredVehicle> Rollout::measure(StepIndex step) const {
   std::vector<MeasuredVehicle> states;
-  for (const auto& controller : controllers_) {
-    const UniversalAutomaton& automaton = controller->subgraph().automaton();
-    states.push_back(seen(id(controller),
-                          controller->plan_in_force().state_at(step, 0.0, automaton.vehicle),
-                          automaton, 0.0));
-  }
+  for (const auto& controller : controllers_) states.push_back(on_its_plan(*controller, step));
   return states;
 }
 

@@ -30,7 +30,7 @@ void ProblemDump::write(const Controller& controller) const {
                   static_cast<unsigned>(options.vehicle.value),
                   static_cast<unsigned long long>(controller.last_step().value), ++search);
     write_problem_file({.automaton_file = automaton_file_,
-                        .subgraph = controller.shared_subgraph(),
+                        .subgraph = controller.prepared_subgraph().subgraph,
                         .problem = problem,
                         .search = options.search},
                        folder_ / name);

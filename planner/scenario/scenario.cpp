@@ -8,10 +8,12 @@
 
 #include "planner/automaton/lab_check.hpp"
 #include "planner/automaton/yaml_reader.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/named_subgraph.hpp"
+#include "planner/scenario/policy_file.hpp"
 #include "planner/scenario/starts.hpp"
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/search_options.hpp"
@@ -221,6 +223,26 @@ std::vector<PlanningWeight> read_criterion_weights(const YamlNode& node, const S
   return result;
 }
 
+/// The command line's, else the file's, else none.
+void read_reconfiguration(const YamlNode& node, const ScenarioChoices& choices,
+                          Scenario& scenario) {
+  scenario.policies = read_policies(node, *scenario.subgraph, scenario.horizon_steps, scenario.lab);
+  const auto configured = node.optional<std::string>("policy", kNoPolicy);
+  std::string known = kNoPolicy;
+  for (const auto& [name, settings] : scenario.policies) known += ", " + name;
+  const auto is_known = [&](const std::string& name) {
+    return name == kNoPolicy || scenario.policies.contains(name);
+  };
+  if (!is_known(configured)) node.fail("policy", known);
+  scenario.policy = choices.policy.value_or(configured);
+  if (!is_known(scenario.policy)) {
+    throw std::invalid_argument("policy " + one_line(scenario.policy) + ", allowed " + known);
+  }
+  if (scenario.policy != kNoPolicy) {
+    scenario.reconfiguration = scenario.policies.at(scenario.policy);
+  }
+}
+
 Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
                    std::shared_ptr<const Subgraph> subgraph) {
   Scenario scenario;
@@ -238,6 +260,7 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   scenario.search.criterion_weights = read_criterion_weights(node, *scenario.subgraph);
   check_standstill_is_near(node, scenario);
   read_lab_of(node, choices, scenario);
+  read_reconfiguration(node, choices, scenario);
   if (node.has("circle")) {
     read_circle(node, choices, scenario);
   } else {
@@ -254,8 +277,9 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
 Scenario read_scenario(const ScenarioChoices& choices) {
   const YamlNode node = YamlNode::read_file(choices.file);
   const std::filesystem::path path = beside(choices.file, node.required<std::string>("automaton"));
-  const BuildScope scope =
-      node.optional<bool>("reconfigurable", false) ? BuildScope::kWhole : BuildScope::kSubgraph;
+  const bool may_ask_for_more =
+      node.optional<bool>("reconfigurable", false) || node.has("policies");
+  const BuildScope scope = may_ask_for_more ? BuildScope::kWhole : BuildScope::kSubgraph;
   const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
     return chosen_subgraph(node, choices, offered);
   };

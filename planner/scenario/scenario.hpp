@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 #include "planner/controller/controller.hpp"
+#include "planner/policy/policy_settings.hpp"
 #include "planner/road/corridor.hpp"
 #include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
@@ -40,6 +42,10 @@ struct Scenario {
   SearchOptions search;  ///< engine: the command line's, else the file's, else the profile's
   /// Its automaton holds all that its configuration declares: other subgraphs may be asked for.
   bool is_reconfigurable{};
+  /// What its controllers choose to plan on by themselves, by name, and which of it they do.
+  std::map<std::string, ReconfigurationSettings> policies;
+  std::string policy;  ///< kNoPolicy: nothing
+  ReconfigurationSettings reconfiguration;
   std::shared_ptr<const Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
   /// For vehicles that the scenario does not name: its routes by name, or on a circle those of its
@@ -53,6 +59,7 @@ struct ScenarioChoices {
   std::string profile{"default"};
   std::optional<std::string> engine;  ///< see engine_from_name; default: the scenario's
   std::optional<std::string> subgraph;
+  std::optional<std::string> policy;  ///< kNoPolicy for none; default: the scenario's
   std::optional<std::filesystem::path> map_file;
   std::optional<std::size_t> steps;
   std::optional<std::size_t> cars;  ///< scenarios on a circle only
@@ -60,7 +67,7 @@ struct ScenarioChoices {
 
 /// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
 /// from a configuration, of which it builds what the chosen subgraph needs, or with
-/// `reconfigurable: true` all (maneuvers are solved);
+/// `reconfigurable: true` or `policies` all (maneuvers are solved);
 /// and checks that it can be driven: routes exist and close, start poses do not overlap, standstill
 /// is within the horizon, and the lab's vehicles, if it names a lab, can follow the automaton.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, what is

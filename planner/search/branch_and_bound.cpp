@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "planner/search/branch_and_bound_data.hpp"
@@ -12,6 +13,7 @@
 #include "planner/search/collision.hpp"
 #include "planner/search/cost_to_go.hpp"
 #include "planner/search/prepared_obstacles.hpp"
+#include "planner/search/search_tables.hpp"
 
 namespace hlc {
 namespace {
@@ -41,10 +43,11 @@ Frame frame_of(const VertexData& vertex) {
 /// Tables, memory of a search, and the kernel's view of both.
 class BranchAndBound::Core {
  public:
-  Core(const Subgraph& subgraph, const ReachableSets& reachable,
-       const std::vector<PlanningWeight>& weights, Instructions instructions)
-      : costs(subgraph, weights, std::max<std::size_t>(reachable.max_steps(), 1)),
-        tables(subgraph, reachable, costs),
+  Core(const Subgraph& subgraph, std::shared_ptr<const SearchTables> shared,
+       Instructions instructions)
+      : shared_(std::move(shared)),
+        costs(shared_->costs),
+        tables(shared_->store),
         obstacles(tables),
         kernel(choose_kernel(instructions)) {
     std::size_t most_corners = 0;
@@ -137,8 +140,12 @@ class BranchAndBound::Core {
            intersects(placed_, obstacle_m);
   }
 
-  EdgeCosts costs;
-  TableStore tables;
+ private:
+  std::shared_ptr<const SearchTables> shared_;  // first: others refer to it
+
+ public:
+  const EdgeCosts& costs;
+  const TableStore& tables;
   branch_and_bound::PreparedObstacles obstacles;
   branch_and_bound::Kernel kernel;
   branch_and_bound::Plan plan{};
@@ -161,14 +168,16 @@ class BranchAndBound::Core {
 };
 
 BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable,
-                               SearchOptions options, Instructions instructions)
-    : subgraph_(subgraph), reachable_(reachable), options_(options) {
-  if (options.cost_to_go != CostToGo::kReachable) {
+                               SearchOptions options, Instructions instructions,
+                               std::shared_ptr<const SearchTables> tables)
+    : subgraph_(subgraph), reachable_(reachable), options_(std::move(options)) {
+  if (options_.cost_to_go != CostToGo::kReachable) {
     throw std::invalid_argument(
         "search: engine branch_and_bound has the cost-to-go 'reachable' alone; "
         "for another one choose engine best_first");
   }
-  core_ = std::make_unique<Core>(subgraph, reachable, options_.criterion_weights, instructions);
+  if (!tables) tables = std::make_shared<const SearchTables>(subgraph, reachable, options_);
+  core_ = std::make_unique<Core>(subgraph, std::move(tables), instructions);
 }
 
 BranchAndBound::~BranchAndBound() = default;

@@ -12,6 +12,8 @@
 
 namespace hlc {
 
+struct SearchTables;
+
 /// The fast engine: depth-first branch and bound over the same tree as BestFirstSearch.
 ///
 /// Only the path that is being tried is kept. The children of its last vertex are tried in the
@@ -65,9 +67,11 @@ class BranchAndBound final : public SearchEngine {
 
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph` and
   /// has at most 80 steps
+  /// @param tables  of this subgraph, these sets and options; none: it makes its own
   /// @throws std::invalid_argument unless options.cost_to_go is kReachable
   BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options,
-                 Instructions instructions = Instructions::kBest);
+                 Instructions instructions = Instructions::kBest,
+                 std::shared_ptr<const SearchTables> tables = nullptr);
   ~BranchAndBound() override;
   using SearchEngine::search;
 

@@ -23,10 +23,10 @@ namespace {
 class OmplHorizonPlanner final : public HorizonPlanner {
  public:
   OmplHorizonPlanner(const Subgraph& subgraph, const ReachableSets& reachable,
-                     const SearchOptions& options)
+                     const SearchOptions& options, std::shared_ptr<const SearchTables> tables)
       : subgraph_(subgraph),
         si_(make_space_information(subgraph, reachable.max_steps())),
-        planner_(si_, subgraph, reachable, options) {
+        planner_(si_, subgraph, reachable, options, std::move(tables)) {
     planner_.setup();
   }
 
@@ -87,11 +87,13 @@ ob::PathPtr make_geometric_path(const ob::SpaceInformationPtr& si, const Horizon
 RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si,
                                                const Subgraph& subgraph,
                                                const ReachableSets& reachable,
-                                               const SearchOptions& options)
+                                               const SearchOptions& options,
+                                               std::shared_ptr<const SearchTables> tables)
     : Planner(si, "RecedingHorizonPlanner"),
       subgraph_(subgraph),
       reachable_(reachable),
       options_(options),
+      tables_(std::move(tables)),
       state_(si) {
   specs_.optimizingPaths = true;
   specs_.approximateSolutions = true;
@@ -108,6 +110,7 @@ void RecedingHorizonPlanner::declare_parameters() {
         name,
         [this, set](const std::string& text) {
           set(text);
+          tables_.reset();
           setup_ = false;
         },
         get);
@@ -129,7 +132,7 @@ void RecedingHorizonPlanner::declare_parameters() {
 
 void RecedingHorizonPlanner::setup() {
   check_search_options(options_);
-  engine_ = make_search_engine(subgraph_, reachable_, options_);
+  engine_ = make_search_engine(subgraph_, reachable_, options_, tables_);
   Planner::setup();
 }
 
@@ -229,16 +232,17 @@ void RecedingHorizonPlanner::getPlannerData(ob::PlannerData& data) const {
 
 SearchResult RecedingHorizonPlanner::take_result() { return std::exchange(result_, {}); }
 
-std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(const Subgraph& subgraph,
-                                                          const ReachableSets& reachable,
-                                                          const SearchOptions& options) {
-  return std::make_unique<OmplHorizonPlanner>(subgraph, reachable, options);
+std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(
+    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
+    std::shared_ptr<const SearchTables> tables) {
+  return std::make_unique<OmplHorizonPlanner>(subgraph, reachable, options, std::move(tables));
 }
 
 std::unique_ptr<HorizonPlanner> make_horizon_planner(const Subgraph& subgraph,
                                                      const ReachableSets& reachable,
-                                                     const SearchOptions& options) {
-  return make_ompl_horizon_planner(subgraph, reachable, options);
+                                                     const SearchOptions& options,
+                                                     std::shared_ptr<const SearchTables> tables) {
+  return make_ompl_horizon_planner(subgraph, reachable, options, std::move(tables));
 }
 
 }  // namespace hlc

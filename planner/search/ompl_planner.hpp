@@ -55,8 +55,10 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
  public:
   /// @param si  of make_space_information or make_control_space_information for this subgraph
   /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon
+  /// @param tables  as make_search_engine; used until a parameter changes
   RecedingHorizonPlanner(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
-                         const ReachableSets& reachable, const SearchOptions& options);
+                         const ReachableSets& reachable, const SearchOptions& options,
+                         std::shared_ptr<const SearchTables> tables = nullptr);
 
   /// @throws std::invalid_argument as make_search_engine, if the parameters do not fit each other;
   /// so does the next `solve`
@@ -89,6 +91,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   const Subgraph& subgraph_;
   const ReachableSets& reachable_;
   SearchOptions options_;
+  std::shared_ptr<const SearchTables> tables_;
   std::unique_ptr<SearchEngine> engine_;
   SearchResult result_;
   ompl::base::ScopedState<> state_;  ///< for what is asked of one state: making one takes long
@@ -98,8 +101,10 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
 
 /// A HorizonPlanner that plans through a RecedingHorizonPlanner; never timed.
 /// @param subgraph, reachable  must outlive the planner
+/// @param tables  as make_search_engine
 /// @throws std::invalid_argument as make_search_engine
 [[nodiscard]] std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(
-    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options);
+    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
+    std::shared_ptr<const SearchTables> tables = nullptr);
 
 }  // namespace hlc

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/search/best_first_search.hpp"
 #include "planner/search/branch_and_bound.hpp"
@@ -33,11 +34,13 @@ void give_up(bool has_path, double lower_bound, SearchResult& result) {
 
 std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
                                                  const ReachableSets& reachable,
-                                                 const SearchOptions& options) {
+                                                 const SearchOptions& options,
+                                                 std::shared_ptr<const SearchTables> tables) {
   if (options.engine == Engine::kBestFirst) {
     return std::make_unique<BestFirstSearch>(subgraph, reachable, options);
   }
-  return std::make_unique<BranchAndBound>(subgraph, reachable, options);
+  return std::make_unique<BranchAndBound>(subgraph, reachable, options,
+                                          BranchAndBound::Instructions::kBest, std::move(tables));
 }
 
 }  // namespace hlc

@@ -9,6 +9,8 @@
 
 namespace hlc {
 
+struct SearchTables;
+
 /// What searches behind the planner: one call per problem. Not safe for two threads at once.
 class SearchEngine {
  public:
@@ -41,10 +43,11 @@ void give_up(bool has_path, double lower_bound, SearchResult& result);
 
 /// The engine that `options` name.
 /// @param subgraph, reachable  must outlive the engine; `reachable` belongs to `subgraph`
+/// @param tables  of make_search_tables for all three; none: the engine makes what it needs
 /// @throws std::invalid_argument if the engine cannot search with that cost-to-go: kBranchAndBound
 /// has the bound kReachable alone
-[[nodiscard]] std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
-                                                               const ReachableSets& reachable,
-                                                               const SearchOptions& options);
+[[nodiscard]] std::unique_ptr<SearchEngine> make_search_engine(
+    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
+    std::shared_ptr<const SearchTables> tables = nullptr);
 
 }  // namespace hlc

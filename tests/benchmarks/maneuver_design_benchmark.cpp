@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
 #include "planner/automaton/yaml_text.hpp"
+#include "planner/controller/controller.hpp"
 #include "planner/geometry/median.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/criteria.hpp"
@@ -66,15 +66,21 @@ void print_new_weights(hlc::AutomatonConfiguration configuration, double first, 
               cpu_ms() - begin_ms, designed.size());
 }
 
-/// What a controller does when it switches to a subgraph.
+/// What is done before a controller switches to a subgraph, and what the switch takes then.
 void print_switching(const std::shared_ptr<const hlc::UniversalAutomaton>& automaton,
                      const hlc::SubgraphSpec& spec, std::size_t horizon_steps) {
   const double begin_ms = cpu_ms();
-  const hlc::Subgraph subgraph(automaton, spec);
+  const auto subgraph = std::make_shared<const hlc::Subgraph>(automaton, spec);
   const double view_ms = cpu_ms();
-  const hlc::ReachableSets reachable(subgraph, horizon_steps + 1);
-  std::printf("%-18s %9.2f  ReachableSets for %zu steps: %.1f\n", ("Subgraph " + spec.name).c_str(),
-              view_ms - begin_ms, reachable.max_steps(), cpu_ms() - view_ms);
+  const hlc::PreparedSubgraph prepared = hlc::prepare_subgraph(subgraph, horizon_steps, {});
+  const double prepared_ms = cpu_ms();
+  hlc::Controller controller({.vehicle = {1}, .horizon_steps = horizon_steps}, subgraph,
+                             hlc::ReferencePath({{0.0, 0.0}, {10.0, 0.0}}, false), {});
+  const double made_ms = cpu_ms();
+  controller.switch_to(prepared);
+  std::printf("%-18s %9.2f  prepared for %zu steps: %.1f, switched to: %.3f\n",
+              ("Subgraph " + spec.name).c_str(), view_ms - begin_ms, horizon_steps,
+              prepared_ms - view_ms, cpu_ms() - made_ms);
 }
 
 }  // namespace

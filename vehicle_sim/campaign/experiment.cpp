@@ -12,8 +12,10 @@
 #include "hlc_bridge/core/hlc_core.hpp"
 #include "hlc_bridge/core/logical_run.hpp"
 #include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/core/observation.hpp"
 #include "hlc_bridge/core/state_buffer.hpp"
 #include "planner/coordination/priority.hpp"
+#include "planner/policy/subgraph_choice.hpp"
 #include "planner/rollout/joint_step.hpp"
 #include "vehicle_sim/campaign/simulated_vehicle.hpp"
 
@@ -25,6 +27,7 @@ struct Member {
   std::uint8_t id;
   SimulatedVehicle vehicle;
   HlcCore hlc;
+  SubgraphChoice choice;
   bool was_told_to_stop{};
   bool has_left{};
 };
@@ -58,9 +61,12 @@ class Lab {
       SimulatedVehicleOptions simulated{
           .vehicle_id = id, .start = measured_start(scenario, vehicle), .gains = options.gains};
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
+      HlcCore hlc(make_controller(scenario, vehicle.id));
+      SubgraphChoice choice(hlc.controller(), scenario.reconfiguration);
       members_.push_back({.id = id,
                           .vehicle = SimulatedVehicle(simulated),
-                          .hlc = HlcCore(make_controller(scenario, vehicle.id))});
+                          .hlc = std::move(hlc),
+                          .choice = std::move(choice)});
     }
     std::ranges::sort(members_, plans_before,
                       [](const Member& member) { return VehicleId{member.id}; });
@@ -146,6 +152,8 @@ class Lab {
       if (answer.copy) carry(*answer.copy, t_now, member);
       reports[i].report = with_answer(std::move(reports[i].report), answer);
       report(reports[i]);
+      if (reports[i].report.status == StepStatus::kStandby) continue;
+      member.choice.end_step(member.hlc.controller(), reports[i].report, heard_);
     }
   }
 
@@ -159,6 +167,13 @@ class Lab {
       begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
     }
     observation.present = observation.active;
+    std::map<const Controller*, Nanoseconds> planning_ns;
+    for (Member& member : members_) {
+      const Nanoseconds from_cpu = cpu_clock_();
+      static_cast<void>(member.choice.begin_step(member.hlc.controller(), observation.step, begins,
+                                                 battery_voltage_v(list, VehicleId{member.id})));
+      planning_ns[&member.hlc.controller()] = cpu_clock_() - from_cpu;
+    }
     std::vector<ReportRecord> records;
     if (!begins) {
       for (Member& member : members_) {
@@ -168,22 +183,28 @@ class Lab {
     }
     std::vector<Controller*> controllers;
     for (Member& member : members_) controllers.push_back(&member.hlc.controller());
-    std::map<const Controller*, Nanoseconds> planning_ns;
     double planning_s = 0.0;
+    heard_ = {};
+    const bool somebody_looks_ahead = std::ranges::any_of(
+        members_, [](const Member& member) { return member.choice.looks_ahead(); });
     JointStepRules rules = rules_;
+    rules.told = [&](const Controller& controller, const Traffic& traffic) {
+      if (rules_.told) rules_.told(controller, traffic);
+      if (somebody_looks_ahead) heard_.traffic.push_back(traffic);
+    };
     rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
       const Nanoseconds from = wall_clock_();
       const Nanoseconds from_cpu = cpu_clock_();
       Prediction prediction = rules_.plan ? rules_.plan(controller, heard) : controller.plan(heard);
-      planning_ns[&controller] = cpu_clock_() - from_cpu;
+      planning_ns[&controller] += cpu_clock_() - from_cpu;
       planning_s += seconds_since(from);
+      if (somebody_looks_ahead) heard_.predictions.push_back(prediction);
       return prediction;
     };
     const Nanoseconds from = wall_clock_();
     const std::vector<Report> reports = joint_step(controllers, observation, rules);
     const double step_s = seconds_since(from);
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      // 0 if it was late
       records.push_back({.report = reports[i], .planning_ns = planning_ns[controllers[i]]});
     }
     experiment_.wall.planning_s += planning_s;
@@ -229,6 +250,7 @@ class Lab {
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
   StateBuffer states_;
+  HeardInStep heard_;  ///< in the last step, if somebody looks ahead
   std::set<std::string> alive_;
   std::set<std::string> lost_;
   Experiment experiment_;

@@ -28,17 +28,25 @@ AutomatonRequest slow(std::uint64_t id, double max_speed_mps, Nanoseconds valid_
 class ReconfigurationTest : public testing::Test {
  protected:
   AutomatonAnswer take(const AutomatonRequest& request, std::uint64_t step) {
-    return reconfiguration_.take(prepare(*scenario().subgraph, request, scenario().horizon_steps),
-                                 {step});
+    return reconfiguration_.take(prepare(base(), request), {step});
   }
   std::optional<AutomatonAnswer> begin(std::uint64_t step) {
-    return reconfiguration_.begin_step(*controller_, {step}, step * kStep);
+    const auto answer = reconfiguration_.begin_step(choice_, {step}, step * kStep);
+    EXPECT_EQ(choice_.begin_step(*controller_, {step}, true, {}), answer.has_value());
+    return answer;
+  }
+  [[nodiscard]] RequestBase base() const {
+    return {.subgraph = choice_.base(),
+            .limits_mps = choice_.limits_mps(),
+            .horizon_steps = scenario().horizon_steps,
+            .search = scenario().search};
   }
   [[nodiscard]] std::optional<double> limit_mps() const {
     return controller_->subgraph().spec().max_speed_mps;
   }
 
   std::unique_ptr<Controller> controller_ = make_controller(scenario(), kRed);
+  SubgraphChoice choice_{*controller_, {}};
   Reconfiguration reconfiguration_;
 };
 
@@ -55,7 +63,7 @@ TEST_F(ReconfigurationTest, IsInForceFromTheFirstStepOfItsTimeOn) {
   ASSERT_TRUE(in_force);
   EXPECT_EQ(in_force->outcome, RequestOutcome::kInForce);
   EXPECT_EQ(in_force->step, StepIndex{12});
-  EXPECT_EQ(in_force->text, "B, at most 0.6 m/s");
+  EXPECT_EQ(controller_->subgraph().spec().name, "B, at most 0.6 m/s");
   EXPECT_EQ(limit_mps(), 0.6);
   EXPECT_FALSE(begin(13)) << "told once";
 }
@@ -103,13 +111,12 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
       .id = 1,
       .valid_from = 0,
       .subgraph = {.labels = {}, .weights = {{"J2", 0.7}, {"J1", 0.3}}, .max_speed_mps = 0.7}};
-  const PreparedRequest prepared =
-      prepare(*scenario().subgraph, request, scenario().horizon_steps, &weights);
+  const PreparedRequest prepared = prepare(base(), request, &weights);
   EXPECT_EQ(reconfiguration_.take(prepared, {1}).outcome, RequestOutcome::kAccepted)
       << prepared.refusal;
   const std::optional<AutomatonAnswer> in_force = begin(1);
   ASSERT_TRUE(in_force);
-  EXPECT_EQ(in_force->text, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
+  EXPECT_EQ(controller_->subgraph().spec().name, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
   for (const TrimId from : controller_->subgraph().trims()) {
     for (const Edge& edge : controller_->subgraph().successors(from)) {
       EXPECT_TRUE(edge.to == from || edge.maneuver->label == "J1 0.3 J2 0.7");
@@ -118,12 +125,11 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
   AutomatonRequest unknown = request;
   unknown.id = 2;
   unknown.subgraph = {.labels = {}, .weights = {{"J9", 1.0}}};
-  const AutomatonAnswer refused = reconfiguration_.take(
-      prepare(*scenario().subgraph, unknown, scenario().horizon_steps, &weights), {2});
+  const AutomatonAnswer refused = reconfiguration_.take(prepare(base(), unknown, &weights), {2});
   EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
   EXPECT_NE(refused.text.find("'J9', allowed J1"), std::string::npos) << refused.text;
   EXPECT_FALSE(begin(2));
-  EXPECT_EQ(controller_->subgraph().spec().name, in_force->text);
+  EXPECT_EQ(controller_->subgraph().spec().name, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
 }
 
 }  // namespace

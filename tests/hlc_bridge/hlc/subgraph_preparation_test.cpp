@@ -16,11 +16,19 @@ AutomatonRequest slow(std::uint64_t id, double max_speed_mps) {
           .subgraph = {.labels = {}, .max_speed_mps = max_speed_mps}};
 }
 
+RequestBase on(const std::shared_ptr<const Subgraph>& subgraph) {
+  constexpr std::size_t kHorizonSteps = 8;
+  return {.subgraph = prepare_subgraph(subgraph, kHorizonSteps, {}),
+          .limits_mps = {},
+          .horizon_steps = kHorizonSteps,
+          .search = {}};
+}
+
 class SubgraphPreparationTest : public testing::Test {
  protected:
   std::shared_ptr<const Subgraph> base_ =
       std::make_shared<const Subgraph>(test::make_test_subgraph());
-  SubgraphPreparation preparation_{base_, 8, {base_->shared_automaton(), {}}};
+  SubgraphPreparation preparation_{on(base_), {base_->shared_automaton(), {}}};
 };
 
 TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHorizon) {
@@ -31,12 +39,12 @@ TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHo
   const std::vector<PreparedRequest> prepared = preparation_.take();
   ASSERT_EQ(prepared.size(), 3U);
   EXPECT_EQ(prepared[0].request.id, 1U);
-  ASSERT_TRUE(prepared[0].subgraph);
-  EXPECT_EQ(prepared[0].subgraph->spec().max_speed_mps, 0.6);
-  EXPECT_EQ(prepared[0].reachable->max_steps(), 9U);
-  EXPECT_FALSE(prepared[1].subgraph);
+  ASSERT_TRUE(prepared[0].choice);
+  EXPECT_EQ(prepared[0].choice->under({}).subgraph->spec().max_speed_mps, 0.6);
+  EXPECT_EQ(prepared[0].choice->under({}).reachable->max_steps(), 9U);
+  EXPECT_FALSE(prepared[1].choice);
   EXPECT_FALSE(prepared[1].refusal.empty());
-  EXPECT_EQ(prepared[2].subgraph->spec().max_speed_mps, 0.5);
+  EXPECT_EQ(prepared[2].choice->under({}).subgraph->spec().max_speed_mps, 0.5);
   EXPECT_TRUE(preparation_.take().empty());
 }
 
@@ -61,8 +69,8 @@ class WeightPreparationTest : public testing::Test {
 
   std::shared_ptr<const Subgraph> base_ = std::make_shared<const Subgraph>(
       build_shared_automaton(configuration()), configuration().subgraphs.front());
-  SubgraphPreparation preparation_{
-      base_, 8, {base_->shared_automaton(), [] { return configuration(); }}};
+  SubgraphPreparation preparation_{on(base_),
+                                   {base_->shared_automaton(), [] { return configuration(); }}};
 };
 
 TEST_F(WeightPreparationTest, WaitsForTheSolutionAndKeepsIt) {
@@ -72,10 +80,12 @@ TEST_F(WeightPreparationTest, WaitsForTheSolutionAndKeepsIt) {
   preparation_.wait();
   const std::vector<PreparedRequest> prepared = preparation_.take();
   ASSERT_EQ(prepared.size(), 2U);
-  ASSERT_TRUE(prepared[0].subgraph) << prepared[0].refusal;
-  EXPECT_EQ(prepared[0].subgraph->spec().name, base_->spec().name + ", weights J2 0.7");
-  EXPECT_NE(prepared[0].subgraph->shared_automaton(), base_->shared_automaton());
-  EXPECT_EQ(prepared[1].subgraph->shared_automaton(), prepared[0].subgraph->shared_automaton());
+  ASSERT_TRUE(prepared[0].choice) << prepared[0].refusal;
+  const Subgraph& first = *prepared[0].choice->under({}).subgraph;
+  EXPECT_EQ(first.spec().name, base_->spec().name + ", weights J2 0.7");
+  EXPECT_NE(first.shared_automaton(), base_->shared_automaton());
+  const Subgraph& second = *prepared[1].choice->under({}).subgraph;
+  EXPECT_EQ(second.shared_automaton(), first.shared_automaton());
 }
 
 TEST_F(WeightPreparationTest, EndsInTheMiddleOfASolution) {

@@ -58,9 +58,11 @@ class Switching : public testing::Test {
   void switch_to(const std::string& name) {
     const auto& subgraph = subgraphs_.at(name);
     // Half of the times with tables that are there already.
-    const bool is_given = switches_++ % 2 == 0;
-    controller().switch_to(
-        subgraph, is_given ? std::make_shared<const ReachableSets>(*subgraph, 9) : nullptr);
+    if (switches_++ % 2 == 0) {
+      controller().switch_to(prepare_subgraph(subgraph, 8, controller().options().search));
+    } else {
+      controller().switch_to(subgraph);
+    }
   }
 
   /// One step; the plan in force must go on where the former one was and end standing.

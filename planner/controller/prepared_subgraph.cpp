@@ -1,0 +1,18 @@
+#include "planner/controller/prepared_subgraph.hpp"
+
+#include <utility>
+
+#include "planner/search/search_tables.hpp"
+
+namespace hlc {
+
+PreparedSubgraph prepare_subgraph(std::shared_ptr<const Subgraph> subgraph,
+                                  std::size_t horizon_steps, const SearchOptions& search) {
+  auto reachable = std::make_shared<const ReachableSets>(*subgraph, horizon_steps + 1);
+  auto tables = make_search_tables(*subgraph, *reachable, search);
+  return {.subgraph = std::move(subgraph),
+          .reachable = std::move(reachable),
+          .tables = std::move(tables)};
+}
+
+}  // namespace hlc

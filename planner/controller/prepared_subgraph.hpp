@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+struct SearchTables;
+
+/// A subgraph with all that planning on it needs, so that a switch costs hardly more than a planner
+/// (Controller::switch_to). It never changes: it can be made on any thread, before it is needed,
+/// and shared by controllers.
+struct PreparedSubgraph {
+  std::shared_ptr<const Subgraph> subgraph;
+  std::shared_ptr<const ReachableSets> reachable;  ///< for one step more than the horizon
+  std::shared_ptr<const SearchTables> tables;      ///< none if the engine needs none
+};
+
+/// Milliseconds for a dozen trims, more than a second for a hundred.
+/// @param search  what the controller searches with
+/// @throws std::invalid_argument if an edge holds no value of a criterion of the planning cost
+[[nodiscard]] PreparedSubgraph prepare_subgraph(std::shared_ptr<const Subgraph> subgraph,
+                                                std::size_t horizon_steps,
+                                                const SearchOptions& search);
+
+}  // namespace hlc

@@ -1,0 +1,68 @@
+#include "planner/policy/policy_check.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "planner/automaton/lab_check.hpp"
+#include "planner/automaton/yaml_text.hpp"
+#include "planner/policy/policy.hpp"
+#include "planner/policy/speed_zones.hpp"
+#include "planner/search/edge_costs.hpp"
+
+namespace hlc {
+namespace {
+
+std::vector<SubgraphRequest> choices_of(const PolicySettings& settings) {
+  if (const auto* look_ahead = std::get_if<LookAheadSettings>(&settings)) {
+    return look_ahead->candidates;
+  }
+  return make_rule_policy(settings)->choices();
+}
+
+void check(const Subgraph& subgraph, const ReconfigurationSettings& settings,
+           const std::optional<LabLimits>& lab) {
+  if (const std::string fault = lab ? lab_fault_of(subgraph, *lab) : ""; !fault.empty()) {
+    throw std::invalid_argument("subgraph " + subgraph.spec().name + ": " + fault);
+  }
+  for (const PolicySettings& one : settings.policies) {
+    const auto* look_ahead = std::get_if<LookAheadSettings>(&one);
+    if (look_ahead == nullptr) continue;
+    static_cast<void>(EdgeCosts(subgraph, look_ahead->criterion_weights, 1));
+  }
+}
+
+}  // namespace
+
+std::vector<SubgraphRequest> requests_of(const ReconfigurationSettings& settings) {
+  std::vector<SubgraphRequest> requests{{}};
+  for (const PolicySettings& one : settings.policies) {
+    for (const SubgraphRequest& request : choices_of(one)) {
+      if (std::ranges::find(requests, request) == requests.end()) requests.push_back(request);
+    }
+  }
+  return requests;
+}
+
+void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& settings,
+                           std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
+  for (const SubgraphRequest& request : requests_of(settings)) {
+    const auto subgraph = requested_subgraph(base, request, horizon_steps);
+    check(*subgraph, settings, lab);
+    for (const double limit_mps : limits_mps(settings.zones)) {
+      SubgraphRequest limited = request;
+      limited.max_speed_mps =
+          std::min(limit_mps, subgraph->spec().max_speed_mps.value_or(limit_mps));
+      try {
+        check(*requested_subgraph(base, limited, horizon_steps), settings, lab);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("in the zone of " + shortest_text(limit_mps) +
+                                    " m/s: " + error.what());
+      }
+    }
+  }
+}
+
+}  // namespace hlc

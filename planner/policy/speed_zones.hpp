@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/policy/policy_settings.hpp"
+#include "planner/road/reference_path.hpp"
+
+namespace hlc {
+
+/// The limits of all zones, each once, from the lowest.
+[[nodiscard]] std::vector<double> limits_mps(std::span<const SpeedZone> zones);
+
+/// The least limit of the zones that the path comes through between s and s + ahead_m; none if it
+/// comes through none. The path is looked at every centimetre.
+/// @pre ahead_m >= 0
+[[nodiscard]] std::optional<double> limit_on(std::span<const SpeedZone> zones,
+                                             const ReferencePath& path, double s_m, double ahead_m);
+
+}  // namespace hlc

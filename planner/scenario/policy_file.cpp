@@ -1,0 +1,177 @@
+#include "planner/scenario/policy_file.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "planner/policy/policy_check.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kLongest_s = 86'400.0;
+constexpr std::size_t kMostCandidates = 100;
+constexpr double kMostVolts = 1000.0;
+
+std::vector<TrimId> read_trims(const YamlNode& node, const std::string& key) {
+  std::vector<TrimId> trims;
+  for (const YamlNode& entry : node.optional_list(key)) {
+    trims.push_back({entry.as<std::size_t>(at_least(1.0)) - 1});
+  }
+  return trims;
+}
+
+SubgraphRequest read_request(const YamlNode& node) {
+  SubgraphRequest request;
+  for (const YamlNode& label : node.optional_list("labels")) {
+    request.labels.push_back(label.as<std::string>());
+  }
+  const double max_speed_mps = node.optional<double>("max_speed_mps", 0.0, above(0.0));
+  if (node.has("max_speed_mps")) request.max_speed_mps = max_speed_mps;
+  request.trims_on = read_trims(node, "trims_on");
+  request.trims_off = read_trims(node, "trims_off");
+  node.check_no_unknown_keys();
+  return request;
+}
+
+std::pair<double, double> read_range(const YamlNode& node, const std::string& key) {
+  const std::vector<YamlNode> bounds = node.list(key);
+  if (bounds.size() != 2) node.fail(key, "two numbers, [from, to]");
+  const auto from = bounds[0].as<double>();
+  const auto to = bounds[1].as<double>(above(from));
+  return {from, to};
+}
+
+SpeedZone read_zone(const YamlNode& node) {
+  SpeedZone zone;
+  std::tie(zone.min_x_m, zone.max_x_m) = read_range(node, "x_m");
+  std::tie(zone.min_y_m, zone.max_y_m) = read_range(node, "y_m");
+  zone.max_speed_mps = node.required<double>("max_speed_mps", above(0.0));
+  node.check_no_unknown_keys();
+  return zone;
+}
+
+TimePolicySettings read_time(const YamlNode& rule) {
+  TimePolicySettings settings;
+  double last_s = 0.0;
+  for (const YamlNode& node : rule.list("time")) {
+    const bool is_first = settings.changes.empty();
+    const auto from_s = node.required<double>(
+        "from_s", is_first ? between(0.0, kLongest_s) : above(last_s, kLongest_s));
+    settings.changes.push_back({.from_s = from_s, .request = read_request(node.map("request"))});
+    node.check_no_unknown_keys();
+    last_s = from_s;
+  }
+  if (settings.changes.empty()) rule.fail("time", "at least one entry");
+  return settings;
+}
+
+SituationPolicySettings read_situation(const YamlNode& rule) {
+  const YamlNode node = rule.map("situation");
+  SituationPolicySettings settings{.open_road = read_request(node.map("open_road")),
+                                   .conflict = read_request(node.map("conflict"))};
+  settings.after_conflict_s = node.optional<double>("after_conflict_s", settings.after_conflict_s,
+                                                    between(0.0, kLongest_s));
+  node.check_no_unknown_keys();
+  return settings;
+}
+
+BatteryPolicySettings read_battery(const YamlNode& rule) {
+  const YamlNode node = rule.map("battery");
+  BatteryPolicySettings settings;
+  settings.below_v = node.required<double>("below_v", above(0.0, kMostVolts));
+  settings.back_above_v = node.optional<double>("back_above_v", settings.below_v,
+                                                between(settings.below_v, kMostVolts));
+  settings.request = read_request(node.map("request"));
+  node.check_no_unknown_keys();
+  return settings;
+}
+
+LookAheadSettings read_look_ahead(const YamlNode& rule) {
+  const YamlNode node = rule.map("look_ahead");
+  LookAheadSettings settings;
+  for (const YamlNode& candidate : node.list("candidates")) {
+    settings.candidates.push_back(read_request(candidate));
+  }
+  const std::size_t candidates = settings.candidates.size();
+  if (candidates < 2 || candidates > kMostCandidates) {
+    node.fail("candidates", "2 ... " + std::to_string(kMostCandidates) + " requests");
+  }
+  settings.steps = node.optional<std::size_t>("steps", settings.steps, between(1.0, 64.0));
+  const YamlNode weights = node.optional_map("criterion_weights");
+  for (const std::string& criterion : weights.keys()) {
+    settings.criterion_weights.push_back(
+        {criterion, weights.required<double>(criterion, at_least(0.0))});
+  }
+  settings.least_gain =
+      node.optional<double>("least_gain", settings.least_gain, between(0.0, 0.99));
+  const std::size_t most = kMostLookAheadExpansions / (candidates * settings.steps);
+  settings.max_expansions = node.required<std::size_t>("max_expansions", at_least(1.0));
+  if (settings.max_expansions > most) {
+    node.fail("max_expansions", "1 ... " + std::to_string(most) + ": with " +
+                                    std::to_string(candidates) + " candidates over " +
+                                    std::to_string(settings.steps) + " steps " +
+                                    std::to_string(kMostLookAheadExpansions) + " in all");
+  }
+  node.check_no_unknown_keys();
+  return settings;
+}
+
+PolicySettings read_rule(const YamlNode& node) {
+  const std::vector<std::string> keys = node.keys();
+  if (keys.size() == 1) {
+    const std::string& kind = keys.front();
+    if (kind == "time") return read_time(node);
+    if (kind == "situation") return read_situation(node);
+    if (kind == "battery") return read_battery(node);
+    if (kind == "look_ahead") return read_look_ahead(node);
+  }
+  throw std::invalid_argument(node.place(keys.empty() ? "rule" : keys.front()) +
+                              ", allowed one of time, situation, battery, look_ahead");
+}
+
+ReconfigurationSettings read_policy(const YamlNode& node) {
+  ReconfigurationSettings settings;
+  for (const YamlNode& zone : node.optional_list("zones")) {
+    settings.zones.push_back(read_zone(zone));
+  }
+  for (const YamlNode& rule : node.optional_list("rules")) {
+    settings.policies.push_back(read_rule(rule));
+  }
+  settings.min_stay_s =
+      node.optional<double>("min_stay_s", settings.min_stay_s, between(0.0, kLongest_s));
+  node.check_no_unknown_keys();
+  return settings;
+}
+
+}  // namespace
+
+std::map<std::string, ReconfigurationSettings> read_policies(const YamlNode& scenario,
+                                                             const Subgraph& base,
+                                                             std::size_t horizon_steps,
+                                                             const std::optional<LabLimits>& lab) {
+  std::map<std::string, ReconfigurationSettings> policies;
+  const YamlNode node = scenario.optional_map("policies");
+  for (const std::string& name : node.keys()) {
+    if (name == kNoPolicy) {
+      throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
+                                  "', allowed any other name: it stands for no policy");
+    }
+    const ReconfigurationSettings settings = read_policy(node.map(name));
+    try {
+      check_reconfiguration(base, settings, horizon_steps, lab);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
+                                  "': " + error.what());
+    }
+    policies.emplace(name, settings);
+  }
+  return policies;
+}
+
+}  // namespace hlc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "planner/automaton/subgraph.hpp"
+#include "planner/automaton/yaml_reader.hpp"
+#include "planner/policy/policy_settings.hpp"
+#include "planner/vehicle/lab_limits.hpp"
+
+namespace hlc {
+
+/// Reads the map `policies` of a scenario, by name. Each entry (planner/policy says what they do):
+///
+///     zones        list of {x_m: [from, to], y_m: [from, to], max_speed_mps}, may be absent
+///     rules        list, may be absent; each entry one of
+///       time         list of {from_s, request}, by time
+///       situation    {open_road: request, conflict: request, after_conflict_s (default 1)}
+///       battery      {below_v, back_above_v (default below_v), request}
+///       look_ahead   {candidates: list of requests, steps (default 8),
+///                     criterion_weights: {criterion: m^2 per unit} (default none),
+///                     least_gain (default 0.05), max_expansions}
+///     min_stay_s   default 1
+///
+/// A request is a map; what it does not name is the scenario's:
+///
+///     labels         list
+///     max_speed_mps
+///     trims_on, trims_off   lists of numbers from 1
+///
+/// @param base  the scenario's subgraph: every request is tried on it, under the limit of every
+/// zone
+/// @param lab   what its vehicles can follow; absent: anything
+/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", or the place
+/// of the policy and why one of its requests cannot be
+[[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(
+    const YamlNode& scenario, const Subgraph& base, std::size_t horizon_steps,
+    const std::optional<LabLimits>& lab);
+
+}  // namespace hlc

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/search/branch_and_bound_tables.hpp"
+#include "planner/search/edge_costs.hpp"
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+/// What the fast engine computes of a subgraph before its first search: a tenth of a second for a
+/// hundred trims. It never changes, so planners on the same subgraph share it, and it can be made
+/// on another thread before it is needed.
+struct SearchTables {
+  /// @param subgraph  owns the maneuvers that the tables name: must outlive them
+  SearchTables(const Subgraph& subgraph, const ReachableSets& reachable,
+               const SearchOptions& options);
+
+  EdgeCosts costs;
+  branch_and_bound::TableStore store;
+};
+
+/// The tables that the engine of `options` needs; none for an engine without any.
+/// @pre `reachable` belongs to `subgraph` and has at most 80 steps
+/// @throws std::invalid_argument as EdgeCosts
+[[nodiscard]] std::shared_ptr<const SearchTables> make_search_tables(const Subgraph& subgraph,
+                                                                     const ReachableSets& reachable,
+                                                                     const SearchOptions& options);
+
+}  // namespace hlc
