@@ -184,6 +184,7 @@ class Controller {
              std::shared_ptr<const std::vector<DrivableRoute>> routes,
              std::shared_ptr<const ReachableSets> reachable);
 
+  void say_what_is_in_force(Report& report) const;
   void take_route(const Pose& measured);
   void look_at_lanes();
   [[nodiscard]] double project(const Point& position_m) const;
