@@ -48,7 +48,7 @@ std::string flags_yaml(const ScenarioChoices& choices) {
   const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
   return "scenario: " + text_of(path(choices.file)) + "\nprofile: " + text_of(choices.profile) +
          "\nengine: " + text_of(choices.engine) + "\nsubgraph: " + text_of(choices.subgraph) +
-         "\nmap: " + text_of(map) +
+         "\npolicy: " + text_of(choices.policy) + "\nmap: " + text_of(map) +
          "\ncars: " + (choices.cars ? std::to_string(*choices.cars) : "null") +
          "\nsteps: " + (choices.steps ? std::to_string(*choices.steps) : "null") + "\n";
 }
@@ -64,6 +64,7 @@ ScenarioChoices kept_choices(const fs::path& run_folder) {
   choices.profile = flags.required<std::string>("profile");
   choices.engine = text_or_null(flags, "engine");
   choices.subgraph = text_or_null(flags, "subgraph");
+  choices.policy = text_or_null(flags, "policy");
   if (const auto map = text_or_null(flags, "map")) choices.map_file = copy_of(run_folder, *map);
   if (flags.is_value("cars")) choices.cars = flags.required<std::size_t>("cars");
   return choices;

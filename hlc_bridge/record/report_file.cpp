@@ -6,6 +6,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "hlc_bridge/core/csv_field.hpp"
 #include "hlc_bridge/record/text_file.hpp"
 #include "planner/automaton/yaml_text.hpp"
 

@@ -126,16 +126,6 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::string_view heading)
   }
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) {
-    if (c == '"') field += '"';
-    field += c;
-  }
-  return field + "\"";
-}
-
 const std::string& CsvTable::text(std::size_t row, std::size_t column) const {
   return rows_.at(row).fields.at(column);
 }

@@ -45,9 +45,6 @@ class CsvTable {
   std::vector<CsvRow> rows_;
 };
 
-/// The text as a field of such a file: in quotes if it needs them.
-[[nodiscard]] std::string csv_field(const std::string& text);
-
 /// The pieces between separators; one empty piece for an empty text.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 

@@ -140,8 +140,8 @@ std::string red_to_blue(double share) {
 }
 
 std::string series_colour(std::size_t series) {
-  constexpr std::array kColours{"#1f4fd8", "#d62728", "#2ca02c", "#8e44ad",
-                                "#e67e22", "#16a085", "#7f8c8d", "#c2185b"};
+  constexpr std::array kColours{"#1f4fd8", "#d62728", "#2ca02c", "#8e44ad", "#e67e22",
+                                "#16a085", "#7f8c8d", "#c2185b", "#6b3e1e", "#e0c000"};
   return kColours.at(series % kColours.size());
 }
 

@@ -102,7 +102,7 @@ struct PlotSize {
 /// From red (0) over violet to blue (1), as "#rrggbb".
 [[nodiscard]] std::string red_to_blue(double share);
 
-/// Colours to tell series apart, from the first on; after the last the first again.
+/// Ten colours to tell series apart, from the first on; after the last the first again.
 [[nodiscard]] std::string series_colour(std::size_t series);
 
 }  // namespace hlc

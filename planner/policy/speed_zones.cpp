@@ -23,17 +23,23 @@ std::vector<double> limits_mps(std::span<const SpeedZone> zones) {
   return limits;
 }
 
+std::optional<double> limit_at(std::span<const SpeedZone> zones, const Point& position_m) {
+  std::optional<double> limit;
+  for (const SpeedZone& zone : zones) {
+    if (limit && *limit <= zone.max_speed_mps) continue;
+    if (contains(zone, position_m)) limit = zone.max_speed_mps;
+  }
+  return limit;
+}
+
 std::optional<double> limit_on(std::span<const SpeedZone> zones, const ReferencePath& path,
                                double s_m, double ahead_m) {
   std::optional<double> limit;
   if (zones.empty()) return limit;
   const int intervals = static_cast<int>(std::ceil(ahead_m / kInterval_m));
   for (int i = 0; i <= intervals; ++i) {
-    const Point position_m = path.at(s_m + std::min(i * kInterval_m, ahead_m));
-    for (const SpeedZone& zone : zones) {
-      if (limit && *limit <= zone.max_speed_mps) continue;
-      if (contains(zone, position_m)) limit = zone.max_speed_mps;
-    }
+    const auto here = limit_at(zones, path.at(s_m + std::min(i * kInterval_m, ahead_m)));
+    if (here) limit = std::min(*here, limit.value_or(*here));
   }
   return limit;
 }

@@ -151,10 +151,7 @@ ReconfigurationSettings read_policy(const YamlNode& node) {
 
 }  // namespace
 
-std::map<std::string, ReconfigurationSettings> read_policies(const YamlNode& scenario,
-                                                             const Subgraph& base,
-                                                             std::size_t horizon_steps,
-                                                             const std::optional<LabLimits>& lab) {
+std::map<std::string, ReconfigurationSettings> read_policies(const YamlNode& scenario) {
   std::map<std::string, ReconfigurationSettings> policies;
   const YamlNode node = scenario.optional_map("policies");
   for (const std::string& name : node.keys()) {
@@ -162,16 +159,20 @@ std::map<std::string, ReconfigurationSettings> read_policies(const YamlNode& sce
       throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
                                   "', allowed any other name: it stands for no policy");
     }
-    const ReconfigurationSettings settings = read_policy(node.map(name));
-    try {
-      check_reconfiguration(base, settings, horizon_steps, lab);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
-                                  "': " + error.what());
-    }
-    policies.emplace(name, settings);
+    policies.emplace(name, read_policy(node.map(name)));
   }
   return policies;
+}
+
+void check_policy(const YamlNode& scenario, const std::string& name,
+                  const ReconfigurationSettings& settings, const Subgraph& base,
+                  std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
+  try {
+    check_reconfiguration(base, settings, horizon_steps, lab);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
+                                "': " + error.what());
+  }
 }
 
 }  // namespace hlc

@@ -30,13 +30,15 @@ namespace hlc {
 ///     max_speed_mps
 ///     trims_on, trims_off   lists of numbers from 1
 ///
-/// @param base  the scenario's subgraph: every request is tried on it, under the limit of every
-/// zone
-/// @param lab   what its vehicles can follow; absent: anything
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", or the place
-/// of the policy and why one of its requests cannot be
+/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
 [[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(
-    const YamlNode& scenario, const Subgraph& base, std::size_t horizon_steps,
-    const std::optional<LabLimits>& lab);
+    const YamlNode& scenario);
+
+/// Tries every request of the policy, under the limit of every zone (check_reconfiguration).
+/// @throws std::invalid_argument with one line: the place of the policies, its name and why one of
+/// its requests cannot be
+void check_policy(const YamlNode& scenario, const std::string& name,
+                  const ReconfigurationSettings& settings, const Subgraph& base,
+                  std::size_t horizon_steps, const std::optional<LabLimits>& lab);
 
 }  // namespace hlc

@@ -226,7 +226,7 @@ std::vector<PlanningWeight> read_criterion_weights(const YamlNode& node, const S
 /// The command line's, else the file's, else none.
 void read_reconfiguration(const YamlNode& node, const ScenarioChoices& choices,
                           Scenario& scenario) {
-  scenario.policies = read_policies(node, *scenario.subgraph, scenario.horizon_steps, scenario.lab);
+  scenario.policies = read_policies(node);
   const auto configured = node.optional<std::string>("policy", kNoPolicy);
   std::string known = kNoPolicy;
   for (const auto& [name, settings] : scenario.policies) known += ", " + name;
@@ -237,6 +237,13 @@ void read_reconfiguration(const YamlNode& node, const ScenarioChoices& choices,
   scenario.policy = choices.policy.value_or(configured);
   if (!is_known(scenario.policy)) {
     throw std::invalid_argument("policy " + one_line(scenario.policy) + ", allowed " + known);
+  }
+  // Policies are made for the file's own subgraph; another one may be too narrow for some of them.
+  const bool is_own_subgraph =
+      scenario.subgraph->spec().name == node.required<std::string>("subgraph");
+  for (const auto& [name, settings] : scenario.policies) {
+    if (name != scenario.policy && !is_own_subgraph) continue;
+    check_policy(node, name, settings, *scenario.subgraph, scenario.horizon_steps, scenario.lab);
   }
   if (scenario.policy != kNoPolicy) {
     scenario.reconfiguration = scenario.policies.at(scenario.policy);

@@ -16,6 +16,7 @@
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
+#include "vehicle_sim/campaign/tradeoff.hpp"
 
 namespace {
 
@@ -73,6 +74,7 @@ hlc::Campaign read(Choices& choices) {
   check_each_once("--scenario", names);
   check_each_once("--profile", choices.plan.profiles);
   check_each_once("--subgraphs", choices.plan.subgraphs);
+  check_each_once("--policies", choices.plan.policies);
   hlc::FigureChoices& figures = choices.figures;
   const auto is_asked_for = [&](const char* name) {
     return std::ranges::find(figures.names, name) != figures.names.end();
@@ -156,6 +158,9 @@ int run(Choices choices, const std::string& command) {
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,
               (choices.out / "table.md").c_str());
+  if (!campaign.plan().policies.empty()) {
+    std::printf("\n%s", hlc::tradeoff_markdown(files.figures()).c_str());
+  }
   draw(campaign, choices);
   return failed == 0 ? 0 : 1;
 }
@@ -179,7 +184,12 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--subgraphs", choices.plan.subgraphs,
-                 "of the automaton, as A,B,C,D; default: the scenario's own")
+                 "fixed ones of the automaton, as A,B,C,D, driven without a policy; default: the "
+                 "scenario's own")
+      ->delimiter(',');
+  app.add_option("--policies", choices.plan.policies,
+                 "of the scenario: drives it also on its own subgraph with each of these policies, "
+                 "and writes the tables `tradeoff`")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
                  "how many starts: the scenario's own, then random ones on the routes")
@@ -200,7 +210,8 @@ int main(int argc, char** argv) {
                "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
                "for export_commonroad and summarize");
   app.add_option("--out", choices.out,
-                 "folder for results.json, table.md, table.csv; an interrupted campaign goes on")
+                 "folder for results.json, table.md, table.csv, with --policies also tradeoff.md, "
+                 "tradeoff.csv, tradeoff_fronts.csv; an interrupted campaign goes on")
       ->required();
   std::vector<std::string> figures{kAllFigures};
   figures.insert(figures.end(), hlc::figure_names().begin(), hlc::figure_names().end());

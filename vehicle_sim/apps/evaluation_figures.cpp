@@ -14,6 +14,7 @@
 #include "planner/plot/automaton_plot.hpp"
 #include "planner/plot/pareto_plot.hpp"
 #include "planner/plot/scenario_plot.hpp"
+#include "vehicle_sim/campaign/figure_parts.hpp"
 #include "vehicle_sim/campaign/figures.hpp"
 
 namespace hlc {
@@ -58,7 +59,8 @@ const std::vector<std::pair<std::string, RunsFigure>>& runs_figures() {
       {"error", [](auto runs, const auto&) { return error_figure(runs); }},
       {"vertices", [](auto runs, const auto&) { return vertices_figure(runs); }},
       {"planning_time", [](auto runs, const auto&) { return planning_time_figure(runs); }},
-      {"distance", [](auto runs, const auto&) { return distance_figure(runs); }}};
+      {"distance", [](auto runs, const auto&) { return distance_figure(runs); }},
+      {"subgraphs", [](auto runs, const auto&) { return subgraphs_figure(runs); }}};
   return figures;
 }
 
@@ -130,8 +132,7 @@ class Drawing {
           DrivenRun run = campaign_.drive(i, choices_.clocks);
           if (run.experiment.facts.exit_code != 0) continue;
           if (const std::string fault = campaign_.result_of(run).fault; !fault.empty()) {
-            choices_.say("among them subgraph " + run.scenario.subgraph->spec().name +
-                         ", which does not count: " + fault);
+            choices_.say("among them " + run_name(run) + ", which does not count: " + fault);
           }
           runs.push_back(std::move(run));
         } catch (const std::exception&) {

@@ -22,9 +22,10 @@ namespace hlc {
 /// * `vertices`: generated and expanded over time
 /// * `planning_time`: the distribution of planning times
 /// * `distance`: distances between vehicles over time, if there are any
+/// * `subgraphs`: which subgraph each vehicle planned on over time, and its speed
 ///
-/// The last five are of the first start (where the scenario has the cars) and have a line or a
-/// panel for every subgraph.
+/// The last six are of the first start (where the scenario has the cars) and have a line or a
+/// panel for every subgraph and policy.
 [[nodiscard]] const std::vector<std::string>& figure_names();
 
 struct FigureChoices {

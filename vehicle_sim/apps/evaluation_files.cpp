@@ -8,6 +8,7 @@
 #include "hlc_bridge/record/text_file.hpp"
 #include "vehicle_sim/apps/figures_record.hpp"
 #include "vehicle_sim/apps/input_files.hpp"
+#include "vehicle_sim/campaign/tradeoff.hpp"
 
 namespace hlc {
 namespace {
@@ -22,6 +23,7 @@ Json heading_of(const Campaign& campaign) {
   json["files"] = input_files(campaign.files());
   json["profiles"] = plan.profiles;
   json["subgraphs"] = plan.subgraphs;
+  json["policies"] = plan.policies;
   json["starts"] = plan.starts;
   json["seed"] = plan.seed;
   json["steps"] = plan.steps ? Json(*plan.steps) : Json(nullptr);
@@ -42,19 +44,22 @@ EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& c
   log_.check(campaign.runs().size(), [this](std::size_t run, const Json& record) {
     static_cast<void>(figures_of(campaign_, run, record));
   });
-  log_.check_outputs({"results.json", "table.md", "table.csv"});
+  log_.check_outputs({"results.json", "table.md", "table.csv", "tradeoff.md", "tradeoff.csv",
+                      "tradeoff_fronts.csv"});
 }
 
 void EvaluationFiles::add(std::size_t run, const CampaignResult& result) {
   Json record;
   record["run"] = run;
-  record["start"] = campaign_.runs()[run].start;
+  const RunFigures heading = campaign_.heading_of(run);
+  record["start"] = heading.start;
+  record["policy"] = heading.policy;
   record["failure"] = result.fault.empty() ? Json(nullptr) : Json(result.fault);
   RunSummary complete = result.summary;
   complete.revision = program_revision();
   complete.host = this_host();
   record.update(Json::parse(summary_json(complete)));
-  record["figures"] = figures_record(with_figures(campaign_.heading_of(run), result));
+  record["figures"] = figures_record(with_figures(heading, result));
   log_.append(run, record.dump());
 }
 
@@ -63,6 +68,7 @@ void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
   Json record;
   record["run"] = run;
   record["start"] = heading.start;
+  record["policy"] = heading.policy;
   record["failure"] = reason;
   record["scenario"] = heading.scenario;
   record["profile"] = heading.profile;
@@ -87,6 +93,10 @@ void EvaluationFiles::finish(const EvaluationOrigin& origin) const {
   const std::vector<RunFigures> runs = figures();
   write_file(log_.folder() / "table.md", evaluation_markdown(runs, origin));
   write_file(log_.folder() / "table.csv", evaluation_csv(runs));
+  if (campaign_.plan().policies.empty()) return;
+  write_file(log_.folder() / "tradeoff.md", tradeoff_markdown(runs));
+  write_file(log_.folder() / "tradeoff.csv", tradeoff_csv(runs));
+  write_file(log_.folder() / "tradeoff_fronts.csv", tradeoff_fronts_csv(runs));
 }
 
 }  // namespace hlc

@@ -17,13 +17,14 @@ namespace hlc {
 ///                          reads; then a line per run, once driven
 ///     results.json         {"campaign": ..., "runs": [...]}, in the order of the campaign
 ///     table.md, table.csv
+///     tradeoff.md, tradeoff.csv, tradeoff_fronts.csv   of a campaign with policies (tradeoff.hpp)
 ///     figures/             what evaluation_figures.hpp draws
 ///
-/// A run's record has the keys of summary.json and "run" (its number), "start", "failure" (null, or
-/// why the run does not count) and "figures" (figures_record.hpp). Planning times are processor
-/// time of the thread, all others wall time. If it could not be driven to its end, the other
-/// keys are absent but for scenario, profile and subgraph; if it was driven, but does not count
-/// (CampaignResult::fault), they are there.
+/// A run's record has the keys of summary.json and "run" (its number), "start", "policy" (`none`
+/// for a fixed subgraph), "failure" (null, or why the run does not count) and "figures"
+/// (figures_record.hpp). Planning times are processor time of the thread, all others wall time. If
+/// it could not be driven to its end, the other keys are absent but for scenario, profile, subgraph
+/// and policy; if it was driven, but does not count (CampaignResult::fault), they are there.
 ///
 /// A campaign that was interrupted goes on with the runs that are missing in runs.jsonl.
 class EvaluationFiles {

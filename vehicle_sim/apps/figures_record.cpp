@@ -13,12 +13,16 @@ struct Column {
   Value RunFigures::*value;
 };
 
-constexpr Column<std::optional<double>> kOfTheFirst[] = {
+constexpr Column<std::optional<double>> kMaybe[] = {
     {"lap_s", &RunFigures::lap_s},
     {"error_mean_mm", &RunFigures::error_mean_mm},
     {"error_std_mm", &RunFigures::error_std_mm},
     {"driven_error_mean_mm", &RunFigures::driven_error_mean_mm},
-    {"driven_error_std_mm", &RunFigures::driven_error_std_mm}};
+    {"driven_error_std_mm", &RunFigures::driven_error_std_mm},
+    {"effort_per_m", &RunFigures::effort_per_m},
+    {"comfort_per_m", &RunFigures::comfort_per_m},
+    {"above_limit_share", &RunFigures::above_limit_share},
+    {"above_limit_max_mps", &RunFigures::above_limit_max_mps}};
 
 constexpr Column<double> kOfAll[] = {{"generated_max", &RunFigures::generated_max},
                                      {"generated_sum_max", &RunFigures::generated_sum_max},
@@ -27,7 +31,8 @@ constexpr Column<double> kOfAll[] = {{"generated_max", &RunFigures::generated_ma
                                      {"deviation_max_mm", &RunFigures::deviation_max_mm}};
 
 constexpr Column<std::size_t> kCounts[] = {{"fallback_steps", &RunFigures::fallback_steps},
-                                           {"collisions", &RunFigures::collisions}};
+                                           {"collisions", &RunFigures::collisions},
+                                           {"switches", &RunFigures::switches}};
 
 constexpr Column<double> kTimes[] = {{"planning_mean_ms", &RunFigures::planning_mean_ms},
                                      {"planning_std_ms", &RunFigures::planning_std_ms},
@@ -42,11 +47,12 @@ constexpr Column<double> kTimes[] = {{"planning_mean_ms", &RunFigures::planning_
 
 Json figures_record(const RunFigures& figures) {
   Json record;
-  for (const auto& [key, value] : kOfTheFirst) {
+  for (const auto& [key, value] : kMaybe) {
     record[key] = figures.*value ? Json(*(figures.*value)) : Json(nullptr);
   }
   for (const auto& [key, value] : kOfAll) record[key] = figures.*value;
   for (const auto& [key, value] : kCounts) record[key] = figures.*value;
+  record["subgraph_shares"] = figures.subgraph_shares;
   if (figures.wall_s > 0.0) {
     for (const auto& [key, value] : kTimes) record[key] = figures.*value;
   }
@@ -55,11 +61,12 @@ Json figures_record(const RunFigures& figures) {
 
 RunFigures read_figures(const Json& record, RunFigures heading) {
   RunFigures figures = std::move(heading);
-  for (const auto& [key, value] : kOfTheFirst) {
+  for (const auto& [key, value] : kMaybe) {
     if (!record.at(key).is_null()) figures.*value = record.at(key).get<double>();
   }
   for (const auto& [key, value] : kOfAll) figures.*value = record.at(key).get<double>();
   for (const auto& [key, value] : kCounts) figures.*value = record.at(key).get<std::size_t>();
+  figures.subgraph_shares = record.at("subgraph_shares").get<std::map<std::string, double>>();
   if (record.contains("wall_s")) {
     for (const auto& [key, value] : kTimes) figures.*value = record.at(key).get<double>();
   }

@@ -25,6 +25,7 @@ void write_configuration(const std::filesystem::path& folder, const Scenario& sc
                                 .profile = scenario.profile.name,
                                 .engine = to_string(scenario.search.engine),
                                 .subgraph = scenario.subgraph->spec().name,
+                                .policy = scenario.policy,
                                 .map_file = scenario.map_file,
                                 .steps = scenario.steps,
                                 .cars = {}};

@@ -6,26 +6,58 @@
 
 #include "hlc_bridge/core/driving_fault.hpp"
 #include "hlc_bridge/core/run_description.hpp"
+#include "planner/automaton/yaml_text.hpp"
 #include "planner/scenario/starts.hpp"
 
 namespace hlc {
 namespace {
 
 std::string key_of(const CampaignRun& run) {
-  return run.scenario.string() + '\n' + run.profile + '\n' + run.subgraph.value_or("");
+  return run.scenario.string() + '\n' + run.profile + '\n' + run.subgraph.value_or("") + '\n' +
+         run.policy.value_or("");
+}
+
+/// As it is driven without a policy.
+CampaignRun fixed(CampaignRun run) {
+  run.policy.reset();
+  return run;
+}
+
+/// The scenario, switched by one of its policies.
+Scenario with_policy(Scenario scenario, const std::string& policy) {
+  const auto settings = scenario.policies.find(policy);
+  if (settings == scenario.policies.end()) {
+    std::string known;
+    for (const auto& [name, other] : scenario.policies) {
+      known += (known.empty() ? "" : ", ") + one_line(name);
+    }
+    throw std::invalid_argument(
+        "--policies = " + one_line(policy) + ", allowed those of " + scenario.file.string() + ": " +
+        (known.empty() ? "it has none" : known) +
+        (policy == kNoPolicy ? " (fixed subgraphs, --subgraphs, are driven without one)" : ""));
+  }
+  scenario.policy = policy;
+  scenario.reconfiguration = settings->second;
+  return scenario;
 }
 
 }  // namespace
 
 std::vector<CampaignRun> runs_of(const CampaignPlan& plan) {
-  std::vector<std::optional<std::string>> subgraphs(plan.subgraphs.begin(), plan.subgraphs.end());
-  if (subgraphs.empty()) subgraphs.emplace_back(std::nullopt);
+  struct PlannedOn {
+    std::optional<std::string> subgraph;
+    std::optional<std::string> policy;
+  };
+  std::vector<PlannedOn> choices;
+  for (const std::string& subgraph : plan.subgraphs) choices.push_back({.subgraph = subgraph});
+  if (choices.empty()) choices.emplace_back();
+  for (const std::string& policy : plan.policies) choices.push_back({.policy = policy});
   std::vector<CampaignRun> runs;
   for (const auto& scenario : plan.scenarios) {
     for (const auto& profile : plan.profiles) {
-      for (const auto& subgraph : subgraphs) {
+      for (const PlannedOn& on : choices) {
         for (std::size_t start = 0; start < plan.starts; ++start) {
-          runs.push_back({scenario, profile, subgraph, start});
+          runs.push_back({scenario, profile, on.subgraph, on.policy, start});
         }
       }
     }
@@ -36,11 +68,8 @@ std::vector<CampaignRun> runs_of(const CampaignPlan& plan) {
 Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(plan_)) {
   std::map<std::string, std::filesystem::path> by_name;
   for (const CampaignRun& run : runs_) {
-    if (!scenarios_.contains(key_of(run))) {
-      scenarios_.emplace(key_of(run), read_scenario({.file = run.scenario,
-                                                     .profile = run.profile,
-                                                     .subgraph = run.subgraph,
-                                                     .steps = plan_.steps}));
+    for (const CampaignRun& one : {fixed(run), run}) {
+      if (!scenarios_.contains(key_of(one))) scenarios_.emplace(key_of(one), read(one));
     }
     const std::string& name = scenario_of(run).name;
     const auto [same, is_new] = by_name.emplace(name, run.scenario);
@@ -52,6 +81,15 @@ Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(pl
       static_cast<void>(with_random_starts(scenario_of(run), plan_.seed + run.start));
     }
   }
+}
+
+Scenario Campaign::read(const CampaignRun& run) const {
+  if (run.policy) return with_policy(scenario_of(fixed(run)), *run.policy);
+  return read_scenario({.file = run.scenario,
+                        .profile = run.profile,
+                        .subgraph = run.subgraph,
+                        .policy = kNoPolicy,
+                        .steps = plan_.steps});
 }
 
 const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
@@ -72,6 +110,7 @@ RunFigures Campaign::heading_of(std::size_t i) const {
   return {.scenario = scenario.name,
           .profile = scenario.profile.name,
           .subgraph = scenario.subgraph->spec().name,
+          .policy = run.policy.value_or(kNoPolicy),
           .start = run.start};
 }
 
@@ -83,7 +122,13 @@ DrivenRun Campaign::drive(std::size_t i, const Clocks& clocks) const {
 }
 
 CampaignResult Campaign::result_of(const DrivenRun& run) const {
-  return hlc::result_of(run, plan_.noise_seed);
+  std::vector<SpeedZone> zones;
+  for (const std::string& policy : plan_.policies) {
+    for (const SpeedZone& zone : run.scenario.policies.at(policy).zones) {
+      if (std::ranges::find(zones, zone) == zones.end()) zones.push_back(zone);
+    }
+  }
+  return hlc::result_of(run, plan_.noise_seed, 0, zones);
 }
 
 DrivenRun drive_run(Scenario scenario, ExperimentOptions options) {
@@ -94,7 +139,7 @@ DrivenRun drive_run(Scenario scenario, ExperimentOptions options) {
 }
 
 CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> noise_seed,
-                         std::uint64_t first_step) {
+                         std::uint64_t first_step, std::span<const SpeedZone> zones) {
   const Experiment& experiment = run.experiment;
   RunFacts facts = experiment.facts;
   if (facts.exit_code != 0) throw std::runtime_error(facts.reason);
@@ -106,7 +151,10 @@ CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> nois
   CampaignResult result{
       .summary = summarize(describe(run.scenario, noise_seed), facts, rows, experiment.drives),
       .fault = {},
-      .wall = experiment.wall};
+      .wall = experiment.wall,
+      .costs = driven_costs(rows, experiment.drives, facts, run.scenario.subgraph->automaton()),
+      .excess = zone_excess(zones, experiment.drives, facts),
+      .use = subgraph_use(rows)};
   result.fault = danger_of(result.summary);
   return result;
 }

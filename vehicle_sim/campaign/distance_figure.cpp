@@ -18,7 +18,7 @@ std::string pair_colour(std::size_t pair) { return series_colour(pair + 3); }
 
 PlotPanel distance_panel(const DrivenRun& run) {
   PlotPanel panel{
-      .title = subgraph_name(run), .x_label = "time [s]", .y_label = "distance of footprints [m]"};
+      .title = run_name(run), .x_label = "time [s]", .y_label = "distance of footprints [m]"};
   const RunDescription description = describe(run.scenario, std::nullopt);
   const auto [from, to] = times_of(run.experiment.facts);
   std::size_t pair = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hlc_bridge/core/csv_field.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_table.hpp"
 
@@ -37,11 +38,24 @@ std::string cell(const Spread& spread, int decimals) {
   return mean + " [" + number(spread.min, decimals) + " … " + number(spread.max, decimals) + "]";
 }
 
-/// The runs of one scenario and profile, by subgraph in the order of their appearance.
+/// The runs on one subgraph, or with one policy.
+struct Column {
+  std::string name;
+  std::vector<const RunFigures*> runs;
+
+  [[nodiscard]] const RunFigures& first() const { return *runs.front(); }
+  /// None for a policy: the paper has none.
+  [[nodiscard]] std::optional<double> papers(const TableQuantity& quantity) const {
+    if (has_policy(first())) return std::nullopt;
+    return papers_value(quantity, first().scenario, first().subgraph);
+  }
+};
+
+/// The runs of one scenario and profile, in the order of their appearance.
 struct Group {
   std::string scenario;
   std::string profile;
-  std::vector<std::pair<std::string, std::vector<const RunFigures*>>> subgraphs;
+  std::vector<Column> columns;
 };
 
 std::vector<Group> groups_of(const std::vector<RunFigures>& runs) {
@@ -53,12 +67,13 @@ std::vector<Group> groups_of(const std::vector<RunFigures>& runs) {
     if (group == groups.end()) {
       group = groups.insert(groups.end(), {run.scenario, run.profile, {}});
     }
-    auto subgraph = std::ranges::find(group->subgraphs, run.subgraph,
-                                      &decltype(group->subgraphs)::value_type::first);
-    if (subgraph == group->subgraphs.end()) {
-      subgraph = group->subgraphs.insert(group->subgraphs.end(), {run.subgraph, {}});
+    auto column = std::ranges::find_if(group->columns, [&](const Column& one) {
+      return one.first().subgraph == run.subgraph && one.first().policy == run.policy;
+    });
+    if (column == group->columns.end()) {
+      column = group->columns.insert(group->columns.end(), {planned_on(run), {}});
     }
-    subgraph->second.push_back(&run);
+    column->runs.push_back(&run);
   }
   return groups;
 }
@@ -74,34 +89,34 @@ std::string markdown_of(const Group& group) {
   const bool has_paper = group.scenario == kPaperSimulation || group.scenario == kPaperLab;
   std::string text = "## " + title_of(group) + "\n\n| |";
   std::string rule = "|---|";
-  for (const auto& [subgraph, runs] : group.subgraphs) {
-    text += " " + subgraph + " |" + (has_paper ? " paper |" : "");
+  for (const Column& column : group.columns) {
+    text += " " + column.name + " |" + (has_paper ? " paper |" : "");
     rule += has_paper ? "---|---|" : "---|";
   }
   text += "\n" + rule + "\n";
   for (const TableQuantity& quantity : table_quantities()) {
     text += "| " + quantity.name + " |";
-    for (const auto& [subgraph, runs] : group.subgraphs) {
-      text += " " + cell(spread_of(quantity, runs), quantity.decimals) + " |";
+    for (const Column& column : group.columns) {
+      text += " " + cell(spread_of(quantity, column.runs), quantity.decimals) + " |";
       if (!has_paper) continue;
-      const std::optional<double> value = papers_value(quantity, group.scenario, subgraph);
+      const std::optional<double> value = column.papers(quantity);
       text += value ? " " + number(*value, std::min(quantity.decimals, 1)) + " |" : " |";
     }
     text += "\n";
   }
   text += "| Starts, good / failed |";
-  for (const auto& [subgraph, runs] : group.subgraphs) {
+  for (const Column& column : group.columns) {
     const auto failed =
-        std::ranges::count_if(runs, [](const auto* run) { return !is_well_driven(*run); });
-    text += " " + std::to_string(static_cast<std::ptrdiff_t>(runs.size()) - failed) + " / " +
+        std::ranges::count_if(column.runs, [](const auto* run) { return !is_well_driven(*run); });
+    text += " " + std::to_string(static_cast<std::ptrdiff_t>(column.runs.size()) - failed) + " / " +
             std::to_string(failed) + " |" + (has_paper ? " |" : "");
   }
   text += "\n";
-  for (const auto& [subgraph, runs] : group.subgraphs) {
-    for (const RunFigures* run : runs) {
+  for (const Column& column : group.columns) {
+    for (const RunFigures* run : column.runs) {
       if (is_well_driven(*run)) continue;
-      text += "\nFailed: subgraph " + subgraph + ", start " + std::to_string(run->start) + ": " +
-              run->failure + "\n";
+      text += "\nFailed: " + (has_policy(*run) ? column.name : "subgraph " + column.name) +
+              ", start " + std::to_string(run->start) + ": " + run->failure + "\n";
     }
   }
   return text + "\n";
@@ -124,14 +139,15 @@ std::string evaluation_markdown(const std::vector<RunFigures>& runs,
 }
 
 std::string evaluation_csv(const std::vector<RunFigures>& runs) {
-  std::string text = "scenario,profile,subgraph,quantity,runs,mean,min,max,paper\n";
+  std::string text = "scenario,profile,subgraph,policy,quantity,runs,mean,min,max,paper\n";
   for (const Group& group : groups_of(runs)) {
-    for (const auto& [subgraph, of_subgraph] : group.subgraphs) {
+    for (const Column& column : group.columns) {
       for (const TableQuantity& quantity : table_quantities()) {
-        const Spread spread = spread_of(quantity, of_subgraph);
-        const std::optional<double> paper = papers_value(quantity, group.scenario, subgraph);
-        text += group.scenario + "," + group.profile + "," + subgraph + "," + quantity.key + "," +
-                std::to_string(spread.count);
+        const Spread spread = spread_of(quantity, column.runs);
+        const std::optional<double> paper = column.papers(quantity);
+        text += csv_field(group.scenario) + "," + group.profile + "," +
+                csv_field(column.first().subgraph) + "," + csv_field(column.first().policy) + "," +
+                quantity.key + "," + std::to_string(spread.count);
         for (const double value : {spread.mean, spread.min, spread.max}) {
           text += "," + (spread.count > 0 ? number(value, 6) : "");
         }

@@ -11,8 +11,10 @@ Stroke stroke_of(std::size_t series) { return series % 2 == 1 ? Stroke::kDashed 
 
 const ScenarioVehicle& first_vehicle(const DrivenRun& run) { return run.scenario.vehicles.front(); }
 
-std::string subgraph_name(const DrivenRun& run) {
-  return "subgraph " + run.scenario.subgraph->spec().name;
+std::string run_name(const DrivenRun& run) {
+  const bool is_fixed = run.scenario.policy == kNoPolicy;
+  const std::string name = planned_on(run.scenario.subgraph->spec().name, run.scenario.policy);
+  return is_fixed ? "subgraph " + name : name;
 }
 
 std::string figure_title(const std::string& what, std::span<const DrivenRun> runs) {

@@ -22,8 +22,8 @@ inline constexpr PlotSize kSmallPanel{.width_px = 620.0, .height_px = 340.0};
 /// The vehicle of highest priority.
 [[nodiscard]] const ScenarioVehicle& first_vehicle(const DrivenRun& run);
 
-/// "subgraph B"
-[[nodiscard]] std::string subgraph_name(const DrivenRun& run);
+/// "subgraph B", "policy zones"
+[[nodiscard]] std::string run_name(const DrivenRun& run);
 
 /// With scenario and profile.
 [[nodiscard]] std::string figure_title(const std::string& what, std::span<const DrivenRun> runs);

@@ -8,7 +8,8 @@
 #include "vehicle_sim/campaign/campaign.hpp"
 
 /// Figures of runs, as SVG. All runs of a figure are of one scenario and profile and differ in
-/// their subgraph; "the first vehicle" is the one of highest priority, as in the paper.
+/// their subgraph or policy, for which "subgraph" stands here too; "the first vehicle" is the one
+/// of highest priority, as in the paper.
 namespace hlc {
 
 /// The paper's Fig. 4: driven paths of the first vehicle, one line per subgraph, with its lane's
@@ -36,5 +37,11 @@ namespace hlc {
 /// cut off.
 /// @pre at least two vehicles
 [[nodiscard]] std::string distance_figure(std::span<const DrivenRun> runs);
+
+/// Which subgraph every vehicle planned on over time: a band, its colour says which, below the
+/// vehicle's true speed; the time that the vehicle is in a zone of the run's policy is shaded, with
+/// the zone's limit. One panel per vehicle, of the runs with policies; if there are none, of all.
+/// Ten subgraphs have different colours.
+[[nodiscard]] std::string subgraphs_figure(std::span<const DrivenRun> runs);
 
 }  // namespace hlc

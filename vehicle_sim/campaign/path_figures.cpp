@@ -93,7 +93,7 @@ std::string paths_figure(std::span<const DrivenRun> runs, const std::optional<La
                           .radius_px = 0.0});
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::vector<Point> positions_m = driven_positions(runs[i]);
-    add_series(i, subgraph_name(runs[i]), {positions_m.begin(), positions_m.end()}, whole);
+    add_series(i, run_name(runs[i]), {positions_m.begin(), positions_m.end()}, whole);
   }
   bring_dashed_to_front(whole);
   const Point middle = where_they_differ(runs);
@@ -124,7 +124,7 @@ std::string error_figure(std::span<const DrivenRun> runs) {
       points.emplace_back(progress.s_m[k] - progress.s_m.front(), error_mm);
       highest_mm = std::max(highest_mm, error_mm);
     }
-    add_series(i, subgraph_name(runs[i]), std::move(points), panel);
+    add_series(i, run_name(runs[i]), std::move(points), panel);
   }
   bring_dashed_to_front(panel);
   if (vehicle.path.is_closed()) {

@@ -42,6 +42,10 @@ void add_planning(std::span<const VehicleSummary> vehicles, RunFigures& figures)
 
 }  // namespace
 
+std::string planned_on(const std::string& subgraph, const std::string& policy) {
+  return policy == kNoPolicy ? subgraph : "policy " + policy;
+}
+
 RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   RunFigures figures = std::move(heading);
   const RunSummary& summary = result.summary;
@@ -71,6 +75,14 @@ RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   figures.wall_planning_s = result.wall.planning_s;
   figures.wall_coordination_s = result.wall.coordination_s;
   figures.wall_vehicles_s = result.wall.vehicles_s;
+  figures.effort_per_m = result.costs.effort_per_m;
+  figures.comfort_per_m = result.costs.comfort_per_m;
+  if (result.excess) {
+    figures.above_limit_share = result.excess->share;
+    figures.above_limit_max_mps = result.excess->max_mps;
+  }
+  figures.switches = result.use.switches;
+  figures.subgraph_shares = result.use.shares;
   return figures;
 }
 

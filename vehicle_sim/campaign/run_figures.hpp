@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
+
+#include "planner/policy/policy_settings.hpp"
 
 namespace hlc {
 
@@ -12,7 +15,8 @@ struct CampaignResult;
 struct RunFigures {
   std::string scenario;
   std::string profile;
-  std::string subgraph;
+  std::string subgraph;           ///< with a policy: the scenario's own, which it switches
+  std::string policy{kNoPolicy};  ///< kNoPolicy: the subgraph was fixed
   std::size_t start{};
   std::string failure;  ///< why it does not count; empty if it does
   /// Of the vehicle of highest priority, as in the paper.
@@ -37,7 +41,22 @@ struct RunFigures {
   double wall_vehicles_s{};
   std::size_t fallback_steps{};
   std::size_t collisions{};
+  std::optional<double> effort_per_m;  ///< DrivenCosts
+  std::optional<double> comfort_per_m;
+  std::optional<double> above_limit_share;  ///< ZoneExcess
+  std::optional<double> above_limit_max_mps;
+  std::size_t switches{};                         ///< SubgraphUse
+  std::map<std::string, double> subgraph_shares;  ///< by name
 };
+
+/// True if a policy chose what was planned on.
+[[nodiscard]] inline bool has_policy(const RunFigures& run) { return run.policy != kNoPolicy; }
+
+/// What was planned on, as tables and figures name it: "B", "policy zones".
+[[nodiscard]] std::string planned_on(const std::string& subgraph, const std::string& policy);
+[[nodiscard]] inline std::string planned_on(const RunFigures& run) {
+  return planned_on(run.subgraph, run.policy);
+}
 
 /// True if the run counts: it was driven to its end, and well (CampaignResult::fault).
 [[nodiscard]] inline bool is_well_driven(const RunFigures& run) { return run.failure.empty(); }
@@ -48,7 +67,7 @@ struct RunFigures {
 }
 
 /// The figures of a run that was driven to its end.
-/// @param heading  scenario, profile, subgraph and start; kept
+/// @param heading  scenario, profile, subgraph, policy and start; kept
 [[nodiscard]] RunFigures with_figures(RunFigures heading, const CampaignResult& result);
 
 }  // namespace hlc

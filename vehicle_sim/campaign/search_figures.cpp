@@ -16,7 +16,7 @@ using Range = Eigen::AlignedBox2d;
 
 /// One panel of vertices_figure; the smallest and largest number are noted in `range`.
 PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
-  PlotPanel panel{.title = subgraph_name(run), .x_label = "time [s]", .y_label = "vertices"};
+  PlotPanel panel{.title = run_name(run), .x_label = "time [s]", .y_label = "vertices"};
   panel.y_scale = Scale::kLog;
   const double step_s = run.scenario.subgraph->automaton().step_s;
   const std::vector<StepRecord> rows = steps_of(run);
@@ -94,8 +94,8 @@ std::string planning_time_figure(std::span<const DrivenRun> runs) {
     const PlotPoints bars = decade_histogram(times_ms);
     for (const Eigen::Vector2d& point : bars) highest = std::max(highest, point.y());
     if (!times_ms.empty()) lowest = std::min(lowest, 100.0 / static_cast<double>(times_ms.size()));
-    add_series(i, subgraph_name(runs[i]), bars, density);
-    add_series(i, subgraph_name(runs[i]), exceedance(times_ms), tail);
+    add_series(i, run_name(runs[i]), bars, density);
+    add_series(i, run_name(runs[i]), exceedance(times_ms), tail);
   }
   const double step_ms = 1e3 * runs.front().scenario.subgraph->automaton().step_s;
   for (const auto& [panel, from, to] :

@@ -67,6 +67,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combination
                            read_scenario({.file = plan_.scenarios[scenario],
                                           .profile = profile,
                                           .subgraph = plan_.subgraphs.front(),
+                                          .policy = kNoPolicy,
                                           .steps = plan_.steps}));
       }
       for (std::size_t subgraph = 0; subgraph < plan_.subgraphs.size(); ++subgraph) {

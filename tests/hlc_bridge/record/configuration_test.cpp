@@ -41,6 +41,7 @@ TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
                                 .profile = "2022",
                                 .engine = {},
                                 .subgraph = "D",
+                                .policy = "zones, then \"fast\"",
                                 .map_file = "/elsewhere/maps/m.xml",
                                 .steps = 20,
                                 .cars = {}};
@@ -50,6 +51,7 @@ TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
   EXPECT_EQ(kept.profile, "2022");
   EXPECT_EQ(kept.engine, std::nullopt);
   EXPECT_EQ(kept.subgraph, "D");
+  EXPECT_EQ(kept.policy, choices.policy);
   EXPECT_EQ(kept.map_file, folder / "configuration" / "maps" / "m.xml");
   EXPECT_EQ(kept.cars, std::nullopt);
 }
@@ -63,6 +65,7 @@ TEST(Configuration, ReadsWhatTheScriptWrites) {
   const ScenarioChoices kept = kept_choices(folder.path());
   EXPECT_EQ(kept.file, folder / "configuration" / "scenarios" / "circle.yaml");
   EXPECT_EQ(kept.subgraph, std::nullopt);
+  EXPECT_EQ(kept.policy, std::nullopt);
   EXPECT_EQ(kept.map_file, std::nullopt);
   EXPECT_EQ(kept.cars, 6U);
 }

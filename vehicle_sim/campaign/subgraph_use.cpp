@@ -1,0 +1,19 @@
+#include "vehicle_sim/campaign/subgraph_use.hpp"
+
+namespace hlc {
+
+SubgraphUse subgraph_use(std::span<const StepRecord> rows) {
+  SubgraphUse use;
+  std::map<VehicleId, std::string> last;
+  for (const StepRecord& row : rows) {
+    const Report& report = row.record.report;
+    const auto [before, is_first] = last.try_emplace(report.vehicle, report.subgraph);
+    if (!is_first && before->second != report.subgraph) ++use.switches;
+    before->second = report.subgraph;
+    use.shares[report.subgraph] += 1.0;
+  }
+  for (auto& [name, share] : use.shares) share /= static_cast<double>(rows.size());
+  return use;
+}
+
+}  // namespace hlc

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+
+#include "hlc_bridge/core/run_record.hpp"
+
+namespace hlc {
+
+/// Which subgraphs the vehicles of a run planned on, by the names in their reports.
+struct SubgraphUse {
+  std::size_t switches{};  ///< steps with another one than the step before, all vehicles
+  std::map<std::string, double> shares;  ///< of the steps of all vehicles, by name; their sum is 1
+};
+
+/// @param rows  of step_records()
+[[nodiscard]] SubgraphUse subgraph_use(std::span<const StepRecord> rows);
+
+}  // namespace hlc

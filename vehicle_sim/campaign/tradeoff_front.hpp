@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/maneuver_design/dominance.hpp"
+
+namespace hlc {
+
+/// What a fixed subgraph, or a policy, reaches in several quantities that are all to be small.
+struct TradeoffPoint {
+  bool is_policy{};
+  Objectives values;
+};
+
+/// How the fixed subgraphs and the policies compete.
+struct TradeoffFront {
+  std::vector<std::size_t> not_dominated;  ///< indices of points, ascending
+  double fixed_volume{};                   ///< hypervolume of all fixed subgraphs together
+  /// The same with one more point, by the index of the point: what a policy adds to choosing
+  /// freely among the fixed subgraphs before the run.
+  std::vector<double> volume_with;
+};
+
+/// kReferenceFactor times the worst value of each quantity.
+/// @pre points is not empty, no value below 0
+[[nodiscard]] Objectives reference_of(const std::vector<TradeoffPoint>& points);
+inline constexpr double kReferenceFactor = 1.05;
+
+[[nodiscard]] TradeoffFront front_of(const std::vector<TradeoffPoint>& points,
+                                     const Objectives& reference);
+
+}  // namespace hlc

@@ -1,0 +1,34 @@
+#include "vehicle_sim/campaign/zone_excess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/policy/speed_zones.hpp"
+
+namespace hlc {
+
+std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones, const Drives& drives,
+                                      const RunFacts& facts) {
+  const Nanoseconds from = facts.first_step.value_or(0) * facts.period;
+  const Nanoseconds to = from + facts.steps * facts.period;
+  std::size_t inside = 0;
+  std::size_t above = 0;
+  ZoneExcess excess;
+  for (const auto& [vehicle, drive] : drives) {
+    for (const DrivenSample& sample : drive) {
+      if (sample.t < from || sample.t > to) continue;
+      const std::optional<double> limit_mps = limit_at(zones, sample.pose.position_m());
+      if (!limit_mps) continue;
+      ++inside;
+      const double excess_mps = std::abs(sample.speed_mps) - *limit_mps;
+      if (excess_mps <= 0.0) continue;
+      ++above;
+      excess.max_mps = std::max(excess.max_mps, excess_mps);
+    }
+  }
+  if (inside == 0) return std::nullopt;
+  excess.share = static_cast<double>(above) / static_cast<double>(inside);
+  return excess;
+}
+
+}  // namespace hlc
