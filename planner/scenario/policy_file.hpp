@@ -30,8 +30,7 @@ namespace hlc {
 ///     max_speed_mps
 ///     trims_on, trims_off   lists of numbers from 1
 ///
-/// @param base  the scenario's subgraph: every request is tried on it, under the limit of every
-/// zone
+/// @param base  the scenario's subgraph: every request is tried on it, and the limit of every zone
 /// @param lab   what its vehicles can follow; absent: anything
 /// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", or the place
 /// of the policy and why one of its requests cannot be

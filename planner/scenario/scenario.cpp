@@ -236,7 +236,7 @@ void read_reconfiguration(const YamlNode& node, const ScenarioChoices& choices,
   if (!is_known(configured)) node.fail("policy", known);
   scenario.policy = choices.policy.value_or(configured);
   if (!is_known(scenario.policy)) {
-    throw std::invalid_argument("policy " + one_line(scenario.policy) + ", allowed " + known);
+    throw std::invalid_argument("--policy = " + one_line(scenario.policy) + ", allowed " + known);
   }
   if (scenario.policy != kNoPolicy) {
     scenario.reconfiguration = scenario.policies.at(scenario.policy);
