@@ -24,7 +24,7 @@ constexpr hlc::Nanoseconds kInterval = 10'000'000;
 
 hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord> rows,
                               const hlc::Drives& drives, const hlc::RunFacts& facts,
-                              const hlc::Subgraph& automaton) {
+                              const hlc::UniversalAutomaton& automaton) {
   std::vector<const hlc::StepRecord*> own;
   for (const hlc::StepRecord& row : rows) {
     if (row.record.report.vehicle == id) own.push_back(&row);
@@ -70,7 +70,8 @@ std::string export_run(const std::filesystem::path& run, const hlc::ScenarioChoi
   const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
   std::vector<hlc::ExportedVehicle> vehicles;
   for (const std::uint8_t id : facts.vehicle_ids) {
-    vehicles.push_back(exported(hlc::VehicleId{id}, rows, drives, facts, *scenario.subgraph));
+    vehicles.push_back(
+        exported(hlc::VehicleId{id}, rows, drives, facts, scenario.subgraph->automaton()));
   }
   const hlc::LaneletMap map =
       scenario.map_file ? hlc::read_lanelet_map(*scenario.map_file) : hlc::open_ground(vehicles);

@@ -4,28 +4,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "planner/controller/plan_in_force.hpp"
+#include "planner/automaton/yaml_text.hpp"
 
 namespace hlc {
 namespace {
-
-/// More than the rounding of a step.
-constexpr double kSamePlace_m = 1e-6;
 
 [[noreturn]] void refuse(const StepRecord& row, const std::string& what) {
   throw std::runtime_error("vehicle " + std::to_string(row.record.report.vehicle.value) +
                            ", step " + std::to_string(row.step) + ": " + what);
 }
 
-/// True if the plan may have been set down anew in that step: then it does not lead where it led.
-///
-/// That goes by the position alone. The deviation that is reported may be less: it is how far the
-/// footprint leaves what the planned one covers with and without its slip.
-bool may_have_moved(const Report& report, const Subgraph& automaton) {
-  constexpr double kLeastReported = 0.2;
-  return report.deviation_m > kLeastReported * DeviationRules{}.reanchor_share *
-                                  automaton.automaton().vehicle.safety_margin_m;
-}
+/// As people count them, from 1.
+std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
 /// Pose at the begin of a motion of which the end is known.
 Pose begin_of(const Maneuver& maneuver, const Pose& end) {
@@ -35,51 +25,37 @@ Pose begin_of(const Maneuver& maneuver, const Pose& end) {
 }  // namespace
 
 const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
-                                const Subgraph& automaton) {
+                                const UniversalAutomaton& automaton) {
+  if (next == nullptr || next->step != row.step + 1) return nullptr;
   const Report& report = row.record.report;
-  if (next == nullptr || next->step != row.step + 1 ||
-      report.planned_trim.index >= automaton.automaton().trims.size()) {
-    return nullptr;
-  }
-  const Report& after = next->record.report;
-  const auto missed_m = [&](const Maneuver& maneuver) {
-    const Pose end = compose(report.planned_pose, maneuver.displacement);
-    return (end.position_m() - after.planned_pose.position_m()).norm();
-  };
-  const Maneuver* nearest = nullptr;
-  for (const Edge& edge : automaton.successors(report.planned_trim)) {
-    if (edge.to != after.planned_trim) continue;
-    if (nearest == nullptr || missed_m(*edge.maneuver) < missed_m(*nearest)) {
-      nearest = edge.maneuver;
-    }
-  }
-  if (nearest != nullptr && missed_m(*nearest) <= kSamePlace_m) return nearest;
-  for (const Maneuver& maneuver : automaton.automaton().maneuvers) {
-    const bool fits = maneuver.from == report.planned_trim && maneuver.to == after.planned_trim;
-    if (fits && missed_m(maneuver) <= kSamePlace_m) return &maneuver;
-  }
-  const bool is_own_step = report.planned_trim == after.planned_trim;
-  return is_own_step || may_have_moved(report, automaton) ? nearest : nullptr;
+  // Who stands and is set down anew may go on in another equilibrium.
+  const bool is_own_step = report.maneuver == kOwnStepLabel;
+  const TrimId to = is_own_step ? report.planned_trim : next->record.report.planned_trim;
+  if (to == report.planned_trim && !is_own_step) return nullptr;
+  return automaton.find(report.planned_trim, to, report.maneuver);
 }
 
 std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanoseconds period,
-                                  Nanoseconds interval, const Subgraph& automaton) {
+                                  Nanoseconds interval, const UniversalAutomaton& automaton) {
   std::vector<State> states;
-  const VehicleParameters& vehicle = automaton.automaton().vehicle;
+  const VehicleParameters& vehicle = automaton.vehicle;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k]->step != k) refuse(*rows[k], "the step before was not reported");
     const Report& report = rows[k]->record.report;
-    if (report.planned_trim.index >= automaton.automaton().trims.size()) {
+    if (report.planned_trim.index >= automaton.trims.size()) {
       refuse(*rows[k], "planned_trim is none of the automaton");
     }
-    const Trim& trim = automaton.automaton().trims[report.planned_trim.index];
+    const Trim& trim = automaton.trims[report.planned_trim.index];
     states.push_back({.pose = report.planned_pose,
                       .speed_mps = trim.speed_mps,
                       .steering_rad = trim.steering_rad});
     if (k + 1 == rows.size() || rows[k + 1]->step != k + 1) continue;
     const Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
-    if (maneuver == nullptr)
-      refuse(*rows[k], "no maneuver of the automaton leads to the next planned pose");
+    if (maneuver == nullptr) {
+      refuse(*rows[k], "no maneuver from trim " + number_of(report.planned_trim) + " to " +
+                           number_of(rows[k + 1]->record.report.planned_trim) + " with label '" +
+                           one_line(report.maneuver) + "', allowed those of the automaton");
+    }
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
     for (Nanoseconds t = interval; t < period; t += interval) {
       State state = state_at(*maneuver, 1e-9 * static_cast<double>(t), vehicle);

@@ -68,7 +68,7 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
 /// step in which the vehicle kept to the margin.
 class Tracking {
  public:
-  explicit Tracking(const Subgraph& automaton) : automaton_(automaton.automaton()) {}
+  explicit Tracking(const UniversalAutomaton& automaton) : automaton_(automaton) {}
 
   void look(const Pose& driven, const State& planned) {
     errors_m_.push_back((driven.position_m() - planned.pose.position_m()).norm());
@@ -125,7 +125,7 @@ void add_tracking_at_steps(std::span<const StepRecord* const> rows, VehicleSumma
 }
 
 void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, Nanoseconds period,
-                  const Subgraph& automaton, VehicleSummary& summary) {
+                  const UniversalAutomaton& automaton, VehicleSummary& summary) {
   Tracking tracking(automaton);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Report& report = rows[i]->record.report;
@@ -133,15 +133,16 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
     if (const Maneuver* maneuver = maneuver_during(*rows[i], next, automaton)) {
       const Nanoseconds begin = report.step.value * period;
       tracking.look(drive, begin, begin + period, report.planned_pose, *maneuver);
-    } else if (rows[i]->driven && automaton.is_on(report.planned_trim)) {
-      const Trim& trim = automaton.automaton().trims[report.planned_trim.index];
+    } else if (rows[i]->driven && !report.maneuver.empty() &&
+               report.planned_trim.index < automaton.trims.size()) {
+      const Trim& trim = automaton.trims[report.planned_trim.index];
       tracking.look(*rows[i]->driven, {.pose = report.planned_pose,
                                        .speed_mps = trim.speed_mps,
                                        .steering_rad = trim.steering_rad});
     }
   }
   tracking.write(summary);
-  const double margin_m = automaton.automaton().vehicle.safety_margin_m;
+  const double margin_m = automaton.vehicle.safety_margin_m;
   summary.astray_steps =
       static_cast<std::size_t>(std::ranges::count_if(rows, [margin_m](const StepRecord* row) {
         return row->record.report.reason == FallbackReason::kDeviation &&
@@ -180,7 +181,7 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   }
   const auto drive = drives.find(vehicle.id.value);
   if (description.automaton && drive != drives.end()) {
-    add_tracking(own, drive->second, facts.period, *description.automaton, summary);
+    add_tracking(own, drive->second, facts.period, description.automaton->automaton(), summary);
   } else {
     add_tracking_at_steps(own, summary);
   }

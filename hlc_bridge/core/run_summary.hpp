@@ -64,9 +64,9 @@ struct RunSummary {
 
 /// Everything that a run's records say. A vehicle plans in steps with status planned or fallback;
 /// the other steps do not count for vertices and planning time. Driven footprints are looked at
-/// from t(k0) to the end of the last step. The plan in force during step k is the maneuver between
-/// the planned trims of the reports k and k+1, from the planned pose of report k on; if one of them
-/// is missing, only the pose at t(k) counts.
+/// from t(k0) to the end of the last step. The plan in force during step k is the maneuver that
+/// report k names, from its planned pose on (maneuver_during); if that is not known, only the pose
+/// at t(k) counts, and nothing as long as there is no plan.
 /// @param rows  of step_records()
 [[nodiscard]] RunSummary summarize(const RunDescription& description, const RunFacts& facts,
                                    std::span<const StepRecord> rows, const Drives& drives);

@@ -220,7 +220,8 @@ bool is_valid(const ReportMessage& wire) {
          is_known(static_cast<StepStatus>(wire.status())) &&
          is_known(static_cast<FallbackReason>(wire.reason())) &&
          is_known(static_cast<PlanQuality>(wire.quality())) &&
-         is_finite(pose_from_wire(wire.planned_pose())) &&
+         is_finite(pose_from_wire(wire.planned_pose())) && wire.maneuver().size() <= kMaxText &&
+         wire.subgraph().size() <= kMaxText &&
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing());
 }
@@ -295,16 +296,20 @@ Incoming<Outcome> from_wire(const OutcomeMessage& wire) {
                           .wants_fallback = wire.wants_fallback()});
 }
 
+// A name that nobody would take is cut: without the report its sender would seem dead.
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns] = message;
-  const auto& [vehicle, step, status, reason, planned_pose, planned_trim, cost_m2, quality, gap_m2,
-               generated, expanded, level, coupled, missing, deviation_m] = report;
+  const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
+               cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing,
+               deviation_m] = report;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.status(static_cast<std::uint8_t>(status));
   wire.reason(static_cast<std::uint8_t>(reason));
   wire.planned_pose(pose_to_wire(planned_pose));
   wire.planned_trim(static_cast<std::uint32_t>(planned_trim.index));
+  wire.maneuver(maneuver.substr(0, kMaxText));
+  wire.subgraph(subgraph.substr(0, kMaxText));
   wire.cost_m2(cost_m2);
   wire.quality(static_cast<std::uint8_t>(quality));
   wire.gap_m2(gap_m2);
@@ -329,6 +334,8 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
                       .reason = static_cast<FallbackReason>(wire.reason()),
                       .planned_pose = pose_from_wire(wire.planned_pose()),
                       .planned_trim = {wire.planned_trim()},
+                      .maneuver = wire.maneuver(),
+                      .subgraph = wire.subgraph(),
                       .cost_m2 = wire.cost_m2(),
                       .quality = static_cast<PlanQuality>(wire.quality()),
                       .gap_m2 = wire.gap_m2(),

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
     "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
-    "missed,late_ns";
+    "missed,late_ns,maneuver,subgraph";
 
 std::string line(const ReportRecord& record) {
   const Report& report = record.report;
@@ -41,6 +41,8 @@ std::string line(const ReportRecord& record) {
   add(std::to_string(record.planning_ns));
   add(record.deadline_missed ? "1" : "0");
   add(std::to_string(record.late_ns));
+  add(csv_field(report.maneuver));
+  add(csv_field(report.subgraph));
   return text + "\n";
 }
 
@@ -66,6 +68,7 @@ class RowReader {
   RowReader(const CsvTable& table, std::size_t row) : table_{table}, row_{row} {}
 
   double number() { return table_.number(row_, column_++); }
+  const std::string& text() { return table_.text(row_, column_++); }
   std::uint64_t whole(std::uint64_t least = 0, std::uint64_t most = ~std::uint64_t{0}) {
     const std::uint64_t value = table_.unsigned_number(row_, column_);
     if (value < least || value > most) {
@@ -131,6 +134,8 @@ ReportRecord read_row(RowReader row) {
   record.planning_ns = row.whole();
   record.deadline_missed = row.whole(0, 1) == 1;
   record.late_ns = row.whole();
+  report.maneuver = row.text();
+  report.subgraph = row.text();
   return record;
 }
 

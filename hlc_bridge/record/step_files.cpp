@@ -19,7 +19,7 @@ std::string steps_csv(std::span<const StepRecord> rows) {
   std::string text =
       "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,driven_x_m,"
       "driven_y_m,driven_yaw_rad,cost_m2,generated,expanded,level,coupled,missing,deviation_m,"
-      "quality,gap_m2\n";
+      "quality,gap_m2,maneuver,subgraph\n";
   for (const StepRecord& row : rows) {
     const Report& report = row.record.report;
     text += std::to_string(row.step) + "," + std::to_string(report.vehicle.value) + "," +
@@ -31,7 +31,8 @@ std::string steps_csv(std::span<const StepRecord> rows) {
             std::to_string(report.expanded) + "," + std::to_string(report.level) + "," +
             ids_to_text(report.coupled) + "," + ids_to_text(report.missing) + "," +
             shortest_text(report.deviation_m) + "," + to_string(report.quality) + "," +
-            shortest_text(report.gap_m2) + "\n";
+            shortest_text(report.gap_m2) + "," + csv_field(report.maneuver) + "," +
+            csv_field(report.subgraph) + "\n";
   }
   return text;
 }

@@ -1,9 +1,12 @@
 #include "hlc_bridge/record/text_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/automaton/atomic_write.hpp"
 
@@ -15,6 +18,68 @@ bool parse(const std::string& text, Number& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size();
 }
+
+/// Takes a CSV text apart, row by row.
+class RowScanner {
+ public:
+  /// @param begin  of the second line
+  RowScanner(const std::filesystem::path& file, std::string_view text, std::size_t begin)
+      : file_{file}, text_{text}, at_{begin} {}
+
+  /// Nothing if the text ends before the row does.
+  std::optional<CsvRow> next() {
+    CsvRow row{.line = line_, .fields = {}};
+    while (true) {
+      std::optional<std::string> field = is_at('"') ? quoted() : plain();
+      if (!field || at_ == text_.size()) return std::nullopt;
+      row.fields.push_back(std::move(*field));
+      if (text_[at_++] == '\n') break;
+    }
+    ++line_;
+    return row;
+  }
+
+ private:
+  [[nodiscard]] bool is_at(char c) const { return at_ < text_.size() && text_[at_] == c; }
+
+  [[noreturn]] void refuse(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(file_.string() + ":" + std::to_string(line) + ": " + what +
+                             ", allowed quotes around a whole field, doubled within it");
+  }
+
+  std::string plain() {
+    const std::size_t end = std::min(text_.find_first_of(",\n\"", at_), text_.size());
+    std::string field{text_.substr(at_, end - at_)};
+    at_ = end;
+    if (is_at('"')) refuse(line_, "a quote within a field");
+    return field;
+  }
+
+  /// Nothing if the text ends within it.
+  std::optional<std::string> quoted() {
+    const std::size_t begin_line = line_;
+    std::string field;
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (is_at('"') && text_.substr(at_, 2) != "\"\"") {
+        ++at_;
+        if (at_ < text_.size() && !is_at(',') && !is_at('\n')) {
+          refuse(line_, "more behind a closing quote");
+        }
+        return field;
+      }
+      if (is_at('"')) ++at_;
+      if (is_at('\n')) ++line_;
+      field += text_[at_];
+    }
+    if (line_ != begin_line) refuse(begin_line, "a quote that is not closed");
+    return std::nullopt;
+  }
+
+  const std::filesystem::path& file_;
+  std::string_view text_;
+  std::size_t at_;
+  std::size_t line_{2};
+};
 
 }  // namespace
 
@@ -46,23 +111,33 @@ std::vector<std::string> split(std::string_view text, char separator) {
 CsvTable::CsvTable(const std::filesystem::path& file, std::string_view heading)
     : file_{file}, columns_{split(heading, ',')} {
   const std::string content = read_file(file);
-  std::vector<std::string> lines = split(content, '\n');
-  lines.pop_back();  // what follows the last line break: nothing, or an incomplete line
-  if (lines.empty() || lines.front() != heading) {
+  const std::size_t end = content.find('\n');
+  if (end == std::string::npos || std::string_view{content}.substr(0, end) != heading) {
     throw std::runtime_error(file.string() + ":1: the heading must be " + std::string{heading});
   }
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    rows_.push_back(split(lines[i], ','));
-    if (rows_.back().size() != columns_.size()) {
-      throw std::runtime_error(file.string() + ":" + std::to_string(i + 1) + ": " +
-                               std::to_string(rows_.back().size()) + " fields, must be " +
+  RowScanner scanner{file, content, end + 1};
+  while (std::optional<CsvRow> row = scanner.next()) {
+    if (row->fields.size() != columns_.size()) {
+      throw std::runtime_error(file.string() + ":" + std::to_string(row->line) + ": " +
+                               std::to_string(row->fields.size()) + " fields, must be " +
                                std::to_string(columns_.size()));
     }
+    rows_.push_back(std::move(*row));
   }
 }
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) {
+    if (c == '"') field += '"';
+    field += c;
+  }
+  return field + "\"";
+}
+
 const std::string& CsvTable::text(std::size_t row, std::size_t column) const {
-  return rows_.at(row).at(column);
+  return rows_.at(row).fields.at(column);
 }
 
 double CsvTable::number(std::size_t row, std::size_t column) const {
@@ -82,7 +157,7 @@ std::uint64_t CsvTable::unsigned_number(std::size_t row, std::size_t column) con
 }
 
 void CsvTable::refuse(std::size_t row, std::size_t column, std::string_view allowed) const {
-  throw std::runtime_error(file_.string() + ":" + std::to_string(row + 2) + ": " +
+  throw std::runtime_error(file_.string() + ":" + std::to_string(rows_.at(row).line) + ": " +
                            columns_.at(column) + " = \"" + text(row, column) + "\", allowed " +
                            std::string{allowed});
 }

@@ -15,11 +15,17 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 /// @throws std::runtime_error naming the file
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
 
-/// A CSV file of ours: fields hold no commas, quotes or line breaks.
+struct CsvRow {
+  std::size_t line{};  ///< of the file, from 1, in which it begins
+  std::vector<std::string> fields;
+};
+
+/// A CSV file of ours. A field in quotes may hold commas, line breaks and, doubled, quotes
+/// (RFC 4180); rows end with a line feed.
 class CsvTable {
  public:
   /// Reads the file and checks its heading. An incomplete last line (the writer was killed) is left
-  /// out.
+  /// out. What ends within a quoted field of several lines is no such line, but a quote too many.
   /// @throws std::runtime_error naming file, line and what is expected
   CsvTable(const std::filesystem::path& file, std::string_view heading);
 
@@ -36,8 +42,11 @@ class CsvTable {
  private:
   std::filesystem::path file_;
   std::vector<std::string> columns_;
-  std::vector<std::vector<std::string>> rows_;
+  std::vector<CsvRow> rows_;
 };
+
+/// The text as a field of such a file: in quotes if it needs them.
+[[nodiscard]] std::string csv_field(const std::string& text);
 
 /// The pieces between separators; one empty piece for an empty text.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);

@@ -160,11 +160,16 @@ Report Controller::stand_by(const Observation& observation) {
     report.reason = FallbackReason::kOffRoute;
     report.deviation_m = std::max(0.0, placement_->beyond_m());
   }
-  if (in_force_) {
-    report.planned_pose = plan_in_force().pose_at(observation.step);
-    report.planned_trim = plan_in_force().trim_at(observation.step);
-  }
+  report.subgraph = subgraph_->spec().name;
+  if (in_force_) say_what_is_in_force(report);
   return report;
+}
+
+void Controller::say_what_is_in_force(Report& report) const {
+  const Plan& plan = plan_in_force();
+  report.planned_pose = plan.pose_at(report.step);
+  report.planned_trim = plan.trim_at(report.step);
+  report.maneuver = plan.maneuver_during(report.step).label;
 }
 
 /// The route that the vehicle fits best, and its place there.
@@ -196,8 +201,8 @@ Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = watched.deviation_m;
   if (watched.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
   sets_out_ = sets_out_ || watched.is_anchored_anew;
-  step_.report.planned_pose = plan_in_force().pose_at(now);
-  step_.report.planned_trim = plan_in_force().trim_at(now);
+  step_.report.subgraph = subgraph_->spec().name;
+  say_what_is_in_force(step_.report);
 
   const StepIndex next{now.value + 1};
   Traffic& traffic = step_.traffic;
@@ -434,6 +439,7 @@ void Controller::search_candidate(StepIndex next) {
         result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;
     return;
   }
+  step_.report.subgraph = on->spec().name;
   step_.report.cost_m2 = result.cost;
   const bool is_optimal = result.status == SearchStatus::kOptimal;
   step_.report.quality = is_optimal ? PlanQuality::kOptimal : PlanQuality::kBudget;

@@ -185,6 +185,7 @@ class Controller {
   Controller(ControllerOptions options, PreparedSubgraph on,
              std::shared_ptr<const std::vector<DrivableRoute>> routes);
 
+  void say_what_is_in_force(Report& report) const;
   void take_route(const Pose& measured);
   void look_at_lanes();
   [[nodiscard]] double project(const Point& position_m) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "planner/coordination/messages.hpp"
@@ -48,6 +49,12 @@ struct Report {
   FallbackReason reason{FallbackReason::kNone};
   Pose planned_pose;  ///< of the plan in force at t(k)
   TrimId planned_trim;
+  /// Label of the same plan's maneuver during [t(k), t(k+1)], whatever is planned in this step;
+  /// empty: there is no plan.
+  std::string maneuver;
+  /// Name of the subgraph that the plan found in this step was found on; if none was, of the one
+  /// that the controller plans on.
+  std::string subgraph;
   double cost_m2{};  ///< of the plan found in this step; 0 if none
   PlanQuality quality{PlanQuality::kNone};
   double gap_m2{};            ///< of that plan: its cost minus a lower bound of every plan's; or 0

@@ -26,16 +26,15 @@ class PlannedMotionTest : public testing::Test {
     constexpr std::size_t kTrims[] = {0, 6, 7, 7, 8};
     for (std::size_t k = 0; k < std::size(kTrims); ++k) {
       StepRecord row{.step = k, .record = {}, .driven = {}};
-      row.record.report.vehicle = VehicleId{4};
-      row.record.report.planned_pose = pose;
-      row.record.report.planned_trim = TrimId{kTrims[k]};
+      Report& report = row.record.report;
+      report.vehicle = VehicleId{4};
+      report.planned_pose = pose;
+      report.planned_trim = TrimId{kTrims[k]};
+      report.maneuver = k == 2 ? kOwnStepLabel : "test";
       rows_.push_back(row);
       if (k + 1 == std::size(kTrims)) break;
-      for (const Edge& edge : automaton_.successors({kTrims[k]})) {
-        if (edge.to.index != kTrims[k + 1]) continue;
-        maneuvers_.push_back(edge.maneuver);
-        pose = compose(pose, edge.maneuver->displacement);
-      }
+      maneuvers_.push_back(automaton_.find({kTrims[k]}, {kTrims[k + 1]}, "test"));
+      pose = compose(pose, maneuvers_.back()->displacement);
     }
   }
 
@@ -45,7 +44,7 @@ class PlannedMotionTest : public testing::Test {
     return planned_motion(rows, kPeriod, kInterval, automaton_);
   }
 
-  Subgraph automaton_{test::make_test_subgraph()};
+  UniversalAutomaton automaton_{*test::make_test_automaton()};
   std::vector<StepRecord> rows_;
   std::vector<const Maneuver*> maneuvers_;
 };
@@ -56,7 +55,7 @@ TEST_F(PlannedMotionTest, IsTheManeuversOneAfterTheOther) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const std::size_t k = std::min<std::size_t>(i / 20, 3);
     const double time_s = 0.01 * static_cast<double>(i - 20 * k);
-    State expected = state_at(*maneuvers_[k], time_s, automaton_.automaton().vehicle);
+    State expected = state_at(*maneuvers_[k], time_s, automaton_.vehicle);
     expected.pose = compose(rows_[k].record.report.planned_pose, expected.pose);
     EXPECT_NEAR(states[i].pose.x_m, expected.pose.x_m, 1e-12) << i;
     EXPECT_NEAR(states[i].pose.y_m, expected.pose.y_m, 1e-12) << i;
@@ -69,7 +68,6 @@ TEST_F(PlannedMotionTest, IsTheManeuversOneAfterTheOther) {
 // In step 2 the controller sets its plan down 7 mm aside: reported from step 3 on.
 TEST_F(PlannedMotionTest, OfAPlanSetDownAnewJumpsJustAfterTheStep) {
   const std::vector<State> before = motion();
-  rows_[2].record.report.deviation_m = 0.007;
   for (std::size_t k = 3; k < rows_.size(); ++k) rows_[k].record.report.planned_pose.y_m += 0.007;
   const std::vector<State> after = motion();
   ASSERT_EQ(after.size(), before.size());
@@ -78,10 +76,7 @@ TEST_F(PlannedMotionTest, OfAPlanSetDownAnewJumpsJustAfterTheStep) {
   }
 }
 
-// A run reported 4.97 mm where a plan was set down anew, which takes more than 5: the deviation
-// leaves out what the slip turns the footprint by.
-TEST_F(PlannedMotionTest, IsKnownOfAPlanSetDownAnewBetweenTwoTrimsAtALesserDeviation) {
-  rows_[0].record.report.deviation_m = 0.0049;
+TEST_F(PlannedMotionTest, OfAPlanSetDownAnewIsOfTheManeuverThatIsNamed) {
   for (std::size_t k = 1; k < rows_.size(); ++k) rows_[k].record.report.planned_pose.y_m += 0.007;
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), maneuvers_.front());
 }
@@ -92,30 +87,44 @@ TEST_F(PlannedMotionTest, IsNotKnownWhereARowIsMissing) {
               ThrowsMessage<std::runtime_error>(HasSubstr("vehicle 4, step 3: the step before")));
 }
 
-// Trims 1 to 7: with the maneuvers that a request switched on, or with those of new weights.
-TEST_F(PlannedMotionTest, OnAnotherSubgraphItIsOfTheManeuverThatLeadsToTheNextPose) {
-  UniversalAutomaton automaton = automaton_.automaton();
-  Maneuver other = *maneuvers_.front();
+// They may even lead to the same pose.
+TEST_F(PlannedMotionTest, ManeuversBetweenTheSameTrimsAreToldApartByTheirLabels) {
+  Maneuver other = *automaton_.find({0}, {6}, "test");
   other.label = "other";
-  other.displacement.x_m += 0.007;
-  automaton.maneuvers.push_back(other);
-  const SubgraphSpec spec = automaton_.spec();
-  rows_[1].record.report.planned_pose =
-      compose(rows_[0].record.report.planned_pose, other.displacement);
-  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), nullptr);
-  automaton_ = Subgraph(std::make_shared<const UniversalAutomaton>(std::move(automaton)), spec);
-  const Maneuver* const known = maneuver_during(rows_[0], &rows_[1], automaton_);
-  ASSERT_NE(known, nullptr);
-  EXPECT_EQ(known->label, "other");
+  automaton_.maneuvers.insert(automaton_.maneuvers.begin(), other);
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_)->label, "test");
+  rows_[0].record.report.maneuver = "other";
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), &automaton_.maneuvers.front());
 }
 
-TEST_F(PlannedMotionTest, IsNotKnownBetweenTrimsThatNoManeuverJoins) {
-  rows_[1].record.report.deviation_m = 1.0;  // where its plan leads is another question
-  rows_[2].record.report.planned_trim = TrimId{1};
-  rows_[3].record.report.planned_trim = TrimId{11};
-  automaton_ = test::make_test_subgraph(test::make_test_automaton(), {1, 2, 7, 8, 9});
+// A car that stands is set down anew, in another equilibrium.
+TEST_F(PlannedMotionTest, StandingIsTheOwnStepWhateverTheNextTrimIs) {
+  rows_[0].record.report.maneuver = kOwnStepLabel;
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_),
+            automaton_.find({0}, {0}, kOwnStepLabel));
+}
+
+TEST_F(PlannedMotionTest, WithoutAPlanOrANextRowThereIsNone) {
+  EXPECT_EQ(maneuver_during(rows_[0], nullptr, automaton_), nullptr);
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[2], automaton_), nullptr);
+  ASSERT_NE(maneuver_during(rows_[2], &rows_[3], automaton_), nullptr);
+  rows_[2].record.report.maneuver = "";
+  EXPECT_EQ(maneuver_during(rows_[2], &rows_[3], automaton_), nullptr);
+}
+
+TEST_F(PlannedMotionTest, IsNotKnownOfAManeuverThatTheAutomatonDoesNotHold) {
+  rows_[1].record.report.maneuver = "J1 0.3\nJ2 0.7";
+  EXPECT_EQ(maneuver_during(rows_[1], &rows_[2], automaton_), nullptr);
   EXPECT_THAT([this] { static_cast<void>(motion()); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("vehicle 4, step 2: no maneuver")));
+              ThrowsMessage<std::runtime_error>(
+                  "vehicle 4, step 1: no maneuver from trim 7 to 8 with label 'J1 0.3\\nJ2 0.7', "
+                  "allowed those of the automaton"));
+}
+
+TEST_F(PlannedMotionTest, IsNotKnownOfTrimsThatTheAutomatonDoesNotHold) {
+  rows_[1].record.report.planned_trim = TrimId{12};
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), nullptr);
+  EXPECT_EQ(maneuver_during(rows_[1], &rows_[2], automaton_), nullptr);
 }
 
 TEST(DrivenMotion, IsLinearBetweenTicksAndEndsWithTheDrive) {

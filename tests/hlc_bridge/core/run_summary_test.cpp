@@ -135,6 +135,7 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
     record.report.status = StepStatus::kPlanned;
     record.report.planned_pose = {0.16 * static_cast<double>(k), 0.0, 0.0};
     record.report.planned_trim = TrimId{6};
+    record.report.maneuver = kOwnStepLabel;
     reports_.push_back(record);
     for (std::uint64_t tick = 0; tick < 10; ++tick) {
       DrivenSample sample;
@@ -150,6 +151,9 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   EXPECT_NEAR(result.tracking_error_m->mean, 0.005 / (59 * 10 + 1), 1e-9);
   EXPECT_NEAR(result.deviation_max_m.value(), 0.005, 2e-4);
   EXPECT_EQ(result.astray_steps, 0U);
+  reports_.front().report.maneuver = "";  // no plan yet: its pose means nothing
+  reports_.front().report.planned_pose = {};
+  EXPECT_NEAR(summary().vehicles.at(0).tracking_error_m->max, 0.005, 1e-9);
   reports_.at(30).report.status = StepStatus::kFallback;
   reports_.at(30).report.reason = FallbackReason::kDeviation;
   EXPECT_EQ(summary().vehicles.at(0).astray_steps, 0U) << "not seen, but not known to be off";
@@ -194,6 +198,7 @@ TEST_F(RunSummaryTest, OfSeveralManeuversBetweenTwoTrimsTheOneThatWasPlannedIsCo
     record.report.status = StepStatus::kPlanned;
     record.report.planned_pose = pose;
     record.report.planned_trim = from;
+    record.report.maneuver = maneuver.label;
     reports_.push_back(record);
     for (std::uint64_t tick = 0; tick < 10; ++tick) {
       const State state = state_at(maneuver, 0.02 * static_cast<double>(tick), automaton->vehicle);

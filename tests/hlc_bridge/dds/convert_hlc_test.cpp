@@ -121,6 +121,33 @@ TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
   EXPECT_TRUE(is_refused(report));
 }
 
+TEST(OwnConversionRefuses, NamesThatNobodyGives) {
+  const std::string longest(kMaxText, 'x');
+  ReportMessage report;
+  to_wire(good<ReportRecord>(), report);
+  report.maneuver(longest);
+  report.subgraph(longest);
+  EXPECT_TRUE(from_wire(report).message.has_value());
+  report.maneuver(longest + "x");
+  EXPECT_FALSE(from_wire(report).message.has_value());
+  report.maneuver(longest);
+  report.subgraph(longest + "x");
+  EXPECT_FALSE(from_wire(report).message.has_value());
+}
+
+// Without its reports a controller would seem dead.
+TEST(OwnConversionCuts, NamesOfAReportThatWouldBeRefused) {
+  auto report = good<ReportRecord>();
+  report.report.maneuver = std::string(kMaxText + 1, 'm');
+  report.report.subgraph = std::string(kMaxText + 1, 's');
+  ReportMessage wire;
+  to_wire(report, wire);
+  const auto read = from_wire(wire).message;
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->report.maneuver, std::string(kMaxText, 'm'));
+  EXPECT_EQ(read->report.subgraph, std::string(kMaxText, 's'));
+}
+
 TEST(OwnConversionRefuses, UnknownEnumerationValues) {
   ReportMessage report;
   to_wire(good<ReportRecord>(), report);

@@ -137,8 +137,8 @@ void put_message(std::ostream& out, const Outcome& value) {
   put_all(out, a, b, c);
 }
 void put_message(std::ostream& out, const Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = value;
-  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d] = value;
@@ -447,6 +447,8 @@ ReportRecord sample(Random& random) {
                       static_cast<FallbackReason>(whole(random, 9)),
                       pose(random),
                       {whole(random, 100)},
+                      words(random),
+                      words(random),
                       number(random),
                       static_cast<PlanQuality>(whole(random, 2)),
                       number(random),

@@ -74,9 +74,13 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
     bool readable = false;
     ASSERT_NO_THROW(readable = type->deserialize(&payload, &wire));
     if (readable) {
-      const Incoming<TypeParam> incoming = from_wire(wire);
+      Incoming<TypeParam> incoming = from_wire(wire);
       ASSERT_TRUE(incoming.message.has_value() || incoming.invalid > 0);
       if (incoming.message) {
+        if constexpr (std::is_same_v<TypeParam, ReportRecord>) {  // words, which may be any
+          incoming.message->report.maneuver.clear();
+          incoming.message->report.subgraph.clear();
+        }
         const std::string content = text(*incoming.message);
         if constexpr (std::is_same_v<TypeParam, AutomatonRequest>) {
           ASSERT_TRUE(std::isfinite(incoming.message->subgraph.max_speed_mps.value_or(0.0)));

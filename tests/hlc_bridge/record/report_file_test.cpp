@@ -15,6 +15,14 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+/// Of what takes a CSV file apart, among others.
+std::string random_name(std::mt19937_64& random) {
+  const std::string letters = "aB ,;\"\n\r'";
+  std::string name;
+  for (std::uint64_t i = random() % 12; i > 0; --i) name += letters[random() % letters.size()];
+  return name;
+}
+
 ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uint8_t id) {
   std::uniform_real_distribution<double> value{-10.0, 10.0};
   ReportRecord record;
@@ -25,6 +33,8 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   report.reason = static_cast<FallbackReason>(random() % 10);
   report.planned_pose = {value(random), value(random), value(random)};
   report.planned_trim = TrimId{random() % 12};
+  report.maneuver = random_name(random);
+  report.subgraph = random_name(random);
   report.cost_m2 = value(random);
   report.quality = static_cast<PlanQuality>(random() % 3);
   report.gap_m2 = value(random);
@@ -49,6 +59,8 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.report.reason, b.report.reason);
   EXPECT_EQ(a.report.planned_pose, b.report.planned_pose);
   EXPECT_EQ(a.report.planned_trim, b.report.planned_trim);
+  EXPECT_EQ(a.report.maneuver, b.report.maneuver);
+  EXPECT_EQ(a.report.subgraph, b.report.subgraph);
   EXPECT_EQ(a.report.cost_m2, b.report.cost_m2);
   EXPECT_EQ(a.report.quality, b.report.quality);
   EXPECT_EQ(a.report.gap_m2, b.report.gap_m2);

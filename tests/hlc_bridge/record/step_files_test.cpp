@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "hlc_bridge/record/text_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
 namespace hlc {
 namespace {
 
@@ -17,6 +20,8 @@ StepRecord row() {
   report.reason = FallbackReason::kConflict;
   report.planned_pose = {1.5, 2.5, -0.5};
   report.planned_trim = TrimId{6};
+  report.maneuver = "J2";
+  report.subgraph = "B, at most 0.6 m/s";
   report.cost_m2 = 0.25;
   report.quality = PlanQuality::kBudget;
   report.gap_m2 = 0.125;
@@ -38,11 +43,12 @@ TEST(StepFiles, RowHoldsEveryColumnOnce) {
   const std::string text = steps_csv(rows);
   EXPECT_EQ(
       text.substr(text.find('\n') + 1),
-      "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125\n");
+      "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125,J2,"
+      "\"B, at most 0.6 m/s\"\n");
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };
-  EXPECT_EQ(commas(text.substr(0, text.find('\n'))), commas(text.substr(text.find('\n') + 1)));
+  EXPECT_EQ(commas(text.substr(0, text.find('\n'))), commas(text.substr(text.find('\n') + 1)) - 1);
 }
 
 TEST(StepFiles, PoseThatWasNotRecordedIsEmpty) {
@@ -60,6 +66,23 @@ TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
   rows[0].record.late_ns = 98;
   rows[0].record.report.step = StepIndex{100};  // k depends on when a run in real time began
   EXPECT_EQ(steps_csv(rows), before);
+}
+
+TEST(StepFiles, NamesOfAnyKindReadBack) {
+  std::vector<StepRecord> rows(3, row());
+  rows[0].record.report.maneuver = "\"";
+  rows[1].record.report.maneuver = "a\nb,\r\n";
+  rows[1].record.report.subgraph = "\"x\",\n4,2,planned";
+  rows[2].record.report.subgraph = "";
+  const TemporaryFolder folder;
+  const std::string text = steps_csv(rows);
+  put(folder / "steps.csv", text);
+  const CsvTable table(folder / "steps.csv", text.substr(0, text.find('\n')));
+  ASSERT_EQ(table.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(table.text(i, 20), rows[i].record.report.maneuver);
+    EXPECT_EQ(table.text(i, 21), rows[i].record.report.subgraph);
+  }
 }
 
 TEST(StepFiles, TimingHoldsTheClock) {

@@ -71,6 +71,42 @@ TEST_F(CsvTableTest, IncompleteLastLineIsLeftOut) {
   EXPECT_EQ(table("a,b\n1,2\n3,4").size(), 1U);
 }
 
+TEST_F(CsvTableTest, FieldsInQuotesMayHoldAnything) {
+  for (const std::string& text :
+       {std::string{}, std::string{","}, std::string{"\n"}, std::string{"\""}, std::string{"\"\""},
+        std::string{"a, \"b\"\r\nc"}}) {
+    const CsvTable csv = table("a,b\n" + csv_field(text) + "," + csv_field(text) + "\n1,2\n");
+    ASSERT_EQ(csv.size(), 2U) << text;
+    EXPECT_EQ(csv.text(0, 0), text);
+    EXPECT_EQ(csv.text(0, 1), text);
+    EXPECT_EQ(csv.text(1, 1), "2") << text;
+  }
+  EXPECT_EQ(csv_field("J2 of B"), "J2 of B");
+}
+
+TEST_F(CsvTableTest, IncompleteLastLineIsLeftOutWithinQuotesToo) {
+  const std::string row = "1,\"a, \"\"b\"\" c\"";
+  for (std::size_t length = 0; length <= row.size(); ++length) {
+    EXPECT_EQ(table("a,b\n1,2\n" + row.substr(0, length)).size(), 1U) << length;
+  }
+  EXPECT_EQ(table("a,b\n1,2\n" + row + "\n").text(1, 1), "a, \"b\" c");
+}
+
+TEST_F(CsvTableTest, RefusesQuotesThatDoNotBelongThere) {
+  EXPECT_THAT([&] { table("a,b\n1,2\n3,4\"\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:3: a quote within a field")));
+  EXPECT_THAT([&] { table("a,b\n\"1\"x,2\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:2: more behind a closing quote")));
+  EXPECT_THAT([&] { table("a,b\n1,\"2\n3,4\n5,6\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:2: a quote that is not closed")));
+}
+
+TEST_F(CsvTableTest, CountsLinesWithinQuotes) {
+  const CsvTable csv = table("a,b\n\"1\n1\",2\nx,3\n");
+  EXPECT_THAT([&] { (void)csv.number(1, 0); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:4: a = \"x\"")));
+}
+
 TEST_F(CsvTableTest, RefusesAnotherHeadingAndMissingFields) {
   EXPECT_THAT([&] { table("a,c\n"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:1: the heading must be a,b")));
