@@ -160,7 +160,7 @@ Report Controller::stand_by(const Observation& observation) {
     report.reason = FallbackReason::kOffRoute;
     report.deviation_m = std::max(0.0, placement_->beyond_m());
   }
-  report.subgraph = subgraph_->spec().name;
+  report.subgraph = subgraph().spec().name;
   if (in_force_) say_what_is_in_force(report);
   return report;
 }
@@ -201,7 +201,7 @@ Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = watched.deviation_m;
   if (watched.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
   sets_out_ = sets_out_ || watched.is_anchored_anew;
-  step_.report.subgraph = subgraph_->spec().name;
+  step_.report.subgraph = subgraph().spec().name;
   say_what_is_in_force(step_.report);
 
   const StepIndex next{now.value + 1};
