@@ -14,6 +14,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
                           2022: the rules under which the paper's numbers arose
   --engine NAME           what searches: branch_and_bound (default profile) or best_first (profile 2022)
   --subgraph NAME         of the automaton, instead of the scenario's
+  --policy NAME           by which the cars change the subgraph themselves, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenario circle)
   --steps N               control steps of 0.2 s, instead of the scenario's
@@ -41,7 +42,7 @@ TEXT
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
-scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" map="" cars="" steps=""
+scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" steps=""
 simulated_time=true noise_seed="" gains_scale="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true
 startup_timeout_s=20
@@ -59,7 +60,7 @@ while (($#)); do
   name=${name#--}
   [[ $name != dump-problems ]] || name=dump_problems
   case "$name" in
-    scenario | profile | engine | dump_problems | subgraph | map | cars | steps | simulated_time | \
+    scenario | profile | engine | dump_problems | subgraph | policy | map | cars | steps | simulated_time | \
       noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
       startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
@@ -97,6 +98,7 @@ fi
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $engine ]] || choices+=(--engine "$engine")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
+[[ -z $policy ]] || choices+=(--policy "$policy")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
 check=("${choices[@]}")
@@ -160,6 +162,7 @@ scenario: $(quoted "$(realpath "$scenario")")
 profile: $(quoted "$profile")
 engine: $(quoted "$engine")
 subgraph: $(quoted "$subgraph")
+policy: $(quoted "$policy")
 map: $(quoted "$map")
 cars: ${cars:-null}
 steps: $steps

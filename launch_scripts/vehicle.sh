@@ -12,6 +12,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --profile NAME          default or 2022 (default: default)
   --engine NAME           branch_and_bound or best_first (default: the scenario's, else the profile's)
   --subgraph NAME         instead of the scenario's
+  --policy NAME           by which the car changes the subgraph itself, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenarios on a circle)
   --simulated_time BOOL   true: logical time (default), false: real time
@@ -39,12 +40,12 @@ TEXT
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
-id="" scenario="" profile=default engine="" dump_problems="" subgraph="" map="" cars=""
+id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
 noise_seed="" gains_scale="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only=""
-kept_flags=(id scenario profile engine dump_problems subgraph map cars simulated_time transport discovery_mode
+kept_flags=(id scenario profile engine dump_problems subgraph policy map cars simulated_time transport discovery_mode
   discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
   controller_domain pose noise_seed gains_scale on_death bin startup_timeout_s)
 take_flags() {
@@ -112,6 +113,7 @@ out=$(cd "$out" && pwd)
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $engine ]] || choices+=(--engine "$engine")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
+[[ -z $policy ]] || choices+=(--policy "$policy")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
 record=$out/vehicle_$id.csv

@@ -22,6 +22,11 @@ void print_table(const hlc::Scenario& scenario) {
   std::printf("lab        %s\n",
               scenario.lab_file ? scenario.lab_file->c_str() : "none (no limits)");
   std::printf("profile    %s\n", scenario.profile.name.c_str());
+  if (!scenario.policies.empty()) {
+    std::string names = hlc::kNoPolicy;
+    for (const auto& [name, settings] : scenario.policies) names += ", " + name;
+    std::printf("policy     %s (of %s)\n", scenario.policy.c_str(), names.c_str());
+  }
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
               "y [m]");
   for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {

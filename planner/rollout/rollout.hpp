@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/controller/controller.hpp"
+#include "planner/policy/subgraph_choice.hpp"
 #include "planner/rollout/joint_step.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -18,7 +19,12 @@ class Rollout {
   /// @param starts       planned pose of each at the start, standing
   Rollout(std::vector<std::unique_ptr<Controller>> controllers, const std::vector<Pose>& starts);
 
-  /// The same vehicles in the same state, going their own way from here; loses nothing.
+  /// From the next step on every controller follows these zones and policies. No battery is
+  /// measured. @pre all are on the subgraphs of their scenario
+  void choose_by(const ReconfigurationSettings& settings);
+
+  /// The same vehicles in the same state, going their own way from here; loses nothing, and stays
+  /// on the subgraphs that are planned on now.
   [[nodiscard]] Rollout clone() const;
 
   /// Messages for which this says true do not arrive. None by default.
@@ -36,7 +42,10 @@ class Rollout {
   Rollout() = default;
   [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
 
+  [[nodiscard]] JointStepRules rules_noting(HeardInStep& heard) const;
+
   std::vector<std::unique_ptr<Controller>> controllers_;
+  std::vector<SubgraphChoice> choices_;  ///< in the order of the controllers, or none
   JointStepRules rules_;
   StepIndex next_step_{0};
 };

@@ -21,7 +21,7 @@ const SubgraphSpec* find_subgraph(const std::vector<SubgraphSpec>& subgraphs,
 }
 
 std::shared_ptr<const Subgraph> read_subgraph(const std::filesystem::path& automaton_file,
-                                              const SubgraphChoice& choose, BuildScope scope) {
+                                              const ChooseSubgraph& choose, BuildScope scope) {
   if (is_automaton_file(automaton_file)) {
     const AutomatonFile file = read_current_automaton_file(automaton_file);
     return std::make_shared<Subgraph>(file.automaton, choose(file.subgraphs));

@@ -18,7 +18,7 @@ namespace hlc {
                                                 const std::string& name);
 
 /// One of the subgraphs that a file offers; throws if it offers no fitting one.
-using SubgraphChoice = std::function<const SubgraphSpec&(const std::vector<SubgraphSpec>& offered)>;
+using ChooseSubgraph = std::function<const SubgraphSpec&(const std::vector<SubgraphSpec>& offered)>;
 
 /// How much of a configuration is built.
 enum class BuildScope {
@@ -30,7 +30,7 @@ enum class BuildScope {
 /// configuration, of which it builds what is needed (maneuvers are solved).
 /// @throws std::invalid_argument with one line that names the file, or as `choose`
 [[nodiscard]] std::shared_ptr<const Subgraph> read_subgraph(
-    const std::filesystem::path& automaton_file, const SubgraphChoice& choose,
+    const std::filesystem::path& automaton_file, const ChooseSubgraph& choose,
     BuildScope scope = BuildScope::kSubgraph);
 
 }  // namespace hlc

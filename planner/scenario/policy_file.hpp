@@ -34,7 +34,7 @@ namespace hlc {
 [[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(
     const YamlNode& scenario);
 
-/// Tries every request of the policy, under the limit of every zone (check_reconfiguration).
+/// Tries every request of the policy, and the limit of every zone (check_reconfiguration).
 /// @throws std::invalid_argument with one line: the place of the policies, its name and why one of
 /// its requests cannot be
 void check_policy(const YamlNode& scenario, const std::string& name,

@@ -236,7 +236,7 @@ void read_reconfiguration(const YamlNode& node, const ScenarioChoices& choices,
   if (!is_known(configured)) node.fail("policy", known);
   scenario.policy = choices.policy.value_or(configured);
   if (!is_known(scenario.policy)) {
-    throw std::invalid_argument("policy " + one_line(scenario.policy) + ", allowed " + known);
+    throw std::invalid_argument("--policy = " + one_line(scenario.policy) + ", allowed " + known);
   }
   // Policies are made for the file's own subgraph; another one may be too narrow for some of them.
   const bool is_own_subgraph =

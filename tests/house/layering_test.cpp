@@ -43,7 +43,7 @@ const std::map<std::string, Names> kArrows{
       "planner/automaton", "planner/maneuver_design", "planner/road", "planner/vehicle",
       "planner/geometry"}},
     {"planner/rollout",
-     {"planner/scenario", "planner/controller", "planner/coordination", "planner/search",
+     {"planner/policy", "planner/scenario", "planner/controller", "planner/coordination", "planner/search",
       "planner/automaton", "planner/road", "planner/vehicle", "planner/geometry"}},
     {"planner/plot",
      {"planner/scenario", "planner/maneuver_design", "planner/search", "planner/automaton",

@@ -24,7 +24,7 @@ constexpr auto kPatience = 60s;
 class Reconfiguration : public testing::Test {
  protected:
   Reconfiguration()
-      : lab_({.scenario = "reconfiguration", .steps = 1000, .simulated_time = false}) {
+      : lab_({.scenario = "on_request", .steps = 1000, .simulated_time = false}) {
     lab_.start_all();
   }
 

@@ -52,8 +52,8 @@ TEST(SituationPolicy, IsInConflictWhileCoupledOrFallenBackAndAWhileAfter) {
 }
 
 TEST(BatteryPolicy, StaysAsItWasBetweenItsBoundsAndWhereNothingIsKnown) {
-  const auto policy = made(
-      BatteryPolicySettings{.below_v = 7.0, .back_above_v = 7.4, .request = kEffort});
+  const auto policy =
+      made(BatteryPolicySettings{.below_v = 7.0, .back_above_v = 7.4, .request = kEffort});
   EXPECT_EQ(policy->wish({}), std::nullopt);
   EXPECT_EQ(policy->wish({.battery_v = 7.0}), std::nullopt);
   EXPECT_EQ(policy->wish({.battery_v = 6.9}), kEffort);

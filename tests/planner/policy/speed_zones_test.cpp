@@ -51,8 +51,8 @@ TEST(SpeedZones, NoPlaceInAZoneIsComeToWithoutItsLimit) {
     const double s_m = along(random);
     const bool is_ahead = s_m + 0.5 > from_m + 0.01 && s_m < from_m + 0.29;
     const bool is_away = s_m + 0.5 < from_m || s_m > from_m + 0.3;
-    if (is_ahead) EXPECT_TRUE(limit_on(zones, kEast, s_m, 0.5));
-    if (is_away) EXPECT_FALSE(limit_on(zones, kEast, s_m, 0.5));
+    if (!is_ahead && !is_away) continue;
+    EXPECT_EQ(limit_on(zones, kEast, s_m, 0.5).has_value(), is_ahead);
   }
 }
 

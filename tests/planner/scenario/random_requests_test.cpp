@@ -54,7 +54,7 @@ std::shared_ptr<const Subgraph> random_subgraph(const Subgraph& base, std::size_
 
 TEST(RandomRequests, NeverLeaveACarWithoutAPlanNorLeadToACollision) {
   Scenario three_cars = read_scenario(
-      {.file = test::source_folder() + "/launch_scripts/scenarios/reconfiguration.yaml"});
+      {.file = test::source_folder() + "/launch_scripts/scenarios/on_request.yaml"});
   const Subgraph& base = *three_cars.subgraph;
   std::size_t requests = 0;
   std::size_t planned = 0;

@@ -1,0 +1,181 @@
+#include "planner/policy/subgraph_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/policy/driven_controller.hpp"
+
+namespace hlc::subgraph_choice_test {
+namespace {
+
+using test::DrivenController;
+
+const SubgraphRequest kSlowLabel{.labels = {"slow"}};
+const SubgraphRequest kFastLabel{.labels = {"fast"}};
+
+SpeedZone zone(double min_x_m, double max_x_m, double max_speed_mps) {
+  return {.min_x_m = min_x_m,
+          .max_x_m = max_x_m,
+          .min_y_m = -1.0,
+          .max_y_m = 1.0,
+          .max_speed_mps = max_speed_mps};
+}
+
+class SubgraphChoiceTest : public testing::Test {
+ protected:
+  void use(const ReconfigurationSettings& settings) { choice_.emplace(*car_, settings); }
+
+  /// One step with the choice before and after; the name of what was planned on.
+  std::string drive(std::optional<double> battery_v = {}) {
+    static_cast<void>(choice_->begin_step(*car_, car_.next_step(), true, battery_v));
+    std::string name = car_->subgraph().spec().name;
+    choice_->end_step(*car_, car_.step(), {});
+    return name;
+  }
+
+  void ask(const SubgraphRequest& request) {
+    choice_->ask(std::make_shared<const PreparedChoice>(choice_->base(), request,
+                                                        choice_->limits_mps(), 8, SearchOptions{}));
+  }
+
+  DrivenController car_;
+  std::optional<SubgraphChoice> choice_;
+};
+
+TEST_F(SubgraphChoiceTest, WithoutZonesAndPoliciesItStaysAsItIs) {
+  use({});
+  const auto subgraph = car_->prepared_subgraph().subgraph;
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_FALSE(choice_->begin_step(*car_, car_.next_step(), true, 1.0));
+    choice_->end_step(*car_, car_.step(), {});
+  }
+  EXPECT_EQ(car_->prepared_subgraph().subgraph, subgraph);
+}
+
+TEST_F(SubgraphChoiceTest, APolicyIsAskedInTheFirstStep) {
+  use({.policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
+  EXPECT_FALSE(choice_->begin_step(*car_, car_.next_step(), false, {})) << "it has not begun";
+  EXPECT_EQ(drive(), "slow, label fast");
+}
+
+TEST_F(SubgraphChoiceTest, TimeCountsFromTheFirstStepOn) {
+  use({.policies = {TimePolicySettings{.changes = {{0.6, kFastLabel}}}}});
+  for (int k = 0; k < 5; ++k) {
+    static_cast<void>(choice_->begin_step(*car_, car_.next_step(), false, {}));
+    static_cast<void>(car_.step());
+  }
+  EXPECT_EQ(drive(), "slow");
+  EXPECT_EQ(drive(), "slow");
+  EXPECT_EQ(drive(), "slow");
+  EXPECT_EQ(drive(), "slow, label fast");
+}
+
+TEST_F(SubgraphChoiceTest, OfSeveralPoliciesTheFirstWithAnOpinionCounts) {
+  use({.policies = {BatteryPolicySettings{
+                        .below_v = 7.0, .back_above_v = 7.0, .request = {.max_speed_mps = 0.6}},
+                    TimePolicySettings{.changes = {{0.0, kFastLabel}}}},
+       .min_stay_s = 0.0});
+  EXPECT_EQ(drive(7.5), "slow, label fast");
+  EXPECT_EQ(drive(6.5), "slow, at most 0.6 m/s");
+  EXPECT_EQ(drive(7.5), "slow, label fast");
+}
+
+// A policy that changes its mind in every step.
+TEST_F(SubgraphChoiceTest, WhatAPolicyAskedForStaysAWhile) {
+  use({.policies = {BatteryPolicySettings{
+           .below_v = 7.0, .back_above_v = 7.0, .request = kFastLabel}},
+       .min_stay_s = 1.0});
+  int switches = 0;
+  std::string last = "slow";
+  for (int k = 0; k < 50; ++k) {
+    const std::string now = drive(k % 2 == 0 ? 6.0 : 8.0);
+    switches += now != last ? 1 : 0;
+    last = now;
+  }
+  EXPECT_GE(switches, 5);
+  EXPECT_LE(switches, 10) << "in 10 s";
+}
+
+TEST_F(SubgraphChoiceTest, TheOperatorWinsOverPoliciesUntilHeGivesTheVehicleBack) {
+  use({.policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
+  EXPECT_EQ(drive(), "slow, label fast");
+  ask({.max_speed_mps = 0.6});
+  EXPECT_EQ(drive(), "slow, at most 0.6 m/s");
+  EXPECT_EQ(drive(), "slow, at most 0.6 m/s");
+  choice_->ask(nullptr);
+  EXPECT_EQ(drive(), "slow, label fast");
+}
+
+TEST_F(SubgraphChoiceTest, AZonesLimitIsLaidOnWhateverIsAskedFor) {
+  use({.zones = {zone(-1.0, 100.0, 0.5)},
+       .policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
+  EXPECT_EQ(drive(), "slow, at most 0.5 m/s") << "with fast maneuvers it cannot be held";
+  ask({.trims_off = {{11}}});
+  EXPECT_EQ(drive(), "slow, at most 0.5 m/s, without trims 12");
+  ask({.max_speed_mps = 0.4});
+  EXPECT_EQ(drive(), "slow, at most 0.4 m/s") << "never lifted by a zone";
+  ask({.max_speed_mps = 0.7});
+  EXPECT_EQ(drive(), "slow, at most 0.5 m/s");
+}
+
+// Alone, on a straight road: as fast as ever before the zone and behind it, never too fast in it.
+TEST_F(SubgraphChoiceTest, NoCarIsTooFastInAZone) {
+  const SpeedZone slow = zone(2.0, 4.0, 0.4);
+  use({.zones = {slow}});
+  int in_zone = 0;
+  double fastest_mps = 0.0;
+  for (int k = 0; k < 75; ++k) {
+    static_cast<void>(drive());
+    for (const double time_s : {0.0, 0.05, 0.1, 0.15}) {
+      const State state = car_->plan_in_force().state_at({car_.next_step().value - 1}, time_s,
+                                                         car_->subgraph().automaton().vehicle);
+      fastest_mps = std::max(fastest_mps, state.speed_mps);
+      if (state.pose.x_m < slow.min_x_m || state.pose.x_m > slow.max_x_m) continue;
+      ++in_zone;
+      EXPECT_LE(state.speed_mps, slow.max_speed_mps + 1e-6) << "at x = " << state.pose.x_m;
+    }
+  }
+  EXPECT_GT(in_zone, 60);
+  EXPECT_GT(fastest_mps, 0.75);
+  EXPECT_GT(car_->plan_in_force().pose_at(car_.next_step()).x_m, slow.max_x_m + 1.0);
+}
+
+TEST_F(SubgraphChoiceTest, ALookAheadTakesWhatARehearsalCostsLeast) {
+  const LookAheadSettings settings{.candidates = {kSlowLabel, kFastLabel},
+                                   .steps = 4,
+                                   .criterion_weights = {{"fast", 10.0}},
+                                   .max_expansions = 10'000};
+  use({.policies = {settings}, .min_stay_s = 0.0});
+  EXPECT_EQ(drive(), "slow") << "nothing has been rehearsed yet";
+  EXPECT_EQ(drive(), "slow, label slow");
+}
+
+TEST_F(SubgraphChoiceTest, ALookAheadSeesWhatALimitCosts) {
+  use({.policies = {LookAheadSettings{.candidates = {{.max_speed_mps = 0.5}, kSlowLabel},
+                                      .steps = 4,
+                                      .max_expansions = 10'000}},
+       .min_stay_s = 0.0});
+  for (int k = 0; k < 6; ++k) static_cast<void>(drive());
+  EXPECT_EQ(drive(), "slow, label slow");
+}
+
+// Two candidates that are the same: rounding must not decide every step anew.
+TEST_F(SubgraphChoiceTest, ALookAheadKeepsItsChoiceUnlessAnotherGains) {
+  use({.policies = {LookAheadSettings{.candidates = {{.max_speed_mps = 0.8}, kSlowLabel},
+                                      .steps = 4,
+                                      .max_expansions = 10'000}},
+       .min_stay_s = 0.0});
+  static_cast<void>(drive());
+  const std::string first = drive();
+  for (int k = 0; k < 30; ++k) EXPECT_EQ(drive(), first);
+}
+
+TEST_F(SubgraphChoiceTest, WhileTheOperatorHasAskedNothingIsRehearsed) {
+  use({.policies = {LookAheadSettings{
+           .candidates = {kSlowLabel, kFastLabel}, .steps = 4, .max_expansions = 10'000}}});
+  EXPECT_TRUE(choice_->looks_ahead());
+  ask(kFastLabel);
+  EXPECT_FALSE(choice_->looks_ahead());
+}
+
+}  // namespace
+}  // namespace hlc::subgraph_choice_test

@@ -1,0 +1,124 @@
+#include "planner/scenario/policy_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
+#include "tests/support/test_automaton.hpp"
+
+namespace hlc::policy_file_test {
+namespace {
+
+using testing::HasSubstr;
+
+std::map<std::string, ReconfigurationSettings> read(const std::string& text) {
+  static const Subgraph base =
+      test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims);
+  return read_policies(YamlNode::parse(text, "test.yaml"), base, 8, {});
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    static_cast<void>(read(text));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PolicyFile, ReadsEveryKind) {
+  const auto policies = read(R"(
+policies:
+  zone:
+    zones: [{x_m: [1.0, 2.0], y_m: [-1, 3.5], max_speed_mps: 0.5}]
+  rules:
+    min_stay_s: 0.4
+    rules:
+      - time: [{from_s: 0, request: {labels: [slow]}}, {from_s: 2.5, request: {}}]
+      - battery: {below_v: 7.0, back_above_v: 7.4, request: {max_speed_mps: 0.6, trims_off: [12]}}
+      - situation: {open_road: {labels: [slow]}, conflict: {labels: [slow, fast]}, after_conflict_s: 0}
+      - look_ahead: {candidates: [{labels: [slow]}, {}], steps: 5, least_gain: 0.1, max_expansions: 40000}
+)");
+  ASSERT_EQ(policies.size(), 2U);
+  const ReconfigurationSettings zone{
+      .zones =
+          {{.min_x_m = 1.0, .max_x_m = 2.0, .min_y_m = -1.0, .max_y_m = 3.5, .max_speed_mps = 0.5}},
+      .policies = {},
+      .min_stay_s = 1.0};
+  EXPECT_EQ(policies.at("zone"), zone);
+  const SubgraphRequest slow{.labels = {"slow"}};
+  const ReconfigurationSettings rules{
+      .zones = {},
+      .policies = {TimePolicySettings{.changes = {{0.0, slow}, {2.5, {}}}},
+                   BatteryPolicySettings{.below_v = 7.0,
+                                         .back_above_v = 7.4,
+                                         .request = {.max_speed_mps = 0.6, .trims_off = {{11}}}},
+                   SituationPolicySettings{.open_road = slow,
+                                           .conflict = {.labels = {"slow", "fast"}},
+                                           .after_conflict_s = 0.0},
+                   LookAheadSettings{.candidates = {slow, {}},
+                                     .steps = 5,
+                                     .criterion_weights = {},
+                                     .least_gain = 0.1,
+                                     .max_expansions = 40000}},
+      .min_stay_s = 0.4};
+  EXPECT_EQ(policies.at("rules"), rules);
+  EXPECT_TRUE(read("name: none").empty());
+}
+
+TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"none: {}", "policy 'none', allowed any other name"},
+      {"a: {zones: [{x_m: [2, 1], y_m: [0, 1], max_speed_mps: 0.5}]}", "x_m[2] = 1, allowed a number > 2"},
+      {"a: {zones: [{x_m: [2], y_m: [0, 1], max_speed_mps: 0.5}]}", "two numbers, [from, to]"},
+      {"a: {zones: [{x_m: [1, 2], y_m: [0, 1], max_speed_mps: 0.2}]}",
+       "policy 'a': in the zone of 0.2 m/s: speed limit 0.2 m/s, allowed at least 0.4"},
+      {"a: {rules: [{weather: {}}]}", "allowed one of time, situation, battery, look_ahead"},
+      {"a: {rules: [{time: []}]}", "at least one entry"},
+      {"a: {rules: [{time: [{from_s: 2, request: {}}, {from_s: 1, request: {}}]}]}",
+       "from_s = 1, allowed a number > 2"},
+      {"a: {rules: [{time: [{from_s: 2, request: {labels: [J9]}}]}]}",
+       "policy 'a': label 'J9', allowed fast, slow"},
+      {"a: {rules: [{time: [{from_s: 2, request: {label: J9}}]}]}", "label"},
+      {"a: {rules: [{time: [{from_s: 2, request: {trims_off: [13]}}]}]}",
+       "trim 13, allowed 1 ... 12"},
+      {"a: {rules: [{battery: {below_v: 7, back_above_v: 6, request: {}}}]}", "back_above_v = 6"},
+      {"a: {rules: [{look_ahead: {candidates: [{}], max_expansions: 10}}]}", "2 ... 100 requests"},
+      {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}]}}]}", "max_expansions"},
+      {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 25001}}]}",
+       "max_expansions = 25001, allowed 1 ... 25000"},
+      {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 9, "
+       "criterion_weights: {J2: 1}}}]}",
+       "criterion_weights: J2, allowed"},
+      {"a: {min_stay_s: -1}", "min_stay_s = -1"},
+  };
+  for (const auto& [policy, expected] : cases) {
+    const std::string refusal = refusal_of("policies:\n  " + policy + "\n");
+    EXPECT_THAT(refusal, HasSubstr(expected)) << policy;
+    EXPECT_THAT(refusal, testing::StartsWith("test.yaml:")) << policy;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << policy;
+  }
+}
+
+TEST(PolicyFile, TheScenariosPolicyHoldsUnlessAnotherIsChosen) {
+  const std::string file = test::source_folder() + "/launch_scripts/scenarios/reconfiguration.yaml";
+  const Scenario mixed = read_scenario({.file = file});
+  EXPECT_EQ(mixed.policy, "mixed");
+  EXPECT_EQ(mixed.reconfiguration, mixed.policies.at("mixed"));
+  const Scenario zone = read_scenario({.file = file, .policy = "zone"});
+  EXPECT_EQ(zone.reconfiguration, mixed.policies.at("zone"));
+  EXPECT_EQ(read_scenario({.file = file, .policy = "none"}).reconfiguration,
+            ReconfigurationSettings{});
+  try {
+    static_cast<void>(read_scenario({.file = file, .policy = "zones"}));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "--policy = zones, allowed none, look_ahead, mixed, situation, time, zone, "
+                 "zone_look_ahead");
+  }
+}
+
+}  // namespace
+}  // namespace hlc::policy_file_test
