@@ -22,6 +22,7 @@ constexpr Column<std::optional<double>> kMaybe[] = {
     {"effort_per_m", &RunFigures::effort_per_m},
     {"comfort_per_m", &RunFigures::comfort_per_m},
     {"above_limit_share", &RunFigures::above_limit_share},
+    {"clearly_above_limit_share", &RunFigures::clearly_above_limit_share},
     {"above_limit_max_mps", &RunFigures::above_limit_max_mps}};
 
 constexpr Column<double> kOfAll[] = {{"generated_max", &RunFigures::generated_max},

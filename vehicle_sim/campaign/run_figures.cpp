@@ -79,6 +79,7 @@ RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   figures.comfort_per_m = result.costs.comfort_per_m;
   if (result.excess) {
     figures.above_limit_share = result.excess->share;
+    figures.clearly_above_limit_share = result.excess->clear_share;
     figures.above_limit_max_mps = result.excess->max_mps;
   }
   figures.switches = result.use.switches;

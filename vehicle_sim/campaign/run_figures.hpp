@@ -44,6 +44,7 @@ struct RunFigures {
   std::optional<double> effort_per_m;  ///< DrivenCosts
   std::optional<double> comfort_per_m;
   std::optional<double> above_limit_share;  ///< ZoneExcess
+  std::optional<double> clearly_above_limit_share;
   std::optional<double> above_limit_max_mps;
   std::size_t switches{};                         ///< SubgraphUse
   std::map<std::string, double> subgraph_shares;  ///< by name

@@ -7,29 +7,32 @@
 
 namespace hlc {
 
-/// Whether switching subgraphs while driving pays: every fixed subgraph and every policy of a
-/// scenario and profile as a row, with medians over the starts in which the vehicle of highest
-/// priority drove a lap and the run counts. A value that is not known for one of these starts is
+/// Rows that keep the limits of the speed zones are in no start clearly above them
+/// (kFollowerExcess_mps) for more than this share of the time in zones.
+inline constexpr double kMostAboveLimit = 0.01;
+
+/// Markdown: whether switching subgraphs while driving pays. For each scenario and profile every
+/// fixed subgraph and every policy is a row, with medians over the starts in which the run counts
+/// and the vehicle of highest priority drove a lap. What is not known for one of these starts is
 /// not known.
 ///
-/// Then who is dominated by whom, and the hypervolume (tradeoff_front.hpp) of all fixed subgraphs
-/// together and with each single policy, in
+/// Then who is dominated by nobody, and the hypervolume (tradeoff_front.hpp) of all fixed subgraphs
+/// together, and what each single policy adds to it, in
 ///
 /// * lap time and effort per metre,
 /// * lap time and comfort per metre,
 /// * reference error of driven positions and effort per metre,
 ///
-/// of all rows with values, and of those that keep the limits of the speed zones: above them in no
-/// more than kMostAboveLimit_mps at any time, whatever the start. Rows without values do not
-/// compete.
+/// of all rows, and of those that keep the limits of the speed zones, with the same reference
+/// points. Rows without values do not compete.
 [[nodiscard]] std::string tradeoff_markdown(const std::vector<RunFigures>& runs);
 
 /// The rows as comma-separated values; what is not known is empty.
 [[nodiscard]] std::string tradeoff_csv(const std::vector<RunFigures>& runs);
 
 /// Dominance and hypervolumes as comma-separated values: for each scenario, profile, set of rows
-/// (`all`, `within_limits`) and pair of quantities a row per row that competes; the hypervolume is
-/// that of all fixed subgraphs with this one, `fixed` that of all fixed subgraphs.
+/// (`all`, `within_limits`) and pair of quantities one row per row that competes, with the
+/// hypervolume of all fixed subgraphs (`fixed`) and of these and the row together (`with`).
 [[nodiscard]] std::string tradeoff_fronts_csv(const std::vector<RunFigures>& runs);
 
 }  // namespace hlc

@@ -13,6 +13,7 @@ std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones, const Dr
   const Nanoseconds to = from + facts.steps * facts.period;
   std::size_t inside = 0;
   std::size_t above = 0;
+  std::size_t clearly_above = 0;
   ZoneExcess excess;
   for (const auto& [vehicle, drive] : drives) {
     for (const DrivenSample& sample : drive) {
@@ -23,11 +24,16 @@ std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones, const Dr
       const double excess_mps = std::abs(sample.speed_mps) - *limit_mps;
       if (excess_mps <= 0.0) continue;
       ++above;
+      if (excess_mps > kFollowerExcess_mps) ++clearly_above;
       excess.max_mps = std::max(excess.max_mps, excess_mps);
     }
   }
   if (inside == 0) return std::nullopt;
-  excess.share = static_cast<double>(above) / static_cast<double>(inside);
+  const auto share_of = [&](std::size_t ticks) {
+    return static_cast<double>(ticks) / static_cast<double>(inside);
+  };
+  excess.share = share_of(above);
+  excess.clear_share = share_of(clearly_above);
   return excess;
 }
 

@@ -12,9 +12,14 @@ namespace hlc {
 /// tolerance: a car that is to drive at a limit is above it now and then, by what its follower
 /// corrects.
 struct ZoneExcess {
-  double share{};    ///< of the time that all vehicles together spent in zones, that above
-  double max_mps{};  ///< the largest excess; 0 if there was none
+  double share{};        ///< of the time that all vehicles together spent in zones, that above
+  double clear_share{};  ///< that more than kFollowerExcess_mps above
+  double max_mps{};      ///< the largest excess; 0 if there was none
 };
+
+/// What is more than that is no matter of the follower: on subgraphs without a trim or maneuver
+/// above 0.6 m/s the simulated cars are at most 0.06 m/s faster.
+inline constexpr double kFollowerExcess_mps = 0.1;
 
 /// From the first step to the end of the last one. A vehicle is in a zone if its position is; of
 /// several zones the lowest limit counts.

@@ -1,0 +1,55 @@
+#include <algorithm>
+
+#include "hlc_bridge/core/csv_field.hpp"
+#include "vehicle_sim/campaign/number_text.hpp"
+#include "vehicle_sim/campaign/tradeoff.hpp"
+#include "vehicle_sim/campaign/tradeoff_rows.hpp"
+
+namespace hlc {
+
+std::string tradeoff_csv(const std::vector<RunFigures>& runs) {
+  std::string text = "scenario,profile,subgraph,policy";
+  for (const TradeoffQuantity& quantity : tradeoff_quantities()) text += "," + quantity.key;
+  text += ",keeps_limits,laps,good_runs,runs\n";
+  for (const TradeoffGroup& group : tradeoff_groups(runs)) {
+    for (const TradeoffRow& row : group.rows) {
+      text += csv_field(group.scenario) + "," + group.profile + "," +
+              csv_field(row.first().subgraph) + "," + csv_field(row.first().policy);
+      for (const std::optional<double>& median : row.medians) {
+        text += "," + (median ? number(*median, 6) : "");
+      }
+      text += "," + std::to_string(row.keeps_limits ? 1 : 0) + "," + std::to_string(row.laps) +
+              "," + std::to_string(row.good_runs) + "," + std::to_string(row.runs.size()) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string tradeoff_fronts_csv(const std::vector<RunFigures>& runs) {
+  std::string text =
+      "scenario,profile,rows,x,y,reference_x,reference_y,subgraph,policy,not_dominated,fixed,"
+      "with\n";
+  for (const TradeoffGroup& group : tradeoff_groups(runs)) {
+    for (const bool within_limits : {false, true}) {
+      for (const TradeoffPair& pair : tradeoff_pairs()) {
+        const std::optional<TradeoffCompetition> one = competition(group, pair, within_limits);
+        if (!one) continue;
+        const std::string begin =
+            csv_field(group.scenario) + "," + group.profile + "," +
+            (within_limits ? "within_limits" : "all") + "," + tradeoff_quantities()[pair.x].key +
+            "," + tradeoff_quantities()[pair.y].key + "," + number(one->reference(0), 6) + "," +
+            number(one->reference(1), 6) + ",";
+        for (std::size_t i = 0; i < one->rows.size(); ++i) {
+          const RunFigures& first = one->rows[i]->first();
+          const bool is_in_front = std::ranges::binary_search(one->front.not_dominated, i);
+          text += begin + csv_field(first.subgraph) + "," + csv_field(first.policy) + "," +
+                  (is_in_front ? "1," : "0,") + number(one->front.fixed_volume, 6) + "," +
+                  number(one->front.volume_with[i], 6) + "\n";
+        }
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace hlc

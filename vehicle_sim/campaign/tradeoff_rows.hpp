@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vehicle_sim/campaign/run_figures.hpp"
+#include "vehicle_sim/campaign/tradeoff_front.hpp"
+
+/// What the tables of tradeoff.hpp are made of.
+namespace hlc {
+
+/// A column.
+struct TradeoffQuantity {
+  std::string name;  ///< with its unit
+  std::string key;   ///< in comma-separated values
+  int decimals;
+  std::optional<double> (*of)(const RunFigures&);
+};
+
+[[nodiscard]] const std::vector<TradeoffQuantity>& tradeoff_quantities();
+
+/// Two columns that are weighed against each other, by their indices.
+struct TradeoffPair {
+  std::size_t x;
+  std::size_t y;
+};
+
+[[nodiscard]] const std::vector<TradeoffPair>& tradeoff_pairs();
+[[nodiscard]] std::string name_of(const TradeoffPair& pair);
+
+/// The runs on one fixed subgraph or with one policy.
+struct TradeoffRow {
+  std::vector<const RunFigures*> runs;
+  std::vector<std::optional<double>> medians;  ///< of tradeoff_quantities()
+  std::size_t laps{};                          ///< runs that count, with a lap
+  std::size_t good_runs{};                     ///< runs that count
+  bool keeps_limits{true};                     ///< kMostAboveLimit
+
+  [[nodiscard]] const RunFigures& first() const { return *runs.front(); }
+};
+
+/// The rows of one scenario and profile, in the order of their appearance.
+struct TradeoffGroup {
+  std::string scenario;
+  std::string profile;
+  std::vector<TradeoffRow> rows;
+  bool has_zones{};  ///< somebody came into one
+};
+
+/// They point into the runs.
+[[nodiscard]] std::vector<TradeoffGroup> tradeoff_groups(const std::vector<RunFigures>& runs);
+
+/// How some rows compete in two columns.
+struct TradeoffCompetition {
+  std::vector<const TradeoffRow*> rows;  ///< those with both values
+  Objectives reference;                  ///< of all rows with values, also those left out
+  TradeoffFront front;
+};
+
+/// @param within_limits  only rows that keep the limits
+/// @return nothing if nobody competes
+[[nodiscard]] std::optional<TradeoffCompetition> competition(const TradeoffGroup& group,
+                                                             const TradeoffPair& pair,
+                                                             bool within_limits);
+
+}  // namespace hlc
