@@ -35,6 +35,14 @@ TEST(SpeedZones, OfSeveralTheLowestLimitCounts) {
   EXPECT_EQ(limits_mps(zones), (std::vector<double>{0.4, 0.5, 0.6}));
 }
 
+TEST(SpeedZones, HoldWhereAPositionIs) {
+  const std::vector<SpeedZone> zones{zone(2.0, 3.0, 0.6), zone(2.5, 2.7, 0.4), zone(2.0, 3.0, 0.5)};
+  EXPECT_EQ(limit_at(zones, {2.1, 0.9}), 0.5);
+  EXPECT_EQ(limit_at(zones, {2.6, -0.9}), 0.4);
+  EXPECT_EQ(limit_at(zones, {2.6, 1.1}), std::nullopt);
+  EXPECT_EQ(limit_at({}, {2.6, 0.0}), std::nullopt);
+}
+
 TEST(SpeedZones, AClosedPathIsLookedAtBeyondItsEnd) {
   const ReferencePath round({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {0.0, 4.0}}, true);
   EXPECT_EQ(limit_on(std::vector{zone(0.1, 0.4, 0.4)}, round, 15.8, 0.5), 0.4);

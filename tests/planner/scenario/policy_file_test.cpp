@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test_automaton.hpp"
 
 namespace hlc::policy_file_test {
@@ -15,7 +19,10 @@ using testing::HasSubstr;
 std::map<std::string, ReconfigurationSettings> read(const std::string& text) {
   static const Subgraph base =
       test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims);
-  return read_policies(YamlNode::parse(text, "test.yaml"), base, 8, {});
+  const YamlNode node = YamlNode::parse(text, "test.yaml");
+  auto policies = read_policies(node);
+  for (const auto& [name, settings] : policies) check_policy(node, name, settings, base, 8, {});
+  return policies;
 }
 
 std::string refusal_of(const std::string& text) {
@@ -70,7 +77,8 @@ policies:
 TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"none: {}", "policy 'none', allowed any other name"},
-      {"a: {zones: [{x_m: [2, 1], y_m: [0, 1], max_speed_mps: 0.5}]}", "x_m[2] = 1, allowed a number > 2"},
+      {"a: {zones: [{x_m: [2, 1], y_m: [0, 1], max_speed_mps: 0.5}]}",
+       "x_m[2] = 1, allowed a number > 2"},
       {"a: {zones: [{x_m: [2], y_m: [0, 1], max_speed_mps: 0.5}]}", "two numbers, [from, to]"},
       {"a: {zones: [{x_m: [1, 2], y_m: [0, 1], max_speed_mps: 0.2}]}",
        "policy 'a': in the zone of 0.2 m/s: speed limit 0.2 m/s, allowed at least 0.4"},
@@ -118,6 +126,29 @@ TEST(PolicyFile, TheScenariosPolicyHoldsUnlessAnotherIsChosen) {
                  "--policy = zones, allowed none, look_ahead, mixed, situation, time, zone, "
                  "zone_look_ahead");
   }
+}
+
+// D has no trim 3 that could be switched off.
+TEST(PolicyFile, OnAnotherSubgraphOnlyThePolicyThatIsDrivenMustFit) {
+  const std::string folder = test::source_folder() + "/launch_scripts/";
+  std::ifstream good(folder + "scenarios/paper_red_alone.yaml");
+  std::string text((std::istreambuf_iterator<char>(good)), {});
+  for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;) {
+    text.replace(at, 3, folder);
+  }
+  const TemporaryFolder own;
+  put(own / "s.yaml", text + R"(
+policies:
+  without_3: {rules: [{time: [{from_s: 0, request: {trims_off: [3]}}]}]}
+  slow: {rules: [{time: [{from_s: 0, request: {max_speed_mps: 0.7}}]}]}
+)");
+  const auto read_d = [&](const std::string& policy) {
+    return read_scenario({.file = own / "s.yaml", .subgraph = "D", .policy = policy});
+  };
+  EXPECT_EQ(read_d("none").policies.size(), 2U);
+  EXPECT_EQ(read_d("slow").policy, "slow");
+  EXPECT_THAT([&] { static_cast<void>(read_d("without_3")); },
+              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("policy 'without_3'")));
 }
 
 }  // namespace

@@ -93,8 +93,23 @@ TEST(EvaluationTable, OtherScenariosHaveNoColumnOfThePaper) {
 
 TEST(EvaluationTable, AsCommaSeparatedValuesHasOneRowPerQuantity) {
   const std::string table = evaluation_csv({run("B", 15.0, 20.0), run("B", 16.0, 24.0)});
-  EXPECT_THAT(table, HasSubstr("\npaper_three_cars,2022,B,lap_s,2,15.500000,15.000000,16.000000,"
-                               "15.8\n"));
+  EXPECT_THAT(table,
+              HasSubstr("\npaper_three_cars,2022,B,none,lap_s,2,15.500000,15.000000,16.000000,"
+                        "15.8\n"));
+}
+
+TEST(EvaluationTable, APolicyHasAColumnOfItsOwnAndNoneOfThePaper) {
+  RunFigures switched = run("B", 17.0, 10.0);
+  switched.policy = "zones, fast";
+  RunFigures failed = switched;
+  failed.failure = "somebody died";
+  const std::vector<RunFigures> runs{run("B", 15.0, 20.0), switched, failed};
+  const std::string table = evaluation_markdown(runs, {});
+  EXPECT_THAT(table, HasSubstr("| | B | paper | policy zones, fast | paper |"));
+  EXPECT_THAT(table, HasSubstr("| Time for one lap [s] | 15.00 | 15.8 | 17.00 | |"));
+  EXPECT_THAT(table, HasSubstr("\nFailed: policy zones, fast, start 0: somebody died\n"));
+  EXPECT_THAT(evaluation_csv(runs), HasSubstr("\npaper_three_cars,2022,B,\"zones, fast\",lap_s,1,"
+                                              "17.000000,17.000000,17.000000,\n"));
 }
 
 }  // namespace

@@ -12,11 +12,13 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<DrivenRun> runs_of(const std::string& scenario, std::vector<std::string> subgraphs) {
+std::vector<DrivenRun> runs_of(const std::string& scenario, std::vector<std::string> subgraphs,
+                               std::vector<std::string> policies = {}) {
   const Campaign campaign(
       {.scenarios = {test::source_folder() + "/launch_scripts/scenarios/" + scenario + ".yaml"},
        .profiles = {"default"},
        .subgraphs = std::move(subgraphs),
+       .policies = std::move(policies),
        .steps = 15});
   Nanoseconds now = 0;
   std::vector<DrivenRun> runs;
@@ -110,6 +112,46 @@ TEST(Figures, DistancesHaveALinePerPairAndThoseOfContactAndMargins) {
   EXPECT_THAT(svg, Not(HasSubstr("blue and green")));
   EXPECT_EQ(count(svg, "<polyline"), 3U + 2U);
   expect_finite(svg);
+}
+
+TEST(Figures, SubgraphsHaveABandPerStretchWithTheSpeedAndTheZone) {
+  std::vector<DrivenRun> runs = runs_of("reconfiguration", {}, {"zone", "time"});
+  runs.erase(runs.begin() + 1);
+  ASSERT_EQ(runs.back().scenario.policy, "time");
+  DrivenRun& timed = runs.back();
+  // As if vehicle 1 had planned in steps 5 ... 7 on another one.
+  for (ReportRecord& record : timed.experiment.reports) {
+    const std::uint64_t step =
+        record.report.step.value - timed.experiment.facts.first_step.value_or(0);
+    const bool is_other = record.report.vehicle == VehicleId{1} && step >= 5 && step < 8;
+    record.report.subgraph = is_other ? "A < B" : "B";
+  }
+  const std::string of_policy = subgraphs_figure(runs);
+  for (const char* text : {"policy time, red", "policy time, blue", "policy time, green", "B",
+                           "A &lt; B", "speed", "speed [m/s]"}) {
+    EXPECT_THAT(of_policy, HasSubstr(std::string(">") + text + "<"));
+  }
+  EXPECT_THAT(of_policy, Not(HasSubstr("subgraph J2")));  // fixed: nothing to see
+  EXPECT_EQ(count(of_policy, "<polygon"), 3U + 1U + 1U);
+  EXPECT_EQ(count(of_policy, "<polygon fill=\"" + series_colour(1) + "\""), 1U);
+  EXPECT_EQ(count(of_policy, "<polyline"), 3U);
+  EXPECT_THAT(of_policy, Not(HasSubstr("zone")));
+  expect_finite(of_policy);
+}
+
+TEST(Figures, SubgraphsShadeTheTimeInZones) {
+  std::vector<DrivenRun> runs = runs_of("reconfiguration", {}, {"zone"});
+  const std::string svg = subgraphs_figure(runs);
+  for (const char* text : {"in a speed zone", "its limit", "J2", "J2, at most 0.6 m/s"}) {
+    EXPECT_EQ(count(svg, std::string(">") + text + "<"), 1U) << text;
+  }
+  EXPECT_GT(count(svg, "<polygon fill=\"#e4e4e4\""), 0U);
+  EXPECT_EQ(count(svg, "<polygon fill=\"#e4e4e4\""), count(svg, "stroke-dasharray") - 1);
+  // Without a policy there are no zones, and fixed subgraphs are drawn.
+  runs.pop_back();
+  const std::string fixed = subgraphs_figure(runs);
+  EXPECT_THAT(fixed, HasSubstr(">subgraph J2, red<"));
+  EXPECT_THAT(fixed, Not(HasSubstr("zone")));
 }
 
 }  // namespace
