@@ -65,7 +65,8 @@ TEST_F(Evaluate, WritesOneRecordPerRunAndTablesBesideThePapersColumns) {
     EXPECT_TRUE(runs[i]["failure"].is_null());
   }
   EXPECT_THAT(text_of(out_ / "table.md"), HasSubstr("| | B | paper | D | paper |"));
-  EXPECT_THAT(text_of(out_ / "table.csv"), HasSubstr("paper_red_alone,default,D,generated_max,2,"));
+  EXPECT_THAT(text_of(out_ / "table.csv"),
+              HasSubstr("paper_red_alone,default,D,none,generated_max,2,"));
 }
 
 TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
@@ -244,6 +245,8 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--scenario nowhere", "--scenario = nowhere"},
                                        {"--subgraphs Z", "Z"},
                                        {"--subgraphs B,D,B", "--subgraphs = B twice"},
+                                       {"--policies zone", "--policies = zone, allowed those of"},
+                                       {"--policies zone,zone", "--policies = zone twice"},
                                        {"--profile 2022,2022", "--profile = 2022 twice"},
                                        {"--scenario circle,circle", "--scenario = circle twice"},
                                        {"--starts 0", "--starts"},
@@ -262,6 +265,94 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
     EXPECT_THAT(outcome.output, HasSubstr(message));
     EXPECT_FALSE(std::filesystem::exists(out_)) << flags;
   }
+}
+
+/// Three cars on fixed subgraphs and with policies.
+class EvaluatePolicies : public Evaluate {
+ protected:
+  [[nodiscard]] Outcome drive(const std::string& flags) const {
+    return run_program("evaluate --scenario reconfiguration --steps 20" + kScenarios + " --out " +
+                       out_.string() + " " + flags);
+  }
+};
+
+TEST_F(EvaluatePolicies, AreInRecordsAndTablesAndWeighedAgainstTheFixedSubgraphs) {
+  const Outcome done = drive("--subgraphs J2,comfort --policies zone,situation --jobs 2");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  const nlohmann::json written = results();
+  EXPECT_EQ(written["campaign"]["policies"], (nlohmann::json{"zone", "situation"}));
+  const nlohmann::json& runs = written["runs"];
+  ASSERT_EQ(runs.size(), 4U);
+  const char* const kSubgraphs[] = {"J2", "comfort", "J2", "J2"};
+  const char* const kPolicies[] = {"none", "none", "zone", "situation"};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_EQ(runs[i]["subgraph"], kSubgraphs[i]);
+    EXPECT_EQ(runs[i]["policy"], kPolicies[i]);
+    EXPECT_TRUE(runs[i]["figures"]["effort_per_m"].is_number());
+    double shares = 0.0;
+    for (const auto& [name, share] : runs[i]["figures"]["subgraph_shares"].items()) {
+      shares += share.get<double>();
+    }
+    EXPECT_NEAR(shares, 1.0, 1e-12);
+    EXPECT_TRUE(i >= 2 || runs[i]["figures"]["switches"] == 0);
+  }
+  EXPECT_THAT(text_of(out_ / "table.md"),
+              HasSubstr("| | J2 | comfort | policy zone | policy situation |"));
+  EXPECT_THAT(text_of(out_ / "table.csv"), HasSubstr(",default,J2,zone,generated_max,1,"));
+  // 20 steps are no lap: nobody competes.
+  const std::string tradeoff = text_of(out_ / "tradeoff.md");
+  EXPECT_THAT(tradeoff, HasSubstr("| policy zone | - |"));
+  EXPECT_THAT(done.output, HasSubstr(tradeoff));
+  EXPECT_THAT(text_of(out_ / "tradeoff.csv"), HasSubstr("\nreconfiguration,default,J2,zone,,"));
+  EXPECT_TRUE(std::filesystem::exists(out_ / "tradeoff_fronts.csv"));
+}
+
+TEST_F(EvaluatePolicies, GoOnWhereTheyWereInterruptedInTheirOwnFolderOnly) {
+  ASSERT_EQ(drive("").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(out_ / "tradeoff.md"));
+  const std::string without = text_of(out_ / "runs.jsonl");
+  const Outcome other = drive("--policies zone");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.output, HasSubstr("(there: policies [])"));
+  EXPECT_EQ(text_of(out_ / "runs.jsonl"), without);
+  EXPECT_THAT(drive("").output, HasSubstr("1 of 1 runs are there already"));
+
+  std::filesystem::remove_all(out_);
+  ASSERT_EQ(drive("--policies zone").exit_code, 0);
+  const nlohmann::json whole = timeless(results());
+  const std::string lines = text_of(out_ / "runs.jsonl");
+  put(out_ / "runs.jsonl", lines.substr(0, lines.find("\n{\"run\":1") + 40));
+  const Outcome again = drive("--policies zone");
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("1 of 2 runs are there already"));
+  EXPECT_EQ(timeless(results()), whole);
+  EXPECT_THAT(drive("").output, HasSubstr("(there: policies [\"zone\"])"));
+}
+
+TEST_F(EvaluatePolicies, AreRefusedByTheirFlagWithThoseThatThereAre) {
+  for (const auto& [flags, message] :
+       {std::pair{"--policies zones",
+                  "reconfiguration.yaml: look_ahead, mixed, situation, time, zone, "
+                  "zone_look_ahead\n"},
+        {"--policies none", "(fixed subgraphs, --subgraphs, are driven without one)\n"},
+        {"--policies zone --scenario paper_red_alone", "paper_red_alone.yaml: it has none\n"}}) {
+    const Outcome outcome = drive(flags);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_THAT(outcome.output, HasSubstr("--policies = "));
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(out_)) << flags;
+  }
+}
+
+TEST_F(EvaluatePolicies, RunFoldersSayWhichOneDroveAndFiguresShowIt) {
+  ASSERT_EQ(drive("--policies zone --keep_runs --figures subgraphs").exit_code, 0);
+  for (const auto& [run, policy] : {std::pair{"0", "none"}, {"1", "zone"}}) {
+    EXPECT_THAT(text_of(out_ / "runs" / run / "configuration" / "flags.yaml"),
+                HasSubstr(std::string("policy: \"") + policy + "\"\n"));
+  }
+  EXPECT_THAT(text_of(out_ / "figures" / "subgraphs_reconfiguration_default.svg"),
+              HasSubstr(">policy zone, blue<"));
 }
 
 TEST_F(Evaluate, KeepsRunFoldersThatTheExportAndTheSummaryRead) {
