@@ -108,6 +108,12 @@ TEST_F(Reconfiguration, NewWeightsAreSolvedBesideTheRunAndDrivenOn) {
   const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(
       eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 10; }));
+  EXPECT_TRUE(eventually(kPatience, [&] {
+    return std::ranges::any_of(lab_.reports(), [](const ReportRecord& record) {
+      return record.report.vehicle == VehicleId{2} && record.report.maneuver == "J1 0.9 J2 0.1" &&
+             record.report.subgraph == "B, weights J1 0.9 J2 0.1";
+    });
+  })) << "the records name the new maneuvers";
   const Asked unknown = ask({"--vehicle=2", "--weights=J1=0.3,J9=0.7"});
   EXPECT_EQ(unknown.code, 1) << unknown.output;
   EXPECT_THAT(unknown.output, HasSubstr("vehicle 2: refused: weights: criterion 'J9', allowed J1"));
