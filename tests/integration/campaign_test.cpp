@@ -19,6 +19,7 @@ struct Same {
   std::string scenario;
   std::string profile;
   std::optional<std::uint64_t> noise_seed;
+  std::string policy{};
 };
 
 class SameRun : public testing::TestWithParam<Same> {};
@@ -26,6 +27,7 @@ class SameRun : public testing::TestWithParam<Same> {};
 std::string trace_with_processes(const Same& same, int steps) {
   LabProcesses lab({.scenario = same.scenario,
                     .profile = same.profile,
+                    .policy = same.policy,
                     .steps = steps,
                     .noise_seed = same.noise_seed});
   lab.start_all();
@@ -38,7 +40,8 @@ TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
   constexpr int kSteps = 40;
   const Scenario scenario = read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
-       .profile = GetParam().profile});
+       .profile = GetParam().profile,
+       .policy = GetParam().policy.empty() ? std::nullopt : std::optional(GetParam().policy)});
   const ExperimentOptions options{.steps = kSteps, .noise_seed = GetParam().noise_seed};
   const Experiment experiment = drive_experiment(scenario, options);
   const std::vector<StepRecord> rows =
@@ -50,14 +53,17 @@ TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
   EXPECT_EQ(trace_with_processes(GetParam(), kSteps), trace);
 }
 
-INSTANTIATE_TEST_SUITE_P(Campaign, SameRun,
-                         testing::Values(Same{"paper_three_cars", "default", std::nullopt},
-                                         Same{"paper_three_cars", "2022", 7},
-                                         Same{"circle", "default", 3}),
-                         [](const auto& one) {
-                           return one.param.scenario + "_" + one.param.profile +
-                                  (one.param.noise_seed ? "_with_noise" : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Campaign, SameRun,
+    testing::Values(Same{"paper_three_cars", "default", std::nullopt},
+                    Same{"paper_three_cars", "2022", 7}, Same{"circle", "default", 3},
+                    Same{"reconfiguration", "default", 5},
+                    Same{"reconfiguration", "2022", std::nullopt, "zone_look_ahead"}),
+    [](const auto& one) {
+      return one.param.scenario + "_" + one.param.profile +
+             (one.param.policy.empty() ? "" : "_" + one.param.policy) +
+             (one.param.noise_seed ? "_with_noise" : "");
+    });
 
 }  // namespace
 }  // namespace hlc::test

@@ -23,8 +23,9 @@ constexpr auto kPatience = 60s;
 
 class Reconfiguration : public testing::Test {
  protected:
-  Reconfiguration()
-      : lab_({.scenario = "on_request", .steps = 1000, .simulated_time = false}) {
+  explicit Reconfiguration(const std::string& scenario = "on_request",
+                           const std::string& policy = "")
+      : lab_({.scenario = scenario, .policy = policy, .steps = 1000, .simulated_time = false}) {
     lab_.start_all();
   }
 
@@ -107,6 +108,12 @@ TEST_F(Reconfiguration, NewWeightsAreSolvedBesideTheRunAndDrivenOn) {
   const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(
       eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 10; }));
+  EXPECT_TRUE(eventually(kPatience, [&] {
+    return std::ranges::any_of(lab_.reports(), [](const ReportRecord& record) {
+      return record.report.vehicle == VehicleId{2} && record.report.maneuver == "J1 0.9 J2 0.1" &&
+             record.report.subgraph == "B, weights J1 0.9 J2 0.1";
+    });
+  })) << "the records name the new maneuvers";
   const Asked unknown = ask({"--vehicle=2", "--weights=J1=0.3,J9=0.7"});
   EXPECT_EQ(unknown.code, 1) << unknown.output;
   EXPECT_THAT(unknown.output, HasSubstr("vehicle 2: refused: weights: criterion 'J9', allowed J1"));
@@ -129,6 +136,38 @@ TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
   const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(
       eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 5; }));
+  expect_good_end();
+}
+
+class ReconfigurationInAZone : public Reconfiguration {
+ protected:
+  ReconfigurationInAZone() : Reconfiguration("reconfiguration", "zone") {}
+
+  /// Vehicle 2 has planned on that subgraph since then.
+  [[nodiscard]] bool has_planned_on(const std::string& subgraph, StepIndex since) const {
+    const std::vector<ReportRecord> records = lab_.reports();
+    return std::ranges::any_of(records, [&](const ReportRecord& record) {
+      const Report& report = record.report;
+      return report.vehicle == VehicleId{2} && report.step >= since &&
+             report.status == StepStatus::kPlanned && report.subgraph == subgraph;
+    });
+  }
+};
+
+TEST_F(ReconfigurationInAZone, TheZonesLimitIsLaidOnWhatTheOperatorAsksFor) {
+  const auto drives_in_and_out = [&](const std::string& asked, StepIndex since) {
+    return eventually(kPatience, [&] {
+      return has_planned_on(asked, since) && has_planned_on(asked + ", at most 0.6 m/s", since);
+    });
+  };
+  EXPECT_TRUE(drives_in_and_out("J2", {}));
+  const Asked comfort = ask({"--vehicle=2", "--criterion=comfort"});
+  EXPECT_EQ(comfort.code, 0) << comfort.output;
+  const StepIndex since{real_time_now() / kNanosecondsPerSecond * 5};
+  EXPECT_TRUE(drives_in_and_out("J2, label comfort", since));
+  const Asked own = ask({"--vehicle=2"});
+  EXPECT_EQ(own.code, 0) << own.output;
+  EXPECT_TRUE(drives_in_and_out("J2", {real_time_now() / kNanosecondsPerSecond * 5 + 2}));
   expect_good_end();
 }
 
