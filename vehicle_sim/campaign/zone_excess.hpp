@@ -18,7 +18,7 @@ struct ZoneExcess {
 };
 
 /// What is more than that is no matter of the follower: on subgraphs without a trim or maneuver
-/// above 0.6 m/s the simulated cars are at most 0.06 m/s faster.
+/// above 0.6 m/s the simulated cars are at most 0.065 m/s faster.
 inline constexpr double kFollowerExcess_mps = 0.1;
 
 /// From the first step to the end of the last one. A vehicle is in a zone if its position is; of
