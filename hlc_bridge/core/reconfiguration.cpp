@@ -27,24 +27,29 @@ PreparedRequest prepare(const RequestBase& base, const AutomatonRequest& request
   return prepared;
 }
 
-AutomatonAnswer Reconfiguration::take(PreparedRequest prepared, StepIndex now) {
-  const AutomatonRequest& request = prepared.request;
-  AutomatonAnswer answer{.vehicle = request.vehicle,
-                         .id = request.id,
-                         .outcome = RequestOutcome::kStale,
-                         .step = now,
-                         .text = "a later request counts"};
-  if (request.id <= newest_id_) return answer;
-  if (!prepared.choice) {
-    answer.outcome = RequestOutcome::kRefused;
-    answer.text = std::move(prepared.refusal);
-    return answer;
+std::vector<AutomatonAnswer> Reconfiguration::take(PreparedRequest prepared, StepIndex now) {
+  const auto answer_to = [now](const AutomatonRequest& request, RequestOutcome outcome,
+                               const std::string& text) {
+    return AutomatonAnswer{.vehicle = request.vehicle,
+                           .id = request.id,
+                           .outcome = outcome,
+                           .step = now,
+                           .text = text};
+  };
+  const std::string later = "a later request counts";
+  if (prepared.request.id <= newest_id_) {
+    return {answer_to(prepared.request, RequestOutcome::kStale, later)};
   }
-  newest_id_ = request.id;
-  answer.outcome = RequestOutcome::kAccepted;
-  answer.text = prepared.choice->under({}).subgraph->spec().name;
+  if (!prepared.choice) {
+    return {answer_to(prepared.request, RequestOutcome::kRefused, prepared.refusal)};
+  }
+  newest_id_ = prepared.request.id;
+  std::vector<AutomatonAnswer> answers;
+  if (waiting_) answers.push_back(answer_to(waiting_->request, RequestOutcome::kStale, later));
+  answers.push_back(answer_to(prepared.request, RequestOutcome::kAccepted,
+                              prepared.choice->under({}).subgraph->spec().name));
   waiting_ = std::move(prepared);
-  return answer;
+  return answers;
 }
 
 std::optional<AutomatonAnswer> Reconfiguration::begin_step(SubgraphChoice& choice, StepIndex step,

@@ -45,9 +45,9 @@ struct PreparedRequest {
 /// and waits for its time.
 class Reconfiguration {
  public:
-  /// What is told of it at once.
+  /// What is told of it at once, and of an accepted one that it takes the place of.
   /// @param now  the step before which it came
-  [[nodiscard]] AutomatonAnswer take(PreparedRequest prepared, StepIndex now);
+  [[nodiscard]] std::vector<AutomatonAnswer> take(PreparedRequest prepared, StepIndex now);
 
   /// To be called before every step, before SubgraphChoice::begin_step. Tells `choice` if a request
   /// holds from this step on, and says so; the answer's text, the name of what is then planned on,

@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/command_sender.hpp"
 
+#include <thread>
+
 #include <utility>
 
 #include "hlc_bridge/dds/topics.hpp"
@@ -33,6 +35,12 @@ void CommandSender::send(const AnswerToList& answer) {
 std::optional<CommandSender::Clock::time_point> CommandSender::copy_due() const {
   if (!waiting_copy_) return std::nullopt;
   return waiting_copy_->due;
+}
+
+void CommandSender::send_copy_after_its_pause() {
+  if (!waiting_copy_) return;
+  std::this_thread::sleep_until(waiting_copy_->due);
+  send_copy_when_due();
 }
 
 void CommandSender::send_copy_when_due() {

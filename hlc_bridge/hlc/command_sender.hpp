@@ -30,6 +30,8 @@ class CommandSender {
   /// When a copy waits: until then.
   [[nodiscard]] std::optional<Clock::time_point> copy_due() const;
   void send_copy_when_due();
+  /// Waits until it is due, milliseconds.
+  void send_copy_after_its_pause();
   void drop_copy() { waiting_copy_.reset(); }
 
  private:

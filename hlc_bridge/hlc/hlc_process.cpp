@@ -374,8 +374,9 @@ void HlcProcess::answer(const VehicleStateList& list) {
   const bool had_begun = core_.has_begun();
   const bool is_running =
       is_ready_ && core_.begins(list, *observation, options_.logical_time, trigger);
+  if (is_running) note_start(observation->step, trigger);
   const Nanoseconds reconfiguring_from = thread_time_now();
-  reconfigure(list, observation->step, is_running);
+  reconfigure(list, observation->step);
   const Nanoseconds reconfiguring_ns = thread_time_now() - reconfiguring_from;
   if (is_running) {
     if (!had_begun) tell_begin(list, trigger);
@@ -392,7 +393,7 @@ void HlcProcess::answer(const VehicleStateList& list) {
   report_writer_.write(record);
   draw(record.report, list);
   if (core_.has_begun()) look_back();
-  if (is_running) look_ahead(record.report);
+  if (is_running) look_ahead(list, record.report);
 }
 
 RequestBase HlcProcess::request_base() const {
@@ -403,15 +404,25 @@ RequestBase HlcProcess::request_base() const {
           .search = options.search};
 }
 
-void HlcProcess::reconfigure(const VehicleStateList& list, StepIndex step, bool is_running) {
+/// In real time the trigger's, the same for all: who comes back later counts from there, too.
+void HlcProcess::note_start(StepIndex step, std::optional<Nanoseconds> trigger) {
+  if (first_step_) return;
+  first_step_ = step;
+  if (options_.logical_time || !trigger) return;
+  first_step_ = std::min(step, StepIndex{(*trigger + step_ns_ - 1) / step_ns_});
+}
+
+void HlcProcess::reconfigure(const VehicleStateList& list, StepIndex step) {
   if (options_.logical_time) preparation_.wait();
   for (PreparedRequest& prepared : preparation_.take()) {
-    tell(reconfiguration_.take(std::move(prepared), step));
+    for (const AutomatonAnswer& answer : reconfiguration_.take(std::move(prepared), step)) {
+      tell(answer);
+    }
   }
   std::optional<AutomatonAnswer> answer = reconfiguration_.begin_step(choice_, step, list.t_now);
   Controller& controller = core_.controller();
   const bool has_switched =
-      choice_.begin_step(controller, step, is_running, battery_voltage_v(list, vehicle_));
+      choice_.begin_step(controller, step, first_step_, battery_voltage_v(list, vehicle_));
   if (answer) {
     answer->text = controller.subgraph().spec().name;
     tell(*answer);
@@ -421,12 +432,13 @@ void HlcProcess::reconfigure(const VehicleStateList& list, StepIndex step, bool 
   }
 }
 
-void HlcProcess::look_ahead(const Report& report) {
-  HeardInStep heard;
-  if (choice_.looks_ahead()) {
-    heard = {.traffic = exchange_.heard<Traffic>(), .predictions = exchange_.heard<Prediction>()};
-  }
-  choice_.end_step(core_.controller(), report, heard);
+/// The copy of the command goes first: without it a controller that died meanwhile would leave its
+/// vehicle half a plan.
+void HlcProcess::look_ahead(const VehicleStateList& list, const Report& report) {
+  if (choice_.looks_ahead()) commands_.send_copy_after_its_pause();
+  const bool has_time = options_.logical_time ||
+                        real_time_now() < deadline_in_step(list, options_.deadlines.look_ahead);
+  choice_.end_step(core_.controller(), report, has_time);
 }
 
 void HlcProcess::tell(const AutomatonAnswer& answer) {

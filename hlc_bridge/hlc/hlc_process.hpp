@@ -33,7 +33,8 @@ struct StepDeadlines {
   double traffic{0.20};
   double predecessors{0.55};
   double settle{0.75};
-  double command{0.90};  ///< later than this the plan in force stays, and the miss is counted
+  double command{0.90};     ///< later than this the plan in force stays, and the miss is counted
+  double look_ahead{0.50};  ///< later than this policies do not look ahead in this step
 };
 
 struct HlcProcessOptions {
@@ -132,8 +133,9 @@ class HlcProcess {
   [[nodiscard]] bool wait_for_everybody();
 
   [[nodiscard]] RequestBase request_base() const;
-  void reconfigure(const VehicleStateList& list, StepIndex step, bool is_running);
-  void look_ahead(const Report& report);
+  void note_start(StepIndex step, std::optional<Nanoseconds> trigger);
+  void reconfigure(const VehicleStateList& list, StepIndex step);
+  void look_ahead(const VehicleStateList& list, const Report& report);
   void tell(const AutomatonAnswer& answer);
   void answer(const VehicleStateList& list);
   [[nodiscard]] ReportRecord run_step(const VehicleStateList& list, const Observation& observation);
@@ -177,6 +179,7 @@ class HlcProcess {
   LabLog lab_log_;
   Writer<AutomatonAnswer> automaton_answer_writer_;
   SubgraphChoice choice_;
+  std::optional<StepIndex> first_step_;  ///< of the experiment, once it has begun here
   SubgraphPreparation preparation_;
   Reconfiguration reconfiguration_;
 

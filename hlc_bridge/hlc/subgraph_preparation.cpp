@@ -35,7 +35,7 @@ std::vector<PreparedRequest> SubgraphPreparation::take() {
 }
 
 void SubgraphPreparation::wait() const {
-  static_cast<void>(signal_.wait_until(std::chrono::steady_clock::now() + kLong,
+  static_cast<void>(signal_.wait_until(std::chrono::steady_clock::now() + kLongestWait,
                                        [this] { return asked_.empty() && !is_working_; }));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <stop_token>
@@ -27,8 +28,10 @@ class SubgraphPreparation {
   /// What has been prepared since the last call, in order.
   [[nodiscard]] std::vector<PreparedRequest> take();
 
-  /// Waits until nothing is asked or in work any more: for logical time, which waits for it.
+  /// Waits until nothing is asked or in work any more, kLongestWait at most: for logical time, in
+  /// which the others wait for who waits, but for 10 s only. What takes longer is in force later.
   void wait() const;
+  static constexpr std::chrono::seconds kLongestWait{8};
 
  private:
   static constexpr std::size_t kMaxWaiting = 16;

@@ -131,8 +131,8 @@ void Controller::switch_to(const PreparedSubgraph& next) {
   // Of several switches in a row: what the plan in force was found on.
   if (!former_) former_ = Former{on_, std::move(planner_), {}};
   former_->last = {last_step().value + options_.horizon_steps};
+  planner_ = planner_on(next, options_.search);
   on_ = next;
-  planner_ = planner_on(on_, options_.search);
   standstill_ = own_step(subgraph().automaton(), subgraph().standstill());
   sets_out_ = sets_out_ || !joining_.is_possible;
 }
@@ -350,6 +350,11 @@ double Controller::project(const Point& position_m) const {
       .s_m;
 }
 
+std::optional<double> Controller::path_s_m_of(const Point& position_m) const {
+  if (!path_s_m_) return std::nullopt;
+  return project(position_m);
+}
+
 /// Without the other vehicles.
 HorizonProblem Controller::problem_alone(const Corridor& corridor) const {
   const UniversalAutomaton& automaton = subgraph().automaton();
@@ -422,12 +427,12 @@ Controller::Found Controller::search() {
   };
   Found found = search_on(*planner_, subgraph());
   if (!former_) return found;
-  const bool found_nothing =
-      found.result.status == SearchStatus::kFallback && found.result.reason != NoPath::kBudget;
-  if (!found_nothing || step_.observation.step > former_->last) {
+  if (found.result.status != SearchStatus::kFallback || step_.observation.step > former_->last) {
     former_.reset();
     return found;
   }
+  // A second search would take as long again: what is left is for the next step.
+  if (found.result.reason == NoPath::kBudget) return found;
   return search_on(*former_->planner, *former_->on.subgraph);
 }
 
@@ -535,6 +540,22 @@ Outcome Controller::vote() const {
           .wants_fallback = !step_.candidate.has_value()};
 }
 
+std::vector<Controller::ToldPlan> Controller::told_plans() const {
+  std::vector<ToldPlan> plans;
+  for (const auto& [other, traffic] : step_.heard) {
+    const auto respected = step_.respected.find(other);
+    const auto settled = step_.settled.find(other);
+    if (respected != step_.respected.end() && respected->second.is_new) {
+      plans.push_back({other, respected->second.areas});
+    } else if (settled != step_.settled.end()) {
+      plans.push_back({other, settled->second});
+    } else {
+      plans.push_back({other, traffic.running});
+    }
+  }
+  return plans;
+}
+
 SettleVerdict Controller::strict_verdict(std::span<const Prediction> predictions) const {
   const StepIndex now = step_.observation.step;
   std::vector<HeardCoupled> coupled;
@@ -558,11 +579,21 @@ SettleVerdict Controller::agreed_verdict(std::span<const Outcome> outcomes) cons
 
 Report Controller::settle(std::span<const Prediction> predictions,
                           std::span<const Outcome> outcomes) {
+  if (options_.settle_rule == SettleRule::kStrict) note_settled(predictions);
   if (!step_.candidate) return finish(false, step_.obstacle);
   const SettleVerdict verdict = options_.settle_rule == SettleRule::kStrict
                                     ? strict_verdict(predictions)
                                     : agreed_verdict(outcomes);
   return finish(verdict == SettleVerdict::kInForce, reason_of(verdict));
+}
+
+/// For told_plans; the predecessors' are known already.
+void Controller::note_settled(std::span<const Prediction> predictions) {
+  for (const VehicleId other : step_.coupled) {
+    if (step_.respected.contains(other)) continue;
+    const Prediction* message = find_message(predictions, other, step_.observation.step);
+    if (message != nullptr && message->is_new) step_.settled[other] = message->areas;
+  }
 }
 
 Report Controller::give_up(FallbackReason reason) { return finish(false, reason); }

@@ -146,8 +146,21 @@ class Controller {
   [[nodiscard]] bool fits_route() const { return placement_ && fits(*placement_, route()); }
   /// Arc length on it where planning began in the last step, or where the vehicle was placed.
   [[nodiscard]] const std::optional<double>& path_s_m() const { return path_s_m_; }
+  /// Arc length of a position that the vehicle may get to within a horizon from there; none if it
+  /// has no place on its path.
+  [[nodiscard]] std::optional<double> path_s_m_of(const Point& position_m) const;
   /// The area in which it comes into its lanes (joining.hpp), while it does.
   [[nodiscard]] const std::optional<Corridor>& joining_area() const { return joining_.area; }
+
+  /// What another vehicle drives from the next step on, as it has told: its new plan, if this one
+  /// heard of it and had to wait for it, else the one that it drove before.
+  struct ToldPlan {
+    VehicleId vehicle;
+    OccupiedAreas areas;  ///< from the last step on, or from the next
+  };
+  /// Of all that were heard in the last step, by vehicle. Valid after `settle` or `give_up`. It
+  /// does not depend on what else came in time.
+  [[nodiscard]] std::vector<ToldPlan> told_plans() const;
 
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
   [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
@@ -162,8 +175,9 @@ class Controller {
     std::vector<VehicleId> coupled;
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
-    std::vector<HorizonProblem> problems;       ///< the last is the one to solve
-    std::map<VehicleId, Prediction> respected;  ///< predictions that the search took into account
+    std::vector<HorizonProblem> problems;        ///< the last is the one to solve
+    std::map<VehicleId, Prediction> respected;   ///< predictions that the search took into account
+    std::map<VehicleId, OccupiedAreas> settled;  ///< new plans of other coupled vehicles
     std::optional<Plan> candidate;
     std::optional<Plan> replaced;  ///< in force before; keeps the maneuvers of `problems`
     Prediction prediction;         ///< own; of a candidate its areas, from t(k+1) on
@@ -203,6 +217,7 @@ class Controller {
   [[nodiscard]] std::vector<const Maneuver*> incumbent() const;
   void add_coupled_obstacles(HorizonProblem& problem) const;
   void add_missing_obstacles(HorizonProblem& problem) const;
+  void note_settled(std::span<const Prediction> predictions);
   [[nodiscard]] SettleVerdict strict_verdict(std::span<const Prediction> predictions) const;
   [[nodiscard]] SettleVerdict agreed_verdict(std::span<const Outcome> outcomes) const;
   [[nodiscard]] Report finish(bool accepted, FallbackReason reason);

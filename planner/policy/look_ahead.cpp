@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "planner/policy/rehearsal.hpp"
 
 namespace hlc {
 
@@ -13,26 +16,33 @@ std::optional<SubgraphRequest> LookAhead::wish(const PolicyView& /*view*/) {
   return settings_.candidates[*chosen_];
 }
 
-void LookAhead::rehearse(const Controller& controller, const HeardInStep& heard,
-                         const Prepared& prepared) {
+void LookAhead::look_ahead(const Controller& controller, const PreparedFor& prepared) {
+  constexpr double kNotRehearsed = std::numeric_limits<double>::infinity();
+  const RehearsalSettings rehearsal{.steps = settings_.steps,
+                                    .criterion_weights = settings_.criterion_weights,
+                                    .max_expansions = settings_.max_expansions,
+                                    .most_expansions = settings_.steps * settings_.max_expansions};
   std::vector<double> costs_m2;
   for (const SubgraphRequest& candidate : settings_.candidates) {
     const auto on_candidate = [&](Controller& rehearsing) {
       const PreparedSubgraph& now = prepared(candidate, rehearsing);
       if (rehearsing.prepared_subgraph().subgraph != now.subgraph) rehearsing.switch_to(now);
     };
-    costs_m2.push_back(rehearsed_cost_m2(controller, heard,
-                                         {.steps = settings_.steps,
-                                          .criterion_weights = settings_.criterion_weights,
-                                          .max_expansions = settings_.max_expansions},
-                                         on_candidate));
+    costs_m2.push_back(
+        rehearsed_cost_m2(controller, rehearsal, on_candidate).value_or(kNotRehearsed));
   }
   const auto best = std::ranges::min_element(costs_m2);
+  if (*best == kNotRehearsed) return;
   if (chosen_) {
     const double kept_m2 = costs_m2[*chosen_];
-    if (*best >= kept_m2 - settings_.least_gain * std::abs(kept_m2)) return;
+    const bool gains = *best < kept_m2 - settings_.least_gain * std::abs(kept_m2);
+    if (!gains && kept_m2 != kNotRehearsed) return;
   }
   chosen_ = static_cast<std::size_t>(best - costs_m2.begin());
+}
+
+std::unique_ptr<Policy> make_policy_of(const LookAheadSettings& settings) {
+  return std::make_unique<LookAhead>(settings);
 }
 
 }  // namespace hlc

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "planner/policy/policy.hpp"
-#include "planner/policy/prepared_choice.hpp"
-#include "planner/policy/rehearsal.hpp"
 
 namespace hlc {
 
@@ -15,24 +13,22 @@ namespace hlc {
 ///
 /// The rehearsals are made after a step, when its command has been sent, so their time is none of
 /// the step's; what they say holds from the next step on. The last choice is kept unless another
-/// one costs less by the settings' least_gain, of its amount.
+/// one costs less by the settings' least_gain, of its amount. A candidate whose rehearsal would
+/// exceed its expansions is not chosen.
 class LookAhead final : public Policy {
  public:
-  /// What a candidate means for a controller right now: the speed limits that hold are laid on it.
-  using Prepared =
-      std::function<const PreparedSubgraph&(const SubgraphRequest& candidate, const Controller&)>;
-
   explicit LookAhead(LookAheadSettings settings);
 
   std::optional<SubgraphRequest> wish(const PolicyView& view) override;
   std::vector<SubgraphRequest> choices() const override { return settings_.candidates; }
-
-  /// @pre controller is not in the middle of a step
-  void rehearse(const Controller& controller, const HeardInStep& heard, const Prepared& prepared);
+  bool looks_ahead() const override { return true; }
+  void look_ahead(const Controller& controller, const PreparedFor& prepared) override;
 
  private:
   LookAheadSettings settings_;
   std::optional<std::size_t> chosen_;  ///< none before the first rehearsal
 };
+
+[[nodiscard]] std::unique_ptr<Policy> make_policy_of(const LookAheadSettings& settings);
 
 }  // namespace hlc

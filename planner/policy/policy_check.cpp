@@ -9,18 +9,12 @@
 #include "planner/automaton/lab_check.hpp"
 #include "planner/automaton/yaml_text.hpp"
 #include "planner/policy/policy.hpp"
+#include "planner/policy/prepared_choice.hpp"
 #include "planner/policy/speed_zones.hpp"
 #include "planner/search/edge_costs.hpp"
 
 namespace hlc {
 namespace {
-
-std::vector<SubgraphRequest> choices_of(const PolicySettings& settings) {
-  if (const auto* look_ahead = std::get_if<LookAheadSettings>(&settings)) {
-    return look_ahead->candidates;
-  }
-  return make_rule_policy(settings)->choices();
-}
 
 void check(const Subgraph& subgraph, const ReconfigurationSettings& settings,
            const std::optional<LabLimits>& lab) {
@@ -39,7 +33,7 @@ void check(const Subgraph& subgraph, const ReconfigurationSettings& settings,
 std::vector<SubgraphRequest> requests_of(const ReconfigurationSettings& settings) {
   std::vector<SubgraphRequest> requests{{}};
   for (const PolicySettings& one : settings.policies) {
-    for (const SubgraphRequest& request : choices_of(one)) {
+    for (const SubgraphRequest& request : make_policy(one)->choices()) {
       if (std::ranges::find(requests, request) == requests.end()) requests.push_back(request);
     }
   }
@@ -48,15 +42,16 @@ std::vector<SubgraphRequest> requests_of(const ReconfigurationSettings& settings
 
 void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& settings,
                            std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
+  const std::vector<double> limits = limits_mps(settings.zones);
   for (const SubgraphRequest& request : requests_of(settings)) {
     check(*requested_subgraph(base, request, horizon_steps), settings, lab);
-  }
-  for (const double limit_mps : limits_mps(settings.zones)) {
-    try {
-      check(*requested_subgraph(base, {.max_speed_mps = limit_mps}, horizon_steps), settings, lab);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("in the zone of " + shortest_text(limit_mps) +
-                                  " m/s: " + error.what());
+    for (const double limit_mps : limits) {
+      try {
+        check(*limited_subgraph(base, request, limit_mps, horizon_steps), settings, lab);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("in the zone of " + shortest_text(limit_mps) +
+                                    " m/s: " + error.what());
+      }
     }
   }
 }

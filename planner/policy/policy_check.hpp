@@ -17,8 +17,8 @@ namespace hlc {
 /// @param base  the scenario's subgraph
 /// @param lab   what its vehicles can follow; absent: anything
 /// @throws std::invalid_argument saying in one line what cannot be and why: a request
-/// (requested_subgraph), the scenario's own subgraph under the limit of a zone, what the lab's
-/// vehicles cannot follow, a criterion of a look-ahead that a maneuver holds no value of
+/// (requested_subgraph), a limit (limited_subgraph), what the lab's vehicles cannot follow, a
+/// criterion of a look-ahead that a maneuver holds no value of
 void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& settings,
                            std::size_t horizon_steps, const std::optional<LabLimits>& lab);
 

@@ -22,7 +22,7 @@ struct SpeedZone {
 /// Asks for something else from given times on.
 struct TimePolicySettings {
   struct Change {
-    double from_s{};  ///< since the controller's first step
+    double from_s{};  ///< since the experiment's first step
     SubgraphRequest request;
     friend bool operator==(const Change&, const Change&) = default;
   };
@@ -54,13 +54,14 @@ struct LookAheadSettings {
   std::vector<PlanningWeight> criterion_weights;
   /// Something else is asked for only if it costs less than this share less; in [0, 1).
   double least_gain{0.05};
-  std::size_t max_expansions{};  ///< of each search in a rehearsal
+  std::size_t max_expansions{};  ///< of each search in a rehearsal (RehearsalSettings)
   friend bool operator==(const LookAheadSettings&, const LookAheadSettings&) = default;
 };
 
-/// All searches of one look-ahead together may expand so many vertices: it is done after a step's
-/// command, in what is left of the step.
-inline constexpr std::size_t kMostLookAheadExpansions = 400'000;
+/// All candidates, steps and expansions of one look-ahead multiplied: it is done after a step's
+/// command, in what is left of the step. The slowest searches measured (`propose_budget`, every
+/// maneuver of 16 trims, a busy core) take a tenth of a second for so many.
+inline constexpr std::size_t kMostLookAheadExpansions = 40'000;
 
 using PolicySettings = std::variant<TimePolicySettings, SituationPolicySettings,
                                     BatteryPolicySettings, LookAheadSettings>;
@@ -72,7 +73,8 @@ inline constexpr const char* kNoPolicy = "none";
 struct ReconfigurationSettings {
   std::vector<SpeedZone> zones;
   std::vector<PolicySettings> policies;  ///< of several with an opinion the first one counts
-  /// What a policy has asked for stays at least so long, so that it does not flicker; >= 0.
+  /// What a policy has asked for stays at least so long, so that it does not flicker, unless a
+  /// policy before it in the list has an opinion: at most two changes in that time; >= 0.
   double min_stay_s{1.0};
   friend bool operator==(const ReconfigurationSettings&, const ReconfigurationSettings&) = default;
 };

@@ -1,32 +1,79 @@
 #include "planner/policy/prepared_choice.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 namespace hlc {
+namespace {
+
+/// Most edges from a trim that planning may start from to one that is on. Every exit edge leads one
+/// nearer, so any way is a shortest one.
+std::size_t most_exit_steps(const Subgraph& subgraph) {
+  std::size_t most = 0;
+  for (const TrimId start : subgraph.starts()) {
+    std::size_t steps = 0;
+    for (TrimId at = start; !subgraph.is_on(at); ++steps) {
+      const auto edges = subgraph.successors(at);
+      const auto exit =
+          std::ranges::find_if(edges, [at](const Edge& edge) { return edge.to != at; });
+      if (exit == edges.end()) break;  // standing, for ever
+      at = exit->to;
+    }
+    most = std::max(most, steps);
+  }
+  return most;
+}
+
+double top_speed_of(const Subgraph& subgraph) {
+  double top_mps = 0.0;
+  for (const TrimId trim : subgraph.trims()) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      top_mps = std::max(top_mps, top_speed_mps(*edge.maneuver));
+    }
+  }
+  return top_mps;
+}
+
+}  // namespace
+
+std::shared_ptr<const Subgraph> limited_subgraph(
+    const Subgraph& base, const SubgraphRequest& request, double limit_mps,
+    std::size_t horizon_steps, const std::shared_ptr<const UniversalAutomaton>& automaton) {
+  SubgraphRequest limited = request;
+  limited.max_speed_mps = std::min(limit_mps, request.max_speed_mps.value_or(limit_mps));
+  limited.max_speed_mps =
+      std::min(*limited.max_speed_mps, base.spec().max_speed_mps.value_or(limit_mps));
+  try {
+    return requested_subgraph(base, limited, horizon_steps, automaton);
+  } catch (const std::invalid_argument&) {
+    if (limited == SubgraphRequest{.max_speed_mps = limited.max_speed_mps}) throw;
+    return limited_subgraph(base, {}, limit_mps, horizon_steps);
+  }
+}
 
 PreparedChoice::PreparedChoice(const PreparedSubgraph& base, const SubgraphRequest& request,
                                std::span<const double> limits_mps, std::size_t horizon_steps,
                                const SearchOptions& search,
                                const std::shared_ptr<const UniversalAutomaton>& automaton) {
-  const auto prepared = [&](const SubgraphRequest& one) {
-    if (one == SubgraphRequest{}) return base;
-    return prepare_subgraph(requested_subgraph(*base.subgraph, one, horizon_steps, automaton),
-                            horizon_steps, search);
+  const auto prepared = [&](std::shared_ptr<const Subgraph> subgraph) {
+    return prepare_subgraph(std::move(subgraph), horizon_steps, search);
   };
-  by_limit_.emplace(std::nullopt, prepared(request));
-  const std::optional<double> own_mps = by_limit_.at(std::nullopt).subgraph->spec().max_speed_mps;
+  const bool is_base = request == SubgraphRequest{};
+  const PreparedSubgraph without_limit =
+      is_base ? base
+              : prepared(requested_subgraph(*base.subgraph, request, horizon_steps, automaton));
+  by_limit_.emplace(std::nullopt, without_limit);
+  const std::optional<double> own_mps = without_limit.subgraph->spec().max_speed_mps;
   for (const double limit_mps : limits_mps) {
-    if (own_mps && *own_mps <= limit_mps) {
-      by_limit_.emplace(limit_mps, by_limit_.at(std::nullopt));
-      continue;
-    }
-    SubgraphRequest limited = request;
-    limited.max_speed_mps = limit_mps;
-    try {
-      by_limit_.emplace(limit_mps, prepared(limited));
-    } catch (const std::invalid_argument&) {
-      by_limit_.emplace(limit_mps, prepared({.max_speed_mps = limit_mps}));
-    }
+    const PreparedSubgraph limited =
+        own_mps && *own_mps <= limit_mps
+            ? without_limit
+            : prepared(
+                  limited_subgraph(*base.subgraph, request, limit_mps, horizon_steps, automaton));
+    by_limit_.emplace(limit_mps, limited);
+    steps_to_slow_down_ = std::max(steps_to_slow_down_, most_exit_steps(*limited.subgraph));
   }
+  top_speed_mps_ = top_speed_of(*without_limit.subgraph);
 }
 
 }  // namespace hlc

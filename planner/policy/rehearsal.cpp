@@ -1,41 +1,17 @@
 #include "planner/policy/rehearsal.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <cstdint>
+#include <memory>
 
 #include "planner/controller/followed_plan.hpp"
+#include "planner/controller/joint_step.hpp"
 
 namespace hlc {
 namespace {
 
 /// Where a vehicle is looked for on its path, around where it may have got in a step.
 constexpr double kProjection_m = 0.5;
-
-/// What another vehicle drives from the last step on: its new plan if it told one.
-struct ToldPlan {
-  VehicleId vehicle;
-  OccupiedAreas areas;
-};
-
-std::vector<ToldPlan> told_plans(const HeardInStep& heard, const Controller& controller) {
-  const StepIndex step = controller.last_step();
-  const bool strict = controller.options().settle_rule == SettleRule::kStrict;
-  const std::vector<VehicleId>& awaited = strict ? controller.coupled() : controller.predecessors();
-  std::vector<ToldPlan> plans;
-  for (const Traffic& traffic : heard.traffic) {
-    if (traffic.step != step || traffic.vehicle == controller.options().vehicle) continue;
-    plans.push_back({traffic.vehicle, traffic.running});
-  }
-  for (const Prediction& prediction : heard.predictions) {
-    const auto its = std::ranges::find(plans, prediction.vehicle, &ToldPlan::vehicle);
-    const bool is_awaited = std::ranges::find(awaited, prediction.vehicle) != awaited.end();
-    if (its == plans.end() || !is_awaited || prediction.step != step || !prediction.is_new)
-      continue;
-    its->areas = prediction.areas;
-  }
-  std::ranges::sort(plans, {}, &ToldPlan::vehicle);
-  return plans;
-}
 
 /// What is left of it from t(step) on. @pre step >= areas.first
 OccupiedAreas rest_of(const OccupiedAreas& areas, StepIndex step) {
@@ -47,7 +23,7 @@ OccupiedAreas rest_of(const OccupiedAreas& areas, StepIndex step) {
   return rest;
 }
 
-Traffic traffic_of(const ToldPlan& plan, StepIndex step) {
+Traffic traffic_of(const Controller::ToldPlan& plan, StepIndex step) {
   Traffic traffic{.vehicle = plan.vehicle,
                   .step = step,
                   .next_pose = {},
@@ -61,29 +37,31 @@ Traffic traffic_of(const ToldPlan& plan, StepIndex step) {
   return traffic;
 }
 
-/// One step of the controller among the others.
-void step(Controller& controller, StepIndex now, const std::vector<ToldPlan>& others) {
-  Observation observation{.step = now, .active = {}, .states = {}, .present = {}};
-  observation.active.push_back(controller.options().vehicle);
-  observation.states.push_back(on_its_plan(controller, now));
-  std::vector<Traffic> traffic;
-  std::vector<Prediction> predictions;
-  std::vector<Outcome> outcomes;
-  for (const ToldPlan& other : others) {
-    observation.active.push_back(other.vehicle);
-    traffic.push_back(traffic_of(other, now));
-    predictions.push_back({.vehicle = other.vehicle,
-                           .step = now,
-                           .is_new = false,
-                           .areas = rest_of(other.areas, {now.value + 1})});
-    outcomes.push_back({.vehicle = other.vehicle, .step = now, .wants_fallback = false});
+/// What the others say in that step.
+SaidOutside said_by(const std::vector<Controller::ToldPlan>& others, StepIndex step) {
+  SaidOutside said;
+  for (const Controller::ToldPlan& other : others) {
+    said.traffic.push_back(traffic_of(other, step));
+    said.predictions.push_back({.vehicle = other.vehicle,
+                                .step = step,
+                                .is_new = false,
+                                .areas = rest_of(other.areas, {step.value + 1})});
+    said.outcomes.push_back({.vehicle = other.vehicle, .step = step, .wants_fallback = false});
   }
+  return said;
+}
+
+Report step(Controller& controller, StepIndex now,
+            const std::vector<Controller::ToldPlan>& others) {
+  Observation observation{.step = now,
+                          .active = {controller.options().vehicle},
+                          .states = {on_its_plan(controller, now)},
+                          .present = {}};
+  for (const Controller::ToldPlan& other : others) observation.active.push_back(other.vehicle);
   std::ranges::sort(observation.active);
   observation.present = observation.active;
-  static_cast<void>(controller.observe(observation));
-  controller.couple(traffic);
-  static_cast<void>(controller.plan(predictions));
-  static_cast<void>(controller.settle(predictions, outcomes));
+  Controller* const alone[]{&controller};
+  return joint_step(alone, observation, {.outside = said_by(others, now)}).front();
 }
 
 double weighted(const Maneuver& maneuver, const std::vector<PlanningWeight>& weights) {
@@ -98,21 +76,25 @@ double weighted(const Maneuver& maneuver, const std::vector<PlanningWeight>& wei
 
 }  // namespace
 
-double rehearsed_cost_m2(const Controller& controller, const HeardInStep& heard,
-                         const RehearsalSettings& settings, const BeforeStep& before_step) {
-  if (!controller.has_plan() || !controller.path_s_m()) return 0.0;
-  const std::vector<ToldPlan> others = told_plans(heard, controller);
+std::optional<double> rehearsed_cost_m2(const Controller& controller,
+                                        const RehearsalSettings& settings,
+                                        const BeforeStep& before_step) {
+  if (!controller.has_plan() || !controller.path_s_m()) return std::nullopt;
+  const std::vector<Controller::ToldPlan> others = controller.told_plans();
   const ReferencePath& path = controller.route().path;
   const double ahead_m =
       controller.options().reference_speed_mps * controller.subgraph().automaton().step_s;
   const std::unique_ptr<Controller> rehearsing = controller.clone(settings.max_expansions);
+  std::uint64_t expansions_left = settings.most_expansions;
   double s_m = *controller.path_s_m();
   double cost_m2 = 0.0;
   StepIndex now = controller.last_step();
   for (std::size_t i = 0; i < settings.steps; ++i) {
     ++now.value;
     before_step(*rehearsing);
-    step(*rehearsing, now, others);
+    const Report report = step(*rehearsing, now, others);
+    if (report.expanded > expansions_left) return std::nullopt;
+    expansions_left -= report.expanded;
     const Plan& plan = rehearsing->plan_in_force();
     const StepIndex next{now.value + 1};
     const Point reached_m = plan.pose_at({next.value + 1}).position_m();

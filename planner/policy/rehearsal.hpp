@@ -2,30 +2,27 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "planner/controller/controller.hpp"
 
 namespace hlc {
 
-/// What was said in a step; the controller's own messages may be among it.
-struct HeardInStep {
-  std::vector<Traffic> traffic;
-  std::vector<Prediction> predictions;
-};
-
 struct RehearsalSettings {
   std::size_t steps{8};
   std::vector<PlanningWeight> criterion_weights;
-  std::size_t max_expansions{};  ///< of each search
+  std::size_t max_expansions{};   ///< of each search
+  std::size_t most_expansions{};  ///< of all searches together: a step may need several
 };
 
-/// Called before each step of a rehearsal with the controller that is stepped.
+/// Called before each step of a rehearsal with the controller that is stepped: may switch it.
 using BeforeStep = std::function<void(Controller&)>;
 
 /// What the vehicle would drive in the next steps, in a closed loop: the controller is stepped as
 /// ever, its vehicle follows the plan exactly, and the other vehicles drive what they told in the
-/// last step, and then stand, as every controller reckons with.
+/// last step (Controller::told_plans), and then stand, as every controller reckons with. Whoever
+/// said nothing is not there.
 ///
 /// The cost of a step is what planning goes by, of what is driven:
 ///
@@ -35,12 +32,10 @@ using BeforeStep = std::function<void(Controller&)>;
 /// p(k+1) plus reference_speed * step, e_k the maneuver between the two, and w_c its weights.
 ///
 /// @param controller  after a step; it stays as it is
-/// @param heard       of that step. The others are those that it holds traffic of; of predictions
-/// only those count that the controller waited for, so that it does not matter which others came
-/// @param before_step  may switch the controller that is stepped
-/// @return sum of c_k over the steps; 0 for a controller without a plan or a place on its path
-[[nodiscard]] double rehearsed_cost_m2(const Controller& controller, const HeardInStep& heard,
-                                       const RehearsalSettings& settings,
-                                       const BeforeStep& before_step);
+/// @return sum of c_k over the steps; none for a controller without a plan or a place on its path,
+/// or if most_expansions do not suffice: the rehearsal ends with the step that exceeds them
+[[nodiscard]] std::optional<double> rehearsed_cost_m2(const Controller& controller,
+                                                      const RehearsalSettings& settings,
+                                                      const BeforeStep& before_step);
 
 }  // namespace hlc

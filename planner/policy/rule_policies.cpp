@@ -1,8 +1,7 @@
-#include <cmath>
+#include "planner/policy/rule_policies.hpp"
+
 #include <limits>
 #include <utility>
-
-#include "planner/policy/policy.hpp"
 
 namespace hlc {
 namespace {
@@ -54,7 +53,6 @@ class SituationPolicy final : public Policy {
   double last_conflict_s_{-std::numeric_limits<double>::infinity()};
 };
 
-/// A battery that is not known is as it was.
 class BatteryPolicy final : public Policy {
  public:
   explicit BatteryPolicy(BatteryPolicySettings settings) : settings_(std::move(settings)) {}
@@ -72,21 +70,18 @@ class BatteryPolicy final : public Policy {
   bool is_weak_{};
 };
 
-std::unique_ptr<Policy> make(const TimePolicySettings& settings) {
-  return std::make_unique<TimePolicy>(settings);
-}
-std::unique_ptr<Policy> make(const SituationPolicySettings& settings) {
-  return std::make_unique<SituationPolicy>(settings);
-}
-std::unique_ptr<Policy> make(const BatteryPolicySettings& settings) {
-  return std::make_unique<BatteryPolicy>(settings);
-}
-std::unique_ptr<Policy> make(const LookAheadSettings& /*settings*/) { return nullptr; }
-
 }  // namespace
 
-std::unique_ptr<Policy> make_rule_policy(const PolicySettings& settings) {
-  return std::visit([](const auto& one) { return make(one); }, settings);
+std::unique_ptr<Policy> make_policy_of(const TimePolicySettings& settings) {
+  return std::make_unique<TimePolicy>(settings);
+}
+
+std::unique_ptr<Policy> make_policy_of(const SituationPolicySettings& settings) {
+  return std::make_unique<SituationPolicy>(settings);
+}
+
+std::unique_ptr<Policy> make_policy_of(const BatteryPolicySettings& settings) {
+  return std::make_unique<BatteryPolicy>(settings);
 }
 
 }  // namespace hlc

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <variant>
 
 #include "planner/policy/policy_check.hpp"
 #include "planner/policy/speed_zones.hpp"
@@ -12,10 +11,8 @@ namespace {
 
 /// Times are multiples of a step, which a double does not hold.
 constexpr double kStepRounding_s = 1e-6;
-
-double fastest_trim_mps(const UniversalAutomaton& automaton) {
-  return std::ranges::max(automaton.trims, {}, &Trim::speed_mps).speed_mps;
-}
+/// Beside those in which a vehicle slows down: see the header.
+constexpr std::size_t kStepsUntilItSlowsDown = 3;
 
 }  // namespace
 
@@ -26,22 +23,23 @@ SubgraphChoice::SubgraphChoice(const Controller& controller,
       limits_mps_(hlc::limits_mps(zones_)),
       step_s_(base_.subgraph->automaton().step_s),
       min_stay_s_(settings.min_stay_s) {
-  ahead_m_ = static_cast<double>(kStepsBeforeZone) * step_s_ *
-             fastest_trim_mps(base_.subgraph->automaton());
   const ControllerOptions& options = controller.options();
   for (const SubgraphRequest& request : requests_of(settings)) {
     choices_.emplace_back(request, PreparedChoice(base_, request, limits_mps_,
                                                   options.horizon_steps, options.search));
+    see_zones_for(choices_.back().second);
   }
-  for (const PolicySettings& one : settings.policies) {
-    if (const auto* look_ahead = std::get_if<LookAheadSettings>(&one)) {
-      auto policy = std::make_unique<LookAhead>(*look_ahead);
-      look_aheads_.push_back(policy.get());
-      policies_.push_back(std::move(policy));
-    } else {
-      policies_.push_back(make_rule_policy(one));
-    }
-  }
+  for (const PolicySettings& one : settings.policies) policies_.push_back(make_policy(one));
+}
+
+void SubgraphChoice::see_zones_for(const PreparedChoice& choice) {
+  const auto steps = static_cast<double>(choice.steps_to_slow_down() + kStepsUntilItSlowsDown);
+  zone_ahead_m_ = std::max(zone_ahead_m_, steps * step_s_ * choice.top_speed_mps());
+}
+
+void SubgraphChoice::ask(std::shared_ptr<const PreparedChoice> request) {
+  operator_ = std::move(request);
+  if (operator_) see_zones_for(*operator_);
 }
 
 const PreparedChoice& SubgraphChoice::prepared(const SubgraphRequest& request) const {
@@ -51,50 +49,64 @@ const PreparedChoice& SubgraphChoice::prepared(const SubgraphRequest& request) c
   return found->second;
 }
 
-std::optional<double> SubgraphChoice::limit_for(const Controller& controller) const {
-  if (!controller.path_s_m()) return std::nullopt;
-  return limit_on(zones_, controller.route().path, *controller.path_s_m(), ahead_m_);
+std::optional<double> SubgraphChoice::limit_for(const Controller& controller,
+                                                StepIndex step) const {
+  if (zones_.empty() || !controller.has_plan()) return std::nullopt;
+  const std::optional<double> s_m =
+      controller.path_s_m_of(controller.plan_in_force().pose_at(step).position_m());
+  if (!s_m) return std::nullopt;
+  return limit_on(zones_, controller.route().path, *s_m, zone_ahead_m_);
 }
 
-void SubgraphChoice::let_policies_choose(StepIndex step, std::optional<double> battery_v) {
+void SubgraphChoice::let_policies_choose(StepIndex step, StepIndex start,
+                                         std::optional<double> battery_v) {
   const auto seconds_since = [&](StepIndex then) {
-    return step_s_ * static_cast<double>(step.value - then.value);
+    return step_s_ * static_cast<double>(step.value - std::min(step, then).value);
   };
-  first_step_ = first_step_.value_or(step);
-  const PolicyView view{.time_s = seconds_since(*first_step_),
-                        .last = last_ ? &*last_ : nullptr,
-                        .battery_v = battery_v};
-  std::optional<SubgraphRequest> wish;
-  for (const auto& policy : policies_) {  // all are asked: they remember
-    const std::optional<SubgraphRequest> one = policy->wish(view);
-    if (!wish) wish = one;
+  const PolicyView view{
+      .time_s = seconds_since(start), .last = last_ ? &*last_ : nullptr, .battery_v = battery_v};
+  SubgraphRequest wished;
+  counts_ = kNoPolicyCounts;
+  for (std::size_t i = 0; i < policies_.size(); ++i) {  // all are asked: they remember
+    const std::optional<SubgraphRequest> wish = policies_[i]->wish(view);
+    if (!wish || counts_ != kNoPolicyCounts) continue;
+    wished = *wish;
+    counts_ = i;
   }
-  const SubgraphRequest wished = wish.value_or(SubgraphRequest{});
   if (wished == wished_) return;
-  if (wished_since_ && seconds_since(*wished_since_) + kStepRounding_s < min_stay_s_) return;
+  const bool has_stayed =
+      !wished_since_ || seconds_since(*wished_since_) + kStepRounding_s >= min_stay_s_;
+  if (!has_stayed && counts_ >= wished_by_) return;
   wished_ = wished;
+  wished_by_ = counts_;
   wished_since_ = step;
 }
 
-bool SubgraphChoice::begin_step(Controller& controller, StepIndex step, bool is_running,
-                                std::optional<double> battery_v) {
-  if (is_running) let_policies_choose(step, battery_v);
+bool SubgraphChoice::begin_step(Controller& controller, StepIndex step,
+                                std::optional<StepIndex> start, std::optional<double> battery_v) {
+  if (start) let_policies_choose(step, *start, battery_v);
   const PreparedChoice& choice = operator_ ? *operator_ : prepared(wished_);
-  const PreparedSubgraph& next = choice.under(limit_for(controller));
+  const PreparedSubgraph& next = choice.under(limit_for(controller, step));
   if (next.subgraph == controller.prepared_subgraph().subgraph) return false;
   controller.switch_to(next);
   return true;
 }
 
+bool SubgraphChoice::looks_ahead() const {
+  return !operator_ && std::ranges::any_of(policies_, &Policy::looks_ahead);
+}
+
 void SubgraphChoice::end_step(const Controller& controller, const Report& report,
-                              const HeardInStep& heard) {
+                              bool may_look_ahead) {
   last_ = report;
-  if (!looks_ahead()) return;
-  const auto limited = [this](const SubgraphRequest& candidate,
+  if (operator_ || !may_look_ahead) return;
+  const auto limited = [this](const SubgraphRequest& request,
                               const Controller& one) -> const PreparedSubgraph& {
-    return prepared(candidate).under(limit_for(one));
+    return prepared(request).under(limit_for(one, {one.last_step().value + 1}));
   };
-  for (LookAhead* policy : look_aheads_) policy->rehearse(controller, heard, limited);
+  for (std::size_t i = 0; i < policies_.size(); ++i) {
+    if (i <= counts_) policies_[i]->look_ahead(controller, limited);
+  }
 }
 
 }  // namespace hlc

@@ -9,6 +9,8 @@
 namespace hlc {
 namespace {
 
+constexpr StepIndex kFirstStep{1};  // they stand in step 0
+
 VehicleId id(const std::unique_ptr<Controller>& controller) {
   return controller->options().vehicle;
 }
@@ -50,18 +52,6 @@ std::vector<MeasuredVehicle> Rollout::measure(StepIndex step) const {
   return states;
 }
 
-JointStepRules Rollout::rules_noting(HeardInStep& heard) const {
-  JointStepRules rules = rules_;
-  if (std::ranges::none_of(choices_, &SubgraphChoice::looks_ahead)) return rules;
-  rules.told = [&heard](const Controller&, const Traffic& traffic) {
-    heard.traffic.push_back(traffic);
-  };
-  rules.plan = [&heard](Controller& controller, std::span<const Prediction> predictions) {
-    return heard.predictions.emplace_back(controller.plan(predictions));
-  };
-  return rules;
-}
-
 std::vector<Report> Rollout::step() {
   Observation observation{.step = next_step_, .states = measure(next_step_)};
   for (const auto& controller : controllers_) observation.active.push_back(id(controller));
@@ -71,12 +61,11 @@ std::vector<Report> Rollout::step() {
   std::vector<Controller*> controllers;
   for (const auto& controller : controllers_) controllers.push_back(controller.get());
   for (std::size_t i = 0; i < choices_.size(); ++i) {
-    static_cast<void>(choices_[i].begin_step(*controllers[i], next_step_, true, {}));
+    static_cast<void>(choices_[i].begin_step(*controllers[i], next_step_, kFirstStep, {}));
   }
-  HeardInStep heard;
-  std::vector<Report> reports = joint_step(controllers, observation, rules_noting(heard));
+  std::vector<Report> reports = joint_step(controllers, observation, rules_);
   for (std::size_t i = 0; i < choices_.size(); ++i) {
-    choices_[i].end_step(*controllers[i], reports[i], heard);
+    choices_[i].end_step(*controllers[i], reports[i]);
   }
   ++next_step_.value;
   return reports;

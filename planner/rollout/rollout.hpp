@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planner/controller/controller.hpp"
+#include "planner/controller/joint_step.hpp"
 #include "planner/policy/subgraph_choice.hpp"
-#include "planner/rollout/joint_step.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace hlc {
@@ -41,8 +41,6 @@ class Rollout {
  private:
   Rollout() = default;
   [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
-
-  [[nodiscard]] JointStepRules rules_noting(HeardInStep& heard) const;
 
   std::vector<std::unique_ptr<Controller>> controllers_;
   std::vector<SubgraphChoice> choices_;  ///< in the order of the controllers, or none

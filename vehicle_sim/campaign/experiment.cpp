@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,9 +15,9 @@
 #include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/core/observation.hpp"
 #include "hlc_bridge/core/state_buffer.hpp"
+#include "planner/controller/joint_step.hpp"
 #include "planner/coordination/priority.hpp"
 #include "planner/policy/subgraph_choice.hpp"
-#include "planner/rollout/joint_step.hpp"
 #include "vehicle_sim/campaign/simulated_vehicle.hpp"
 
 namespace hlc {
@@ -153,7 +154,7 @@ class Lab {
       reports[i].report = with_answer(std::move(reports[i].report), answer);
       report(reports[i]);
       if (reports[i].report.status == StepStatus::kStandby) continue;
-      member.choice.end_step(member.hlc.controller(), reports[i].report, heard_);
+      member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
   }
 
@@ -167,10 +168,11 @@ class Lab {
       begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
     }
     observation.present = observation.active;
+    if (begins && !start_) start_ = observation.step;
     std::map<const Controller*, Nanoseconds> planning_ns;
     for (Member& member : members_) {
       const Nanoseconds from_cpu = cpu_clock_();
-      static_cast<void>(member.choice.begin_step(member.hlc.controller(), observation.step, begins,
+      static_cast<void>(member.choice.begin_step(member.hlc.controller(), observation.step, start_,
                                                  battery_voltage_v(list, VehicleId{member.id})));
       planning_ns[&member.hlc.controller()] = cpu_clock_() - from_cpu;
     }
@@ -184,21 +186,13 @@ class Lab {
     std::vector<Controller*> controllers;
     for (Member& member : members_) controllers.push_back(&member.hlc.controller());
     double planning_s = 0.0;
-    heard_ = {};
-    const bool somebody_looks_ahead = std::ranges::any_of(
-        members_, [](const Member& member) { return member.choice.looks_ahead(); });
     JointStepRules rules = rules_;
-    rules.told = [&](const Controller& controller, const Traffic& traffic) {
-      if (rules_.told) rules_.told(controller, traffic);
-      if (somebody_looks_ahead) heard_.traffic.push_back(traffic);
-    };
     rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
       const Nanoseconds from = wall_clock_();
       const Nanoseconds from_cpu = cpu_clock_();
       Prediction prediction = rules_.plan ? rules_.plan(controller, heard) : controller.plan(heard);
       planning_ns[&controller] += cpu_clock_() - from_cpu;
       planning_s += seconds_since(from);
-      if (somebody_looks_ahead) heard_.predictions.push_back(prediction);
       return prediction;
     };
     const Nanoseconds from = wall_clock_();
@@ -250,7 +244,7 @@ class Lab {
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
   StateBuffer states_;
-  HeardInStep heard_;  ///< in the last step, if somebody looks ahead
+  std::optional<StepIndex> start_;  ///< first step of the experiment, once it has begun
   std::set<std::string> alive_;
   std::set<std::string> lost_;
   Experiment experiment_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hlc_bridge/core/run_record.hpp"
-#include "planner/rollout/joint_step.hpp"
+#include "planner/controller/joint_step.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/tracking/follower.hpp"
 

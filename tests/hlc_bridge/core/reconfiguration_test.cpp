@@ -28,11 +28,11 @@ AutomatonRequest slow(std::uint64_t id, double max_speed_mps, Nanoseconds valid_
 class ReconfigurationTest : public testing::Test {
  protected:
   AutomatonAnswer take(const AutomatonRequest& request, std::uint64_t step) {
-    return reconfiguration_.take(prepare(base(), request), {step});
+    return reconfiguration_.take(prepare(base(), request), {step}).back();
   }
   std::optional<AutomatonAnswer> begin(std::uint64_t step) {
     const auto answer = reconfiguration_.begin_step(choice_, {step}, step * kStep);
-    EXPECT_EQ(choice_.begin_step(*controller_, {step}, true, {}), answer.has_value());
+    EXPECT_EQ(choice_.begin_step(*controller_, {step}, StepIndex{0}, {}), answer.has_value());
     return answer;
   }
   [[nodiscard]] RequestBase base() const {
@@ -80,6 +80,17 @@ TEST_F(ReconfigurationTest, ALaterRequestCountsWhicheverComesFirst) {
   EXPECT_EQ(limit_mps(), 0.7);
 }
 
+// Its asker need not wait for it.
+TEST_F(ReconfigurationTest, AnAcceptedRequestThatALaterOneTakesThePlaceOfIsToldSo) {
+  EXPECT_EQ(take(slow(1, 0.6, 9 * kStep), 1).outcome, RequestOutcome::kAccepted);
+  const auto answers = reconfiguration_.take(prepare(base(), slow(2, 0.5)), {2});
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers[0].id, 1U);
+  EXPECT_EQ(answers[0].outcome, RequestOutcome::kStale);
+  EXPECT_EQ(answers[1].id, 2U);
+  EXPECT_EQ(answers[1].outcome, RequestOutcome::kAccepted);
+}
+
 TEST_F(ReconfigurationTest, ARefusedRequestLeavesWhatIsInForceAndWhatWaits) {
   EXPECT_EQ(take(slow(1, 0.6), 1).outcome, RequestOutcome::kAccepted);
   ASSERT_TRUE(begin(1));
@@ -112,7 +123,7 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
       .valid_from = 0,
       .subgraph = {.labels = {}, .weights = {{"J2", 0.7}, {"J1", 0.3}}, .max_speed_mps = 0.7}};
   const PreparedRequest prepared = prepare(base(), request, &weights);
-  EXPECT_EQ(reconfiguration_.take(prepared, {1}).outcome, RequestOutcome::kAccepted)
+  EXPECT_EQ(reconfiguration_.take(prepared, {1}).back().outcome, RequestOutcome::kAccepted)
       << prepared.refusal;
   const std::optional<AutomatonAnswer> in_force = begin(1);
   ASSERT_TRUE(in_force);
@@ -125,7 +136,8 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
   AutomatonRequest unknown = request;
   unknown.id = 2;
   unknown.subgraph = {.labels = {}, .weights = {{"J9", 1.0}}};
-  const AutomatonAnswer refused = reconfiguration_.take(prepare(base(), unknown, &weights), {2});
+  const AutomatonAnswer refused =
+      reconfiguration_.take(prepare(base(), unknown, &weights), {2}).back();
   EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
   EXPECT_NE(refused.text.find("'J9', allowed J1"), std::string::npos) << refused.text;
   EXPECT_FALSE(begin(2));

@@ -13,7 +13,14 @@ constexpr double kWay_m = 0.8 * 0.2;  // in a step at reference speed
 const BeforeStep kStays = [](Controller&) {};
 
 RehearsalSettings of_steps(std::size_t steps, std::vector<PlanningWeight> weights = {}) {
-  return {.steps = steps, .criterion_weights = std::move(weights), .max_expansions = 400'000};
+  return {.steps = steps,
+          .criterion_weights = std::move(weights),
+          .max_expansions = 400'000,
+          .most_expansions = 400'000};
+}
+
+double cost_m2(const Controller& controller, const RehearsalSettings& settings) {
+  return rehearsed_cost_m2(controller, settings, kStays).value();
 }
 
 /// c_k of a step that was really driven.
@@ -47,7 +54,7 @@ TEST(Rehearsal, CostsWhatIsThenReallyDriven) {
   DrivenController car;
   for (int k = 0; k < 20; ++k) {
     static_cast<void>(car.step());
-    const double rehearsed_m2 = rehearsed_cost_m2(*car, {}, of_steps(5), kStays);
+    const double rehearsed_m2 = cost_m2(*car, of_steps(5));
     double driven_m2 = 0.0;
     DrivenController ahead = car.clone();
     for (int i = 0; i < 5; ++i) {
@@ -64,17 +71,16 @@ TEST(Rehearsal, WhoStandsPaysForTheWayNotDriven) {
   DrivenController stands;
   stands->set_drives_out(true);
   static_cast<void>(stands.step());
-  EXPECT_NEAR(rehearsed_cost_m2(*stands, {}, of_steps(4), kStays), 4.0 * kWay_m * kWay_m, 1e-12);
-  EXPECT_LT(rehearsed_cost_m2(*car, {}, of_steps(4), kStays), 4.0 * kWay_m * kWay_m);
+  EXPECT_NEAR(cost_m2(*stands, of_steps(4)), 4.0 * kWay_m * kWay_m, 1e-12);
+  EXPECT_LT(cost_m2(*car, of_steps(4)), 4.0 * kWay_m * kWay_m);
 }
 
 TEST(Rehearsal, EveryManeuverCostsItsCriteria) {
   DrivenController car;
   static_cast<void>(car.step());
-  const double plain_m2 = rehearsed_cost_m2(*car, {}, of_steps(6), kStays);
-  EXPECT_NEAR(rehearsed_cost_m2(*car, {}, of_steps(6, {{"one", 0.25}}), kStays),
-              plain_m2 + 6 * 0.25, 1e-12);
-  EXPECT_DOUBLE_EQ(rehearsed_cost_m2(*car, {}, of_steps(6, {{"fast", 0.25}}), kStays), plain_m2);
+  const double plain_m2 = cost_m2(*car, of_steps(6));
+  EXPECT_NEAR(cost_m2(*car, of_steps(6, {{"one", 0.25}})), plain_m2 + 6 * 0.25, 1e-12);
+  EXPECT_DOUBLE_EQ(cost_m2(*car, of_steps(6, {{"fast", 0.25}})), plain_m2);
 }
 
 TEST(Rehearsal, ChangesNothing) {
@@ -84,7 +90,7 @@ TEST(Rehearsal, ChangesNothing) {
     const Report report = car.step();
     EXPECT_EQ(report.planned_pose, other.step().planned_pose);
     const auto fast = prepare_subgraph(test::subgraph_of_label("fast"), 8, {});
-    static_cast<void>(rehearsed_cost_m2(*car, {}, of_steps(8), [&](Controller& one) {
+    static_cast<void>(rehearsed_cost_m2(*car, of_steps(8), [&](Controller& one) {
       if (one.prepared_subgraph().subgraph != fast.subgraph) one.switch_to(fast);
     }));
     EXPECT_EQ(car->last_step(), report.step);
@@ -92,24 +98,25 @@ TEST(Rehearsal, ChangesNothing) {
   }
 }
 
+Prediction predicted(StepIndex step, const ConvexPolygon& area, bool is_new) {
+  return {.vehicle = {1},
+          .step = step,
+          .is_new = is_new,
+          .areas = {.first = {step.value + 1}, .areas_m = {area}, .final_area_m = area}};
+}
+
 TEST(Rehearsal, AnotherCarStandsInTheWayWhereItTold) {
   DrivenController car;
   for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
   const double x_m = car->plan_in_force().pose_at(car.next_step()).x_m;
-  const auto cost_m2 = [&](double y_m) {
+  const auto cost_with_a_car_at = [&](double y_m) {
     DrivenController one = car.clone();
     const StepIndex now = one.next_step();
     const ConvexPolygon area = square(x_m + 1.2, y_m);
-    const Prediction prediction{
-        .vehicle = {1},
-        .step = now,
-        .is_new = false,
-        .areas = {.first = {now.value + 1}, .areas_m = {area}, .final_area_m = area}};
-    static_cast<void>(one.step({standing(now, area)}, {prediction}));
-    return rehearsed_cost_m2(*one, {.traffic = {standing(now, area)}, .predictions = {prediction}},
-                             of_steps(8), kStays);
+    static_cast<void>(one.step({standing(now, area)}, {predicted(now, area, false)}));
+    return cost_m2(*one, of_steps(8));
   };
-  EXPECT_GT(cost_m2(0.0), cost_m2(3.0) + 1e-3);
+  EXPECT_GT(cost_with_a_car_at(0.0), cost_with_a_car_at(3.0) + 1e-3);
 }
 
 // Which of them have come when a step is over is a matter of chance.
@@ -119,17 +126,41 @@ TEST(Rehearsal, APredictionThatTheControllerDidNotWaitForDoesNotCount) {
   const StepIndex now = car.next_step();
   const Traffic far = standing(now, square(0.0, 20.0));
   const double x_m = car->plan_in_force().pose_at(now).x_m;
-  const ConvexPolygon in_the_way = square(x_m + 1.0, 0.0);
-  const Prediction prediction{
-      .vehicle = {1},
-      .step = now,
-      .is_new = true,
-      .areas = {.first = {now.value + 1}, .areas_m = {in_the_way}, .final_area_m = in_the_way}};
-  static_cast<void>(car.step({far}));
+  DrivenController without = car.clone();
+  static_cast<void>(without.step({far}));
+  static_cast<void>(car.step({far}, {predicted(now, square(x_m + 1.0, 0.0), true)}));
   ASSERT_TRUE(car->coupled().empty());
-  EXPECT_EQ(
-      rehearsed_cost_m2(*car, {.traffic = {far}, .predictions = {prediction}}, of_steps(8), kStays),
-      rehearsed_cost_m2(*car, {.traffic = {far}, .predictions = {}}, of_steps(8), kStays));
+  EXPECT_EQ(cost_m2(*car, of_steps(8)), cost_m2(*without, of_steps(8)));
+}
+
+// Vehicle 1 goes before vehicle 2, which the car is; vehicle 3 after it.
+TEST(Rehearsal, TheNewPlanOfACoupledVehicleCounts) {
+  for (const std::uint8_t other : std::vector<std::uint8_t>{1, 3}) {
+    DrivenController car;
+    for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
+    const StepIndex now = car.next_step();
+    const double x_m = car->plan_in_force().pose_at(now).x_m;
+    Traffic traffic = standing(now, square(x_m + 1.2, 0.0));
+    traffic.vehicle = {other};
+    Prediction away = predicted(now, square(x_m + 1.2, 1.0), true);
+    away.vehicle = {other};
+    DrivenController stays = car.clone();
+    Prediction none = predicted(now, square(x_m + 1.2, 0.0), false);
+    none.vehicle = {other};
+    static_cast<void>(stays.step({traffic}, {none}));
+    static_cast<void>(car.step({traffic}, {away}));
+    ASSERT_EQ(car->coupled().size(), 1U);
+    EXPECT_LT(cost_m2(*car, of_steps(8)), cost_m2(*stays, of_steps(8)) - 1e-3) << int{other};
+  }
+}
+
+TEST(Rehearsal, EndsWithoutACostWhenItsExpansionsDoNotSuffice) {
+  DrivenController car;
+  static_cast<void>(car.step());
+  RehearsalSettings settings = of_steps(4);
+  EXPECT_TRUE(rehearsed_cost_m2(*car, settings, kStays));
+  settings.most_expansions = 3;
+  EXPECT_FALSE(rehearsed_cost_m2(*car, settings, kStays));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "planner/policy/rule_policies.hpp"
 
-#include "planner/policy/policy.hpp"
+#include <gtest/gtest.h>
 
 namespace hlc::rule_policies_test {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 const SubgraphRequest kEffort{.labels = {"J2"}};
 const SubgraphRequest kAgile{.labels = {"J1"}};
 
-std::unique_ptr<Policy> made(const PolicySettings& settings) { return make_rule_policy(settings); }
+std::unique_ptr<Policy> made(const PolicySettings& settings) { return make_policy(settings); }
 
 Report report(StepStatus status, std::vector<VehicleId> coupled = {}) {
   return {.vehicle = {1}, .step = {}, .status = status, .coupled = std::move(coupled)};
@@ -61,10 +61,6 @@ TEST(BatteryPolicy, StaysAsItWasBetweenItsBoundsAndWhereNothingIsKnown) {
   EXPECT_EQ(policy->wish({}), kEffort);
   EXPECT_EQ(policy->wish({.battery_v = 7.5}), std::nullopt);
   EXPECT_EQ(policy->wish({.battery_v = 7.3}), std::nullopt);
-}
-
-TEST(RulePolicies, ALookAheadNeedsMoreThanTheView) {
-  EXPECT_EQ(made(LookAheadSettings{}), nullptr);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ policies:
       - time: [{from_s: 0, request: {labels: [slow]}}, {from_s: 2.5, request: {}}]
       - battery: {below_v: 7.0, back_above_v: 7.4, request: {max_speed_mps: 0.6, trims_off: [12]}}
       - situation: {open_road: {labels: [slow]}, conflict: {labels: [slow, fast]}, after_conflict_s: 0}
-      - look_ahead: {candidates: [{labels: [slow]}, {}], steps: 5, least_gain: 0.1, max_expansions: 40000}
+      - look_ahead: {candidates: [{labels: [slow]}, {}], steps: 5, least_gain: 0.1, max_expansions: 4000}
 )");
   ASSERT_EQ(policies.size(), 2U);
   const ReconfigurationSettings zone{
@@ -68,7 +68,7 @@ policies:
                                      .steps = 5,
                                      .criterion_weights = {},
                                      .least_gain = 0.1,
-                                     .max_expansions = 40000}},
+                                     .max_expansions = 4000}},
       .min_stay_s = 0.4};
   EXPECT_EQ(policies.at("rules"), rules);
   EXPECT_TRUE(read("name: none").empty());
@@ -94,8 +94,8 @@ TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
       {"a: {rules: [{battery: {below_v: 7, back_above_v: 6, request: {}}}]}", "back_above_v = 6"},
       {"a: {rules: [{look_ahead: {candidates: [{}], max_expansions: 10}}]}", "2 ... 100 requests"},
       {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}]}}]}", "max_expansions"},
-      {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 25001}}]}",
-       "max_expansions = 25001, allowed 1 ... 25000"},
+      {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 2501}}]}",
+       "max_expansions = 2501, allowed 1 ... 2500"},
       {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 9, "
        "criterion_weights: {J2: 1}}}]}",
        "criterion_weights: J2, allowed"},

@@ -1,4 +1,4 @@
-#include "planner/rollout/joint_step.hpp"
+#include "planner/controller/joint_step.hpp"
 
 #include <set>
 
@@ -29,13 +29,13 @@ std::vector<Report> joint_step(std::span<Controller* const> controllers,
     return result;
   };
 
-  std::vector<Traffic> traffic;
-  std::vector<Prediction> predictions;
-  std::vector<Outcome> outcomes;
+  std::vector<Traffic> traffic = rules.outside.traffic;
+  std::vector<Prediction> predictions = rules.outside.predictions;
+  std::vector<Outcome> outcomes = rules.outside.outcomes;
   std::vector<Report> reports;
-  traffic.reserve(controllers.size());
-  predictions.reserve(controllers.size());
-  outcomes.reserve(controllers.size());
+  traffic.reserve(traffic.size() + controllers.size());
+  predictions.reserve(predictions.size() + controllers.size());
+  outcomes.reserve(outcomes.size() + controllers.size());
   reports.reserve(controllers.size());
   for (Controller* one : controllers) {
     traffic.push_back(one->observe(observation));

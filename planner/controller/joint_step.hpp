@@ -19,6 +19,13 @@ struct Delivery {
   VehicleId to;
 };
 
+/// What vehicles say that are not stepped.
+struct SaidOutside {
+  std::vector<Traffic> traffic{};
+  std::vector<Prediction> predictions{};  ///< there before anybody plans
+  std::vector<Outcome> outcomes{};
+};
+
 /// What happens around a joint step.
 struct JointStepRules {
   /// Messages for which this says true do not arrive. Absent: none.
@@ -31,6 +38,7 @@ struct JointStepRules {
   std::function<void(const Controller&, const Traffic&)> told{};
   /// Calls Controller::plan, for an owner who wants to measure. Absent: just calls it.
   std::function<Prediction(Controller&, std::span<const Prediction>)> plan{};
+  SaidOutside outside{};
 };
 
 /// One control step of controllers that hear each other in memory, each with the same observation.
