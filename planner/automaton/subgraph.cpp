@@ -238,6 +238,11 @@ void Subgraph::add_exits() {
   const auto is_held_open = [this](const Maneuver& maneuver) {
     return !is_off(spec_, {maneuver.from, maneuver.to}, maneuver.label);
   };
+  const auto speeds_up = [&trims](const Maneuver& maneuver) {
+    const double faster_mps =
+        std::max(trims[maneuver.from.index].speed_mps, trims[maneuver.to.index].speed_mps);
+    return top_speed_mps(maneuver) > faster_mps + kRounding_mps;
+  };
   // Trims by exit distance: the trims that are on are left at once, then ring after ring.
   std::vector<bool> is_nearer = is_on_;
   std::vector<TrimId> ring;
@@ -246,17 +251,24 @@ void Subgraph::add_exits() {
     for (std::size_t i = 0; i < trims.size(); ++i) {
       if (is_nearer[i]) continue;
       std::vector<Edge>& exits = successors_[i];
-      for (const bool any_label : {false, true}) {
+      const auto add_those = [&](bool any_label, bool may_speed_up) {
+        if (!exits.empty()) return;
         for (const Maneuver* maneuver : held[i]) {
           const TrimPair pair{maneuver->from, maneuver->to};
           const bool is_labelled =
               any_label || holds(declared_labels(spec_, pair), maneuver->label);
-          if (is_nearer[pair.to.index] && is_labelled && is_held_open(*maneuver)) {
+          if (is_nearer[pair.to.index] && is_labelled && is_held_open(*maneuver) &&
+              (may_speed_up || !speeds_up(*maneuver))) {
             exits.push_back({pair.to, maneuver});
           }
         }
-        if (!exits.empty()) break;
+      };
+      if (spec_.max_speed_mps) {
+        add_those(false, false);
+        add_those(true, false);
       }
+      add_those(false, true);
+      add_those(true, true);
       if (!exits.empty()) ring.push_back({i});
     }
     for (const TrimId trim : ring) {

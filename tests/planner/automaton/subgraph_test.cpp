@@ -278,6 +278,23 @@ TEST(Subgraph, ExitEdgesTakeTheSubgraphsLabelsFirstAndAnyLabelIfThereAreNone) {
   EXPECT_EQ(labels_between(some_off, 7, 2), Labels{});
 }
 
+// Fast maneuvers outrun both their trims.
+TEST(Subgraph, WhoIsTooFastDoesNotSpeedUpToSlowDown) {
+  const Subgraph limited =
+      test::make_test_subgraph({test::kFast, test::kSlow}, test::kAllTrims, 0.6);
+  const auto& trims = limited.automaton().trims;
+  std::size_t exits = 0;
+  for (const TrimId trim : limited.starts()) {
+    if (limited.is_on(trim)) continue;
+    for (const Edge& edge : limited.successors(trim)) {
+      ++exits;
+      EXPECT_EQ(edge.maneuver->label, test::kSlow.label);
+      EXPECT_LE(top_speed_mps(*edge.maneuver), trims[trim.index].speed_mps + 1e-6);
+    }
+  }
+  EXPECT_GT(exits, 10U);
+}
+
 TEST(Subgraph, ATrimThatIsOffMayBeSeveralExitsAway) {
   // Speeds 0, 1, 2, 3, 4 m/s; only neighbours are connected; a limit of 1 m/s.
   std::vector<Trim> trims;
