@@ -125,7 +125,8 @@ std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags, const hlc::Sce
   };
   options.reconfiguration = scenario.reconfiguration;
   if (flags.problem_folder) {
-    options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file)](
+    options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file,
+                                                  scenario.subgraph->spec())](
                              const hlc::Controller& controller) { dump.write(controller); };
   }
   return std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
@@ -146,6 +147,11 @@ int main(int argc, char** argv) {
     hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
     flags.scenario.file = scenario_file(flags.scenario.file);
     scenario = hlc::read_scenario(flags.scenario);
+    if (flags.problem_folder && scenario->policy != hlc::kNoPolicy) {
+      throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
+                                  ", allowed with --policy none: a problem names a subgraph that "
+                                  "the automaton's file declares");
+    }
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
   return hlc::process_per_vehicle(flags.vehicle_ids, signals, [&](int id) {

@@ -26,6 +26,10 @@ void print_table(const hlc::Scenario& scenario) {
     std::string names = hlc::kNoPolicy;
     for (const auto& [name, settings] : scenario.policies) names += ", " + name;
     std::printf("policy     %s (of %s)\n", scenario.policy.c_str(), names.c_str());
+    for (const hlc::SpeedZone& zone : scenario.reconfiguration.zones) {
+      std::printf("zone       %g m/s, x %g ... %g m, y %g ... %g m\n", zone.max_speed_mps,
+                  zone.min_x_m, zone.max_x_m, zone.min_y_m, zone.max_y_m);
+    }
   }
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
               "y [m]");

@@ -5,14 +5,17 @@
 #include <cstdio>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "planner/scenario/problem_file.hpp"
 
 namespace hlc {
 
-ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file)
+ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file,
+                         SubgraphSpec declared)
     : folder_(std::move(folder)),
-      automaton_file_(std::filesystem::absolute(automaton_file).lexically_normal()) {
+      automaton_file_(std::filesystem::absolute(automaton_file).lexically_normal()),
+      declared_(std::move(declared)) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error || access(folder_.c_str(), W_OK | X_OK) != 0) {
@@ -23,6 +26,11 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
 
 void ProblemDump::write(const Controller& controller) const {
   const ControllerOptions& options = controller.options();
+  if (controller.subgraph().spec() != declared_) {
+    throw std::runtime_error("problems on subgraph '" + controller.subgraph().spec().name +
+                             "' cannot be written, which " + automaton_file_.string() +
+                             " does not declare");
+  }
   std::size_t search = 0;
   for (const HorizonProblem& problem : controller.problems()) {
     char name[96];

@@ -15,17 +15,22 @@ namespace hlc {
 /// the vertices that the step's report counts.
 class ProblemDump {
  public:
-  /// Makes the folder if need be. @param automaton_file  for the files; written as absolute path
+  /// Makes the folder if need be.
+  /// @param automaton_file  for the files; written as absolute path
+  /// @param declared        the subgraph of that file which is planned on
   /// @throws std::invalid_argument if the folder cannot be made or not be written to
-  ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file);
+  ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file,
+              SubgraphSpec declared);
 
   /// The problems of the controller's last step. Reads the controller only.
-  /// @throws std::runtime_error naming the file if it cannot be written
+  /// @throws std::runtime_error naming the file if it cannot be written, or another subgraph that
+  /// was asked for meanwhile: a problem names one that the automaton's file declares
   void write(const Controller& controller) const;
 
  private:
   std::filesystem::path folder_;
   std::filesystem::path automaton_file_;
+  SubgraphSpec declared_;
 };
 
 }  // namespace hlc

@@ -9,6 +9,7 @@
 #include "planner/automaton/lab_check.hpp"
 #include "planner/automaton/yaml_reader.hpp"
 #include "planner/automaton/yaml_text.hpp"
+#include "planner/policy/speed_zones.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
 #include "planner/scenario/lab_file.hpp"
@@ -250,6 +251,22 @@ void read_reconfiguration(const YamlNode& node, const ScenarioChoices& choices,
   }
 }
 
+/// A zone that nobody comes through is a mistake: where it should be, nobody would slow down.
+void check_zones(const YamlNode& node, const Scenario& scenario) {
+  for (const auto& [name, settings] : scenario.policies) {
+    const YamlNode policy = node.map("policies").map(name);
+    const std::vector<YamlNode> entries = policy.optional_list("zones");
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const std::vector<SpeedZone> zone{settings.zones[i]};
+      const bool is_driven_through =
+          std::ranges::any_of(scenario.routes, [&zone](const DrivableRoute& route) {
+            return limit_on(zone, route.path, 0.0, route.path.length_m()).has_value();
+          });
+      if (!is_driven_through) entries[i].fail("x_m", "a zone that a route comes through");
+    }
+  }
+}
+
 Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
                    std::shared_ptr<const Subgraph> subgraph) {
   Scenario scenario;
@@ -275,6 +292,7 @@ Scenario read_with(const YamlNode& node, const ScenarioChoices& choices,
   }
   node.check_no_unknown_keys();
   check_vehicles(node, scenario);
+  check_zones(node, scenario);
   std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);
   return scenario;
 }

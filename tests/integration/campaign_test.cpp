@@ -20,6 +20,7 @@ struct Same {
   std::string profile;
   std::optional<std::uint64_t> noise_seed;
   std::string policy{};
+  int steps{40};
 };
 
 class SameRun : public testing::TestWithParam<Same> {};
@@ -37,27 +38,28 @@ std::string trace_with_processes(const Same& same, int steps) {
 }
 
 TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
-  constexpr int kSteps = 40;
+  const int steps = GetParam().steps;
   const Scenario scenario = read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
        .profile = GetParam().profile,
        .policy = GetParam().policy.empty() ? std::nullopt : std::optional(GetParam().policy)});
-  const ExperimentOptions options{.steps = kSteps, .noise_seed = GetParam().noise_seed};
+  const ExperimentOptions options{.steps = static_cast<std::uint64_t>(steps),
+                                  .noise_seed = GetParam().noise_seed};
   const Experiment experiment = drive_experiment(scenario, options);
   const std::vector<StepRecord> rows =
       step_records(experiment.reports, experiment.drives, experiment.facts);
-  EXPECT_EQ(rows.size(), kSteps * scenario.vehicles.size());
+  EXPECT_EQ(rows.size(), static_cast<std::size_t>(steps) * scenario.vehicles.size());
   const std::string trace =
       summarize(describe(scenario, options.noise_seed), experiment.facts, rows, experiment.drives)
           .trace_sha256;
-  EXPECT_EQ(trace_with_processes(GetParam(), kSteps), trace);
+  EXPECT_EQ(trace_with_processes(GetParam(), steps), trace);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Campaign, SameRun,
     testing::Values(Same{"paper_three_cars", "default", std::nullopt},
                     Same{"paper_three_cars", "2022", 7}, Same{"circle", "default", 3},
-                    Same{"reconfiguration", "default", 5},
+                    Same{"reconfiguration", "default", 5, "", 115},
                     Same{"reconfiguration", "2022", std::nullopt, "zone_look_ahead"}),
     [](const auto& one) {
       return one.param.scenario + "_" + one.param.profile +

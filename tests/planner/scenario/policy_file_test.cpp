@@ -151,5 +151,29 @@ policies:
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("policy 'without_3'")));
 }
 
+// Where it should be nobody would slow down.
+TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
+  const std::string folder = test::source_folder() + "/launch_scripts/";
+  std::ifstream shipped(folder + "scenarios/reconfiguration.yaml");
+  std::string text((std::istreambuf_iterator<char>(shipped)), {});
+  const auto replace_all = [&text](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+      text.replace(at, from.size(), to);
+    }
+  };
+  replace_all("../", folder);
+  replace_all("x_m: [1.9, 2.7]", "x_m: [10.9, 12.7]");
+  const std::string file = testing::TempDir() + "/zone_beside_all_routes.yaml";
+  std::ofstream(file) << text;
+  try {
+    static_cast<void>(read_scenario({.file = file}));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("policies.mixed.zones[1].x_m"));
+    EXPECT_THAT(error.what(), HasSubstr("allowed a zone that a route comes through"));
+  }
+}
+
 }  // namespace
 }  // namespace hlc::policy_file_test

@@ -56,7 +56,8 @@ class ProblemDumpTest : public testing::TestWithParam<Drive> {
 
 TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
   const Scenario scenario = read_scenario(GetParam().choices);
-  const ProblemDump dump(folder_ / "made" / "on_the_way", scenario.automaton_file);
+  const ProblemDump dump(folder_ / "made" / "on_the_way", scenario.automaton_file,
+                         scenario.subgraph->spec());
   std::vector<std::unique_ptr<Controller>> controllers;
   std::vector<Pose> starts;
   for (const ScenarioVehicle& vehicle : scenario.vehicles) {
@@ -133,9 +134,25 @@ INSTANTIATE_TEST_SUITE_P(
         Drive{"Circle", {.file = kFolder + "circle.yaml", .steps = 40, .cars = 10}, -1.0}),
     [](const auto& drive) { return drive.param.name; });
 
+// A file of it could not be read: the automaton's file has no such subgraph.
+TEST(ProblemDumpErrors, AProblemOnASubgraphThatWasAskedForIsNotWritten) {
+  const Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
+  const fs::path folder = fs::path(testing::TempDir()) / "problem_dump_asked_for";
+  const ProblemDump dump(folder, scenario.automaton_file, scenario.subgraph->spec());
+  Rollout rollout = make_rollout(scenario);
+  static_cast<void>(rollout.step());
+  Controller& controller = *rollout.controllers().front();
+  EXPECT_NO_THROW(dump.write(controller));
+  controller.switch_to(
+      requested_subgraph(*scenario.subgraph, {.max_speed_mps = 0.6}, scenario.horizon_steps));
+  EXPECT_THROW(dump.write(controller), std::runtime_error);
+  fs::remove_all(folder);
+}
+
 TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
   try {
-    const ProblemDump dump("/proc/nowhere", "paper.yaml");
+    const ProblemDump dump("/proc/nowhere", "paper.yaml", {});
     FAIL() << "made";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()),
