@@ -105,6 +105,11 @@ check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
 starts=$("$bin/show_scenario" "${check[@]}" --starts) || exit 2
 steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
+if [[ -n $dump_problems ]]; then
+  driven_by=$("$bin/show_scenario" "${check[@]}" --print_policy) || exit 2
+  [[ $driven_by == none ]] ||
+    fail "--dump-problems with policy $driven_by, allowed with --policy none: a problem names a subgraph of the automaton's file"
+fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 
 # A block of DDS domains that no other run on this machine uses: the lab's and one per vehicle, 50 higher

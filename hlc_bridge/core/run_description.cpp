@@ -18,6 +18,7 @@ RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> n
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
   description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;
+  description.policy = scenario.policy;
   description.horizon_steps = scenario.horizon_steps;
   description.step_s = automaton.step_s;
   description.automaton = scenario.subgraph;

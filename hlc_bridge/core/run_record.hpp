@@ -11,6 +11,7 @@
 #include "hlc_bridge/core/run_messages.hpp"
 #include "planner/automaton/subgraph.hpp"
 #include "planner/geometry/footprint.hpp"
+#include "planner/policy/policy_settings.hpp"
 #include "planner/road/reference_path.hpp"
 
 /// What a run leaves behind, as plain data; `hlc_bridge/record` reads and writes the files.
@@ -31,6 +32,7 @@ struct RunDescription {
   std::string map;
   std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;
+  std::string policy{kNoPolicy};  ///< by which the controllers changed it
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;

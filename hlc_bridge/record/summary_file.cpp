@@ -62,6 +62,7 @@ std::string summary_json(const RunSummary& summary) {
   json["map"] = run.map.empty() ? Json(nullptr) : Json(run.map);
   json["seed"] = run.noise_seed ? Json(*run.noise_seed) : Json(nullptr);
   json["subgraph"] = run.subgraph;
+  json["policy"] = run.policy;
   json["horizon_steps"] = run.horizon_steps;
   json["step_s"] = run.step_s;
   json["steps"] = summary.steps;

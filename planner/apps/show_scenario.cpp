@@ -55,12 +55,14 @@ int main(int argc, char** argv) {
   hlc::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
+  bool policy = false;
   hlc::OutputFile plot{"--plot", {}};
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::whole(1, 100000));
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
   app.add_flag("--print_steps", steps, "print only the number of steps");
+  app.add_flag("--print_policy", policy, "print only the name of the policy that holds, or none");
   hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
   app.footer("Exit codes: 0 good, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
@@ -77,6 +79,8 @@ int main(int argc, char** argv) {
       print_starts(scenario);
     } else if (steps) {
       std::printf("%zu\n", scenario.steps);
+    } else if (policy) {
+      std::printf("%s\n", scenario.policy.c_str());
     } else {
       print_table(scenario);
     }

@@ -65,14 +65,14 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
 /// the first with a larger number.
 void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
-  if (contains(spec.trims, trim)) refuse("trim " + as_text(trim) + " on: it is on");
+  if (contains(spec.trims, trim)) refuse("trim " + as_text(trim) + " on: it is on, allowed trims that are off");
   spec.trims.insert(std::ranges::find_if(spec.trims, [trim](TrimId other) { return other > trim; }),
                     trim);
 }
 
 void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
-  if (!contains(spec.trims, trim)) refuse("trim " + as_text(trim) + " off: it is off");
+  if (!contains(spec.trims, trim)) refuse("trim " + as_text(trim) + " off: it is off, allowed trims that are on");
   std::erase(spec.trims, trim);
   const auto names_it = [trim](const auto& one) {
     return one.edge.from == trim || one.edge.to == trim;

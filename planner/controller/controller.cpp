@@ -112,6 +112,7 @@ std::unique_ptr<Controller> Controller::clone(std::optional<std::size_t> max_exp
   result->path_s_m_ = path_s_m_;
   result->joining_ = joining_;
   result->sets_out_ = sets_out_;
+  result->rests_since_ = rests_since_;
   result->last_heard_ = last_heard_;
   result->last_sign_of_life_ = last_sign_of_life_;
   result->last_not_standing_ = last_not_standing_;
@@ -382,17 +383,40 @@ void Controller::look_at_lanes() {
            lies_inside(route(), base.pose_at(std::max(base.end(), next)), footprint);
   };
   const bool stands = base.end() <= next;
-  if (stands && (sets_out_ || (joining_.is_possible && !joining_.area && !lies_in_lanes()))) {
+  const auto area_from_here = [&] {
     const Placement placement = placement_on(route(), step_.traffic.next_pose, footprint);
     path_s_m_ = placement.s_m;
-    joining_ = join(
+    return join(
         route(), placement, step_.traffic.next_pose, reach_m(), footprint,
         [this](const Corridor& corridor) { return problem_alone(corridor); }, *planner_);
+  };
+  const bool has_rested = has_rested_for_long();
+  if (stands && (sets_out_ || (joining_.is_possible && !joining_.area && !lies_in_lanes()))) {
+    joining_ = area_from_here();
     sets_out_ = false;
+  } else if (has_rested && joining_.is_possible && !joining_.area) {
+    // It may as well wait for somebody: only a way out counts.
+    if (Joining way_out = area_from_here(); way_out.area) joining_ = std::move(way_out);
   }
   if (!joining_.is_possible) step_.obstacle = FallbackReason::kOffRoute;
   // A vehicle that stands in its lanes may need the area to drive off.
-  if (joining_.area && !stands && lies_in_lanes()) joining_.area.reset();
+  if (joining_.area && !stands && !rests_since_ && lies_in_lanes()) joining_.area.reset();
+}
+
+/// True once in every horizon in which the plan in force was to stay where it is.
+bool Controller::has_rested_for_long() {
+  const StepIndex next{step_.observation.step.value + 1};
+  const Plan& base = in_force_->base();
+  const Pose& from = base.pose_at(next);
+  const bool rests = subgraph().automaton().trims[base.trim_at(next).index].is_equilibrium() &&
+                     from == base.pose_at(std::max(base.end(), next));
+  if (!rests) {
+    rests_since_.reset();
+    return false;
+  }
+  rests_since_ = rests_since_.value_or(next);
+  const std::uint64_t rested = next.value - rests_since_->value;
+  return rested > 0 && rested % options_.horizon_steps == 0;
 }
 
 HorizonProblem Controller::pose_problem() {

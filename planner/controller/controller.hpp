@@ -64,7 +64,9 @@ struct Observation {
 ///
 /// The vehicle starts from where it stands. Of the routes that it may take it takes the one that it
 /// fits best, from its place there on (placement.hpp); beside its lanes it drives in an area that
-/// leads into them (joining.hpp). A vehicle that fits none, or cannot get onto its route, stands
+/// leads into them (joining.hpp). So does one that has come to stand in its lanes, by a fallback or
+/// a change of its subgraph, where nothing that stays in them leads on: it is looked at anew after
+/// every horizon in which it stood. A vehicle that fits none, or cannot get onto its route, stands
 /// and says so in its report.
 class Controller {
  public:
@@ -202,6 +204,7 @@ class Controller {
   void say_what_is_in_force(Report& report) const;
   void take_route(const Pose& measured);
   void look_at_lanes();
+  [[nodiscard]] bool has_rested_for_long();
   [[nodiscard]] double project(const Point& position_m) const;
   [[nodiscard]] double reach_m() const;
   [[nodiscard]] Found search();
@@ -236,6 +239,7 @@ class Controller {
   std::optional<double> path_s_m_;  ///< where the vehicle was on its path
   Joining joining_;
   bool sets_out_{false};  ///< stands where it was measured, and has not been looked at yet
+  std::optional<StepIndex> rests_since_;  ///< while the plan in force is to stay where it is
   std::map<VehicleId, StepIndex> last_heard_;
   std::map<VehicleId, StepIndex>
       last_sign_of_life_;  ///< last step in which it was heard or present

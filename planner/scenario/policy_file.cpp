@@ -31,6 +31,7 @@ SubgraphRequest read_request(const YamlNode& node) {
   for (const YamlNode& label : node.optional_list("labels")) {
     request.labels.push_back(label.as<std::string>());
   }
+  if (node.has("labels") && request.labels.empty()) node.fail("labels", "at least one");
   const double max_speed_mps = node.optional<double>("max_speed_mps", 0.0, above(0.0));
   if (node.has("max_speed_mps")) request.max_speed_mps = max_speed_mps;
   request.trims_on = read_trims(node, "trims_on");
@@ -131,8 +132,7 @@ PolicySettings read_rule(const YamlNode& node) {
     if (kind == "battery") return read_battery(node);
     if (kind == "look_ahead") return read_look_ahead(node);
   }
-  throw std::invalid_argument(node.place(keys.empty() ? "rule" : keys.front()) +
-                              ", allowed one of time, situation, battery, look_ahead");
+  node.fail("a map of one key: time, situation, battery or look_ahead");
 }
 
 ReconfigurationSettings read_policy(const YamlNode& node) {
@@ -146,6 +146,9 @@ ReconfigurationSettings read_policy(const YamlNode& node) {
   settings.min_stay_s =
       node.optional<double>("min_stay_s", settings.min_stay_s, between(0.0, kLongest_s));
   node.check_no_unknown_keys();
+  if (settings.zones.empty() && settings.policies.empty()) {
+    node.fail("rules", "at least one, or at least one of `zones`");
+  }
   return settings;
 }
 
@@ -170,8 +173,7 @@ void check_policy(const YamlNode& scenario, const std::string& name,
   try {
     check_reconfiguration(base, settings, horizon_steps, lab);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
-                                "': " + error.what());
+    throw std::invalid_argument(scenario.map("policies").place(name) + ": " + error.what());
   }
 }
 

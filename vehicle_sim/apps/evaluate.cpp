@@ -75,6 +75,9 @@ hlc::Campaign read(Choices& choices) {
   check_each_once("--profile", choices.plan.profiles);
   check_each_once("--subgraphs", choices.plan.subgraphs);
   check_each_once("--policies", choices.plan.policies);
+  if (std::ranges::find(choices.plan.policies, "") != choices.plan.policies.end()) {
+    throw std::invalid_argument("--policies: an empty name, allowed those of the scenario");
+  }
   hlc::FigureChoices& figures = choices.figures;
   const auto is_asked_for = [&](const char* name) {
     return std::ranges::find(figures.names, name) != figures.names.end();
@@ -189,7 +192,8 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--policies", choices.plan.policies,
                  "of the scenario: drives it also on its own subgraph with each of these policies, "
-                 "and writes the tables `tradeoff`")
+                 "and writes the tables `tradeoff`; without, no policy drives, not even the "
+                 "scenario's own")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
                  "how many starts: the scenario's own, then random ones on the routes")

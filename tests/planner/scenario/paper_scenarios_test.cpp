@@ -228,5 +228,33 @@ INSTANTIATE_TEST_SUITE_P(Profiles, PaperScenario,
                                   (std::get<1>(one.param) ? "_lab_map" : "_own_map");
                          });
 
+// A plan that is driven to its end may end askew at the lane's edge, where nothing that stays in
+// the lanes leads on.
+TEST(Fallback, ACarThatCameToStandInACornerOfItsLanesIsLedOut) {
+  Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/reconfiguration.yaml",
+       .subgraph = "union",
+       .policy = kNoPolicy});
+  scenario.vehicles.erase(scenario.vehicles.begin() + 1, scenario.vehicles.end());
+  scenario.search.max_expansions = 2000;
+  for (std::size_t start = 5; start <= 85; ++start) {
+    SCOPED_TRACE(testing::Message() << "driven out from step " << start);
+    Rollout rollout = make_rollout(scenario);
+    Controller& controller = *rollout.controllers().front();
+    const auto steps = [&](std::size_t count) {
+      const Point from_m = controller.plan_in_force().pose_at(rollout.next_step()).position_m();
+      for (std::size_t k = 0; k < count; ++k) static_cast<void>(rollout.step());
+      const Point to_m = controller.plan_in_force().pose_at(rollout.next_step()).position_m();
+      return (to_m - from_m).norm();
+    };
+    static_cast<void>(steps(start));
+    controller.set_drives_out(true);
+    static_cast<void>(steps(12));
+    controller.set_drives_out(false);
+    static_cast<void>(steps(14));
+    EXPECT_GT(steps(6), 0.3);
+  }
+}
+
 }  // namespace
 }  // namespace hlc::paper_scenarios_test

@@ -81,13 +81,13 @@ TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
        "x_m[2] = 1, allowed a number > 2"},
       {"a: {zones: [{x_m: [2], y_m: [0, 1], max_speed_mps: 0.5}]}", "two numbers, [from, to]"},
       {"a: {zones: [{x_m: [1, 2], y_m: [0, 1], max_speed_mps: 0.2}]}",
-       "policy 'a': in the zone of 0.2 m/s: speed limit 0.2 m/s, allowed at least 0.4"},
-      {"a: {rules: [{weather: {}}]}", "allowed one of time, situation, battery, look_ahead"},
+       "policies.a = (a map): in the zone of 0.2 m/s: speed limit 0.2 m/s, allowed at least 0.4"},
+      {"a: {rules: [{weather: {}}]}", "policies.a.rules[1] = (a map), allowed a map of one key"},
       {"a: {rules: [{time: []}]}", "at least one entry"},
       {"a: {rules: [{time: [{from_s: 2, request: {}}, {from_s: 1, request: {}}]}]}",
        "from_s = 1, allowed a number > 2"},
       {"a: {rules: [{time: [{from_s: 2, request: {labels: [J9]}}]}]}",
-       "policy 'a': label 'J9', allowed fast, slow"},
+       "policies.a = (a map): label 'J9', allowed fast, slow"},
       {"a: {rules: [{time: [{from_s: 2, request: {label: J9}}]}]}", "label"},
       {"a: {rules: [{time: [{from_s: 2, request: {trims_off: [13]}}]}]}",
        "trim 13, allowed 1 ... 12"},
@@ -99,6 +99,10 @@ TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
       {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 9, "
        "criterion_weights: {J2: 1}}}]}",
        "criterion_weights: J2, allowed"},
+      {"a: {rules: [{time: [], situation: {}}]}", "allowed a map of one key"},
+      {"a: {rules: [{time: [{from_s: 2, request: {labels: []}}]}]}",
+       "labels = (a list), allowed at least one"},
+      {"a: {min_stay_s: 2}", "at least one"},
       {"a: {min_stay_s: -1}", "min_stay_s = -1"},
   };
   for (const auto& [policy, expected] : cases) {
@@ -148,7 +152,7 @@ policies:
   EXPECT_EQ(read_d("none").policies.size(), 2U);
   EXPECT_EQ(read_d("slow").policy, "slow");
   EXPECT_THAT([&] { static_cast<void>(read_d("without_3")); },
-              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("policy 'without_3'")));
+              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("policies.without_3")));
 }
 
 // Where it should be nobody would slow down.
