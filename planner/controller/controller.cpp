@@ -403,7 +403,8 @@ void Controller::look_at_lanes() {
   if (joining_.area && !stands && !rests_since_ && lies_in_lanes()) joining_.area.reset();
 }
 
-/// True once in every horizon in which the plan in force was to stay where it is.
+/// True once in every horizon in which the plan in force was to stay where it is. Not with the
+/// cost-to-go of 2022, whose drives are to be the paper's.
 bool Controller::has_rested_for_long() {
   const StepIndex next{step_.observation.step.value + 1};
   const Plan& base = in_force_->base();
@@ -414,6 +415,7 @@ bool Controller::has_rested_for_long() {
     rests_since_.reset();
     return false;
   }
+  if (options_.search.cost_to_go == CostToGo::k2022) return false;
   rests_since_ = rests_since_.value_or(next);
   const std::uint64_t rested = next.value - rests_since_->value;
   return rested > 0 && rested % options_.horizon_steps == 0;

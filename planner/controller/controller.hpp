@@ -66,8 +66,8 @@ struct Observation {
 /// fits best, from its place there on (placement.hpp); beside its lanes it drives in an area that
 /// leads into them (joining.hpp). So does one that has come to stand in its lanes, by a fallback or
 /// a change of its subgraph, where nothing that stays in them leads on: it is looked at anew after
-/// every horizon in which it stood. A vehicle that fits none, or cannot get onto its route, stands
-/// and says so in its report.
+/// every horizon in which it stood (not with the cost-to-go of 2022). A vehicle that fits none, or
+/// cannot get onto its route, stands and says so in its report.
 class Controller {
  public:
   /// @param routes  those that the vehicle may take, at least one
