@@ -62,7 +62,6 @@ std::string summary_json(const RunSummary& summary) {
   json["map"] = run.map.empty() ? Json(nullptr) : Json(run.map);
   json["seed"] = run.noise_seed ? Json(*run.noise_seed) : Json(nullptr);
   json["subgraph"] = run.subgraph;
-  json["policy"] = run.policy;
   json["horizon_steps"] = run.horizon_steps;
   json["step_s"] = run.step_s;
   json["steps"] = summary.steps;
@@ -81,6 +80,7 @@ std::string summary_json(const RunSummary& summary) {
       {"cpu", summary.host.cpu}, {"cores", summary.host.cores}, {"kernel", summary.host.kernel}};
   json["engine"] = run.engine;
   json["expanded_vertices_sum_max"] = summary.expanded_vertices_sum_max;
+  json["policy"] = run.policy;
   return json.dump(2) + "\n";
 }
 

@@ -44,7 +44,8 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                                       "horizon_steps", "step_s", "steps", "vehicles",
                                       "generated_vertices_sum_max", "min_footprint_distance_m",
                                       "collisions", "wall_s", "realtime_factor", "trace_sha256",
-                                      "revision", "host", "engine", "expanded_vertices_sum_max"));
+                                      "revision", "host", "engine", "expanded_vertices_sum_max",
+                                      "policy"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle),
               ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
