@@ -79,7 +79,7 @@ Rollout make_rollout(const Scenario& scenario) {
     starts.push_back(vehicle.start);
   }
   Rollout rollout(std::move(controllers), starts);
-  rollout.choose_by(scenario.reconfiguration);
+  if (scenario.policy != kNoPolicy) rollout.choose_by(scenario.reconfiguration);
   return rollout;
 }
 

@@ -19,8 +19,8 @@ class Rollout {
   /// @param starts       planned pose of each at the start, standing
   Rollout(std::vector<std::unique_ptr<Controller>> controllers, const std::vector<Pose>& starts);
 
-  /// From the next step on every controller follows these zones and policies. No battery is
-  /// measured. @pre all are on the subgraphs of their scenario
+  /// From the next step on every controller follows these zones and policies, and nobody else may
+  /// switch it. No battery is measured. @pre all are on the subgraphs of their scenario
   void choose_by(const ReconfigurationSettings& settings);
 
   /// The same vehicles in the same state, going their own way from here; loses nothing, and stays
@@ -48,7 +48,7 @@ class Rollout {
   StepIndex next_step_{0};
 };
 
-/// All vehicles of the scenario, standing at their starts.
+/// All vehicles of the scenario, standing at their starts, with its policy, if it has one.
 [[nodiscard]] Rollout make_rollout(const Scenario& scenario);
 
 }  // namespace hlc
