@@ -15,6 +15,7 @@
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
 namespace {
@@ -48,20 +49,13 @@ class Scripts : public testing::Test {
     return 0;
   }
 
-  Scripts()
-      : folder_(std::filesystem::path(testing::TempDir()) /
-                ("hlc_script_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Scripts() override { std::filesystem::remove_all(folder_); }
-
   ChildProcess run_lab(std::vector<std::string> flags) {
     flags.insert(flags.begin(), {kScripts + "run_lab.sh", "--bin", kBin});
     return ChildProcess(flags, folder_ / "output");
   }
   [[nodiscard]] std::string output() const { return read_text(folder_ / "output"); }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
@@ -151,9 +145,10 @@ TEST_F(Scripts, FlagsThatContradictEachOtherAreRefused) {
 TEST_F(Scripts, AVehicleByHandJoinsNoRunThatHasReservedTheDomain) {
   const DomainReservation domains{2};
   const std::string domain = std::to_string(domains.first());
-  ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario",
-                        "paper_red_alone", "--dds_domain", domain, "--out", folder_.string()},
-                       folder_ / "output");
+  ChildProcess vehicle(
+      {kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario", "paper_red_alone",
+       "--dds_domain", domain, "--out", folder_.path().string()},
+      folder_ / "output");
   EXPECT_EQ(vehicle.wait_for(60s), 2) << output();
   EXPECT_NE(output().find("--dds_domain = " + domain), std::string::npos) << output();
 }

@@ -14,6 +14,7 @@
 
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -24,15 +25,7 @@ using test::run_program;
 
 class AutomatonPrograms : public testing::Test {
  protected:
-  AutomatonPrograms()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("automaton_programs_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    write("car.yaml", configuration_);
-  }
-  ~AutomatonPrograms() override { fs::remove_all(folder_); }
+  AutomatonPrograms() { write("car.yaml", configuration_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -52,7 +45,7 @@ class AutomatonPrograms : public testing::Test {
   }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> result;
-    for (const auto& entry : fs::directory_iterator(folder_)) {
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
       result.push_back(entry.path().filename().string());
     }
     std::sort(result.begin(), result.end());
@@ -74,7 +67,7 @@ subgraphs:
   - {name: B, label: J2, trims: [1, 3, 2, 4]}
   - {name: C, label: J3, trims: [1, 3, 4]}
 )";
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(AutomatonPrograms, WritesFileAndTableTheSameForAnyNumberOfJobs) {
@@ -273,11 +266,11 @@ TEST_F(AutomatonPrograms, AScenarioDrivesWithABuiltFileAsWithItsConfiguration) {
 }
 
 TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
-  const fs::path map = fs::path(testing::TempDir()) / "generate_map_test.xml";
+  const TemporaryFolder folder;
+  const fs::path map = folder / "map.xml";
   EXPECT_EQ(run_program("generate_map --out " + map.string()).exit_code, 0);
   EXPECT_GT(fs::file_size(map), 1000U);
-  fs::remove(map);
-  const Outcome outcome = run_program("generate_map --out " + testing::TempDir());
+  const Outcome outcome = run_program("generate_map --out " + folder.path().string());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_TRUE(outcome.output.starts_with("generate_map: --out = ")) << outcome.output;
 }

@@ -12,6 +12,7 @@
 
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
 namespace {
@@ -28,18 +29,9 @@ std::string text_of(const fs::path& file) {
 
 class ParetoFrontProgram : public testing::Test {
  protected:
-  ParetoFrontProgram()
-      : folder_(fs::path(testing::TempDir()) /
-                ("pareto_front_" +
-                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~ParetoFrontProgram() override { fs::remove_all(folder_); }
-
   [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ParetoFrontProgram, WritesTheFrontAsATableAndAsAPlot) {
@@ -76,7 +68,8 @@ TEST_F(ParetoFrontProgram, WritesTheFrontAsATableAndAsAPlot) {
                            "Inputs: steering rate", "s_x [m]", "psi [rad]", "knee"}) {
     EXPECT_NE(plot.find(text), std::string::npos) << text;
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "something else was left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 2)
+      << "something else was left";
 }
 
 TEST_F(ParetoFrontProgram, TheSameInputGivesTheSameBytes) {

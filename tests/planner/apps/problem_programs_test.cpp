@@ -12,6 +12,7 @@
 
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -30,15 +31,6 @@ std::size_t lines_of(const std::string& text) {
 
 class ProblemPrograms : public testing::Test {
  protected:
-  ProblemPrograms()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("problem_programs_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~ProblemPrograms() override { fs::remove_all(folder_); }
-
   /// The shipped problem with one piece replaced, in the folder.
   [[nodiscard]] std::string changed(const std::string& from, const std::string& to) const {
     std::stringstream text;
@@ -60,7 +52,7 @@ class ProblemPrograms : public testing::Test {
                    "\"obstacles\": [\n    [[[-9, -9], [9, -9], [0, 9]], ");
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 nlohmann::json json_of(const std::string& flags) {
@@ -205,7 +197,7 @@ TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold
        {"this planner, branch_and_bound", "this planner, best_first", "RRT", "SST", "KPIECE1"}) {
     EXPECT_THAT(outcome.output, HasSubstr(std::string("\n") + planner));
   }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
   const fs::path log = folder_ / "benchmark.log";
   EXPECT_EQ(run_program(command + " --log " + log.string()).exit_code, 0);
   EXPECT_GT(fs::file_size(log), 1000U);

@@ -9,6 +9,7 @@
 
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -30,17 +31,15 @@ subgraphs:
   - {name: B, label: J2, trims: all}
 )";
 
-/// Reads the text from a file of this name in the test's own folder.
+/// Reads the text from a file; FILE stands for its path in a refusal.
 AutomatonConfiguration read(const std::string& text) {
-  const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".yaml");
+  const TemporaryFolder temporary;
+  const std::filesystem::path path = temporary / "car.yaml";
   std::ofstream(path) << text;
   AutomatonConfiguration configuration;
   try {
     configuration = read_automaton_configuration(path);
   } catch (const std::invalid_argument& error) {
-    std::filesystem::remove(path);
     std::string message = error.what();
     const std::string folder = path.string();
     EXPECT_EQ(message.substr(0, folder.size()), folder);
@@ -223,7 +222,7 @@ TEST(AutomatonConfiguration, KnowsWhereItsKeysStand) {
   const auto without_folder = [](const std::string& place) {
     return place.substr(place.rfind('/') + 1);
   };
-  const std::string file = "KnowsWhereItsKeysStand.yaml";
+  const std::string file = "car.yaml";
   const ConfigurationPlaces places = read(text).places;
   EXPECT_EQ(without_folder(places.intervals), file + ":1: intervals = 20");
   ASSERT_EQ(places.subgraphs.size(), 2U);

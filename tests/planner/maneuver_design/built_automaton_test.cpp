@@ -10,6 +10,7 @@
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/automaton/sha256.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -19,18 +20,12 @@ namespace fs = std::filesystem;
 /// A folder of the test's own, with a copy of the shipped configuration reduced to J2.
 class BuiltAutomaton : public testing::Test {
  protected:
-  BuiltAutomaton()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("built_automaton_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  BuiltAutomaton() {
     write("car.yaml", configuration_text_);
     const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
     file_ = file_of(configuration, build_automaton(configuration));
     write_automaton_file(file_, path_);
   }
-  ~BuiltAutomaton() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -65,8 +60,8 @@ class BuiltAutomaton : public testing::Test {
     } catch (const std::invalid_argument& error) {
       std::string message = error.what();
       EXPECT_EQ(message.find('\n'), std::string::npos);
-      for (std::size_t at; (at = message.find(folder_.string())) != std::string::npos;) {
-        message.replace(at, folder_.string().size(), "DIR");
+      for (std::size_t at; (at = message.find(folder_.path().string())) != std::string::npos;) {
+        message.replace(at, folder_.path().string().size(), "DIR");
       }
       return message;
     }
@@ -86,7 +81,7 @@ subgraphs:
   - {name: B, label: J2, trims: all}
   - {name: both, labels: [J2, "half \"and\" half"], trims: [1, 3, 2], max_speed_mps: 2.5, off: [{from: 2, to: 3, label: J2}]}
 )";
-  fs::path folder_;
+  const TemporaryFolder folder_;
   fs::path path_{folder_ / "automaton.yaml"};
   AutomatonFile file_;
 };
@@ -128,7 +123,7 @@ TEST_F(BuiltAutomaton, TheSameConfigurationGivesTheSameFileByteForByte) {
 
 TEST_F(BuiltAutomaton, LeavesNothingBesideTheFile) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder_))
+  for (const auto& entry : fs::directory_iterator(folder_.path()))
     names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"automaton.yaml", "car.yaml"}));

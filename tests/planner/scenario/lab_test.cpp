@@ -12,6 +12,7 @@
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::lab_test {
 namespace {
@@ -28,15 +29,16 @@ std::string content_of(const std::string& path) {
   return {(std::istreambuf_iterator<char>(file)), {}};
 }
 
-/// A file with the shipped text but for one change; its references go to the shipped files.
-std::string changed_file(const std::string& source, const std::string& from, const std::string& to,
-                         const std::string& name) {
+/// A file in the folder with the shipped text but for one change; its references go to the shipped
+/// files.
+std::string changed_file(const TemporaryFolder& folder, const std::string& source,
+                         const std::string& from, const std::string& to) {
   std::string text = content_of(source);
   text = std::regex_replace(text, std::regex(R"(\.\./)"), kFolder);
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   if (at != std::string::npos) text.replace(at, from.size(), to);
-  const std::string path = testing::TempDir() + name;
+  const std::string path = folder / std::filesystem::path(source).filename().string();
   std::ofstream(path) << text;
   return path;
 }
@@ -78,7 +80,8 @@ TEST(LabFile, ItsCurvaturesAreThoseOfTheIdentifiedVehicleAtFullSteering) {
 
 TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
   const auto said = [](const std::string& from, const std::string& to) {
-    const std::string file = changed_file(kLabFile, from, to, "lab_errors.yaml");
+    const TemporaryFolder folder;
+    const std::string file = changed_file(folder, kLabFile, from, to);
     return error_of([&] { static_cast<void>(read_lab(file, 0.2)); });
   };
   EXPECT_THAT(said("curvature_min_per_m: -3.960", "curvature_min_per_m: 3.960"),
@@ -92,9 +95,9 @@ TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
 }
 
 TEST(Lab, ThePapersAutomatonIsRefusedWithTheTrimThatIsTooTight) {
-  const std::string file =
-      changed_file(kFolder + "scenarios/lab_three_cars.yaml", "automata/lab.yaml",
-                   "automata/paper.yaml", "lab_refused.yaml");
+  const TemporaryFolder folder;
+  const std::string file = changed_file(folder, kFolder + "scenarios/lab_three_cars.yaml",
+                                        "automata/lab.yaml", "automata/paper.yaml");
   const std::string said = error_of([&] { static_cast<void>(read_scenario({.file = file})); });
   EXPECT_THAT(said,
               AllOf(HasSubstr("automata/paper.yaml: subgraph B, trim 2: curvature = -4.31"),
@@ -103,11 +106,12 @@ TEST(Lab, ThePapersAutomatonIsRefusedWithTheTrimThatIsTooTight) {
 }
 
 TEST(Lab, AnAutomatonIsRefusedForAManeuverWhoseTrimsCanBeDriven) {
+  const TemporaryFolder folder;
   const std::string automaton =
-      changed_file(kFolder + "automata/lab.yaml", "curvature_max_per_m: 3.75",
-                   "curvature_max_per_m: 9.0", "lab_wide_automaton.yaml");
-  const std::string file = changed_file(kFolder + "scenarios/lab_circle.yaml",
-                                        kFolder + "automata/lab.yaml", automaton, "lab_wide.yaml");
+      changed_file(folder, kFolder + "automata/lab.yaml", "curvature_max_per_m: 3.75",
+                   "curvature_max_per_m: 9.0");
+  const std::string file = changed_file(folder, kFolder + "scenarios/lab_circle.yaml",
+                                        kFolder + "automata/lab.yaml", automaton);
   EXPECT_THAT(error_of([&] { static_cast<void>(read_scenario({.file = file})); }),
               AllOf(HasSubstr("subgraph B, maneuver 1 -> "), HasSubstr("(J2): curvature = ")));
 }

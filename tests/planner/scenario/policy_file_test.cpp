@@ -168,7 +168,8 @@ TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
   };
   replace_all("../", folder);
   replace_all("x_m: [1.9, 2.7]", "x_m: [10.9, 12.7]");
-  const std::string file = testing::TempDir() + "/zone_beside_all_routes.yaml";
+  const TemporaryFolder temporary;
+  const std::string file = temporary / "zone_beside_all_routes.yaml";
   std::ofstream(file) << text;
   try {
     static_cast<void>(read_scenario({.file = file}));

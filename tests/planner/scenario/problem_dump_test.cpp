@@ -10,6 +10,7 @@
 #include "planner/scenario/problem_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::problem_dump_test {
 namespace {
@@ -46,12 +47,7 @@ struct Drive {
 
 class ProblemDumpTest : public testing::TestWithParam<Drive> {
  protected:
-  ProblemDumpTest() : folder_(fs::path(testing::TempDir()) / ("problem_dump_" + GetParam().name)) {
-    fs::remove_all(folder_);
-  }
-  ~ProblemDumpTest() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
@@ -138,7 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ProblemDumpErrors, AProblemOnASubgraphThatWasAskedForIsNotWritten) {
   const Scenario scenario = read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
-  const fs::path folder = fs::path(testing::TempDir()) / "problem_dump_asked_for";
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary / "problems";
   const ProblemDump dump(folder, scenario.automaton_file, scenario.subgraph->spec());
   Rollout rollout = make_rollout(scenario);
   static_cast<void>(rollout.step());
@@ -147,7 +144,6 @@ TEST(ProblemDumpErrors, AProblemOnASubgraphThatWasAskedForIsNotWritten) {
   controller.switch_to(
       requested_subgraph(*scenario.subgraph, {.max_speed_mps = 0.6}, scenario.horizon_steps));
   EXPECT_THROW(dump.write(controller), std::runtime_error);
-  fs::remove_all(folder);
 }
 
 TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {

@@ -14,6 +14,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/random_problem.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::problem_file_test {
 namespace {
@@ -45,16 +46,10 @@ const std::string kHandWritten = R"({
 
 class ProblemFileTest : public testing::Test {
  protected:
-  ProblemFileTest()
-      : folder_(std::filesystem::path(testing::TempDir()) /
-                (std::string("problem_file_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())),
-        file_(folder_ / "problem.json") {
-    std::filesystem::create_directories(folder_);
+  ProblemFileTest() {
     std::filesystem::copy_file(kAutomaton, folder_ / "paper.yaml",
                                std::filesystem::copy_options::overwrite_existing);
   }
-  ~ProblemFileTest() override { std::filesystem::remove_all(folder_); }
 
   void put(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
 
@@ -80,8 +75,8 @@ class ProblemFileTest : public testing::Test {
     return error_of(with(from, to));
   }
 
-  std::filesystem::path folder_;
-  std::filesystem::path file_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "problem.json";
 };
 
 bool same_bits(double a, double b) {

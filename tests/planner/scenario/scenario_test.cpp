@@ -8,6 +8,7 @@
 
 #include "planner/geometry/footprint.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::scenario_test {
 namespace {
@@ -26,9 +27,8 @@ class ScenarioErrors : public testing::Test {
     for (std::size_t place = 0; (place = text.find("../", place)) != std::string::npos;) {
       text.replace(place, 3, kFolder);
     }
-    const std::string file = testing::TempDir() + "/scenario_" +
-                             testing::UnitTest::GetInstance()->current_test_info()->name() +
-                             ".yaml";
+    const TemporaryFolder folder;
+    const std::string file = folder / "scenario.yaml";
     std::ofstream(file) << text;
     try {
       static_cast<void>(read_scenario({.file = file}));

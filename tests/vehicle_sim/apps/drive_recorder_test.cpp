@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/record/drive_file.hpp"
 #include "tests/support/full_disk.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -18,11 +19,7 @@ std::string lines_of(const std::filesystem::path& file) {
 
 class DriveRecorderTest : public testing::Test {
  protected:
-  DriveRecorderTest() { std::filesystem::create_directories(folder_); }
-  ~DriveRecorderTest() override { std::filesystem::remove_all(folder_); }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "hlc_drive_recorder_test";
+  const TemporaryFolder folder_;
 };
 
 TEST_F(DriveRecorderTest, RowsAreOnTheDiskAtOnceWithAllDigits) {
