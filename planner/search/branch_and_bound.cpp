@@ -18,6 +18,7 @@
 namespace hlc {
 namespace {
 
+using branch_and_bound::blocks_of;
 using branch_and_bound::kFloatLanes;
 using branch_and_bound::kNoPath;
 using branch_and_bound::Question;
@@ -83,16 +84,26 @@ class BranchAndBound::Core {
       reference_dy_.resize(n + kFloatLanes);
       path.resize(n + 1);
       keys_.resize((n + 1) * tables.most_edges());
+      doubts_.resize((n + 1) * blocks_of(tables.most_edges()));
       best_edges.resize(n + 1);
       best_x.resize(n + 1);
       best_y.resize(n + 1);
-      for (std::size_t k = 0; k <= n; ++k) path[k].keys = &keys_[k * tables.most_edges()];
+      for (std::size_t k = 0; k <= n; ++k) {
+        path[k].keys = &keys_[k * tables.most_edges()];
+        path[k].doubts = &doubts_[k * blocks_of(tables.most_edges())];
+      }
     }
+    // Where its place along an axis is a number of 32 bits. No vertex comes near it, so all are
+    // nearer to a point that is moved there than to where it was.
+    const double farthest_m = 0x1p29 / static_cast<double>(tables.view().per_unit_m);
+    const auto seen = [&](double place_m, double start_m) {
+      return static_cast<float>(std::clamp(place_m - start_m, -farthest_m, farthest_m));
+    };
     for (std::size_t j = 0; j < n; ++j) {
       reference_x_[j] = problem.reference_m[j].x();
       reference_y_[j] = problem.reference_m[j].y();
-      reference_dx_[j] = static_cast<float>(reference_x_[j] - problem.start.x_m);
-      reference_dy_[j] = static_cast<float>(reference_y_[j] - problem.start.y_m);
+      reference_dx_[j] = seen(reference_x_[j], problem.start.x_m);
+      reference_dy_[j] = seen(reference_y_[j], problem.start.y_m);
     }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
@@ -123,6 +134,8 @@ class BranchAndBound::Core {
     path[0].trim = static_cast<std::uint32_t>(problem.start_trim.index);
 
     obstacles.list(problem, plan);
+    if (near_.size() < obstacles.most_obstacles()) near_.resize(obstacles.most_obstacles());
+    search.near = near_.data();
     kernel.prepare(plan, path[0]);
   }
 
@@ -162,6 +175,8 @@ class BranchAndBound::Core {
   std::vector<float> reference_dy_;
   std::vector<float> to_go_;
   std::vector<double> keys_;
+  std::vector<std::uint8_t> doubts_;
+  std::vector<branch_and_bound::Rectangles> near_;
   std::vector<branch_and_bound::Level> levels_;
   std::vector<branch_and_bound::PolygonBlock> area_;  ///< room for a placed area
   mutable ConvexPolygon placed_;                      ///< its capacity holds the largest area
@@ -237,7 +252,7 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
     const std::uint32_t edge = core.tables.find({vertex.trim}, problem.incumbent[depth]);
     if (edge == TableStore::kNoEdge) return;
     if (core.search.levels[depth].penalty[edge] >= branch_and_bound::kForbidden) return;
-    if (!core.kernel.is_free(core.search, edge, depth + 1, vertex)) return;
+    if (!core.kernel.is_free(core.search, edge, depth + 1, vertex, false)) return;
     const branch_and_bound::EdgeData& data = tables.edges[edge];
     const Frame next =
         compose(frame_of(vertex), {{data.x, data.y}, data.cos_heading, data.sin_heading});
@@ -281,15 +296,17 @@ std::vector<double> BranchAndBound::estimates(const HorizonProblem& problem) {
 
 void BranchAndBound::prepare(const HorizonProblem& problem) { core_->prepare(problem); }
 
-bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const {
-  VertexData vertex{};
+bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start,
+                             bool among_all) const {
+  VertexData vertex = core_->path[0];
   vertex.x = start.origin_m.x();
   vertex.y = start.origin_m.y();
   vertex.cos_heading = start.cos_heading;
   vertex.sin_heading = start.sin_heading;
+  vertex.trim = static_cast<std::uint32_t>(maneuver.from.index);
   const std::uint32_t edge = core_->tables.find(maneuver.from, &maneuver);
   assert(edge != TableStore::kNoEdge);
-  return core_->kernel.is_free(core_->search, edge, step, vertex);
+  return core_->kernel.is_free(core_->search, edge, step, vertex, among_all);
 }
 
 }  // namespace hlc

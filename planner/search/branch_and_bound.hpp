@@ -18,9 +18,9 @@ struct SearchTables;
 ///
 /// Only the path that is being tried is kept. The children of its last vertex are tried in the
 /// order of f = g + h, those first generated first among equals; a child is left out as soon as its
-/// f is no less than the cost of the best complete path so far. The edge to a child is checked for
-/// collision only when the child is tried. When nothing is left, the best path is a path of least
-/// cost: every path through a child that was left out costs at least its f, hence no less.
+/// f is no less than the cost of the best complete path so far, or its edge is not free. When
+/// nothing is left, the best path is a path of least cost: every path through a child that was left
+/// out costs at least its f, hence no less.
 ///
 /// **Bound.** As CostToGo::kReachable, but seen from the parent, so that what depends on the vertex
 /// alone is computed once for all its children. For the edge t -> u with displacement T, with m
@@ -34,18 +34,22 @@ struct SearchTables;
 /// allowance). Each e_i is the distance of q_i from a half-plane that contains the positions, so it
 /// is admissible for the same automata as CostToGo::kReachable and under the same assumption. The
 /// intervals depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made
-/// once. It is in single precision, and so is h, made smaller by a bound on the rounding
+/// once. It holds whole numbers of 16 bits, of a unit below a millimetre, so that a vector has four
+/// edges and four steps. Rounding makes intervals wider and h smaller by at most that much; what
+/// lies farther than 24 of the longest displacements is taken to lie there
 /// (TableStore::compute_bounds).
 ///
 /// To f belongs what the maneuvers cost themselves (EdgeCosts), and to h the least that those after
 /// the edge can cost, whatever they do.
 ///
 /// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
-/// step is left out once per plan (PreparedObstacles). Most of the rest is decided eight obstacles
-/// at a time by rectangles: one around each area and one inside it, apart if the outer ones are,
-/// met if the inner ones are; and for boundaries by rectangles around eight segments in a row. What
-/// is left is decided by a separating-axis test in single precision, unless two areas touch to
-/// within its rounding: there by the very test of CollisionCheck.
+/// step is left out once per plan (PreparedObstacles). Most of the rest is decided by rectangles:
+/// one around each area and one inside it, apart if the outer ones are, met if the inner ones are.
+/// Where several children of a vertex may be tried, all its edges are compared at once, eight at a
+/// time; else the one that is tried, with eight obstacles at a time. Boundaries have rectangles
+/// around eight segments in a row. What is left is decided when a child is tried, by a
+/// separating-axis test in single precision, unless two areas touch to within its rounding: there
+/// by the very test of CollisionCheck.
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
 /// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,
@@ -90,7 +94,10 @@ class BranchAndBound final : public SearchEngine {
   void prepare(const HorizonProblem& problem);
   /// As CollisionCheck::is_free, for the problem prepared last.
   /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`; 1 <= step <= horizon
-  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
+  /// @param among_all  compared with obstacles together with all edges out of its trim, as where
+  /// several may be tried, or alone: the answer is the same
+  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start,
+                             bool among_all) const;
 
  private:
   class Core;

@@ -84,28 +84,33 @@ HLC_INLINE Answer compare(const PolygonBlock* area, std::uint32_t area_blocks,
   return lanes_less(most_apart, inside) == kEveryLane ? Answer::kMeet : Answer::kTooClose;
 }
 
-/// Rectangles of an area beside those of eight obstacles.
+/// Eight rectangles beside others, or beside one.
 struct Beside {
-  Floats ahead;  ///< distance of the centres along the area's axes
+  Floats ahead;  ///< distance of the centres along the eight's axes
   Floats aside;
-  Floats other_ahead;  ///< along the obstacle's axes
+  Floats other_ahead;  ///< along the others' axes
   Floats other_aside;
   Floats c;  ///< cosine and sine between the axes; all six without their signs
   Floats s;
 };
 
-HLC_INLINE Beside beside(const RectanglesBlock& block, const Floats& x, const Floats& y,
-                         const Floats& along_x, const Floats& along_y) {
-  const Floats dx = load(block.x) - x;
-  const Floats dy = load(block.y) - y;
-  const Floats other_x = load(block.along_x);
-  const Floats other_y = load(block.along_y);
-  return {absolute(dx * along_x + dy * along_y),
-          absolute(dy * along_x - dx * along_y),
-          absolute(dx * other_x + dy * other_y),
-          absolute(dy * other_x - dx * other_y),
-          absolute(along_x * other_x + along_y * other_y),
-          absolute(along_x * other_y - along_y * other_x)};
+/// Where rectangles are and what axes they have.
+struct Axis {
+  Floats x;
+  Floats y;
+  Floats along_x;
+  Floats along_y;
+};
+
+HLC_INLINE Beside beside(const Axis& own, const Axis& other) {
+  const Floats dx = other.x - own.x;
+  const Floats dy = other.y - own.y;
+  return {absolute(dx * own.along_x + dy * own.along_y),
+          absolute(dy * own.along_x - dx * own.along_y),
+          absolute(dx * other.along_x + dy * other.along_y),
+          absolute(dy * other.along_x - dx * other.along_y),
+          absolute(own.along_x * other.along_x + own.along_y * other.along_y),
+          absolute(own.along_x * other.along_y - own.along_y * other.along_x)};
 }
 
 /// How far rectangles with half these sizes are apart on the axis that separates them most.
@@ -118,43 +123,170 @@ HLC_INLINE Floats most_apart(const Beside& at, const Floats& along, const Floats
   return larger(own, other);
 }
 
-bool meets_obstacle(const Search& search, std::uint32_t edge, std::size_t step, const Placement& at,
-                    const VertexData& vertex) {
+/// Makes those of eight obstacles ready that are near and not ready yet. Were there any?
+HLC_INLINE bool prepare_fresh(const Plan& plan, std::uint32_t first, std::uint32_t near) {
+  std::uint32_t fresh = near & ~plan.obstacle_rectangles[first / kFloatLanes].is_ready;
+  if (fresh == 0) return false;
+  for (; fresh != 0; fresh &= fresh - 1) {
+    make_ready(plan, first + static_cast<std::uint32_t>(__builtin_ctz(fresh)));
+  }
+  return true;
+}
+
+/// Obstacles of a step that what is around all edges out of a vertex does not surely miss, seen
+/// from the vertex. Returns how many.
+HLC_INLINE std::uint32_t list_near(const Search& search, std::size_t step, const Placement& at,
+                                   const VertexData& vertex) {
   const Plan& plan = *search.plan;
-  const Area& area = search.tables->edges[edge].swept;
-  if (area.num_blocks == 0) return false;
-  const Rectangles& own = search.tables->edges[edge].swept_rectangles;
+  const Rectangles& around = search.tables->around[vertex.trim];
+  const Axis own{all(around.x), all(around.y), all(around.along_x), all(around.along_y)};
+  const Floats tolerance = all(plan.tolerance);
+  std::uint32_t count = 0;
+  for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];) {
+    const ObstaclesBlock& obstacles = plan.obstacle_rectangles[i / kFloatLanes];
+    const RectanglesBlock& block = obstacles.rectangles;
+    const Floats dx = load(block.x) - at.x;
+    const Floats dy = load(block.y) - at.y;
+    const Floats along_x = load(block.along_x);
+    const Floats along_y = load(block.along_y);
+    const Axis seen{at.cos_heading * dx + at.sin_heading * dy,
+                    at.cos_heading * dy - at.sin_heading * dx,
+                    at.cos_heading * along_x + at.sin_heading * along_y,
+                    at.cos_heading * along_y - at.sin_heading * along_x};
+    const Floats outer =
+        most_apart(beside(own, seen), all(around.outer_along), all(around.outer_aside),
+                   load(block.outer_along), load(block.outer_aside));
+    // What is not surely apart, so that what is no number is looked at.
+    std::uint32_t near = kEveryLane & ~lanes_less(tolerance, outer);
+    if (prepare_fresh(plan, i, near)) continue;  // with their own rectangles now
+    if (near != 0) {
+      alignas(32) float x[kFloatLanes];
+      alignas(32) float y[kFloatLanes];
+      alignas(32) float axis_x[kFloatLanes];
+      alignas(32) float axis_y[kFloatLanes];
+      store(x, seen.x);
+      store(y, seen.y);
+      store(axis_x, seen.along_x);
+      store(axis_y, seen.along_y);
+      for (; near != 0; near &= near - 1) {
+        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(near));
+        search.near[count++] = {x[lane],
+                                y[lane],
+                                axis_x[lane],
+                                axis_y[lane],
+                                block.outer_along[lane],
+                                block.outer_aside[lane],
+                                block.inner_along[lane],
+                                block.inner_aside[lane]};
+      }
+    }
+    i += kFloatLanes;
+  }
+  return count;
+}
+
+/// Compares the rectangles of all edges out of a vertex with those of the obstacles near them:
+/// forbids the edges that surely meet one, and notes of which it stays open. Returns the least key.
+HLC_INLINE double forbid_met(const Search& search, std::size_t step, VertexData& vertex,
+                             double least_key) {
+  const Plan& plan = *search.plan;
+  vertex.doubtful = Doubtful::kNone;
+  const std::uint32_t num_near = list_near(search, step, placement_of(plan, vertex), vertex);
+  if (num_near == 0) return least_key;
+  vertex.doubtful = Doubtful::kNoted;
+  const RectanglesBlock* block =
+      search.tables->rectangles + search.tables->first_rectangles[vertex.trim];
+  const Floats tolerance = all(plan.tolerance);
+  const Floats inside = all(0.0F) - tolerance;
+  Doubles lowest = all(kForbidden);
+  for (std::uint32_t edge = 0; edge < vertex.num_edges; edge += kFloatLanes, ++block) {
+    const Axis own{load(block->x), load(block->y), load(block->along_x), load(block->along_y)};
+    const Floats outer_along = load(block->outer_along);
+    const Floats outer_aside = load(block->outer_aside);
+    const Floats inner_along = load(block->inner_along);
+    const Floats inner_aside = load(block->inner_aside);
+    std::uint32_t apart = kEveryLane;
+    std::uint32_t met = 0;
+    for (std::uint32_t i = 0; i < num_near; ++i) {
+      const Rectangles& other = search.near[i];
+      const Beside at =
+          beside(own, {all(other.x), all(other.y), all(other.along_x), all(other.along_y)});
+      const Floats outer =
+          most_apart(at, outer_along, outer_aside, all(other.outer_along), all(other.outer_aside));
+      const Floats inner =
+          most_apart(at, inner_along, inner_aside, all(other.inner_along), all(other.inner_aside));
+      apart &= lanes_less(tolerance, outer);
+      met |= lanes_less(inner, inside);
+    }
+    vertex.doubts[edge / kFloatLanes] = static_cast<std::uint8_t>(kEveryLane & ~apart);
+    for (std::uint32_t i = edge; i < edge + kFloatLanes && i < vertex.num_edges; i += kLanes) {
+      const Doubles keys = where_set(met >> (i - edge), all(kForbidden), load(vertex.keys + i));
+      store(vertex.keys + i, keys);
+      lowest = smaller(keys, lowest);
+    }
+  }
+  return least(lowest);
+}
+
+/// So many children to try are not worth to compare all edges at once.
+constexpr int kFewChildren = 1;
+
+/// Which edges out of a vertex meet an obstacle? Forbids some of those that do, and notes of which
+/// it stays open until they are tried. Returns the least key.
+HLC_INLINE double look_at_obstacles(const Search& search, std::size_t step, VertexData& vertex,
+                                    double least_key, double best) {
+  const Plan& plan = *search.plan;
+  if (plan.first_obstacle[step - 1] == plan.first_obstacle[step]) {
+    vertex.doubtful = Doubtful::kNone;
+    return least_key;
+  }
+  int num_children = 0;
+  for (std::uint32_t edge = 0; edge < vertex.num_edges; edge += kLanes) {
+    num_children += __builtin_popcount(lanes_less(load(vertex.keys + edge), all(best)));
+  }
+  if (num_children > kFewChildren) return forbid_met(search, step, vertex, least_key);
+  vertex.doubtful = Doubtful::kAll;
+  return least_key;
+}
+
+/// Does the edge to a child meet an obstacle? Rectangles decide most; then a separating-axis test.
+bool meets_obstacle(const Search& search, std::uint32_t number, std::size_t step,
+                    const Placement& at, const VertexData& vertex) {
+  const Plan& plan = *search.plan;
+  const Tables& tables = *search.tables;
+  const std::uint32_t edge = vertex.first_edge + number;
+  const Area& area = tables.edges[edge].swept;
+  const RectanglesBlock& eight =
+      tables.rectangles[tables.first_rectangles[vertex.trim] + number / kFloatLanes];
+  const std::uint32_t lane = number % kFloatLanes;
   const Floats c = at.cos_heading;
   const Floats s = at.sin_heading;
-  const Floats x = at.x + (c * all(own.x) - s * all(own.y));
-  const Floats y = at.y + (s * all(own.x) + c * all(own.y));
-  const Floats along_x = c * all(own.along_x) - s * all(own.along_y);
-  const Floats along_y = s * all(own.along_x) + c * all(own.along_y);
+  const Axis own{at.x + (c * all(eight.x[lane]) - s * all(eight.y[lane])),
+                 at.y + (s * all(eight.x[lane]) + c * all(eight.y[lane])),
+                 c * all(eight.along_x[lane]) - s * all(eight.along_y[lane]),
+                 s * all(eight.along_x[lane]) + c * all(eight.along_y[lane])};
   const Floats tolerance = all(plan.tolerance);
   bool is_placed = false;
   for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];) {
-    const RectanglesBlock& block = plan.obstacle_rectangles[i / kFloatLanes];
-    const Beside beside_them = beside(block, x, y, along_x, along_y);
-    const Floats outer = most_apart(beside_them, all(own.outer_along), all(own.outer_aside),
-                                    load(block.outer_along), load(block.outer_aside));
-    // What is not surely apart, so that what is no number is looked at.
+    const ObstaclesBlock& obstacles = plan.obstacle_rectangles[i / kFloatLanes];
+    const RectanglesBlock& block = obstacles.rectangles;
+    const Beside at_them =
+        beside(own, {load(block.x), load(block.y), load(block.along_x), load(block.along_y)});
+    const Floats outer =
+        most_apart(at_them, all(eight.outer_along[lane]), all(eight.outer_aside[lane]),
+                   load(block.outer_along), load(block.outer_aside));
     std::uint32_t near = kEveryLane & ~lanes_less(tolerance, outer);
-    std::uint32_t fresh = near & ~block.is_ready;
-    if (fresh != 0) {
-      for (; fresh != 0; fresh &= fresh - 1) {
-        make_ready(plan, i + static_cast<std::uint32_t>(__builtin_ctz(fresh)));
-      }
-      continue;  // with their own rectangles now
-    }
+    if (prepare_fresh(plan, i, near)) continue;  // with their own rectangles now
     if (near != 0) {
-      const Floats inner = most_apart(beside_them, all(own.inner_along), all(own.inner_aside),
-                                      load(block.inner_along), load(block.inner_aside));
+      const Floats inner =
+          most_apart(at_them, all(eight.inner_along[lane]), all(eight.inner_aside[lane]),
+                     load(block.inner_along), load(block.inner_aside));
       if (lanes_less(inner, all(0.0F) - tolerance) != 0) return true;
     }
     for (; near != 0; near &= near - 1) {
       const std::uint32_t item = i + static_cast<std::uint32_t>(__builtin_ctz(near));
       if (!is_placed) {
-        place(search.tables->area_blocks + area.first_block, at, area.num_blocks, search.placed);
+        place(tables.area_blocks + area.first_block, at, area.num_blocks, search.placed);
         is_placed = true;
       }
       const PolygonData& polygon = plan.polygons[plan.obstacles[item]];
@@ -270,14 +402,19 @@ bool meets_segment(const Search& search, std::uint32_t edge, const Placement& at
   return false;
 }
 
-HLC_INLINE bool is_free(const Search& search, std::uint32_t edge, std::size_t step,
+/// Is the edge to a child of a vertex free? @pre the vertex' obstacles were looked at, and the edge
+/// was not forbidden
+HLC_INLINE bool is_free(const Search& search, std::uint32_t number, std::size_t step,
                         const VertexData& vertex) {
   const Plan& plan = *search.plan;
+  const bool is_doubtful =
+      vertex.doubtful != Doubtful::kNone &&
+      (vertex.doubtful == Doubtful::kAll ||
+       (vertex.doubts[number / kFloatLanes] >> number % kFloatLanes & 1U) != 0);
+  if (!is_doubtful && plan.num_blocks == 0) return true;
   const Placement at = placement_of(plan, vertex);
-  if (plan.first_obstacle[step - 1] != plan.first_obstacle[step] &&
-      meets_obstacle(search, edge, step, at, vertex)) {
-    return false;
-  }
+  const std::uint32_t edge = vertex.first_edge + number;
+  if (is_doubtful && meets_obstacle(search, number, step, at, vertex)) return false;
   return plan.num_blocks == 0 || !meets_segment(search, edge, at, vertex);
 }
 

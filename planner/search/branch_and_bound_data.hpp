@@ -13,14 +13,16 @@
 /// of that. Blocks of eight floats lie at addresses that no load of them spreads over two cache
 /// lines.
 ///
-/// Costs are doubles. Bounds are floats, made smaller by more than the rounding (TableStore).
+/// Costs are doubles. Bounds are computed from whole numbers of 16 bits, distances in small units,
+/// rounded to what makes them smaller (TableStore).
 /// Collision tests compute with floats, relative to the plan's start, with a tolerance above the
 /// rounding; where that leaves a doubt, `Search::decides` says what is true.
 namespace hlc::branch_and_bound {
 
-/// Doubles, and floats, of one vector.
+/// Doubles, floats, and whole numbers of 16 bits, of one vector.
 inline constexpr std::uint32_t kLanes = 4;
 inline constexpr std::uint32_t kFloatLanes = 8;
+inline constexpr std::uint32_t kShortLanes = 16;
 /// Axes of a bound: directions at 0, 22.5, ... 157.5 degrees, each with an interval.
 inline constexpr std::size_t kBoundAxes = 8;
 /// Every second of them: axes of what can be reached.
@@ -59,7 +61,7 @@ struct Rectangles {
 /// Half the size of an inner rectangle that meets nothing.
 inline constexpr float kNoInner = -1e15F;
 
-/// Those of eight obstacles. At first the outer one is the box, and there is no inner one.
+/// Those of eight polygons.
 struct alignas(32) RectanglesBlock {
   float x[kFloatLanes];
   float y[kFloatLanes];
@@ -69,6 +71,13 @@ struct alignas(32) RectanglesBlock {
   float outer_aside[kFloatLanes];
   float inner_along[kFloatLanes];
   float inner_aside[kFloatLanes];
+};
+/// Half the size of an outer rectangle that meets nothing.
+inline constexpr float kNoOuter = -1e15F;
+
+/// Eight obstacles. At first the outer rectangle is the box, and there is no inner one.
+struct ObstaclesBlock {
+  RectanglesBlock rectangles;
   /// One bit per obstacle: its rectangles, and the blocks of its corners, are written. Done when
   /// they are first needed.
   std::uint32_t is_ready;
@@ -92,15 +101,18 @@ struct EdgeData {
   double cost;       ///< of the maneuver itself (EdgeCosts::above_least)
   std::uint32_t to;  ///< trim
   Area swept;
-  Rectangles swept_rectangles;  ///< in the frame of the start
   Area lane;
 };
 
-/// Bounds of four edges for two steps, one after the other: per axis the intervals of the four
-/// edges for the first step, then those for the second.
-struct alignas(32) BoundPair {
-  float centre[kBoundAxes][kFloatLanes];
-  float half_width[kBoundAxes][kFloatLanes];
+/// Steps of a BoundBlock.
+inline constexpr std::uint32_t kBoundSteps = 4;
+
+/// Bounds of four edges for four steps in a row: per axis the intervals of those edges and steps
+/// [Tables::per_unit_m]. Interval number 8 (s / 2) + 2 e + s % 2 is that of edge e for step s.
+/// What is beyond a number of 16 bits, of a place, an end or a distance, is taken to be the last.
+struct alignas(32) BoundBlock {
+  std::int16_t low[kBoundAxes][kShortLanes];
+  std::int16_t high[kBoundAxes][kShortLanes];
 };
 
 /// Of the subgraph. Edges stand trim by trim; the edges of a trim are padded, so that groups of
@@ -110,9 +122,15 @@ struct Tables {
   const std::uint32_t* first_group;  ///< per trim and one more: edges [4 first, 4 next first)
   const double* displacement_x;      ///< per edge
   const double* displacement_y;
-  const BoundPair* bounds;  ///< per group `bound_size`: see Level::bounds and BranchAndBound
+  const BoundBlock* bounds;  ///< per group `bound_size`: see Level::bounds and BranchAndBound
   const PolygonBlock* area_blocks;
+  /// Rectangles of the swept areas, in the frame of the start, eight edges of a trim at a time.
+  const RectanglesBlock* rectangles;
+  const std::uint32_t* first_rectangles;  ///< per trim, its first of `rectangles`
+  const Rectangles* around;               ///< per trim, the outer one of all its swept areas
   std::size_t bound_size;
+  float per_unit_m;       ///< units of a bound in a metre, a power of two
+  float squared_unit_m2;  ///< square of the unit
   const double* numbers;  ///< 0, 1, 2, ... as bits
   std::uint64_t index_mask;
 };
@@ -173,7 +191,7 @@ struct Plan {
   /// at a multiple of eight. The padding is where nothing meets it.
   std::uint32_t* first_obstacle;
   std::uint32_t* obstacles;  ///< its number among the polygons
-  RectanglesBlock* obstacle_rectangles;
+  ObstaclesBlock* obstacle_rectangles;
   PolygonBlock* obstacle_blocks;
   double* corners;  ///< scratch: x and y of the largest obstacle's corners, one more
   std::size_t corner_stride;
@@ -184,6 +202,9 @@ struct Plan {
   /// Bound on the rounding of a distance in single precision [m].
   float tolerance;
 };
+
+/// Of which edges out of a vertex has it still to be decided whether they meet an obstacle?
+enum class Doubtful { kNone, kAll, kNoted };
 
 /// A vertex on the path that is being tried.
 struct VertexData {
@@ -197,6 +218,9 @@ struct VertexData {
   std::uint32_t first_edge;  ///< of those out of the trim
   std::uint32_t num_edges;   ///< with padding
   double* keys;              ///< f of its children, each with the child's number in the last bits
+  /// One bit per child, with Doubtful::kNoted: is it one of them?
+  std::uint8_t* doubts;
+  Doubtful doubtful;
 };
 
 /// What is the same for all vertices of one depth.
@@ -205,9 +229,9 @@ struct Level {
   /// where it must not be taken from here.
   const double* penalty;
   const std::uint32_t* permitted;  ///< per trim, how many edges may be taken
-  /// The steps after the edge, two by two, the first ones first: their number, and where among the
-  /// bounds of a group theirs are.
-  std::size_t num_pairs;
+  /// The steps after the edge, four by four, the first ones first: how many fours, and where among
+  /// the bounds of a group theirs are.
+  std::size_t num_blocks;
   const std::uint32_t* bounds;
 };
 
@@ -226,6 +250,7 @@ struct Search {
   const Level* levels;   ///< n
   VertexData* path;      ///< n + 1 vertices; the first is the start
   float* to_go;          ///< scratch: per edge of a trim, two
+  Rectangles* near;      ///< scratch: per obstacle of a step
   PolygonBlock* placed;  ///< room for the largest area
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;
@@ -252,8 +277,10 @@ struct Kernel {
   /// Writes the keys of the start's children.
   void (*expand)(Search& search);
   /// Is the edge free in step `step`, driven from this vertex?
-  bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step,
-                  const VertexData& vertex);
+  /// @param vertex  placed, with its trim and room for keys and doubts, which are written
+  /// @param among_all  compared with obstacles together with the others out of the vertex, or alone
+  bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex,
+                  bool among_all);
 };
 
 [[nodiscard]] Kernel portable_kernel();

@@ -1,5 +1,5 @@
 // The inner loop of BranchAndBound. It is long-winded for speed: four children at a time, their
-// bounds for two steps at a time, branches where they are foreseeable. Like its preparation,
+// bounds for four steps at a time, branches where they are foreseeable. Like its preparation,
 // collision test and vectors (files of their own) it shares nothing with other files but the plain
 // data of branch_and_bound_data.hpp. It is compiled twice, for any processor
 // (branch_and_bound_portable.cpp) and with AVX2 (branch_and_bound_avx2.cpp); only these two include
@@ -17,48 +17,59 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-/// What a cost-to-go in single precision may be too large by: see TableStore::compute_bounds.
+/// What a cost-to-go may be too large by: see TableStore::compute_bounds.
 constexpr float kSurely = 1.0F - 0x5p-20F;
 
 constexpr float kCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
 constexpr float kSin = 0x1.87de2ap-2F;
 
-/// The reference points of eight steps, seen from a vertex, along each axis.
-using Along = Floats[kBoundAxes];
+/// The reference points of four steps, seen from a vertex, along each axis [Tables::unit_m], each
+/// beside the intervals of a BoundBlock.
+using Along = Shorts[kBoundAxes];
 
+/// The reference points of eight steps, the second four only where asked for.
 HLC_INLINE void project(const float* reference_dx, const float* reference_dy, const Placement& at,
-                        Along& along) {
-  const Floats dx = load(reference_dx) - at.x;
-  const Floats dy = load(reference_dy) - at.y;
+                        float per_unit_m, bool has_second, Along& first, Along& second) {
+  const Floats dx = (load(reference_dx) - at.x) * all(per_unit_m);
+  const Floats dy = (load(reference_dy) - at.y) * all(per_unit_m);
   const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
   const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
   const Floats ahead_cos = ahead * all(kCos);
   const Floats ahead_sin = ahead * all(kSin);
   const Floats aside_cos = aside * all(kCos);
   const Floats aside_sin = aside * all(kSin);
-  along[0] = ahead;
-  along[1] = ahead_cos + aside_sin;
-  along[2] = (ahead + aside) * all(static_cast<float>(kDiagonal));
-  along[3] = ahead_sin + aside_cos;
-  along[4] = aside;
-  along[5] = aside_cos - ahead_sin;
-  along[6] = (aside - ahead) * all(static_cast<float>(kDiagonal));
-  along[7] = aside_sin - ahead_cos;
+  const Floats diagonal = all(static_cast<float>(kDiagonal));
+  const Shorts along[kBoundAxes / 2] = {
+      rounded(ahead, ahead_cos + aside_sin),
+      rounded((ahead + aside) * diagonal, ahead_sin + aside_cos),
+      rounded(aside, aside_cos - ahead_sin),
+      rounded((aside - ahead) * diagonal, aside_sin - ahead_cos),
+  };
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < kBoundAxes / 2; ++i) {
+    first[2 * i] = four_times_four<0>(along[i]);
+    first[2 * i + 1] = four_times_four<1>(along[i]);
+  }
+  if (!has_second) return;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < kBoundAxes / 2; ++i) {
+    second[2 * i] = four_times_four<2>(along[i]);
+    second[2 * i + 1] = four_times_four<3>(along[i]);
+  }
 }
 
-/// Squared distance of reference points number 2 kPair and 2 kPair + 1 from the intervals of four
-/// edges each, on the axis that has most; 0 within them all.
-template <int kPair>
-HLC_INLINE Floats squared_beyond(const BoundPair& bound, const Along& along) {
+/// Squared distances of four reference points from the intervals of four edges each, on the axis
+/// that has most, 0 within them all; those of steps 0 and 1 added, edge by edge, and those of 2
+/// and 3.
+HLC_INLINE Floats squared_beyond(const BoundBlock& bound, const Along& along) {
   const auto beyond = [&](std::size_t axis) {
-    return absolute(four_times_two<kPair>(along[axis]) - load(bound.centre[axis])) -
-           load(bound.half_width[axis]);
+    return larger(difference(along[axis], load(bound.high[axis])),
+                  difference(load(bound.low[axis]), along[axis]));
   };
   // By twos: a processor has the largest of eight after three steps.
-  const Floats first = larger(larger(beyond(0), beyond(1)), larger(beyond(2), beyond(3)));
-  const Floats second = larger(larger(beyond(4), beyond(5)), larger(beyond(6), beyond(7)));
-  const Floats most = larger(larger(first, second), all(0.0F));
-  return most * most;
+  const Shorts first = larger(larger(beyond(0), beyond(1)), larger(beyond(2), beyond(3)));
+  const Shorts second = larger(larger(beyond(4), beyond(5)), larger(beyond(6), beyond(7)));
+  return squares_of_two_added(larger(larger(first, second), all_shorts(0)));
 }
 
 /// As long as there is no path, costs-to-go only order the children. They know nothing of what is
@@ -129,34 +140,31 @@ HLC_INLINE double expand_without_bound(Search& search, VertexData& vertex, std::
 
 /// Writes the keys of a vertex' children. Returns the least.
 HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) {
-  constexpr std::size_t kPairs = kFloatLanes / 2;
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
-  const std::size_t num_pairs = search.levels[depth].num_pairs;
+  const std::size_t num_blocks = search.levels[depth].num_blocks;
+  const Floats scale = all(kSurely * tables.squared_unit_m2);
   const Placement at = placement_of(plan, vertex);
   const Expansion expansion = begin_expansion(search, vertex, depth);
   Doubles lowest = all(kForbidden);
-  for (std::size_t pair = 0;; pair += kPairs) {
+  for (std::size_t block = 0;; block += 2) {
     // Eight steps at a time; what those before add up to waits in memory.
-    const bool is_last = num_pairs <= pair + kPairs;
-    const std::size_t step = depth + 1 + 2 * pair;
-    Along along;
-    project(plan.reference_dx + step, plan.reference_dy + step, at, along);
-    const std::uint32_t* const places = search.levels[depth].bounds + pair;
-    const BoundPair* bounds = tables.bounds + expansion.first_group * tables.bound_size;
+    const bool is_last = num_blocks <= block + 2;
+    const bool has_second = num_blocks > block + 1;
+    const std::size_t step = depth + 1 + kBoundSteps * block;
+    Along first;
+    Along second;
+    project(plan.reference_dx + step, plan.reference_dy + step, at, tables.per_unit_m, has_second,
+            first, second);
+    const std::uint32_t* const places = search.levels[depth].bounds + block;
+    const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
     for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
-      Floats to_go = squared_beyond<0>(bounds[places[0]], along);
-      if (pair != 0) to_go += load(search.to_go + 2 * edge);
-      if (num_pairs > pair + 1) {
-        to_go += squared_beyond<1>(bounds[places[1]], along);
-        if (num_pairs > pair + 2) {
-          to_go += squared_beyond<2>(bounds[places[2]], along);
-          if (num_pairs > pair + 3) to_go += squared_beyond<3>(bounds[places[3]], along);
-        }
-      }
+      Floats to_go = squared_beyond(bounds[places[0]], first);
+      if (block != 0) to_go += load(search.to_go + 2 * edge);
+      if (has_second) to_go += squared_beyond(bounds[places[1]], second);
       bounds += tables.bound_size;
       if (is_last) {
-        const Doubles f = cost_without_bound(expansion, edge) + halves_added(to_go * all(kSurely));
+        const Doubles f = cost_without_bound(expansion, edge) + halves_added(to_go * scale);
         lowest = smaller(keep_key(tables, vertex, edge, f), lowest);
       } else {
         store(search.to_go + 2 * edge, to_go);
@@ -215,40 +223,52 @@ void run(Search& search) {
     return;
   }
   std::uint64_t look_at = next_look(search);
-  double key = search.levels[0].num_pairs == 0 ? expand_without_bound(search, search.path[0], 0)
-                                               : expand(search, search.path[0], 0);
-
   VertexData* vertex = search.path;
   std::size_t depth = 0;
   double best = search.best_cost;
   bool has_patience = true;
   for (;;) {
-    if (!(key < best)) {
-      if (depth == 0) break;
-      --depth;
-      --vertex;
-      key = least_key(*vertex);
-      continue;
-    }
-    const auto number = static_cast<std::uint32_t>(bits(key) & tables.index_mask);
-    vertex->keys[number] = kForbidden;
-    const std::uint32_t edge = vertex->first_edge + number;
-    if (!is_free(search, edge, depth + 1, *vertex)) {
-      key = least_key(*vertex);
-      continue;
-    }
+    double key = search.levels[depth].num_blocks != 0 && has_patience
+                     ? expand(search, *vertex, depth)
+                     : expand_without_bound(search, *vertex, depth);
+    if (key < best) key = look_at_obstacles(search, depth + 1, *vertex, key, best);
 
-    const EdgeData& data = tables.edges[edge];
-    const double c = vertex->cos_heading;
-    const double s = vertex->sin_heading;
-    VertexData& child = vertex[1];
-    child.x = vertex->x + c * data.x - s * data.y;
-    child.y = vertex->y + s * data.x + c * data.y;
-    child.from_edge = edge;
-    const double dx = child.x - plan.reference_x[depth];
-    const double dy = child.y - plan.reference_y[depth];
-    child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy) + data.cost;
-    if (depth + 1 == n) {
+    // The next vertex to expand: the first free child that is worth it, here or further back.
+    for (;;) {
+      if (!(key < best)) {
+        if (depth == 0) {
+          search.best_cost = best;
+          return;
+        }
+        --depth;
+        --vertex;
+        key = least_key(*vertex);
+        continue;
+      }
+      const auto number = static_cast<std::uint32_t>(bits(key) & tables.index_mask);
+      vertex->keys[number] = kForbidden;
+      if (!is_free(search, number, depth + 1, *vertex)) {
+        key = least_key(*vertex);
+        continue;
+      }
+
+      const std::uint32_t edge = vertex->first_edge + number;
+      const EdgeData& data = tables.edges[edge];
+      const double c = vertex->cos_heading;
+      const double s = vertex->sin_heading;
+      VertexData& child = vertex[1];
+      child.x = vertex->x + c * data.x - s * data.y;
+      child.y = vertex->y + s * data.x + c * data.y;
+      child.from_edge = edge;
+      const double dx = child.x - plan.reference_x[depth];
+      const double dy = child.y - plan.reference_y[depth];
+      child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy) + data.cost;
+      if (depth + 1 < n) {
+        child.cos_heading = c * data.cos_heading - s * data.sin_heading;
+        child.sin_heading = s * data.cos_heading + c * data.sin_heading;
+        child.trim = data.to;
+        break;
+      }
       if (child.cost_to_come < best) {
         best = child.cost_to_come;
         has_patience = true;
@@ -259,37 +279,38 @@ void run(Search& search) {
         }
       }
       key = least_key(*vertex);
-      continue;
     }
-    child.cos_heading = c * data.cos_heading - s * data.sin_heading;
-    child.sin_heading = s * data.cos_heading + c * data.sin_heading;
-    child.trim = data.to;
+
     if (search.expanded == look_at) {
       if (look_at == search.max_expansions || search.stop(search.stop_context)) {
         give_up(search, depth, key);
-        break;
+        search.best_cost = best;
+        return;
       }
       look_at = next_look(search);
       has_patience = best < kNoPath || search.expanded < kPatience;
     }
     ++depth;
     ++vertex;
-    key = search.levels[depth].num_pairs != 0 && has_patience
-              ? expand(search, child, depth)
-              : expand_without_bound(search, child, depth);
   }
-  search.best_cost = best;
 }
 
 void expand_start(Search& search) {
-  static_cast<void>(search.levels[0].num_pairs == 0
+  static_cast<void>(search.levels[0].num_blocks == 0
                         ? expand_without_bound(search, search.path[0], 0)
                         : expand(search, search.path[0], 0));
 }
 
-bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step,
-                   const VertexData& vertex) {
-  return is_free(search, edge, step, vertex);
+bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex,
+                   bool among_all) {
+  const Tables& tables = *search.tables;
+  vertex.first_edge = kLanes * tables.first_group[vertex.trim];
+  vertex.num_edges = kLanes * tables.first_group[vertex.trim + 1] - vertex.first_edge;
+  const std::uint32_t number = edge - vertex.first_edge;
+  vertex.keys[number] = 0.0;
+  vertex.doubtful = Doubtful::kAll;
+  if (among_all) static_cast<void>(forbid_met(search, step, vertex, 0.0));
+  return vertex.keys[number] < kForbidden && is_free(search, number, step, vertex);
 }
 
 #undef HLC_INLINE

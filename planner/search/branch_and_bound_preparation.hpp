@@ -117,7 +117,8 @@ void make_ready(const Plan& plan, std::uint32_t item) {
   const float inner = least(share);
   const bool has_inner = inner > 0.0F;
 
-  RectanglesBlock& block = plan.obstacle_rectangles[item / kFloatLanes];
+  ObstaclesBlock& obstacles = plan.obstacle_rectangles[item / kFloatLanes];
+  RectanglesBlock& block = obstacles.rectangles;
   const std::uint32_t lane = item % kFloatLanes;
   block.x[lane] = centre_x;
   block.y[lane] = centre_y;
@@ -127,7 +128,7 @@ void make_ready(const Plan& plan, std::uint32_t item) {
   block.outer_aside[lane] = half_aside;
   block.inner_along[lane] = has_inner ? inner * half_along : kNoInner;
   block.inner_aside[lane] = has_inner ? inner * half_aside : kNoInner;
-  block.is_ready |= 1U << lane;
+  obstacles.is_ready |= 1U << lane;
 }
 
 /// Places along the axes of the start's frame.
@@ -146,7 +147,9 @@ HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double*
 }
 
 /// Nothing meets what is in a block before obstacles are written into it.
-HLC_INLINE void write_padding(RectanglesBlock& block) {
+HLC_INLINE void write_padding(ObstaclesBlock& obstacles) {
+  obstacles.is_ready = 0;
+  RectanglesBlock& block = obstacles.rectangles;
   store(block.x, all(kFarAway));
   store(block.y, all(kFarAway));
   store(block.along_x, all(1.0F));
@@ -155,7 +158,6 @@ HLC_INLINE void write_padding(RectanglesBlock& block) {
   store(block.outer_aside, all(0.0F));
   store(block.inner_along, all(kNoInner));
   store(block.inner_aside, all(kNoInner));
-  block.is_ready = 0;
 }
 
 /// Obstacles that can be met in their step, with a box around each.
@@ -190,8 +192,9 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
       const Doubles half = along_axes(absolute_axes, half_x, half_y);
       if (is_beyond(centre - half, centre + half, plan.reach[step])) continue;
       const std::uint32_t lane = count % kFloatLanes;
-      RectanglesBlock& block = plan.obstacle_rectangles[count / kFloatLanes];
-      if (lane == 0) write_padding(block);
+      ObstaclesBlock& obstacles = plan.obstacle_rectangles[count / kFloatLanes];
+      if (lane == 0) write_padding(obstacles);
+      RectanglesBlock& block = obstacles.rectangles;
       block.x[lane] = static_cast<float>(centre_x);
       block.y[lane] = static_cast<float>(centre_y);
       block.outer_along[lane] = static_cast<float>(half_x);

@@ -11,7 +11,15 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
+std::size_t padded(std::size_t size, std::size_t lanes = kLanes) {
+  return (size + lanes - 1) / lanes * lanes;
+}
+
+/// A whole number as near as 16 bits allow.
+std::int16_t limited(double value) {
+  using Limits = std::numeric_limits<std::int16_t>;
+  return static_cast<std::int16_t>(std::clamp<double>(value, Limits::min(), Limits::max()));
+}
 
 /// A shorter edge has no direction.
 constexpr double kLeastEdge_m = 1e-7;
@@ -63,7 +71,7 @@ Point largest_inside(const ConvexPolygon& area_m, const Point& centre, const Poi
 /// with its centre and axes.
 Rectangles rectangles_of(const ConvexPolygon& area_m) {
   const auto& corners = area_m.vertices_m;
-  Rectangles best{0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, kNoInner, kNoInner};
+  Rectangles best{0.0F, 0.0F, 1.0F, 0.0F, kNoOuter, kNoOuter, kNoInner, kNoInner};
   double least_size_m2 = std::numeric_limits<double>::infinity();
   for (std::size_t edge = 0; edge < corners.size(); ++edge) {
     const Point side = corners[(edge + 1) % corners.size()] - corners[edge];
@@ -113,6 +121,9 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
   view_.bounds = bounds_.data();
   view_.numbers = numbers_.data();
   view_.area_blocks = area_blocks_.data();
+  view_.rectangles = rectangles_.data();
+  view_.first_rectangles = first_rectangles_.data();
+  view_.around = around_.data();
 }
 
 void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
@@ -123,14 +134,15 @@ void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
     for (const Edge& edge : successors) {
       const Maneuver& maneuver = *edge.maneuver;
       const Frame displacement = to_frame(maneuver.displacement);
+      longest_m_ = std::max(longest_m_, displacement.origin_m.norm());
       area_radius_m_ = std::max(area_radius_m_, displacement.origin_m.norm());
       maneuvers_.push_back(&maneuver);
       edges_.push_back({displacement.origin_m.x(), displacement.origin_m.y(),
                         displacement.cos_heading, displacement.sin_heading,
                         costs.above_least(maneuver), static_cast<std::uint32_t>(edge.to.index),
-                        add_area(maneuver.swept_area_m), rectangles_of(maneuver.swept_area_m),
-                        add_area(maneuver.lane_area_m)});
+                        add_area(maneuver.swept_area_m), add_area(maneuver.lane_area_m)});
     }
+    add_rectangles(successors);
     while (edges_.size() % kLanes != 0 || edges_.size() == kLanes * first_group_.back()) {
       maneuvers_.push_back(nullptr);
       edges_.push_back({});
@@ -147,6 +159,29 @@ void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
     displacement_x_.push_back(edge.x);
     displacement_y_.push_back(edge.y);
   }
+}
+
+void TableStore::add_rectangles(std::span<const Edge> successors) {
+  first_rectangles_.push_back(static_cast<std::uint32_t>(rectangles_.size()));
+  std::vector<ConvexPolygon> areas_m;
+  for (std::size_t number = 0; number < padded(successors.size(), kFloatLanes); ++number) {
+    const ConvexPolygon& area_m =
+        number < successors.size() ? successors[number].maneuver->swept_area_m : ConvexPolygon{};
+    if (!area_m.vertices_m.empty()) areas_m.push_back(area_m);
+    const std::size_t lane = number % kFloatLanes;
+    if (lane == 0) rectangles_.emplace_back();
+    RectanglesBlock& block = rectangles_.back();
+    const Rectangles rectangles = rectangles_of(area_m);
+    block.x[lane] = rectangles.x;
+    block.y[lane] = rectangles.y;
+    block.along_x[lane] = rectangles.along_x;
+    block.along_y[lane] = rectangles.along_y;
+    block.outer_along[lane] = rectangles.outer_along;
+    block.outer_aside[lane] = rectangles.outer_aside;
+    block.inner_along[lane] = rectangles.inner_along;
+    block.inner_aside[lane] = rectangles.inner_aside;
+  }
+  around_.push_back(rectangles_of(areas_m.empty() ? ConvexPolygon{} : convex_hull(areas_m)));
 }
 
 Area TableStore::add_area(const ConvexPolygon& area_m) {
@@ -214,33 +249,43 @@ void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs
   }
 }
 
-// In single precision, relative to the start of the plan. With u = 2^-24, the distance L from the
-// start to the farthest vertex of kMostSteps steps, q a reference point seen from a vertex and p
-// its place along an axis, p is off by at most 9 u ||q|| + 4 u L. Widths that are 64 u (|c| + w) +
-// 4 u L larger make up for the second term and, where ||q|| is at most 4 (|c| + w), for the first
-// and for the rounding of c, w and the distance. Beyond, the distance on the axis that has most is
-// at least 0.98 ||q|| - |c| - w > 0.7 ||q||, so it is off by less than 17 u of itself and its
-// square by less than 36 u; adding up m / 2 pairs of steps costs another m / 2 u. Factor kSurely of
-// the kernel, 1 - 80 u, makes up for both.
+// With u = 2^-24, the distance L from the start to the farthest vertex of kMostSteps steps, q a
+// reference point seen from a vertex and p its place along an axis, p is in single precision off by
+// at most 9 u ||q|| + 4 u L. Intervals that are 64 u (|c| + w) + 4 u L wider on both sides make up
+// for the second term and, where ||q|| is at most 4 (|c| + w), for the first. Beyond, the distance
+// on the axis that has most is at least 0.98 ||q|| - |c| - w > 0.7 ||q||, so it is off by less than
+// 17 u of itself and its square by less than 36 u.
+//
+// Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
+// too. Where places, ends and distances are no numbers of 16 bits, those next to them make no
+// distance larger. From there on all is exact but the sum of squares: m / 4 + 2 roundings. Factor
+// kSurely of the kernel, 1 - 80 u, makes up for it and for the square above.
 //
 // Nothing here depends on how many steps there are tables for: equal searches expand equally many
 // vertices.
 void TableStore::compute_bounds(const ReachableSets& reachable) {
   constexpr double kRelative = 0x1p-18;
+  constexpr double kCountedSteps = 24.0;  // so far, at the longest displacement, distances count
   const double farthest = 0x1p-22 * reach_m(kMostSteps);
-  constexpr float kNoBound = 1e15F;
+  constexpr double kLargest = std::numeric_limits<std::int16_t>::max();
+  const double unit_m = longest_m_ > 0.0
+                            ? std::exp2(std::ceil(std::log2(kCountedSteps * longest_m_ / kLargest)))
+                            : 0x1p-12;
+  view_.per_unit_m = static_cast<float>(1.0 / unit_m);
+  view_.squared_unit_m2 = static_cast<float>(unit_m * unit_m);
   const std::size_t cap = max_steps_left_;
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
-  num_pairs_ = (max_steps + 1) / 2;
-  // Rows by the steps left after the first of two steps, the last for all that are above the cap.
-  const std::size_t rows = cap + 2;
-  view_.bound_size = rows * num_pairs_;
-  bounds_.assign(edges_.size() / kLanes * view_.bound_size, BoundPair{});
+  num_bound_blocks_ = (max_steps + kBoundSteps - 1) / kBoundSteps;
+  // Rows by the steps left after the first of four steps, the last for all of which even the last
+  // of the four is above the cap.
+  const std::size_t rows = cap + kBoundSteps;
+  view_.bound_size = rows * num_bound_blocks_;
+  bounds_.assign(edges_.size() / kLanes * view_.bound_size, BoundBlock{});
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
     if (maneuvers_[edge] == nullptr) continue;
     const EdgeData& data = edges_[edge];
     const Frame frame{{data.x, data.y}, data.cos_heading, data.sin_heading};
-    const auto write = [&](BoundPair& bound, std::size_t lane, std::size_t steps,
+    const auto write = [&](BoundBlock& bound, std::size_t lane, std::size_t steps,
                            std::size_t left) {
       std::array<Interval, kBoundAxes> intervals;
       const auto positions_m = reachable.positions_m({data.to}, steps, left);
@@ -255,24 +300,28 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
         }
       }
       for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
-        const double centre = 0.5 * (intervals[axis].low + intervals[axis].high);
-        const double half_width = 0.5 * (intervals[axis].high - intervals[axis].low) +
-                                  ReachableSets::allowance_m(steps + 1);
-        const double rounding = kRelative * (std::abs(centre) + half_width) + farthest;
-        bound.centre[axis][lane] = static_cast<float>(centre);
-        bound.half_width[axis][lane] = static_cast<float>(half_width + rounding);
+        const double middle_m = 0.5 * (intervals[axis].low + intervals[axis].high);
+        const double half_m = 0.5 * (intervals[axis].high - intervals[axis].low) +
+                              ReachableSets::allowance_m(steps + 1);
+        const double width_m =
+            half_m + kRelative * (std::abs(middle_m) + half_m) + farthest + 0.5 * unit_m;
+        bound.low[axis][lane] = limited(std::floor((middle_m - width_m) / unit_m));
+        bound.high[axis][lane] = limited(std::ceil((middle_m + width_m) / unit_m));
       }
     };
     for (std::size_t row = 0; row < rows; ++row) {
-      for (std::size_t pair = 0; pair < num_pairs_; ++pair) {
-        BoundPair& bound = bounds_[edge / kLanes * view_.bound_size + row * num_pairs_ + pair];
-        const std::size_t lane = edge % kLanes;
-        const std::size_t steps = 2 * pair + 1;
-        write(bound, lane, steps, std::min(row, cap));
-        if (row > 0 && steps < max_steps) {
-          write(bound, lane + kLanes, steps + 1, row - 1);
-        } else {  // there is no second step
-          for (auto& widths : bound.half_width) widths[lane + kLanes] = kNoBound;
+      for (std::size_t block = 0; block < num_bound_blocks_; ++block) {
+        BoundBlock& bound =
+            bounds_[edge / kLanes * view_.bound_size + row * num_bound_blocks_ + block];
+        for (std::size_t step = 0; step < kBoundSteps; ++step) {
+          const std::size_t lane = 8 * (step / 2) + 2 * (edge % kLanes) + step % 2;
+          const std::size_t steps = kBoundSteps * block + step + 1;
+          if (step <= row && steps <= max_steps) {
+            write(bound, lane, steps, std::min(row - step, cap));
+          } else {  // there is no such step
+            for (auto& lows : bound.low) lows[lane] = std::numeric_limits<std::int16_t>::min();
+            for (auto& highs : bound.high) highs[lane] = std::numeric_limits<std::int16_t>::max();
+          }
         }
       }
     }
@@ -282,9 +331,10 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
 void TableStore::list_levels(std::size_t max_steps) {
   for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
     auto& places = bound_places_.emplace_back();
-    for (std::size_t pair = 0; 2 * pair < steps_left; ++pair) {
-      const std::size_t row = std::min(steps_left - (2 * pair + 1), max_steps_left_ + 1);
-      places.push_back(static_cast<std::uint32_t>(row * num_pairs_ + pair));
+    for (std::size_t block = 0; kBoundSteps * block < steps_left; ++block) {
+      const std::size_t left = steps_left - (kBoundSteps * block + 1);
+      const std::size_t row = std::min<std::size_t>(left, max_steps_left_ + kBoundSteps - 1);
+      places.push_back(static_cast<std::uint32_t>(row * num_bound_blocks_ + block));
     }
   }
   for (const std::size_t avoids_limit : {0U, 1U}) {

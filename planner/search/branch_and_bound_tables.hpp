@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "planner/automaton/reachable_sets.hpp"
@@ -57,6 +58,8 @@ class TableStore {
 
  private:
   void add_edges(const Subgraph& subgraph, const EdgeCosts& costs);
+  /// Those of the swept areas of a trim's edges, and around all.
+  void add_rectangles(std::span<const Edge> successors);
   [[nodiscard]] Area add_area(const ConvexPolygon& area_m);
   void list_permitted(const Subgraph& subgraph, const EdgeCosts& costs, std::size_t max_steps);
   void compute_bounds(const ReachableSets& reachable);
@@ -69,22 +72,26 @@ class TableStore {
   std::vector<std::uint32_t> first_group_;
   std::vector<double> displacement_x_;
   std::vector<double> displacement_y_;
-  std::vector<BoundPair> bounds_;
+  std::vector<BoundBlock> bounds_;
   std::vector<std::vector<std::uint32_t>> bound_places_;  ///< Level::bounds, by steps left
   std::array<std::vector<Level>, 2> levels_;
   std::array<std::vector<double>, 2> penalty_;
   std::array<std::vector<std::uint32_t>, 2> permitted_;
   std::vector<PolygonBlock> area_blocks_;
+  std::vector<RectanglesBlock> rectangles_;
+  std::vector<std::uint32_t> first_rectangles_;
+  std::vector<Rectangles> around_;
   std::vector<double> reach_;
   std::size_t reach_steps_{};
   std::vector<double> numbers_;
+  double longest_m_{};      ///< displacement of an edge
   double area_radius_m_{};  ///< farthest corner of any area, or end, from its maneuver's start
   std::size_t num_trims_{};
   std::size_t max_steps_left_{};
   std::size_t most_edges_{};
   std::size_t most_blocks_{};
-  std::size_t num_pairs_{};     ///< of steps after an edge
-  std::size_t penalty_rows_{};  ///< by steps left, the last for all that are more
+  std::size_t num_bound_blocks_{};  ///< fours of steps after an edge
+  std::size_t penalty_rows_{};      ///< by steps left, the last for all that are more
   Tables view_{};
 };
 

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Four doubles or eight floats at a time, for the kernel of BranchAndBound alone: with AVX2 one
-/// register, else halves of the 16 bytes that every x86-64 processor has (and, written with the
-/// compiler's vectors, others too). The same operations give the same bits both ways.
+/// Four doubles, eight floats or sixteen whole numbers at a time, for the kernel of BranchAndBound
+/// alone: with AVX2 one register, else halves of the 16 bytes that every x86-64 processor has (and,
+/// written with the compiler's vectors, others too). The same operations give the same bits both
+/// ways.
 ///
 /// Everything is inlined and in an unnamed namespace: the two translation units that include this
 /// must not share a function.
@@ -19,15 +20,20 @@ using Doubles = double __attribute__((vector_size(32)));
 using Floats = float __attribute__((vector_size(32)));
 using DoubleBits = long long __attribute__((vector_size(32)));
 using FloatBits = int __attribute__((vector_size(32)));
+using Shorts = short __attribute__((vector_size(32)));
 /// The same in memory, at any address of an element.
 using DoublesInMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
 using FloatsInMemory = float __attribute__((vector_size(32), aligned(4), may_alias));
 using HalfFloatsInMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
+using ShortsInMemory = short __attribute__((vector_size(32), aligned(2), may_alias));
 
 HLC_INLINE Doubles load(const double* from) {
   return *reinterpret_cast<const DoublesInMemory*>(from);
 }
 HLC_INLINE Floats load(const float* from) { return *reinterpret_cast<const FloatsInMemory*>(from); }
+HLC_INLINE Shorts load(const std::int16_t* from) {
+  return *reinterpret_cast<const ShortsInMemory*>(from);
+}
 HLC_INLINE void store(double* to, const Doubles& value) {
   *reinterpret_cast<DoublesInMemory*>(to) = value;
 }
@@ -42,6 +48,10 @@ HLC_INLINE void store(float* to, const Doubles& value) {
 HLC_INLINE Doubles all(double value) { return Doubles{value, value, value, value}; }
 HLC_INLINE Floats all(float value) {
   return Floats{value, value, value, value, value, value, value, value};
+}
+HLC_INLINE Shorts all_shorts(std::int16_t value) {
+  return Shorts{value, value, value, value, value, value, value, value,
+                value, value, value, value, value, value, value, value};
 }
 template <class V>
 HLC_INLINE V smaller(const V& a, const V& b) {
@@ -67,6 +77,12 @@ HLC_INLINE Floats absolute(const Floats& a) {
       reinterpret_cast<FloatBits>(a) &
       FloatBits{kNoSign, kNoSign, kNoSign, kNoSign, kNoSign, kNoSign, kNoSign, kNoSign});
 }
+/// Per element: is its bit of the last four set? then : otherwise.
+HLC_INLINE Doubles where_set(std::uint32_t four, const Doubles& then, const Doubles& otherwise) {
+  const auto bits = static_cast<long long>(four);
+  const DoubleBits places{1, 2, 4, 8};
+  return (DoubleBits{bits, bits, bits, bits} & places) == places ? then : otherwise;
+}
 /// Replaces the last bits, those of `mask`, by those of `number`.
 HLC_INLINE Doubles numbered(const Doubles& a, std::uint64_t mask, const Doubles& number) {
   const auto kept = static_cast<long long>(~mask);
@@ -81,13 +97,27 @@ HLC_INLINE std::uint32_t lanes_less(const Floats& a, const Floats& b) {
 HLC_INLINE std::uint32_t lanes_less(const Doubles& a, const Doubles& b) {
   return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(a < b)));
 }
-/// Of eight floats number 2 kPair four times, then number 2 kPair + 1 four times.
-template <int kPair>
-HLC_INLINE Floats four_times_two(const Floats& a) {
-  constexpr int kFirst = 2 * kPair;
+/// Limited to 16 bits.
+HLC_INLINE Shorts difference(const Shorts& a, const Shorts& b) {
+  return __builtin_ia32_psubsw256(a, b);
+}
+/// Rounded to whole numbers, halves to even ones, limited to 16 bits: a[0] ... a[3], b[0] ... b[3],
+/// a[4] ... a[7], b[4] ... b[7]. @pre they fit into 32 bits
+HLC_INLINE Shorts rounded(const Floats& a, const Floats& b) {
+  return __builtin_ia32_packssdw256(__builtin_ia32_cvtps2dq256(a), __builtin_ia32_cvtps2dq256(b));
+}
+/// Of sixteen the four from number 4 kFour on: the first two four times, then the last two.
+template <int kFour>
+HLC_INLINE Shorts four_times_four(const Shorts& a) {
+  constexpr int kFirst = 2 * kFour;
   constexpr int kSecond = kFirst + 1;
-  return __builtin_shufflevector(a, a, kFirst, kFirst, kFirst, kFirst, kSecond, kSecond, kSecond,
-                                 kSecond);
+  const auto twos = reinterpret_cast<FloatBits>(a);
+  return reinterpret_cast<Shorts>(__builtin_shufflevector(
+      twos, twos, kFirst, kFirst, kFirst, kFirst, kSecond, kSecond, kSecond, kSecond));
+}
+/// Squares of each two in a row, added.
+HLC_INLINE Floats squares_of_two_added(const Shorts& a) {
+  return __builtin_convertvector(__builtin_ia32_pmaddwd256(a, a), Floats);
 }
 /// Elements 0 and 4, 1 and 5, 2 and 6, 3 and 7.
 HLC_INLINE Doubles halves_added(const Floats& a) {
@@ -97,6 +127,8 @@ HLC_INLINE Doubles halves_added(const Floats& a) {
 }
 #else
 /// Two halves: the compiler makes poor code of longer vectors than the processor has.
+using HalfShorts = short __attribute__((vector_size(16)));
+
 template <class Half>
 struct Pair {
   Half low;
@@ -127,8 +159,10 @@ using HalfFloatBits = int __attribute__((vector_size(16)));
 using HalfDoublesInMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 using HalfFloatsInMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
 using QuarterFloatsInMemory = float __attribute__((vector_size(8), aligned(4), may_alias));
+using HalfShortsInMemory = short __attribute__((vector_size(16), aligned(2), may_alias));
 using Doubles = Pair<HalfDoubles>;
 using Floats = Pair<HalfFloats>;
+using Shorts = Pair<HalfShorts>;
 
 HLC_INLINE Doubles load(const double* from) {
   return {*reinterpret_cast<const HalfDoublesInMemory*>(from),
@@ -137,6 +171,10 @@ HLC_INLINE Doubles load(const double* from) {
 HLC_INLINE Floats load(const float* from) {
   return {*reinterpret_cast<const HalfFloatsInMemory*>(from),
           *reinterpret_cast<const HalfFloatsInMemory*>(from + 4)};
+}
+HLC_INLINE Shorts load(const std::int16_t* from) {
+  return {*reinterpret_cast<const HalfShortsInMemory*>(from),
+          *reinterpret_cast<const HalfShortsInMemory*>(from + 8)};
 }
 HLC_INLINE void store(double* to, const Doubles& value) {
   *reinterpret_cast<HalfDoublesInMemory*>(to) = value.low;
@@ -156,6 +194,10 @@ HLC_INLINE Doubles all(double value) {
 }
 HLC_INLINE Floats all(float value) {
   return {HalfFloats{value, value, value, value}, HalfFloats{value, value, value, value}};
+}
+HLC_INLINE Shorts all_shorts(std::int16_t value) {
+  const HalfShorts half{value, value, value, value, value, value, value, value};
+  return {half, half};
 }
 template <class Half>
 HLC_INLINE Pair<Half> smaller(const Pair<Half>& a, const Pair<Half>& b) {
@@ -179,6 +221,16 @@ HLC_INLINE HalfFloats masked(const HalfFloats& a, int kept) {
   return reinterpret_cast<HalfFloats>(reinterpret_cast<HalfFloatBits>(a) &
                                       HalfFloatBits{kept, kept, kept, kept});
 }
+HLC_INLINE HalfDoubles where_two_set(std::uint32_t two, const HalfDoubles& then,
+                                     const HalfDoubles& otherwise) {
+  const HalfDoubleBits set{-static_cast<long long>(two & 1U),
+                           -static_cast<long long>(two >> 1U & 1U)};
+  return set != 0 ? then : otherwise;
+}
+HLC_INLINE Doubles where_set(std::uint32_t four, const Doubles& then, const Doubles& otherwise) {
+  return {where_two_set(four, then.low, otherwise.low),
+          where_two_set(four >> 2U, then.high, otherwise.high)};
+}
 HLC_INLINE HalfDoubles joined(const HalfDoubles& a, const HalfDoubles& b) {
   return reinterpret_cast<HalfDoubles>(reinterpret_cast<HalfDoubleBits>(a) |
                                        reinterpret_cast<HalfDoubleBits>(b));
@@ -194,13 +246,57 @@ HLC_INLINE Floats absolute(const Floats& a) {
 HLC_INLINE Doubles numbered(const Doubles& a, std::uint64_t mask, const Doubles& number) {
   return {joined(masked(a.low, ~mask), number.low), joined(masked(a.high, ~mask), number.high)};
 }
-template <int kPair>
-HLC_INLINE Floats four_times_two(const Floats& a) {
-  constexpr int kFirst = 2 * kPair % 4;
+#ifdef __SSE2__
+HLC_INLINE HalfShorts difference(const HalfShorts& a, const HalfShorts& b) {
+  return __builtin_ia32_psubsw128(a, b);
+}
+HLC_INLINE HalfShorts rounded(const HalfFloats& a, const HalfFloats& b) {
+  return __builtin_ia32_packssdw128(__builtin_ia32_cvtps2dq(a), __builtin_ia32_cvtps2dq(b));
+}
+HLC_INLINE HalfFloatBits squares_of_two_added(const HalfShorts& a) {
+  return __builtin_ia32_pmaddwd128(a, a);
+}
+#else
+HLC_INLINE short limited(int value) {
+  return static_cast<short>(value < -32768 ? -32768 : value > 32767 ? 32767 : value);
+}
+HLC_INLINE HalfShorts difference(const HalfShorts& a, const HalfShorts& b) {
+  HalfShorts result{};
+  for (std::size_t i = 0; i < 8; ++i) result[i] = limited(a[i] - b[i]);
+  return result;
+}
+HLC_INLINE HalfShorts rounded(const HalfFloats& a, const HalfFloats& b) {
+  HalfShorts result{};
+  for (std::size_t i = 0; i < 8; ++i) {
+    result[i] = limited(static_cast<int>(__builtin_rintf(i < 4 ? a[i] : b[i - 4])));
+  }
+  return result;
+}
+HLC_INLINE HalfFloatBits squares_of_two_added(const HalfShorts& a) {
+  HalfFloatBits result{};
+  for (std::size_t i = 0; i < 4; ++i) result[i] = a[2 * i] * a[2 * i] + a[2 * i + 1] * a[2 * i + 1];
+  return result;
+}
+#endif
+HLC_INLINE Shorts difference(const Shorts& a, const Shorts& b) {
+  return {difference(a.low, b.low), difference(a.high, b.high)};
+}
+HLC_INLINE Shorts rounded(const Floats& a, const Floats& b) {
+  return {rounded(a.low, b.low), rounded(a.high, b.high)};
+}
+template <int kFour>
+HLC_INLINE Shorts four_times_four(const Shorts& a) {
+  constexpr int kFirst = 2 * kFour % 4;
   constexpr int kSecond = kFirst + 1;
-  const HalfFloats& both = kPair < 2 ? a.low : a.high;
-  return {__builtin_shufflevector(both, both, kFirst, kFirst, kFirst, kFirst),
-          __builtin_shufflevector(both, both, kSecond, kSecond, kSecond, kSecond)};
+  const auto twos = reinterpret_cast<HalfFloatBits>(kFour < 2 ? a.low : a.high);
+  return {reinterpret_cast<HalfShorts>(
+              __builtin_shufflevector(twos, twos, kFirst, kFirst, kFirst, kFirst)),
+          reinterpret_cast<HalfShorts>(
+              __builtin_shufflevector(twos, twos, kSecond, kSecond, kSecond, kSecond))};
+}
+HLC_INLINE Floats squares_of_two_added(const Shorts& a) {
+  return {__builtin_convertvector(squares_of_two_added(a.low), HalfFloats),
+          __builtin_convertvector(squares_of_two_added(a.high), HalfFloats)};
 }
 HLC_INLINE Doubles halves_added(const Floats& a) {
   const HalfFloats sum = a.low + a.high;

@@ -67,7 +67,11 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
 
 void PreparedObstacles::list_polygons() {
   std::size_t most = 0;
-  for (const auto& areas_m : problem_->obstacles_m) most += areas_m.size();
+  most_obstacles_ = 0;
+  for (const auto& areas_m : problem_->obstacles_m) {
+    most += areas_m.size();
+    most_obstacles_ = std::max(most_obstacles_, areas_m.size());
+  }
   grow(polygons_, most);
   grow(sources_, most);
   num_polygons_ = 0;

@@ -20,6 +20,14 @@ using test::straight_problem;
 constexpr std::size_t kMaxSteps = 8;
 using Instructions = BranchAndBound::Instructions;
 
+/// What the engine says of an edge alone, which must be what it says of it among all.
+bool is_free_both_ways(const BranchAndBound& engine, const Maneuver& maneuver, std::size_t step,
+                       const Frame& start) {
+  const bool is_free = engine.is_free(maneuver, step, start, false);
+  EXPECT_EQ(engine.is_free(maneuver, step, start, true), is_free);
+  return is_free;
+}
+
 class BranchAndBoundCollision : public testing::TestWithParam<Instructions> {};
 
 TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWalks) {
@@ -40,7 +48,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWa
       const auto permitted = subgraph.successors(trim, kMaxSteps - step + 1);
       for (const Edge& edge : permitted) {
         const bool is_free = check.is_free(*edge.maneuver, step, frame);
-        ASSERT_EQ(engine.is_free(*edge.maneuver, step, frame), is_free)
+        ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, step, frame), is_free)
             << "seed " << seed << ", step " << step;
         collisions += is_free ? 0U : 1U;
         ++edges;
@@ -142,7 +150,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckWhereAreasOnlyJustTou
     check.prepare(problem);
     engine.prepare(problem);
     const bool is_free = check.is_free(maneuver, step, frame);
-    ASSERT_EQ(engine.is_free(maneuver, step, frame), is_free) << "shift " << shift_m;
+    ASSERT_EQ(is_free_both_ways(engine, maneuver, step, frame), is_free) << "shift " << shift_m;
     ++answers[is_free ? 1 : 0];
   }
   EXPECT_GE(answers[0], 600U);
@@ -172,7 +180,7 @@ TEST_P(BranchAndBoundCollision, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
           problem.obstacles_m[step - 1] = {
               box(inner_m.x() - 1e-4, inner_m.x() + 1e-4, inner_m.y() - 1e-4, inner_m.y() + 1e-4)};
           engine.prepare(problem);
-          ASSERT_FALSE(engine.is_free(*maneuver, step, to_frame(pose)))
+          ASSERT_FALSE(is_free_both_ways(engine, *maneuver, step, to_frame(pose)))
               << number << " step " << step;
         }
         problem.obstacles_m[step - 1].clear();
@@ -211,7 +219,7 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
       const Frame start = to_frame(problem.start);
       for (const Edge& edge : subgraph.successors(problem.start_trim)) {
         const bool is_free = check.is_free(*edge.maneuver, 1, start);
-        ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free)
+        ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, 1, start), is_free)
             << corners << " corners, seed " << seed;
         ++answers[is_free ? 1 : 0];
       }
@@ -269,7 +277,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
     const Frame start = to_frame(problem.start);
     for (const Edge& edge : subgraph.successors(problem.start_trim)) {
       const bool is_free = check.is_free(*edge.maneuver, 1, start);
-      ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free) << "size " << size_m;
+      ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, 1, start), is_free) << "size " << size_m;
       ++answers[is_free ? 1 : 0];
     }
   }

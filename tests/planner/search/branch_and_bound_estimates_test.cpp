@@ -150,25 +150,34 @@ TEST_P(BranchAndBoundEstimates, OfTheBestChildIsNoMoreThanTheOptimumOnLongHorizo
   EXPECT_GE(solved, 20U);
 }
 
-// Reference points far away along an axis: what counts is how far the automaton gets that way.
-TEST_P(BranchAndBoundEstimates, AreTightOnFarReferencesAlongEveryAxis) {
+// Reference points beyond the places of a path that gets as far as possible along an axis: what
+// counts is how far the automaton gets that way.
+TEST_P(BranchAndBoundEstimates, AreTightOnReferencesBeyondWhatIsReachedAlongEveryAxis) {
   std::array<std::size_t, 16> tight{};
   for (std::size_t direction = 0; direction < tight.size(); ++direction) {
     const double angle_rad = std::numbers::pi / 8.0 * static_cast<double>(direction);
+    const Point axis{std::cos(angle_rad), std::sin(angle_rad)};
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       std::mt19937_64 random(16 * seed + direction);
       HorizonProblem problem;
       problem.start = test::random_pose(random);
       problem.start_trim = subgraph_.trims()[test::pick(random, subgraph_.trims().size())];
-      const double distance_m = test::uniform(random, 200.0, 400.0);
-      const Point far_m{distance_m * std::cos(angle_rad), distance_m * std::sin(angle_rad)};
-      problem.reference_m.assign(2 + test::pick(random, 2), seen_from(problem.start, far_m));
+      problem.reference_m.assign(2 + test::pick(random, 2),
+                                 seen_from(problem.start, Point(1000.0 * axis)));
+      const auto farthest = test::exhaustive_search(subgraph_, problem);
+      const double distance_m = test::uniform(random, 0.5, 3.5);
+      Pose seen;
+      for (std::size_t j = 0; j < problem.reference_m.size(); ++j) {
+        seen = compose(seen, farthest.maneuvers[j]->displacement);
+        problem.reference_m[j] =
+            seen_from(problem.start, Point(seen.position_m() + distance_m * axis));
+      }
       const double optimum = test::exhaustive_search(subgraph_, problem).cost;
       const std::vector<double> f = engine_.estimates(problem);
       const double least = *std::min_element(f.begin(), f.end());
       ASSERT_LE(least, allowed_m2(optimum)) << "direction " << direction << ", seed " << seed;
       // One millimetre more in each step would be too much.
-      tight[direction] += least > optimum * (1.0 - 2.0 * 1e-3 / 400.0) ? 1U : 0U;
+      tight[direction] += least > optimum * (1.0 - 2.0 * 1e-3 / distance_m) ? 1U : 0U;
     }
   }
   for (std::size_t direction = 0; direction < tight.size(); ++direction) {
@@ -184,8 +193,9 @@ INSTANTIATE_TEST_SUITE_P(Automata, BranchAndBoundEstimates,
                          [](const auto& instance) { return instance.param.name; });
 
 // Two steps with one label leave one place for each child to stop in. With the second reference
-// point beside that place, along an axis, f is the cost, but for the rounding in single precision
-// that is taken off: of distances and widths (1e-5 m) and of far distances (2^-18 of the square).
+// point beside that place, along an axis, f is the cost, but for the rounding that is taken off: of
+// place and interval to whole numbers (two of 2^-13 m) and in single precision (1e-5 m, and 2^-18
+// of the distance).
 TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
   const Subgraph subgraph = test::make_test_subgraph();
   const ReachableSets reachable(subgraph, 2);
@@ -204,13 +214,14 @@ TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
         edges[i].to == subgraph.standstill() ? kOwnStepLabel : test::kTestLabel);
     ASSERT_NE(last, nullptr);
     const Pose seen = compose(edges[i].maneuver->displacement, last->displacement);
-    const Point beside_m = random_distance_m(random) * random_axis(random);
+    const double distance_m = std::pow(10.0, test::uniform(random, -3.0, 0.5));
+    const Point beside_m = distance_m * random_axis(random);
     problem.reference_m = {compose(problem.start, edges[i].maneuver->displacement).position_m(),
                            seen_from(problem.start, Point(seen.position_m() + beside_m))};
     const double f = engine.estimates(problem)[i];
     const double cost = cost_through(edges[i], subgraph, problem);
     ASSERT_LE(f, allowed_m2(cost));
-    ASSERT_GE(std::sqrt(f), std::sqrt(cost) * (1.0 - 0x1p-18) - 1e-5);
+    ASSERT_GE(std::sqrt(f), std::sqrt(cost) * (1.0 - 0x1p-18) - (0x2p-13 + 1e-5));
     ++checked;
   }
   EXPECT_GE(checked, 1000U);
