@@ -1,9 +1,12 @@
 #include "hlc_bridge/dds/convert_hlc.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "planner/search/horizon_problem.hpp"
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is carried over.
@@ -36,11 +39,14 @@ PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
   return result;
 }
 
+/// A search takes no coordinates beyond.
+bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= HorizonProblem::kLargest_m; }
+
 bool is_valid(const PolygonMessage& wire) {
   const auto& vertices = wire.vertices_m();
   return vertices.size() != 1 && vertices.size() != 2 && vertices.size() <= kMaxEntries &&
          std::ranges::all_of(vertices, [](const PointMessage& point) {
-           return all_finite(point.x_m(), point.y_m());
+           return is_near(point.x_m()) && is_near(point.y_m());
          });
 }
 

@@ -93,17 +93,16 @@ class BranchAndBound::Core {
         path[k].doubts = &doubts_[k * blocks_of(tables.most_edges())];
       }
     }
-    // Where its place along an axis is a number of 32 bits. No vertex comes near it, so all are
-    // nearer to a point that is moved there than to where it was.
-    const double farthest_m = 0x1p29 / static_cast<double>(tables.view().per_unit_m);
-    const auto seen = [&](double place_m, double start_m) {
-      return static_cast<float>(std::clamp(place_m - start_m, -farthest_m, farthest_m));
-    };
+    const double gets_m = static_cast<double>(n) * tables.longest_m();
+    plan.is_far = false;
     for (std::size_t j = 0; j < n; ++j) {
       reference_x_[j] = problem.reference_m[j].x();
       reference_y_[j] = problem.reference_m[j].y();
-      reference_dx_[j] = seen(reference_x_[j], problem.start.x_m);
-      reference_dy_[j] = seen(reference_y_[j], problem.start.y_m);
+      const double dx_m = reference_x_[j] - problem.start.x_m;
+      const double dy_m = reference_y_[j] - problem.start.y_m;
+      reference_dx_[j] = static_cast<float>(dx_m);
+      reference_dy_[j] = static_cast<float>(dy_m);
+      plan.is_far |= std::hypot(dx_m, dy_m) + gets_m > tables.counted_m();
     }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
@@ -134,8 +133,6 @@ class BranchAndBound::Core {
     path[0].trim = static_cast<std::uint32_t>(problem.start_trim.index);
 
     obstacles.list(problem, plan);
-    if (near_.size() < obstacles.most_obstacles()) near_.resize(obstacles.most_obstacles());
-    search.near = near_.data();
     kernel.prepare(plan, path[0]);
   }
 
@@ -176,7 +173,6 @@ class BranchAndBound::Core {
   std::vector<float> to_go_;
   std::vector<double> keys_;
   std::vector<std::uint8_t> doubts_;
-  std::vector<branch_and_bound::Rectangles> near_;
   std::vector<branch_and_bound::Level> levels_;
   std::vector<branch_and_bound::PolygonBlock> area_;  ///< room for a placed area
   mutable ConvexPolygon placed_;                      ///< its capacity holds the largest area

@@ -20,7 +20,7 @@ struct SearchTables;
 /// order of f = g + h, those first generated first among equals; a child is left out as soon as its
 /// f is no less than the cost of the best complete path so far, or its edge is not free. When
 /// nothing is left, the best path is a path of least cost: every path through a child that was left
-/// out costs at least its f, hence no less.
+/// out costs at least its f, hence no less, or is not free.
 ///
 /// **Bound.** As CostToGo::kReachable, but seen from the parent, so that what depends on the vertex
 /// alone is computed once for all its children. For the edge t -> u with displacement T, with m
@@ -34,10 +34,10 @@ struct SearchTables;
 /// allowance). Each e_i is the distance of q_i from a half-plane that contains the positions, so it
 /// is admissible for the same automata as CostToGo::kReachable and under the same assumption. The
 /// intervals depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made
-/// once. It holds whole numbers of 16 bits, of a unit below a millimetre, so that a vector has four
-/// edges and four steps. Rounding makes intervals wider and h smaller by at most that much; what
-/// lies farther than 24 of the longest displacements is taken to lie there
-/// (TableStore::compute_bounds).
+/// once. It holds whole numbers of 16 bits, so that a vector has four edges and four steps, of a
+/// unit of an 819th of the longest displacement; rounding makes each e_i smaller by at most two of
+/// them. Where a reference point may lie farther than 40 longest displacements from a vertex, they
+/// are compared one by one, in single precision (TableStore::compute_bounds).
 ///
 /// To f belongs what the maneuvers cost themselves (EdgeCosts), and to h the least that those after
 /// the edge can cost, whatever they do.

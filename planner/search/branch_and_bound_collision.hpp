@@ -84,25 +84,25 @@ HLC_INLINE Answer compare(const PolygonBlock* area, std::uint32_t area_blocks,
   return lanes_less(most_apart, inside) == kEveryLane ? Answer::kMeet : Answer::kTooClose;
 }
 
-/// Eight rectangles beside others, or beside one.
+/// Eight times a rectangle and another one.
 struct Beside {
-  Floats ahead;  ///< distance of the centres along the eight's axes
+  Floats ahead;  ///< distance of the centres along the axes of the first
   Floats aside;
-  Floats other_ahead;  ///< along the others' axes
+  Floats other_ahead;  ///< along those of the second
   Floats other_aside;
   Floats c;  ///< cosine and sine between the axes; all six without their signs
   Floats s;
 };
 
-/// Where rectangles are and what axes they have.
-struct Axis {
+/// Centres of rectangles and the directions of their first axes.
+struct Centres {
   Floats x;
   Floats y;
   Floats along_x;
   Floats along_y;
 };
 
-HLC_INLINE Beside beside(const Axis& own, const Axis& other) {
+HLC_INLINE Beside beside(const Centres& own, const Centres& other) {
   const Floats dx = other.x - own.x;
   const Floats dy = other.y - own.y;
   return {absolute(dx * own.along_x + dy * own.along_y),
@@ -139,7 +139,7 @@ HLC_INLINE std::uint32_t list_near(const Search& search, std::size_t step, const
                                    const VertexData& vertex) {
   const Plan& plan = *search.plan;
   const Rectangles& around = search.tables->around[vertex.trim];
-  const Axis own{all(around.x), all(around.y), all(around.along_x), all(around.along_y)};
+  const Centres own{all(around.x), all(around.y), all(around.along_x), all(around.along_y)};
   const Floats tolerance = all(plan.tolerance);
   std::uint32_t count = 0;
   for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];) {
@@ -149,15 +149,15 @@ HLC_INLINE std::uint32_t list_near(const Search& search, std::size_t step, const
     const Floats dy = load(block.y) - at.y;
     const Floats along_x = load(block.along_x);
     const Floats along_y = load(block.along_y);
-    const Axis seen{at.cos_heading * dx + at.sin_heading * dy,
-                    at.cos_heading * dy - at.sin_heading * dx,
-                    at.cos_heading * along_x + at.sin_heading * along_y,
-                    at.cos_heading * along_y - at.sin_heading * along_x};
+    const Centres seen{at.cos_heading * dx + at.sin_heading * dy,
+                       at.cos_heading * dy - at.sin_heading * dx,
+                       at.cos_heading * along_x + at.sin_heading * along_y,
+                       at.cos_heading * along_y - at.sin_heading * along_x};
     const Floats outer =
         most_apart(beside(own, seen), all(around.outer_along), all(around.outer_aside),
                    load(block.outer_along), load(block.outer_aside));
-    // What is not surely apart, so that what is no number is looked at.
-    std::uint32_t near = kEveryLane & ~lanes_less(tolerance, outer);
+    // What is not surely apart, so that a distance that is no number is looked at.
+    std::uint32_t near = obstacles.is_there & ~lanes_less(tolerance, outer);
     if (prepare_fresh(plan, i, near)) continue;  // with their own rectangles now
     if (near != 0) {
       alignas(32) float x[kFloatLanes];
@@ -170,14 +170,14 @@ HLC_INLINE std::uint32_t list_near(const Search& search, std::size_t step, const
       store(axis_y, seen.along_y);
       for (; near != 0; near &= near - 1) {
         const auto lane = static_cast<std::uint32_t>(__builtin_ctz(near));
-        search.near[count++] = {x[lane],
-                                y[lane],
-                                axis_x[lane],
-                                axis_y[lane],
-                                block.outer_along[lane],
-                                block.outer_aside[lane],
-                                block.inner_along[lane],
-                                block.inner_aside[lane]};
+        plan.near[count++] = {x[lane],
+                              y[lane],
+                              axis_x[lane],
+                              axis_y[lane],
+                              block.outer_along[lane],
+                              block.outer_aside[lane],
+                              block.inner_along[lane],
+                              block.inner_aside[lane]};
       }
     }
     i += kFloatLanes;
@@ -185,42 +185,56 @@ HLC_INLINE std::uint32_t list_near(const Search& search, std::size_t step, const
   return count;
 }
 
+/// What rectangles say of eight edges and obstacles, one bit per edge.
+struct Compared {
+  std::uint32_t apart;  ///< surely free
+  std::uint32_t met;    ///< surely not
+};
+
+HLC_INLINE Compared compare_eight(const RectanglesBlock& eight, const Rectangles* near,
+                                  std::uint32_t num_near, const Floats& tolerance) {
+  const Centres own{load(eight.x), load(eight.y), load(eight.along_x), load(eight.along_y)};
+  const Floats outer_along = load(eight.outer_along);
+  const Floats outer_aside = load(eight.outer_aside);
+  const Floats inner_along = load(eight.inner_along);
+  const Floats inner_aside = load(eight.inner_aside);
+  const Floats inside = all(0.0F) - tolerance;
+  Compared result{kEveryLane, 0};
+  for (std::uint32_t i = 0; i < num_near; ++i) {
+    const Rectangles& other = near[i];
+    const Beside at =
+        beside(own, {all(other.x), all(other.y), all(other.along_x), all(other.along_y)});
+    const Floats outer =
+        most_apart(at, outer_along, outer_aside, all(other.outer_along), all(other.outer_aside));
+    const Floats inner =
+        most_apart(at, inner_along, inner_aside, all(other.inner_along), all(other.inner_aside));
+    result.apart &= lanes_less(tolerance, outer);
+    result.met |= lanes_less(inner, inside);
+  }
+  return result;
+}
+
 /// Compares the rectangles of all edges out of a vertex with those of the obstacles near them:
-/// forbids the edges that surely meet one, and notes of which it stays open. Returns the least key.
+/// forbids the edges that surely meet one, and notes of which it stays open.
+/// @param key  the least of the vertex
+/// Returns the least that is left.
 HLC_INLINE double forbid_met(const Search& search, std::size_t step, VertexData& vertex,
-                             double least_key) {
+                             double key) {
   const Plan& plan = *search.plan;
   vertex.doubtful = Doubtful::kNone;
   const std::uint32_t num_near = list_near(search, step, placement_of(plan, vertex), vertex);
-  if (num_near == 0) return least_key;
+  if (num_near == 0) return key;
   vertex.doubtful = Doubtful::kNoted;
-  const RectanglesBlock* block =
+  const RectanglesBlock* eight =
       search.tables->rectangles + search.tables->first_rectangles[vertex.trim];
   const Floats tolerance = all(plan.tolerance);
-  const Floats inside = all(0.0F) - tolerance;
   Doubles lowest = all(kForbidden);
-  for (std::uint32_t edge = 0; edge < vertex.num_edges; edge += kFloatLanes, ++block) {
-    const Axis own{load(block->x), load(block->y), load(block->along_x), load(block->along_y)};
-    const Floats outer_along = load(block->outer_along);
-    const Floats outer_aside = load(block->outer_aside);
-    const Floats inner_along = load(block->inner_along);
-    const Floats inner_aside = load(block->inner_aside);
-    std::uint32_t apart = kEveryLane;
-    std::uint32_t met = 0;
-    for (std::uint32_t i = 0; i < num_near; ++i) {
-      const Rectangles& other = search.near[i];
-      const Beside at =
-          beside(own, {all(other.x), all(other.y), all(other.along_x), all(other.along_y)});
-      const Floats outer =
-          most_apart(at, outer_along, outer_aside, all(other.outer_along), all(other.outer_aside));
-      const Floats inner =
-          most_apart(at, inner_along, inner_aside, all(other.inner_along), all(other.inner_aside));
-      apart &= lanes_less(tolerance, outer);
-      met |= lanes_less(inner, inside);
-    }
-    vertex.doubts[edge / kFloatLanes] = static_cast<std::uint8_t>(kEveryLane & ~apart);
+  for (std::uint32_t edge = 0; edge < vertex.num_edges; edge += kFloatLanes, ++eight) {
+    const Compared compared = compare_eight(*eight, plan.near, num_near, tolerance);
+    vertex.doubts[edge / kFloatLanes] = static_cast<std::uint8_t>(kEveryLane & ~compared.apart);
     for (std::uint32_t i = edge; i < edge + kFloatLanes && i < vertex.num_edges; i += kLanes) {
-      const Doubles keys = where_set(met >> (i - edge), all(kForbidden), load(vertex.keys + i));
+      const Doubles keys =
+          where_set(compared.met >> (i - edge), all(kForbidden), load(vertex.keys + i));
       store(vertex.keys + i, keys);
       lowest = smaller(keys, lowest);
     }
@@ -232,21 +246,21 @@ HLC_INLINE double forbid_met(const Search& search, std::size_t step, VertexData&
 constexpr int kFewChildren = 1;
 
 /// Which edges out of a vertex meet an obstacle? Forbids some of those that do, and notes of which
-/// it stays open until they are tried. Returns the least key.
+/// it stays open until they are tried.
+/// @param key  the least of the vertex
+/// Returns the least that is left.
 HLC_INLINE double look_at_obstacles(const Search& search, std::size_t step, VertexData& vertex,
-                                    double least_key, double best) {
+                                    double key, double best) {
   const Plan& plan = *search.plan;
   if (plan.first_obstacle[step - 1] == plan.first_obstacle[step]) {
     vertex.doubtful = Doubtful::kNone;
-    return least_key;
+    return key;
   }
   int num_children = 0;
   for (std::uint32_t edge = 0; edge < vertex.num_edges; edge += kLanes) {
     num_children += __builtin_popcount(lanes_less(load(vertex.keys + edge), all(best)));
   }
-  if (num_children > kFewChildren) return forbid_met(search, step, vertex, least_key);
-  vertex.doubtful = Doubtful::kAll;
-  return least_key;
+  return num_children > kFewChildren ? forbid_met(search, step, vertex, key) : key;
 }
 
 /// Does the edge to a child meet an obstacle? Rectangles decide most; then a separating-axis test.
@@ -261,10 +275,10 @@ bool meets_obstacle(const Search& search, std::uint32_t number, std::size_t step
   const std::uint32_t lane = number % kFloatLanes;
   const Floats c = at.cos_heading;
   const Floats s = at.sin_heading;
-  const Axis own{at.x + (c * all(eight.x[lane]) - s * all(eight.y[lane])),
-                 at.y + (s * all(eight.x[lane]) + c * all(eight.y[lane])),
-                 c * all(eight.along_x[lane]) - s * all(eight.along_y[lane]),
-                 s * all(eight.along_x[lane]) + c * all(eight.along_y[lane])};
+  const Centres own{at.x + (c * all(eight.x[lane]) - s * all(eight.y[lane])),
+                    at.y + (s * all(eight.x[lane]) + c * all(eight.y[lane])),
+                    c * all(eight.along_x[lane]) - s * all(eight.along_y[lane]),
+                    s * all(eight.along_x[lane]) + c * all(eight.along_y[lane])};
   const Floats tolerance = all(plan.tolerance);
   bool is_placed = false;
   for (std::uint32_t i = plan.first_obstacle[step - 1]; i < plan.first_obstacle[step];) {
@@ -275,7 +289,7 @@ bool meets_obstacle(const Search& search, std::uint32_t number, std::size_t step
     const Floats outer =
         most_apart(at_them, all(eight.outer_along[lane]), all(eight.outer_aside[lane]),
                    load(block.outer_along), load(block.outer_aside));
-    std::uint32_t near = kEveryLane & ~lanes_less(tolerance, outer);
+    std::uint32_t near = obstacles.is_there & ~lanes_less(tolerance, outer);
     if (prepare_fresh(plan, i, near)) continue;  // with their own rectangles now
     if (near != 0) {
       const Floats inner =
@@ -407,10 +421,9 @@ bool meets_segment(const Search& search, std::uint32_t edge, const Placement& at
 HLC_INLINE bool is_free(const Search& search, std::uint32_t number, std::size_t step,
                         const VertexData& vertex) {
   const Plan& plan = *search.plan;
+  const bool is_noted = ((1U << number % kFloatLanes) & vertex.doubts[number / kFloatLanes]) != 0;
   const bool is_doubtful =
-      vertex.doubtful != Doubtful::kNone &&
-      (vertex.doubtful == Doubtful::kAll ||
-       (vertex.doubts[number / kFloatLanes] >> number % kFloatLanes & 1U) != 0);
+      vertex.doubtful == Doubtful::kAll || (vertex.doubtful == Doubtful::kNoted && is_noted);
   if (!is_doubtful && plan.num_blocks == 0) return true;
   const Placement at = placement_of(plan, vertex);
   const std::uint32_t edge = vertex.first_edge + number;

@@ -13,10 +13,9 @@
 /// of that. Blocks of eight floats lie at addresses that no load of them spreads over two cache
 /// lines.
 ///
-/// Costs are doubles. Bounds are computed from whole numbers of 16 bits, distances in small units,
-/// rounded to what makes them smaller (TableStore).
-/// Collision tests compute with floats, relative to the plan's start, with a tolerance above the
-/// rounding; where that leaves a doubt, `Search::decides` says what is true.
+/// Costs are doubles. Bounds are computed from whole numbers of 16 bits, distances in a small unit
+/// (TableStore). Collision tests compute with floats, relative to the plan's start, with a
+/// tolerance above the rounding; where that leaves a doubt, `Search::decides` says what is true.
 namespace hlc::branch_and_bound {
 
 /// Doubles, floats, and whole numbers of 16 bits, of one vector.
@@ -78,6 +77,7 @@ inline constexpr float kNoOuter = -1e15F;
 /// Eight obstacles. At first the outer rectangle is the box, and there is no inner one.
 struct ObstaclesBlock {
   RectanglesBlock rectangles;
+  std::uint32_t is_there;  ///< one bit per obstacle; the rest is padding
   /// One bit per obstacle: its rectangles, and the blocks of its corners, are written. Done when
   /// they are first needed.
   std::uint32_t is_ready;
@@ -108,8 +108,8 @@ struct EdgeData {
 inline constexpr std::uint32_t kBoundSteps = 4;
 
 /// Bounds of four edges for four steps in a row: per axis the intervals of those edges and steps
-/// [Tables::per_unit_m]. Interval number 8 (s / 2) + 2 e + s % 2 is that of edge e for step s.
-/// What is beyond a number of 16 bits, of a place, an end or a distance, is taken to be the last.
+/// [1 / Tables::units_per_m m]. Interval number 8 (s / 2) + 2 e + s % 2 is that of edge e for step
+/// s. Ends saturate.
 struct alignas(32) BoundBlock {
   std::int16_t low[kBoundAxes][kShortLanes];
   std::int16_t high[kBoundAxes][kShortLanes];
@@ -129,7 +129,7 @@ struct Tables {
   const std::uint32_t* first_rectangles;  ///< per trim, its first of `rectangles`
   const Rectangles* around;               ///< per trim, the outer one of all its swept areas
   std::size_t bound_size;
-  float per_unit_m;       ///< units of a bound in a metre, a power of two
+  float units_per_m;      ///< units of a bound in a metre, a power of two
   float squared_unit_m2;  ///< square of the unit
   const double* numbers;  ///< 0, 1, 2, ... as bits
   std::uint64_t index_mask;
@@ -173,6 +173,7 @@ struct Plan {
   const double* reference_y;
   const float* reference_dx;  ///< the same relative to the start, and eight more
   const float* reference_dy;
+  bool is_far;  ///< seen from a vertex, a place of theirs may be no number of 16 bits
 
   // What the problem has, and what can be reached.
   const PolygonData* polygons;  ///< by step
@@ -192,6 +193,7 @@ struct Plan {
   std::uint32_t* first_obstacle;
   std::uint32_t* obstacles;  ///< its number among the polygons
   ObstaclesBlock* obstacle_rectangles;
+  Rectangles* near;  ///< scratch: one per obstacle
   PolygonBlock* obstacle_blocks;
   double* corners;  ///< scratch: x and y of the largest obstacle's corners, one more
   std::size_t corner_stride;
@@ -204,7 +206,7 @@ struct Plan {
 };
 
 /// Of which edges out of a vertex has it still to be decided whether they meet an obstacle?
-enum class Doubtful { kNone, kAll, kNoted };
+enum class Doubtful { kAll, kNoted, kNone };
 
 /// A vertex on the path that is being tried.
 struct VertexData {
@@ -250,7 +252,6 @@ struct Search {
   const Level* levels;   ///< n
   VertexData* path;      ///< n + 1 vertices; the first is the start
   float* to_go;          ///< scratch: per edge of a trim, two
-  Rectangles* near;      ///< scratch: per obstacle of a step
   PolygonBlock* placed;  ///< room for the largest area
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;

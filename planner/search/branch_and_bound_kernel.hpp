@@ -17,21 +17,25 @@
 namespace hlc::branch_and_bound {
 namespace {
 
+/// The last numbers of 16 bits.
+constexpr std::int16_t kLowest = -32768;
+constexpr std::int16_t kHighest = 32767;
+
 /// What a cost-to-go may be too large by: see TableStore::compute_bounds.
 constexpr float kSurely = 1.0F - 0x5p-20F;
 
 constexpr float kCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
 constexpr float kSin = 0x1.87de2ap-2F;
 
-/// The reference points of four steps, seen from a vertex, along each axis [Tables::unit_m], each
-/// beside the intervals of a BoundBlock.
+/// The reference points of four steps, seen from a vertex, along each axis [1 / Tables::units_per_m
+/// m], each beside the intervals of a BoundBlock.
 using Along = Shorts[kBoundAxes];
 
 /// The reference points of eight steps, the second four only where asked for.
 HLC_INLINE void project(const float* reference_dx, const float* reference_dy, const Placement& at,
-                        float per_unit_m, bool has_second, Along& first, Along& second) {
-  const Floats dx = (load(reference_dx) - at.x) * all(per_unit_m);
-  const Floats dy = (load(reference_dy) - at.y) * all(per_unit_m);
+                        float units_per_m, bool has_second, Along& first, Along& second) {
+  const Floats dx = (load(reference_dx) - at.x) * all(units_per_m);
+  const Floats dy = (load(reference_dy) - at.y) * all(units_per_m);
   const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
   const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
   const Floats ahead_cos = ahead * all(kCos);
@@ -95,6 +99,7 @@ HLC_INLINE Expansion begin_expansion(Search& search, VertexData& vertex, std::si
   const std::size_t first_group = tables.first_group[vertex.trim];
   const std::size_t first_edge = kLanes * first_group;
   const std::size_t num_edges = kLanes * (tables.first_group[vertex.trim + 1] - first_group);
+  vertex.doubtful = Doubtful::kAll;
   vertex.first_edge = static_cast<std::uint32_t>(first_edge);
   vertex.num_edges = static_cast<std::uint32_t>(num_edges);
   search.generated += level.permitted[vertex.trim];
@@ -154,7 +159,7 @@ HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) 
     const std::size_t step = depth + 1 + kBoundSteps * block;
     Along first;
     Along second;
-    project(plan.reference_dx + step, plan.reference_dy + step, at, tables.per_unit_m, has_second,
+    project(plan.reference_dx + step, plan.reference_dy + step, at, tables.units_per_m, has_second,
             first, second);
     const std::uint32_t* const places = search.levels[depth].bounds + block;
     const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
@@ -172,6 +177,75 @@ HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) 
     }
     if (is_last) return least(lowest);
   }
+}
+
+/// Where a reference point, seen from a vertex, lies along each axis [1 / Tables::units_per_m m].
+struct Seen {
+  float along[kBoundAxes];
+};
+
+HLC_INLINE Seen see(const Plan& plan, std::size_t step, const VertexData& at, float units_per_m) {
+  const auto c = static_cast<float>(at.cos_heading);
+  const auto s = static_cast<float>(at.sin_heading);
+  const float dx =
+      (plan.reference_dx[step] - static_cast<float>(at.x - plan.origin_x)) * units_per_m;
+  const float dy =
+      (plan.reference_dy[step] - static_cast<float>(at.y - plan.origin_y)) * units_per_m;
+  const float ahead = dx * c + dy * s;
+  const float aside = dy * c - dx * s;
+  const auto diagonal = static_cast<float>(kDiagonal);
+  return {{ahead, ahead * kCos + aside * kSin, (ahead + aside) * diagonal,
+           ahead * kSin + aside * kCos, aside, aside * kCos - ahead * kSin,
+           (aside - ahead) * diagonal, aside * kSin - ahead * kCos}};
+}
+
+/// How far a reference point lies beyond an interval of a block, on the axis that has most. Ends
+/// that are saturated bound nothing.
+HLC_INLINE float beyond(const BoundBlock& bound, std::size_t interval, const Seen& seen) {
+  constexpr float kMost = 1e18F;  // its square, and the sum of many, are still numbers
+  float most = 0.0F;
+  for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
+    const std::int16_t low = bound.low[axis][interval];
+    const std::int16_t high = bound.high[axis][interval];
+    const float below = low == kLowest ? 0.0F : static_cast<float>(low) - seen.along[axis];
+    const float above = high == kHighest ? 0.0F : seen.along[axis] - static_cast<float>(high);
+    most = below > most ? below : most;
+    most = above > most ? above : most;
+  }
+  return most < kMost ? most : kMost;
+}
+
+/// As `expand`, for reference points so far away that places are no numbers of 16 bits: one edge
+/// and step at a time.
+double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
+  const Tables& tables = *search.tables;
+  const Plan& plan = *search.plan;
+  const Level& level = search.levels[depth];
+  const Expansion expansion = begin_expansion(search, vertex, depth);
+  const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
+  Doubles lowest = all(kForbidden);
+  for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
+    float to_go[kLanes] = {};
+    for (std::size_t block = 0; block < level.num_blocks; ++block) {
+      for (std::size_t step = 0; step < kBoundSteps; ++step) {
+        const Seen seen =
+            see(plan, depth + 1 + kBoundSteps * block + step, vertex, tables.units_per_m);
+        for (std::size_t e = 0; e < kLanes; ++e) {
+          const float distance =
+              beyond(bounds[level.bounds[block]], 8 * (step / 2) + 2 * e + step % 2, seen);
+          to_go[e] += distance * distance;
+        }
+      }
+    }
+    bounds += tables.bound_size;
+    const float scale = kSurely * tables.squared_unit_m2;
+    const Doubles costs_to_go{
+        static_cast<double>(to_go[0] * scale), static_cast<double>(to_go[1] * scale),
+        static_cast<double>(to_go[2] * scale), static_cast<double>(to_go[3] * scale)};
+    const Doubles f = cost_without_bound(expansion, edge) + costs_to_go;
+    lowest = smaller(keep_key(tables, vertex, edge, f), lowest);
+  }
+  return least(lowest);
 }
 
 /// The least key of a vertex' children.
@@ -228,9 +302,10 @@ void run(Search& search) {
   double best = search.best_cost;
   bool has_patience = true;
   for (;;) {
-    double key = search.levels[depth].num_blocks != 0 && has_patience
-                     ? expand(search, *vertex, depth)
-                     : expand_without_bound(search, *vertex, depth);
+    const bool has_bound = search.levels[depth].num_blocks != 0 && has_patience;
+    double key = !has_bound     ? expand_without_bound(search, *vertex, depth)
+                 : !plan.is_far ? expand(search, *vertex, depth)
+                                : expand_far(search, *vertex, depth);
     if (key < best) key = look_at_obstacles(search, depth + 1, *vertex, key, best);
 
     // The next vertex to expand: the first free child that is worth it, here or further back.
@@ -296,9 +371,10 @@ void run(Search& search) {
 }
 
 void expand_start(Search& search) {
-  static_cast<void>(search.levels[0].num_blocks == 0
-                        ? expand_without_bound(search, search.path[0], 0)
-                        : expand(search, search.path[0], 0));
+  VertexData& start = search.path[0];
+  static_cast<void>(search.levels[0].num_blocks == 0 ? expand_without_bound(search, start, 0)
+                    : !search.plan->is_far           ? expand(search, start, 0)
+                                                     : expand_far(search, start, 0));
 }
 
 bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex,

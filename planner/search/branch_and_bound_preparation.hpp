@@ -148,6 +148,7 @@ HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double*
 
 /// Nothing meets what is in a block before obstacles are written into it.
 HLC_INLINE void write_padding(ObstaclesBlock& obstacles) {
+  obstacles.is_there = 0;
   obstacles.is_ready = 0;
   RectanglesBlock& block = obstacles.rectangles;
   store(block.x, all(kFarAway));
@@ -199,6 +200,7 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
       block.y[lane] = static_cast<float>(centre_y);
       block.outer_along[lane] = static_cast<float>(half_x);
       block.outer_aside[lane] = static_cast<float>(half_y);
+      obstacles.is_there |= 1U << lane;
       plan.obstacles[count] = static_cast<std::uint32_t>(next);
       ++count;
       const double size = absolute(centre_x) + absolute(centre_y) + half_x + half_y;

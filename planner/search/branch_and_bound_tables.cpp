@@ -71,7 +71,13 @@ Point largest_inside(const ConvexPolygon& area_m, const Point& centre, const Poi
 /// with its centre and axes.
 Rectangles rectangles_of(const ConvexPolygon& area_m) {
   const auto& corners = area_m.vertices_m;
-  Rectangles best{0.0F, 0.0F, 1.0F, 0.0F, kNoOuter, kNoOuter, kNoInner, kNoInner};
+  if (corners.empty()) return {0.0F, 0.0F, 1.0F, 0.0F, kNoOuter, kNoOuter, kNoInner, kNoInner};
+  const Box box = bounding_box(area_m);  // of an area without an edge that has a direction
+  const Point middle = 0.5 * (box.min_m + box.max_m);
+  const Point half = 0.5 * (box.max_m - box.min_m);
+  Rectangles best{
+      static_cast<float>(middle.x()), static_cast<float>(middle.y()), 1.0F,     0.0F,
+      static_cast<float>(half.x()),   static_cast<float>(half.y()),   kNoInner, kNoInner};
   double least_size_m2 = std::numeric_limits<double>::infinity();
   for (std::size_t edge = 0; edge < corners.size(); ++edge) {
     const Point side = corners[(edge + 1) % corners.size()] - corners[edge];
@@ -165,8 +171,8 @@ void TableStore::add_rectangles(std::span<const Edge> successors) {
   first_rectangles_.push_back(static_cast<std::uint32_t>(rectangles_.size()));
   std::vector<ConvexPolygon> areas_m;
   for (std::size_t number = 0; number < padded(successors.size(), kFloatLanes); ++number) {
-    const ConvexPolygon& area_m =
-        number < successors.size() ? successors[number].maneuver->swept_area_m : ConvexPolygon{};
+    ConvexPolygon area_m;  // none: padding
+    if (number < successors.size()) area_m = successors[number].maneuver->swept_area_m;
     if (!area_m.vertices_m.empty()) areas_m.push_back(area_m);
     const std::size_t lane = number % kFloatLanes;
     if (lane == 0) rectangles_.emplace_back();
@@ -251,27 +257,29 @@ void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs
 
 // With u = 2^-24, the distance L from the start to the farthest vertex of kMostSteps steps, q a
 // reference point seen from a vertex and p its place along an axis, p is in single precision off by
-// at most 9 u ||q|| + 4 u L. Intervals that are 64 u (|c| + w) + 4 u L wider on both sides make up
-// for the second term and, where ||q|| is at most 4 (|c| + w), for the first. Beyond, the distance
-// on the axis that has most is at least 0.98 ||q|| - |c| - w > 0.7 ||q||, so it is off by less than
-// 17 u of itself and its square by less than 36 u.
+// at most 10 u ||q|| + 4 u L. Let R be the largest |c| + w of all axes. Intervals that are 64 u R +
+// 4 u L wider on both sides make up for the second term and, where ||q|| is at most 4 R, for the
+// first. Beyond, the distance on the axis that has most is at least 0.98 ||q|| - R > 0.7 ||q||, so
+// it is off by less than 17 u of itself and its square by less than 36 u.
 //
 // Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
-// too. Where places, ends and distances are no numbers of 16 bits, those next to them make no
-// distance larger. From there on all is exact but the sum of squares: m / 4 + 2 roundings. Factor
-// kSurely of the kernel, 1 - 80 u, makes up for it and for the square above.
+// too. From there on all is exact but the sum of squares: m / 4 + 2 roundings. Factor kSurely of
+// the kernel, 1 - 80 u, makes up for it and for the square above. Where p might be no number of 16
+// bits it is left as it is, and its distance and square are rounded once more each.
 //
 // Nothing here depends on how many steps there are tables for: equal searches expand equally many
 // vertices.
 void TableStore::compute_bounds(const ReachableSets& reachable) {
   constexpr double kRelative = 0x1p-18;
-  constexpr double kCountedSteps = 24.0;  // so far, at the longest displacement, distances count
-  const double farthest = 0x1p-22 * reach_m(kMostSteps);
+  const double farthest = 0x1p-22 * static_cast<double>(kMostSteps) * longest_m_;
+  // Fine enough for what is near, and so coarse that horizons of sixteen steps need nothing beyond.
+  constexpr double kCountedSteps = 40.0;
   constexpr double kLargest = std::numeric_limits<std::int16_t>::max();
-  const double unit_m = longest_m_ > 0.0
-                            ? std::exp2(std::ceil(std::log2(kCountedSteps * longest_m_ / kLargest)))
-                            : 0x1p-12;
-  view_.per_unit_m = static_cast<float>(1.0 / unit_m);
+  constexpr double kLeastUnit_m = 0x1p-40;  // single precision has its square and its reciprocal
+  view_.units_per_m =
+      static_cast<float>(1.0 / std::max(kCountedSteps * longest_m_ / kLargest, kLeastUnit_m));
+  const double unit_m = 1.0 / static_cast<double>(view_.units_per_m);
+  counted_m_ = (kLargest - 1.0) * (1.0 - 0x1p-18) * unit_m;
   view_.squared_unit_m2 = static_cast<float>(unit_m * unit_m);
   const std::size_t cap = max_steps_left_;
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
@@ -299,14 +307,16 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
           intervals[axis].high = std::max(intervals[axis].high, along_m);
         }
       }
+      double reach_m = 0.0;
+      for (Interval& interval : intervals) {
+        interval.low -= ReachableSets::allowance_m(steps + 1);
+        interval.high += ReachableSets::allowance_m(steps + 1);
+        reach_m = std::max({reach_m, -interval.low, interval.high});
+      }
+      const double wider_m = kRelative * reach_m + farthest + 0.5 * unit_m;
       for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
-        const double middle_m = 0.5 * (intervals[axis].low + intervals[axis].high);
-        const double half_m = 0.5 * (intervals[axis].high - intervals[axis].low) +
-                              ReachableSets::allowance_m(steps + 1);
-        const double width_m =
-            half_m + kRelative * (std::abs(middle_m) + half_m) + farthest + 0.5 * unit_m;
-        bound.low[axis][lane] = limited(std::floor((middle_m - width_m) / unit_m));
-        bound.high[axis][lane] = limited(std::ceil((middle_m + width_m) / unit_m));
+        bound.low[axis][lane] = limited(std::floor((intervals[axis].low - wider_m) / unit_m));
+        bound.high[axis][lane] = limited(std::ceil((intervals[axis].high + wider_m) / unit_m));
       }
     };
     for (std::size_t row = 0; row < rows; ++row) {

@@ -51,6 +51,10 @@ class TableStore {
   [[nodiscard]] double reach_m(std::size_t steps) const {
     return static_cast<double>(steps) * area_radius_m_;
   }
+  /// The longest displacement of an edge.
+  [[nodiscard]] double longest_m() const { return longest_m_; }
+  /// So far from a vertex a place along an axis is a number of 16 bits.
+  [[nodiscard]] double counted_m() const { return counted_m_; }
   /// Blocks of the largest area.
   [[nodiscard]] std::size_t most_blocks() const { return most_blocks_; }
   /// Most edges out of one trim, padded.
@@ -84,7 +88,8 @@ class TableStore {
   std::vector<double> reach_;
   std::size_t reach_steps_{};
   std::vector<double> numbers_;
-  double longest_m_{};      ///< displacement of an edge
+  double longest_m_{};
+  double counted_m_{};
   double area_radius_m_{};  ///< farthest corner of any area, or end, from its maneuver's start
   std::size_t num_trims_{};
   std::size_t max_steps_left_{};

@@ -39,6 +39,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   const std::size_t rectangle_blocks = blocks_of(num_polygons_) + n;
   grow(obstacles_, rectangle_blocks * kFloatLanes);
   grow(obstacle_rectangles_, rectangle_blocks);
+  grow(near_, rectangle_blocks * kFloatLanes);
   grow(obstacle_blocks_, num_blocks_);
   const std::size_t corner_stride = most_blocks_ * kFloatLanes + 1;
   grow(corners_, 2 * corner_stride);
@@ -57,6 +58,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   plan.first_obstacle = first_obstacle_.data();
   plan.obstacles = obstacles_.data();
   plan.obstacle_rectangles = obstacle_rectangles_.data();
+  plan.near = near_.data();
   plan.obstacle_blocks = obstacle_blocks_.data();
   plan.corners = corners_.data();
   plan.corner_stride = corner_stride;
@@ -67,11 +69,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
 
 void PreparedObstacles::list_polygons() {
   std::size_t most = 0;
-  most_obstacles_ = 0;
-  for (const auto& areas_m : problem_->obstacles_m) {
-    most += areas_m.size();
-    most_obstacles_ = std::max(most_obstacles_, areas_m.size());
-  }
+  for (const auto& areas_m : problem_->obstacles_m) most += areas_m.size();
   grow(polygons_, most);
   grow(sources_, most);
   num_polygons_ = 0;

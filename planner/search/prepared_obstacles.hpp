@@ -25,8 +25,6 @@ class PreparedObstacles {
   /// @param problem  must stay unchanged as long as the plan is used
   void list(const HorizonProblem& problem, Plan& plan);
 
-  /// Obstacles of the step that has most, at most.
-  [[nodiscard]] std::size_t most_obstacles() const { return most_obstacles_; }
   /// What an obstacle or a segment of the plan is in the problem.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
     return *sources_[obstacles_[item]];
@@ -44,13 +42,13 @@ class PreparedObstacles {
   std::size_t num_polygons_{};
   std::size_t num_blocks_{};   ///< of all obstacles
   std::size_t most_blocks_{};  ///< of the largest
-  std::size_t most_obstacles_{};
   std::vector<PolygonData> polygons_;
   std::vector<const ConvexPolygon*> sources_;  ///< of `polygons_`
   std::vector<const double*> reach_;
   std::vector<std::uint32_t> first_obstacle_;
   std::vector<std::uint32_t> obstacles_;
   std::vector<ObstaclesBlock> obstacle_rectangles_;
+  std::vector<Rectangles> near_;
   std::vector<PolygonBlock> obstacle_blocks_;
   std::vector<double> corners_;
   std::vector<std::uint32_t> segment_source_;

@@ -86,6 +86,7 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
       {{Point{0, 0}, Point{1, 0}}},
       {{Point{0, 0}, Point{1, 0}, Point{kNan, 1}}},
       {{Point{0, 0}, Point{1, 0}, Point{1, std::numeric_limits<double>::infinity()}}},
+      {{Point{0, 0}, Point{-1.001e9, 0}, Point{0, 1}}},
       {ConvexPolygon::Vertices(1001, Point{0, 0})}};
   for (const ConvexPolygon& polygon : bad) {
     auto traffic = good<Traffic>();

@@ -20,11 +20,14 @@ using test::straight_problem;
 constexpr std::size_t kMaxSteps = 8;
 using Instructions = BranchAndBound::Instructions;
 
-/// What the engine says of an edge alone, which must be what it says of it among all.
+/// What the engine says of an edge among all, which must be what it says of it alone; which way is
+/// asked first, with obstacles that nobody has looked at yet, takes turns.
 bool is_free_both_ways(const BranchAndBound& engine, const Maneuver& maneuver, std::size_t step,
                        const Frame& start) {
-  const bool is_free = engine.is_free(maneuver, step, start, false);
-  EXPECT_EQ(engine.is_free(maneuver, step, start, true), is_free);
+  static bool among_all = false;
+  among_all = !among_all;
+  const bool is_free = engine.is_free(maneuver, step, start, among_all);
+  EXPECT_EQ(engine.is_free(maneuver, step, start, !among_all), is_free);
   return is_free;
 }
 
@@ -227,6 +230,52 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
   }
   EXPECT_GE(answers[0], 100U);
   EXPECT_GE(answers[1], 100U);
+}
+
+// A tolerance that large reaches where the padding of obstacles stands.
+TEST_P(BranchAndBoundCollision, AnObstacleOfAnySizeIsTheOnlyOneThatIsLookedAt) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  for (const double size_m : {1e3, 1e9, 1e15, 1e21, 1e27, 1e300}) {
+    BranchAndBound engine(subgraph, reachable, {}, GetParam());  // with no memory of others
+    HorizonProblem problem;
+    problem.start_trim = subgraph.standstill();
+    problem.reference_m.assign(kMaxSteps, Point::Zero());
+    problem.obstacles_m.resize(kMaxSteps);
+    problem.obstacles_m[0] = {{{Point{0.05, 0.0}, Point{size_m, 0.0}, Point{0.05, 1.0}}}};
+    check.prepare(problem);
+    engine.prepare(problem);
+    for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+      ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, 1, to_frame(Pose{})),
+                check.is_free(*edge.maneuver, 1, to_frame(Pose{})))
+          << "size " << size_m;
+    }
+  }
+}
+
+// Its edges are too short to have directions; what it meets the exact test knows.
+TEST_P(BranchAndBoundCollision, AVehicleWithNextToNoSizeIsSeen) {
+  const auto automaton = std::make_shared<UniversalAutomaton>(*test::make_test_automaton());
+  for (Maneuver& maneuver : automaton->maneuvers) {
+    for (Point& corner_m : maneuver.swept_area_m.vertices_m) corner_m *= 1e-8;
+  }
+  const Subgraph subgraph = test::make_test_subgraph(automaton, test::kAllTrims);
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  HorizonProblem problem;
+  problem.start_trim = subgraph.standstill();
+  problem.reference_m.assign(kMaxSteps, Point::Zero());
+  problem.obstacles_m.resize(kMaxSteps);
+  problem.obstacles_m[0] = {
+      {{Point{-0.1, -0.1}, Point{0.1, -0.1}, Point{0.1, 0.1}, Point{-0.1, 0.1}}}};
+  check.prepare(problem);
+  engine.prepare(problem);
+  for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+    ASSERT_FALSE(check.is_free(*edge.maneuver, 1, to_frame(Pose{})));
+    ASSERT_FALSE(is_free_both_ways(engine, *edge.maneuver, 1, to_frame(Pose{})));
+  }
 }
 
 // From a thousandth of a millimetre to kilometres, anywhere on a large map, with corners that come

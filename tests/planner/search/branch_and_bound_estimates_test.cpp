@@ -48,9 +48,9 @@ Point random_axis(std::mt19937_64& random) {
   return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
-/// From a millimetre to 400 m.
+/// From a millimetre to 100 000 km.
 double random_distance_m(std::mt19937_64& random) {
-  return std::pow(10.0, test::uniform(random, -3.0, 2.6));
+  return std::pow(10.0, test::uniform(random, -3.0, 8.0));
 }
 
 Point seen_from(const Pose& start, const Point& point_m) {
@@ -185,6 +185,32 @@ TEST_P(BranchAndBoundEstimates, AreTightOnReferencesBeyondWhatIsReachedAlongEver
   }
 }
 
+// Reference points far away along an axis: what counts is how far the automaton gets that way.
+TEST_P(BranchAndBoundEstimates, AreTightOnFarReferencesAlongEveryAxis) {
+  std::array<std::size_t, 16> tight{};
+  for (std::size_t direction = 0; direction < tight.size(); ++direction) {
+    const double angle_rad = std::numbers::pi / 8.0 * static_cast<double>(direction);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      std::mt19937_64 random(16 * seed + direction);
+      HorizonProblem problem;
+      problem.start = test::random_pose(random);
+      problem.start_trim = subgraph_.trims()[test::pick(random, subgraph_.trims().size())];
+      const double distance_m = test::uniform(random, 200.0, 400.0);
+      const Point far_m{distance_m * std::cos(angle_rad), distance_m * std::sin(angle_rad)};
+      problem.reference_m.assign(2 + test::pick(random, 2), seen_from(problem.start, far_m));
+      const double optimum = test::exhaustive_search(subgraph_, problem).cost;
+      const std::vector<double> f = engine_.estimates(problem);
+      const double least = *std::min_element(f.begin(), f.end());
+      ASSERT_LE(least, allowed_m2(optimum)) << "direction " << direction << ", seed " << seed;
+      // One millimetre more in each step would be too much.
+      tight[direction] += least > optimum * (1.0 - 2.0 * 1e-3 / 400.0) ? 1U : 0U;
+    }
+  }
+  for (std::size_t direction = 0; direction < tight.size(); ++direction) {
+    EXPECT_GE(tight[direction], 3U) << "direction " << direction;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Automata, BranchAndBoundEstimates,
                          testing::Values(Case{"Slow", {kSlow}, kAllTrims},
                                          Case{"Fast", {kFast}, kAllTrims},
@@ -194,12 +220,19 @@ INSTANTIATE_TEST_SUITE_P(Automata, BranchAndBoundEstimates,
 
 // Two steps with one label leave one place for each child to stop in. With the second reference
 // point beside that place, along an axis, f is the cost, but for the rounding that is taken off: of
-// place and interval to whole numbers (two of 2^-13 m) and in single precision (1e-5 m, and 2^-18
-// of the distance).
+// place and interval to whole numbers (two units) and in single precision (1e-5 m, and 2^-18 of the
+// distance).
 TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
   const Subgraph subgraph = test::make_test_subgraph();
   const ReachableSets reachable(subgraph, 2);
   BranchAndBound engine(subgraph, reachable, {});
+  double longest_m = 0.0;
+  for (const TrimId trim : subgraph.trims()) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      longest_m = std::max(longest_m, edge.maneuver->displacement.position_m().norm());
+    }
+  }
+  const double unit_m = longest_m / 819.0;
   std::size_t checked = 0;
   for (std::uint64_t seed = 0; seed < test::num_seeds(5000); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -214,14 +247,14 @@ TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
         edges[i].to == subgraph.standstill() ? kOwnStepLabel : test::kTestLabel);
     ASSERT_NE(last, nullptr);
     const Pose seen = compose(edges[i].maneuver->displacement, last->displacement);
-    const double distance_m = std::pow(10.0, test::uniform(random, -3.0, 0.5));
+    const double distance_m = std::pow(10.0, test::uniform(random, -3.0, 2.6));
     const Point beside_m = distance_m * random_axis(random);
     problem.reference_m = {compose(problem.start, edges[i].maneuver->displacement).position_m(),
                            seen_from(problem.start, Point(seen.position_m() + beside_m))};
     const double f = engine.estimates(problem)[i];
     const double cost = cost_through(edges[i], subgraph, problem);
     ASSERT_LE(f, allowed_m2(cost));
-    ASSERT_GE(std::sqrt(f), std::sqrt(cost) * (1.0 - 0x1p-18) - (0x2p-13 + 1e-5));
+    ASSERT_GE(std::sqrt(f), std::sqrt(cost) * (1.0 - 0x1p-18) - 2.0 * unit_m - 1e-5);
     ++checked;
   }
   EXPECT_GE(checked, 1000U);
