@@ -129,7 +129,7 @@ struct Tables {
   const std::uint32_t* first_rectangles;  ///< per trim, its first of `rectangles`
   const Rectangles* around;               ///< per trim, the outer one of all its swept areas
   std::size_t bound_size;
-  float units_per_m;      ///< units of a bound in a metre, a power of two
+  float units_per_m;      ///< units of a bound in a metre
   float squared_unit_m2;  ///< square of the unit
   const double* numbers;  ///< 0, 1, 2, ... as bits
   std::uint64_t index_mask;
