@@ -443,41 +443,24 @@ std::vector<const Maneuver*> Controller::incumbent() const {
   return maneuvers;
 }
 
-/// Solves the problem; after a switch, if it has no path, on the former subgraph.
-Controller::Found Controller::search() {
-  const auto search_on = [this](HorizonPlanner& planner, const Subgraph& subgraph) {
-    Found found{.result = planner.plan(step_.problems.back()), .on = &subgraph};
-    step_.report.generated += found.result.generated;
-    step_.report.expanded += found.result.expanded;
-    return found;
-  };
-  Found found = search_on(*planner_, subgraph());
-  if (!former_) return found;
-  if (found.result.status != SearchStatus::kFallback || step_.observation.step > former_->last) {
-    former_.reset();
-    return found;
-  }
-  // A second search would take as long again: what is left is for the next step.
-  if (found.result.reason == NoPath::kBudget) return found;
-  return search_on(*former_->planner, *former_->on.subgraph);
-}
-
-/// What is found is the candidate, unless its drift leads into something.
-void Controller::search_candidate(StepIndex next) {
-  const auto [result, on] = search();
+/// What is found on a subgraph is the candidate, unless its drift leads into something.
+void Controller::search_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on) {
+  const SearchResult result = planner.plan(step_.problems.back());
+  step_.report.generated += result.generated;
+  step_.report.expanded += result.expanded;
   if (result.status == SearchStatus::kFallback) {
     step_.obstacle =
         result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;
     return;
   }
-  step_.report.subgraph = on->spec().name;
+  step_.report.subgraph = on.spec().name;
   step_.report.cost_m2 = result.cost;
   const bool is_optimal = result.status == SearchStatus::kOptimal;
   step_.report.quality = is_optimal ? PlanQuality::kOptimal : PlanQuality::kBudget;
   step_.report.gap_m2 = is_optimal ? 0.0 : result.cost - result.lower_bound;
   step_.candidate = in_force_->base().continued(
-      next, result.maneuvers, *own_step(on->automaton(), result.maneuvers.back()->to),
-      on->shared_automaton());
+      next, result.maneuvers, *own_step(on.automaton(), result.maneuvers.back()->to),
+      on.shared_automaton());
   step_.prediction.areas = in_force_->areas_of(*step_.candidate, next);
   if (!is_candidate_drivable()) {
     step_.candidate.reset();
@@ -486,6 +469,29 @@ void Controller::search_candidate(StepIndex next) {
     step_.candidate.reset();
     step_.obstacle = FallbackReason::kConflict;
   }
+}
+
+void Controller::find_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on) {
+  search_candidate(next, planner, on);
+  if (step_.obstacle != FallbackReason::kConflict) return;
+  HorizonProblem without_drift = step_.problems.back();  // only for its drift: try without any
+  without_drift.avoids_steering_limit = true;
+  step_.problems.push_back(std::move(without_drift));
+  step_.obstacle = FallbackReason::kNone;
+  search_candidate(next, planner, on);
+}
+
+/// After a switch, if there is no candidate on what is planned on now.
+void Controller::plan_on_former(StepIndex next) {
+  if (step_.candidate || step_.observation.step > former_->last) {
+    former_.reset();
+    return;
+  }
+  // A second search would take as long again: what is left is for the next step.
+  if (step_.obstacle == FallbackReason::kBudget) return;
+  step_.obstacle = FallbackReason::kNone;
+  if (step_.problems.size() > 1) step_.problems.push_back(step_.problems.front());
+  find_candidate(next, *former_->planner, *former_->on.subgraph);
 }
 
 /// The command that the plan would become is looked at before anybody is told of it.
@@ -520,14 +526,8 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
   }
   if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
     step_.problems.push_back(pose_problem());
-    search_candidate(next);
-    if (step_.obstacle == FallbackReason::kConflict) {  // only for its drift: try without any
-      HorizonProblem without_drift = step_.problems.back();
-      without_drift.avoids_steering_limit = true;
-      step_.problems.push_back(std::move(without_drift));
-      step_.obstacle = FallbackReason::kNone;
-      search_candidate(next);
-    }
+    find_candidate(next, *planner_, subgraph());
+    if (former_) plan_on_former(next);
   }
   step_.prediction.vehicle = options_.vehicle;
   step_.prediction.step = now;

@@ -94,7 +94,7 @@ class Controller {
 
   /// From the next step on plans on another subgraph, of the same automaton or of one that differs
   /// from it in its maneuvers alone. Not in the middle of a step. The plan in force stays, whatever
-  /// of it is off now, and is the fallback as ever: see Subgraph for the rule. Where nothing is
+  /// of it is off now, and is the fallback as ever: see Subgraph for the rule. Where no plan is
   /// found from where the plan in force leads (the way off what is off now leads into something),
   /// the former subgraph is planned on, until something is, for a horizon at most. The other
   /// vehicles need not switch in the same step: where a missing one may be is reckoned with the
@@ -135,7 +135,8 @@ class Controller {
   [[nodiscard]] const std::vector<VehicleId>& coupled() const { return step_.coupled; }
   [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
   /// The problems that `plan` gave to the search, in order: none if it did not come to that, two if
-  /// the first plan would have drifted into something. Valid until the next step.
+  /// the first plan would have drifted into something, after a switch perhaps more. Valid until the
+  /// next step.
   [[nodiscard]] std::span<const HorizonProblem> problems() const { return step_.problems; }
 
   /// Those that the vehicle may take.
@@ -186,11 +187,6 @@ class Controller {
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
   };
 
-  struct Found {
-    SearchResult result;
-    const Subgraph* on;  ///< the subgraph that was searched
-  };
-
   /// What was planned on before a switch.
   struct Former {
     PreparedSubgraph on;
@@ -207,8 +203,9 @@ class Controller {
   [[nodiscard]] bool has_rested_for_long();
   [[nodiscard]] double project(const Point& position_m) const;
   [[nodiscard]] double reach_m() const;
-  [[nodiscard]] Found search();
-  void search_candidate(StepIndex next);
+  void search_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on);
+  void find_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on);
+  void plan_on_former(StepIndex next);
   [[nodiscard]] bool is_candidate_free() const;
   [[nodiscard]] bool is_candidate_drivable() const;
   const Traffic& note_heard(const Traffic& message);

@@ -248,6 +248,12 @@ double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
   return least(lowest);
 }
 
+/// Writes the keys of a vertex' children, with a bound or without. Returns the least.
+HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t depth, bool has_bound) {
+  if (!has_bound) return expand_without_bound(search, vertex, depth);
+  return search.plan->is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
+}
+
 /// The least key of a vertex' children.
 HLC_INLINE double least_key(const VertexData& vertex) {
   const double* const keys = vertex.keys;
@@ -303,9 +309,7 @@ void run(Search& search) {
   bool has_patience = true;
   for (;;) {
     const bool has_bound = search.levels[depth].num_blocks != 0 && has_patience;
-    double key = !has_bound     ? expand_without_bound(search, *vertex, depth)
-                 : !plan.is_far ? expand(search, *vertex, depth)
-                                : expand_far(search, *vertex, depth);
+    double key = expand_by(search, *vertex, depth, has_bound);
     if (key < best) key = look_at_obstacles(search, depth + 1, *vertex, key, best);
 
     // The next vertex to expand: the first free child that is worth it, here or further back.
@@ -371,10 +375,7 @@ void run(Search& search) {
 }
 
 void expand_start(Search& search) {
-  VertexData& start = search.path[0];
-  static_cast<void>(search.levels[0].num_blocks == 0 ? expand_without_bound(search, start, 0)
-                    : !search.plan->is_far           ? expand(search, start, 0)
-                                                     : expand_far(search, start, 0));
+  static_cast<void>(expand_by(search, search.path[0], 0, search.levels[0].num_blocks != 0));
 }
 
 bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex,
