@@ -220,6 +220,7 @@ struct VertexData {
   std::uint32_t first_edge;  ///< of those out of the trim
   std::uint32_t num_edges;   ///< with padding
   double* keys;              ///< f of its children, each with the child's number in the last bits
+  double next_key;           ///< the least of those that were not tried yet
   /// One bit per child, with Doubtful::kNoted: is it one of them?
   std::uint8_t* doubts;
   Doubtful doubtful;

@@ -254,20 +254,20 @@ HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t dept
   return search.plan->is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
 }
 
-/// The least key of a vertex' children.
-HLC_INLINE double least_key(const VertexData& vertex) {
-  const double* const keys = vertex.keys;
-  if (vertex.num_edges == kLanes) {
-    // One by one: a key that has just been written cannot be read as part of a vector at once.
-    const double low = keys[0] < keys[1] ? keys[0] : keys[1];
-    const double high = keys[2] < keys[3] ? keys[2] : keys[3];
-    return low < high ? low : high;
+/// Takes away the child with the vertex' least key and notes the least of the others. At once,
+/// while the child is looked at: where the search comes back to the vertex, it knows how to go on.
+HLC_INLINE void take(VertexData& vertex, double key) {
+  const auto take_of_four = [&](std::uint32_t first) {
+    const Doubles keys = load(vertex.keys + first);
+    const Doubles left = if_equal(keys, all(key), all(kForbidden), keys);
+    store(vertex.keys + first, left);
+    return left;
+  };
+  Doubles lowest = take_of_four(0);
+  for (std::uint32_t first = kLanes; first < vertex.num_edges; first += kLanes) {
+    lowest = smaller(take_of_four(first), lowest);
   }
-  Doubles lowest = load(keys);
-  for (std::uint32_t i = kLanes; i < vertex.num_edges; i += kLanes) {
-    lowest = smaller(load(keys + i), lowest);
-  }
-  return least(lowest);
+  vertex.next_key = least(lowest);
 }
 
 HLC_INLINE std::uint64_t bits(double value) {
@@ -278,7 +278,7 @@ HLC_INLINE std::uint64_t bits(double value) {
 
 void give_up(Search& search, std::size_t depth, double bound) {
   for (std::size_t k = 0; k <= depth; ++k) {
-    const double open = least_key(search.path[k]);
+    const double open = search.path[k].next_key;
     bound = open < bound ? open : bound;
   }
   search.lower_bound = bound;
@@ -321,13 +321,13 @@ void run(Search& search) {
         }
         --depth;
         --vertex;
-        key = least_key(*vertex);
+        key = vertex->next_key;
         continue;
       }
       const auto number = static_cast<std::uint32_t>(bits(key) & tables.index_mask);
-      vertex->keys[number] = kForbidden;
+      take(*vertex, key);
       if (!is_free(search, number, depth + 1, *vertex)) {
-        key = least_key(*vertex);
+        key = vertex->next_key;
         continue;
       }
 
@@ -357,7 +357,7 @@ void run(Search& search) {
           search.best_y[k] = search.path[k + 1].y;
         }
       }
-      key = least_key(*vertex);
+      key = vertex->next_key;
     }
 
     if (search.expanded == look_at) {

@@ -66,6 +66,11 @@ template <class V>
 HLC_INLINE V if_less(const V& a, const V& b, const V& then, const V& otherwise) {
   return a < b ? then : otherwise;
 }
+/// Per element: a == b ? then : otherwise.
+HLC_INLINE Doubles if_equal(const Doubles& a, const Doubles& b, const Doubles& then,
+                            const Doubles& otherwise) {
+  return a == b ? then : otherwise;
+}
 HLC_INLINE Doubles absolute(const Doubles& a) {
   constexpr long long kNoSign = 0x7fff'ffff'ffff'ffff;
   return reinterpret_cast<Doubles>(reinterpret_cast<DoubleBits>(a) &
@@ -211,6 +216,10 @@ template <class Half>
 HLC_INLINE Pair<Half> if_less(const Pair<Half>& a, const Pair<Half>& b, const Pair<Half>& then,
                               const Pair<Half>& otherwise) {
   return {a.low < b.low ? then.low : otherwise.low, a.high < b.high ? then.high : otherwise.high};
+}
+HLC_INLINE Doubles if_equal(const Doubles& a, const Doubles& b, const Doubles& then,
+                            const Doubles& otherwise) {
+  return {a.low == b.low ? then.low : otherwise.low, a.high == b.high ? then.high : otherwise.high};
 }
 HLC_INLINE HalfDoubles masked(const HalfDoubles& a, std::uint64_t mask) {
   const auto kept = static_cast<long long>(mask);

@@ -48,7 +48,10 @@ hlc::test::SetReport measure(const hlc::test::ProblemSet& set, const std::string
     for (std::size_t turn = 0; turn < runs.size(); ++turn) {
       // Another one begins each time: nobody always finds the caches as the same other leaves them.
       const std::size_t next = (i + turn) % runs.size();
-      runs[next].solved.push_back(timed(*contestants[next], set.problems[i]));
+      // A controller has just posed what it solves: nobody finds a problem that was not touched for
+      // seconds.
+      const hlc::HorizonProblem posed = set.problems[i];
+      runs[next].solved.push_back(timed(*contestants[next], posed));
     }
   }
   return hlc::test::report_on(set.name, runs, only.empty() ? &runs.front() : nullptr);
