@@ -34,7 +34,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --startup_timeout_s N   how long to wait for processes that do not appear (default 20)
   --no_build              take the programs as they are
   --bin DIR               take the programs in DIR, build nothing
-Exit codes: 0 good, 1 setup or build failed, 2 bad input, 3 somebody did not appear,
+Exit codes: 0 good, 1 setup or build failed or --dump-problems has not written all, 2 bad input, 3 somebody did not appear,
             4 somebody died during the run, 5 a vehicle left its plan or touched another one,
             130 interrupted
 TEXT

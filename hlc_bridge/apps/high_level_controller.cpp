@@ -84,7 +84,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::whole(0, hlc::kMaxCore));
   flags.network.declare(app);
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the middleware or lab control "
+      "Exit codes: 0 good, 1 good but --dump-problems has not written all, 2 bad input, 3 somebody "
+      "did not appear, 4 the middleware or lab control "
       "died.");
 }
 

@@ -4,6 +4,7 @@
 namespace hlc {
 
 inline constexpr int kExitGood = 0;
+inline constexpr int kExitNotWritten = 1;  ///< good, but something asked for was not written
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitMissing = 3;  ///< somebody did not appear in time
 inline constexpr int kExitDied = 4;     ///< somebody died during the run, or this process failed

@@ -39,7 +39,11 @@ std::string placement_line(const Controller& controller) {
          (placement.is_on_ground ? "" : ", and is not on the map");
 }
 
-std::string stuck_line(const Controller& controller) {
+std::string stuck_line(const Controller& controller, FallbackReason reason) {
+  if (reason == FallbackReason::kBudget) {
+    return vehicle_text(controller) + " has no new plan: its search used up max_expansions = " +
+           std::to_string(controller.options().search.max_expansions);
+  }
   const auto n = controller.options().horizon_steps;
   return vehicle_text(controller) + " stands: no plan of " + std::to_string(n) +
          " steps leads from there into the lanes of route " + controller.route().name;

@@ -11,7 +11,8 @@ namespace hlc {
 /// @pre the controller has a placement
 [[nodiscard]] std::string placement_line(const Controller& controller);
 
-/// That a vehicle cannot get onto its route from where it stands (joining.hpp).
-[[nodiscard]] std::string stuck_line(const Controller& controller);
+/// Why a vehicle stays with its former plan, where that may last: kOffRoute, it cannot get onto its
+/// route from where it stands (joining.hpp), or kBudget.
+[[nodiscard]] std::string stuck_line(const Controller& controller, FallbackReason reason);
 
 }  // namespace hlc

@@ -1,5 +1,6 @@
 #include "hlc_bridge/core/summary_table.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace hlc {
@@ -77,6 +78,14 @@ std::string summary_table(const RunSummary& summary) {
   for (const VehicleSummary& vehicle : summary.vehicles) undrivable += vehicle.undrivable_steps;
   if (undrivable > 0) {
     text += print("  commands not sent: beyond the lab's limits   %zu\n", undrivable);
+  }
+  double budget_share = 0.0;
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    budget_share = std::max(budget_share, vehicle.budget_share.value_or(0.0));
+  }
+  if (budget_share > 0.0) {
+    text += print("  plans cut off by the search's budget         up to %.1f %% of a vehicle's\n",
+                  100.0 * budget_share);
   }
   text += print("  wall time, real-time factor                  %.2f s, %.1f\n", summary.wall_s,
                 summary.realtime_factor);

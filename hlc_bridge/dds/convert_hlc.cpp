@@ -141,6 +141,7 @@ bool is_known(PlanQuality quality) {
     case PlanQuality::kNone:
     case PlanQuality::kOptimal:
     case PlanQuality::kBudget:
+    case PlanQuality::kUnproven:
       return true;
   }
   return false;

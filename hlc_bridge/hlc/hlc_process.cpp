@@ -304,7 +304,10 @@ int HlcProcess::run() {
   const int code = drive();
   leave_vehicle_its_plan();
   tell_losses();
-  return code;
+  if (code != kExitGood || after_step_fault_.empty()) return code;
+  // Once more, as its last word.
+  spdlog::error("{}: {}", options_.node_id, after_step_fault_);
+  return kExitNotWritten;
 }
 
 /// The copy of its last command may still wait.
@@ -494,11 +497,12 @@ void HlcProcess::tell_begin(const VehicleStateList& list,
 }
 
 void HlcProcess::tell_if_stuck(const Report& report) {
-  const bool is_stuck = report.reason == FallbackReason::kOffRoute;
-  if (is_stuck && !told_stuck_) {
-    spdlog::error("{}: {}", options_.node_id, stuck_line(core_.controller()));
+  const bool is_stuck =
+      report.reason == FallbackReason::kOffRoute || report.reason == FallbackReason::kBudget;
+  if (is_stuck && told_stuck_ != report.reason) {
+    spdlog::error("{}: {}", options_.node_id, stuck_line(core_.controller(), report.reason));
   }
-  told_stuck_ = is_stuck;
+  told_stuck_ = is_stuck ? report.reason : FallbackReason::kNone;
 }
 
 void HlcProcess::look_back() {
@@ -506,7 +510,9 @@ void HlcProcess::look_back() {
   try {
     options_.after_step(core_.controller());
   } catch (const std::exception& error) {
-    spdlog::error("{}: {}; nothing more is written", options_.node_id, error.what());
+    after_step_fault_ = "from step " + std::to_string(core_.controller().last_step().value) +
+                        " on nothing is written: " + error.what();
+    spdlog::error("{}: {}", options_.node_id, after_step_fault_);
     options_.after_step = nullptr;
   }
 }

@@ -56,7 +56,7 @@ struct HlcProcessOptions {
   WeightDesign::Source configuration;
   ReconfigurationSettings reconfiguration;  ///< zones and policies
   /// Called with the controller after the command of a step has been sent. What it throws is logged
-  /// once, and it is not called again.
+  /// once, and it is not called again: a run that was good ends with kExitNotWritten.
   std::function<void(const Controller&)> after_step;
 };
 
@@ -194,7 +194,8 @@ class HlcProcess {
   bool has_bad_period_{};
   std::string last_fault_;           ///< of the last answer: told once, not every step
   std::optional<bool> told_placed_;  ///< whether the vehicle fits, as was told last
-  bool told_stuck_{};
+  std::string after_step_fault_;     ///< of the one call of `after_step` that failed
+  FallbackReason told_stuck_{FallbackReason::kNone};
   std::chrono::steady_clock::time_point next_ready_at_{};
 
   // Readers last: their callbacks use everything above, and they end first.

@@ -54,11 +54,12 @@ void declare(CLI::App& app, Flags& flags) {
                  "reachable, straight_line or 2022; the last two with best_first");
   app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1")
       ->check(hlc::whole(1, kMostExpansions));
-  app.add_flag("--json", flags.json,
-               "print one JSON object: status (optimal, budget, fallback), reason (of a fallback: "
-               "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
-               "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
-               "planning_us");
+  app.add_flag(
+      "--json", flags.json,
+      "print one JSON object: status (optimal, budget, unproven, fallback), reason (of a fallback: "
+      "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
+      "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
+      "planning_us");
   hlc::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
   app.footer("Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input.");
 }
@@ -134,11 +135,15 @@ void print(const hlc::ProblemFile& file, const Solved& solved) {
   std::printf("status           %s%s\n", hlc::to_string(result.status),
               has_plan ? "" : (std::string(": ") + hlc::to_string(result.reason)).c_str());
   if (has_plan) {
-    const bool may_overestimate = file.search.cost_to_go == hlc::CostToGo::k2022;
-    const std::string bound =
-        may_overestimate ? "the cost-to-go of 2022 may overestimate: a better plan may exist"
-                         : "no plan costs less than " + number(result.lower_bound) + " m^2";
+    const bool is_optimal = result.status == hlc::SearchStatus::kOptimal;
+    const std::string bound = is_optimal ? "no plan costs less"
+                                         : "a plan that costs up to " +
+                                               number(result.cost - result.lower_bound) +
+                                               " m^2 less may exist";
     std::printf("cost             %.9g m^2, %s\n", result.cost, bound.c_str());
+    if (result.status == hlc::SearchStatus::kUnproven) {
+      std::printf("                 the cost-to-go of 2022 may overestimate\n");
+    }
   }
   std::printf("vertices         %zu generated, %zu expanded\n", result.generated, result.expanded);
   std::printf("planning time    %.1f us\n", solved.planning_us);

@@ -388,7 +388,11 @@ void Controller::look_at_lanes() {
     path_s_m_ = placement.s_m;
     return join(
         route(), placement, step_.traffic.next_pose, reach_m(), footprint,
-        [this](const Corridor& corridor) { return problem_alone(corridor); }, *planner_);
+        [this](const Corridor& corridor) { return problem_alone(corridor); },
+        [this](const HorizonProblem& problem) {
+          step_.joining_problems.push_back(problem);
+          return planner_->plan(problem);
+        });
   };
   const bool has_rested = has_rested_for_long();
   if (stands && (sets_out_ || (joining_.is_possible && !joining_.area && !lies_in_lanes()))) {
@@ -398,7 +402,9 @@ void Controller::look_at_lanes() {
     // It may as well wait for somebody: only a way out counts.
     if (Joining way_out = area_from_here(); way_out.area) joining_ = std::move(way_out);
   }
-  if (!joining_.is_possible) step_.obstacle = FallbackReason::kOffRoute;
+  if (!joining_.is_possible) {
+    step_.obstacle = joining_.is_certain ? FallbackReason::kOffRoute : FallbackReason::kBudget;
+  }
   // A vehicle that stands in its lanes may need the area to drive off.
   if (joining_.area && !stands && !rests_since_ && lies_in_lanes()) joining_.area.reset();
 }
@@ -443,6 +449,20 @@ std::vector<const Maneuver*> Controller::incumbent() const {
   return maneuvers;
 }
 
+PlanQuality Controller::quality_of(SearchStatus found) {
+  switch (found) {
+    case SearchStatus::kOptimal:
+      return PlanQuality::kOptimal;
+    case SearchStatus::kUnproven:
+      return PlanQuality::kUnproven;
+    case SearchStatus::kBudget:
+      return PlanQuality::kBudget;
+    case SearchStatus::kFallback:
+      break;
+  }
+  return PlanQuality::kNone;
+}
+
 /// What is found on a subgraph is the candidate, unless its drift leads into something.
 void Controller::search_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on) {
   const SearchResult result = planner.plan(step_.problems.back());
@@ -455,9 +475,9 @@ void Controller::search_candidate(StepIndex next, HorizonPlanner& planner, const
   }
   step_.report.subgraph = on.spec().name;
   step_.report.cost_m2 = result.cost;
-  const bool is_optimal = result.status == SearchStatus::kOptimal;
-  step_.report.quality = is_optimal ? PlanQuality::kOptimal : PlanQuality::kBudget;
-  step_.report.gap_m2 = is_optimal ? 0.0 : result.cost - result.lower_bound;
+  step_.report.quality = quality_of(result.status);
+  step_.report.gap_m2 =
+      result.status == SearchStatus::kOptimal ? 0.0 : result.cost - result.lower_bound;
   step_.candidate = in_force_->base().continued(
       next, result.maneuvers, *own_step(on.automaton(), result.maneuvers.back()->to),
       on.shared_automaton());

@@ -138,6 +138,11 @@ class Controller {
   /// the first plan would have drifted into something, after a switch perhaps more. Valid until the
   /// next step.
   [[nodiscard]] std::span<const HorizonProblem> problems() const { return step_.problems; }
+  /// Before them, where the vehicle stands and shall drive off: those by which it was found out
+  /// where it may drive (joining.hpp). Their vertices count nowhere.
+  [[nodiscard]] std::span<const HorizonProblem> joining_problems() const {
+    return step_.joining_problems;
+  }
 
   /// Those that the vehicle may take.
   [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return *routes_; }
@@ -178,6 +183,7 @@ class Controller {
     std::vector<VehicleId> coupled;
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
+    std::vector<HorizonProblem> joining_problems;
     std::vector<HorizonProblem> problems;        ///< the last is the one to solve
     std::map<VehicleId, Prediction> respected;   ///< predictions that the search took into account
     std::map<VehicleId, OccupiedAreas> settled;  ///< new plans of other coupled vehicles
@@ -203,6 +209,7 @@ class Controller {
   [[nodiscard]] bool has_rested_for_long();
   [[nodiscard]] double project(const Point& position_m) const;
   [[nodiscard]] double reach_m() const;
+  [[nodiscard]] static PlanQuality quality_of(SearchStatus found);
   void search_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on);
   void find_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on);
   void plan_on_former(StepIndex next);

@@ -33,6 +33,10 @@ double led_m(const SearchResult& found, const Pose& start) {
   return (found.poses.back().position_m() - start.position_m()).norm();
 }
 
+bool gave_up(const SearchResult& found) {
+  return found.status == SearchStatus::kBudget || found.reason == NoPath::kBudget;
+}
+
 /// The plan drives off and its last maneuver lies in the lanes.
 bool leads_in(const SearchResult& found, const Pose& start, double drives_off_m,
               std::span<const Segment> lanes_m, const DrivableRoute& route,
@@ -49,15 +53,17 @@ bool leads_in(const SearchResult& found, const Pose& start, double drives_off_m,
 Joining join(const DrivableRoute& route, const Placement& placement, const Pose& start,
              double reach_m, const Footprint& footprint,
              const std::function<HorizonProblem(const Corridor&)>& pose_problem,
-             HorizonPlanner& planner) {
+             const std::function<SearchResult(const HorizonProblem&)>& search) {
   if (route.corridor.bounds().empty()) return {};
   const HorizonProblem in_lanes = pose_problem(route.corridor);
   const double drives_off_m = kDrivesOff * std::min(length_m(in_lanes.reference_m), reach_m);
-  bool moves_in_lanes = false;
+  bool may_move_in_lanes = false;
+  bool is_certain = true;
   if (placement.beyond_m() <= 0.0) {
-    const SearchResult found = planner.plan(in_lanes);
+    const SearchResult found = search(in_lanes);
     if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) return {};
-    moves_in_lanes = led_m(found, start) >= kMoves_m;
+    is_certain = !gave_up(found);
+    may_move_in_lanes = led_m(found, start) >= kMoves_m || gave_up(found);
   }
   for (const double extra_m : kExtra_m) {
     const auto by = [extra_m](double beyond_m) {
@@ -67,12 +73,13 @@ Joining join(const DrivableRoute& route, const Placement& placement, const Pose&
                                     .to_s_m = placement.s_m + kJoiningAhead_m,
                                     .left_m = by(placement.beyond_left_m),
                                     .right_m = by(placement.beyond_right_m)});
-    if (leads_in(planner.plan(pose_problem(area)), start, drives_off_m, in_lanes.boundary_m, route,
-                 footprint)) {
-      return {.is_possible = true, .area = std::move(area)};
+    const SearchResult found = search(pose_problem(area));
+    if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) {
+      return {.area = std::move(area)};
     }
+    is_certain = is_certain && !gave_up(found);
   }
-  return {.is_possible = moves_in_lanes, .area = std::nullopt};
+  return {.is_possible = may_move_in_lanes, .is_certain = is_certain, .area = std::nullopt};
 }
 
 bool lies_inside(const DrivableRoute& route, const Pose& pose, const Footprint& footprint) {

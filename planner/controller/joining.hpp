@@ -6,7 +6,7 @@
 
 #include "planner/coordination/plan.hpp"
 #include "planner/road/placement.hpp"
-#include "planner/search/planner.hpp"
+#include "planner/search/horizon_problem.hpp"
 
 namespace hlc {
 
@@ -25,7 +25,8 @@ namespace hlc {
 /// shorter one ends where nothing leads on. (The front goes farther out while a vehicle that points
 /// outwards turns back.) If there is none for any e, the automaton cannot get from there onto the
 /// route: the vehicle stays where it is, as at the edge of the map with the front towards it. If it
-/// can move in its lanes it has the plain corridor then.
+/// can move in its lanes, or a search used up its budget before that was known, it has the plain
+/// corridor then.
 ///
 /// The area is fixed when the vehicle sets out, and is as hard a constraint as the corridor, so
 /// every plan in it can be driven to its end. It is given up for the plain corridor as soon as the
@@ -33,6 +34,7 @@ namespace hlc {
 /// ever.
 struct Joining {
   bool is_possible{true};
+  bool is_certain{true};         ///< no search used up its budget: if impossible, then surely
   std::optional<Corridor> area;  ///< none: the plain corridor
 };
 
@@ -42,10 +44,11 @@ inline constexpr double kJoiningAhead_m = 0.8;
 /// @param start         standing; its `placement` on the route
 /// @param reach_m       the farthest that can be driven in the horizon from there
 /// @param pose_problem  the search problem from there in a corridor, without other vehicles
+/// @param search        called one to six times
 [[nodiscard]] Joining join(const DrivableRoute& route, const Placement& placement,
                            const Pose& start, double reach_m, const Footprint& footprint,
                            const std::function<HorizonProblem(const Corridor&)>& pose_problem,
-                           HorizonPlanner& planner);
+                           const std::function<SearchResult(const HorizonProblem&)>& search);
 
 /// Of a footprint that crosses no bound: whether it lies in the lanes. It may stand wholly beside
 /// them, too, farther beyond than it is wide.

@@ -50,6 +50,8 @@ const char* to_string(PlanQuality quality) {
       return "optimal";
     case PlanQuality::kBudget:
       return "budget";
+    case PlanQuality::kUnproven:
+      return "unproven";
   }
   return "unknown";
 }

@@ -33,8 +33,10 @@ enum class FallbackReason : std::uint8_t {
 /// How good the plan is that the search found in this step, whether it came into force or not.
 enum class PlanQuality : std::uint8_t {
   kNone,     ///< no plan was found or none was searched
-  kOptimal,  ///< none costs less (with the cost-to-go of 2022: none as far as that search can tell)
+  kOptimal,  ///< none costs less
   kBudget,   ///< the best within the budget; one that costs up to `gap_m2` less may exist
+  /// Found with the cost-to-go of 2022, which may overestimate: as with kBudget.
+  kUnproven,
 };
 
 [[nodiscard]] const char* to_string(StepStatus status);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -31,18 +32,22 @@ void ProblemDump::write(const Controller& controller) const {
                              "' cannot be written, which " + automaton_file_.string() +
                              " does not declare");
   }
-  std::size_t search = 0;
-  for (const HorizonProblem& problem : controller.problems()) {
-    char name[96];
-    std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu_search_%zu.json",
-                  static_cast<unsigned>(options.vehicle.value),
-                  static_cast<unsigned long long>(controller.last_step().value), ++search);
-    write_problem_file({.automaton_file = automaton_file_,
-                        .subgraph = controller.prepared_subgraph().subgraph,
-                        .problem = problem,
-                        .search = options.search},
-                       folder_ / name);
-  }
+  const auto write_all = [&](std::span<const HorizonProblem> problems, const char* what) {
+    std::size_t number = 0;
+    for (const HorizonProblem& problem : problems) {
+      char name[96];
+      std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu_%s_%zu.json",
+                    static_cast<unsigned>(options.vehicle.value),
+                    static_cast<unsigned long long>(controller.last_step().value), what, ++number);
+      write_problem_file({.automaton_file = automaton_file_,
+                          .subgraph = controller.prepared_subgraph().subgraph,
+                          .problem = problem,
+                          .search = options.search},
+                         folder_ / name);
+    }
+  };
+  write_all(controller.joining_problems(), "joining");
+  write_all(controller.problems(), "search");
 }
 
 }  // namespace hlc

@@ -62,6 +62,8 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
   collision_.prepare(problem);
   const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
   const bool has_incumbent = write_incumbent(problem, result);
+  const bool is_admissible = options_.cost_to_go != CostToGo::k2022;
+  const double least_cost = static_cast<double>(n) * costs_.least();
 
   vertices_.clear();
   vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
@@ -76,16 +78,16 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       if (!has_incumbent || cost_of(taken.vertex, n) < result.cost) {
         write_path(taken.vertex, problem, result);
       }
-      result.status = SearchStatus::kOptimal;
+      result.status = is_admissible ? SearchStatus::kOptimal : SearchStatus::kUnproven;
       result.reason = NoPath::kNone;
-      result.lower_bound = result.cost;
+      result.lower_bound = is_admissible ? result.cost : least_cost;
       break;
     }
     const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
       // Every other entry of the open list has no smaller f.
-      const double bound = options_.cost_to_go == CostToGo::k2022 ? 0.0 : taken.cost_estimate;
-      give_up(has_incumbent, bound + static_cast<double>(n) * costs_.least(), result);
+      const double bound = is_admissible ? taken.cost_estimate + least_cost : least_cost;
+      give_up(has_incumbent, bound, result);
       break;
     }
     expand(taken.vertex, problem, cost_to_go, open);

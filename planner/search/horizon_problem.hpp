@@ -75,9 +75,10 @@ struct SearchOptions {
 };
 
 enum class SearchStatus {
-  kOptimal,   ///< a path of least cost (with k2022: a path; its cost-to-go is inadmissible)
+  kOptimal,   ///< a path of least cost
   kBudget,    ///< gave up (max_expansions reached, or told to stop) with the best path so far
   kFallback,  ///< no path, see `reason`: the plan in force is to be driven on
+  kUnproven,  ///< the first path found with CostToGo::k2022, which is inadmissible
 };
 
 /// Why there is no path.

@@ -45,6 +45,8 @@ const char* to_string(SearchStatus status) {
       return "optimal";
     case SearchStatus::kBudget:
       return "budget";
+    case SearchStatus::kUnproven:
+      return "unproven";
     case SearchStatus::kFallback:
       return "fallback";
   }

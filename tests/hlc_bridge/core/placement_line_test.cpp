@@ -42,5 +42,13 @@ TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
   EXPECT_THAT(line_of({3}, {-1.0, -1.0, 0.0}), HasSubstr("is not on the map"));
 }
 
+TEST(StuckLine, NamesTheBudgetIfItWasUsedUp) {
+  const std::unique_ptr<Controller> controller = make_controller(three_cars(), {3});
+  EXPECT_THAT(stuck_line(*controller, FallbackReason::kOffRoute), HasSubstr("no plan of 8 steps"));
+  EXPECT_EQ(stuck_line(*controller, FallbackReason::kBudget),
+            "vehicle 3 has no new plan: its search used up max_expansions = " +
+                std::to_string(three_cars().search.max_expansions));
+}
+
 }  // namespace
 }  // namespace hlc::placement_line_test

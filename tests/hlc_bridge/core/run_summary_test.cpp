@@ -255,11 +255,15 @@ TEST_F(RunSummaryTest, StepsWithoutPlanningDoNotCountForPlanning) {
 
 TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
   EXPECT_FALSE(summary().vehicles[0].budget_share);  // none was found
+  EXPECT_EQ(summary_table(summary()).find("budget"), std::string::npos);
   for (std::uint64_t step = 30; step < 40; ++step) {
     report(1, step).report.quality = step < 33 ? PlanQuality::kBudget : PlanQuality::kOptimal;
   }
   EXPECT_EQ(summary().vehicles[0].budget_share, 0.3);
   EXPECT_FALSE(summary().vehicles[1].budget_share);
+  EXPECT_THAT(
+      summary_table(summary()),
+      HasSubstr("plans cut off by the search's budget         up to 30.0 % of a vehicle's\n"));
 }
 
 TEST_F(RunSummaryTest, WithoutRouteThereIsNeitherLapNorReferenceError) {

@@ -147,6 +147,36 @@ TEST_F(InterruptedHlcProcessTest, LeavesItsVehicleTheCopyOfItsLastCommand) {
       [&] { return std::ranges::any_of(middleware.commands.now(), is_last_copy); }, [] {}));
 }
 
+class UnwrittenHlcProcessTest : public HlcProcessLossTest {
+ protected:
+  UnwrittenHlcProcessTest() : HlcProcessLossTest(fails_after_every_step(*this)) {}
+
+  static HlcProcessOptions fails_after_every_step(UnwrittenHlcProcessTest& test) {
+    HlcProcessOptions options = on_loopback_alone();
+    options.after_step = [&test](const Controller&) {
+      ++test.calls_;
+      throw std::runtime_error("no space left");
+    };
+    return options;
+  }
+
+  std::atomic<int> calls_{};
+};
+
+TEST_F(UnwrittenHlcProcessTest, DrivesOnAndSaysByItsExitCodeThatSomethingWasNotWritten) {
+  FakeMiddleware middleware{local()};
+  ASSERT_TRUE(gets_ready(middleware));
+  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, soon()));
+  middleware.triggers.write({.next_start = 1});
+  const std::size_t before = middleware.commands.now().size();
+  ASSERT_TRUE(comes_to(
+      middleware, [&] { return calls_ > 0 && middleware.commands.now().size() >= before + 3; }));
+  middleware.triggers.write({.next_start = kStopSymbol});
+  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  EXPECT_EQ(code_.get(), kExitNotWritten);
+  EXPECT_EQ(calls_, 1);
+}
+
 /// Lines of the log, and who logs them.
 class LogListener : public spdlog::sinks::base_sink<std::mutex> {
  public:

@@ -29,8 +29,8 @@ DrivableRoute lane(double narrow_from_m) {
 /// A car alone, which follows perfectly from where it was put.
 class Car {
  public:
-  Car(DrivableRoute route, const Pose& start)
-      : controller_({.vehicle = {1}},
+  Car(DrivableRoute route, const Pose& start, const SearchOptions& search = {})
+      : controller_({.vehicle = {1}, .search = search},
                     std::make_shared<const Subgraph>(paper_automaton(),
                                                      paper_configuration().subgraphs.front()),
                     std::vector{std::move(route)}) {
@@ -103,6 +103,32 @@ TEST(Joining, ACarThatCannotGetIntoItsLanesStandsAndSaysSo) {
     EXPECT_EQ(report.reason, FallbackReason::kOffRoute);
   }
   EXPECT_EQ(car.pose().x_m, 1.0);
+}
+
+TEST(Joining, ASearchThatUsedUpItsBudgetDoesNotSayThatThereIsNoWay) {
+  for (const Engine engine : {Engine::kBranchAndBound, Engine::kBestFirst}) {
+    const SearchOptions search{.engine = engine, .max_expansions = 5};
+    Car in_lane(lane(99.0), {1.0, 0.0, 0.0}, search);
+    Car beside(lane(99.0), {1.0, 0.1, 0.0}, search);
+    for (int i = 0; i < 3; ++i) {
+      const Report standing = in_lane.step();  // a plan, too
+      EXPECT_EQ(standing.status, StepStatus::kPlanned);
+      EXPECT_EQ(standing.quality, PlanQuality::kBudget);
+      const Report report = beside.step();
+      EXPECT_EQ(report.status, StepStatus::kFallback);
+      EXPECT_EQ(report.reason, FallbackReason::kBudget);
+    }
+  }
+}
+
+TEST(Joining, TheProblemsByWhichACarSetsOutAreTold) {
+  Car beside(lane(99.0), {1.0, 0.10, 0.2});
+  beside.step();
+  EXPECT_GE(beside.controller().joining_problems().size(), 1U);
+  EXPECT_FALSE(beside.controller().joining_problems().front().boundary_m.empty());
+  EXPECT_EQ(beside.controller().problems().size(), 1U);
+  beside.step();
+  EXPECT_TRUE(beside.controller().joining_problems().empty());
 }
 
 TEST(Joining, ACarWhoseLaneNarrowsBeforeItDrivesAsFarAsItIsWide) {
