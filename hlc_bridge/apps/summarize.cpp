@@ -76,15 +76,12 @@ int main(int argc, char** argv) {
   app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
       ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 5 driven, but a vehicle left its plan or touched another "
+      "Exit codes: 0 good, 2 bad input or an output that cannot be written, 5 driven, but a "
+      "vehicle left its plan or touched another "
       "one.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) {
     return *code;
   }
-  try {
-    return summarize_run(run, choices, noise_seed);
-  } catch (const std::exception& error) {
-    std::cerr << "summarize: " << error.what() << '\n';
-    return hlc::kExitBadInput;
-  }
+  return hlc::exit_code_of(
+      "summarize", [&] { return summarize_run(run, choices, noise_seed); }, hlc::kExitBadInput);
 }

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <type_traits>
 
 #include "planner/apps/cli.hpp"
 #include "planner/automaton/yaml_text.hpp"
@@ -30,6 +34,17 @@ inline std::string allowed_by_type(const CLI::App& app, const std::string& messa
   return {};
 }
 
+/// What is printed waits in a buffer: whether it came to its end shows only here.
+/// @throws std::runtime_error if some of it did not
+inline void flush_standard_output() {
+  errno = 0;
+  const bool is_flushed = std::fflush(stdout) == 0;
+  const int reason = errno;
+  if (is_flushed && std::ferror(stdout) == 0 && std::cout.good()) return;
+  throw std::runtime_error("standard output: cannot be written" +
+                           (reason == 0 ? "" : ": " + std::generic_category().message(reason)));
+}
+
 /// Nothing if the flags are good; else the exit code, after the help or one line about the bad
 /// flag.
 inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
@@ -37,7 +52,14 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    const int code = app.exit(help);
+    try {
+      flush_standard_output();
+      return code;
+    } catch (const std::runtime_error& error) {
+      std::cerr << app.get_name() << ": " << error.what() << '\n';
+      return 2;
+    }
   } catch (const CLI::ExtrasError& error) {
     std::cerr << app.get_name() << ": " << error.what() << ", allowed what --help lists\n";
     return 2;
@@ -51,19 +73,26 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Runs the program's work. 0 if it is good, 2 after one line about bad input
-/// (std::invalid_argument), 1 after one line about anything else.
+/// Runs the program's work, which returns nothing or an exit code. That code, or 0, if it is good
+/// and all that it printed is out; 2 after one line about bad input (std::invalid_argument),
+/// `failed` after one line about anything else.
 template <class Work>
-int exit_code_of(const char* program, Work work) {
+int exit_code_of(const char* program, Work work, int failed = 1) {
   try {
-    work();
-    return 0;
+    int code = 0;
+    if constexpr (std::is_void_v<decltype(work())>) {
+      work();
+    } else {
+      code = work();
+    }
+    flush_standard_output();
+    return code;
   } catch (const std::invalid_argument& error) {
     std::cerr << program << ": " << error.what() << '\n';
     return 2;
   } catch (const std::exception& error) {
     std::cerr << program << ": " << error.what() << '\n';
-    return 1;
+    return failed;
   }
 }
 

@@ -52,6 +52,7 @@ extern "C" const char* __lsan_default_suppressions() {
 
 namespace {
 
+constexpr int kExitFailed = 2;
 constexpr char kCost[] = "path cost REAL";
 constexpr char kShipped[] = "launch_scripts/problems/parked_car.json";
 /// OMPL's Benchmark names control planners so.
@@ -220,10 +221,6 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
-    return run(flags);
-  } catch (const std::exception& error) {
-    std::cerr << "ompl_example: " << error.what() << '\n';
-    return 2;
-  }
+  return hlc::exit_code_of(
+      "ompl_example", [&flags] { return run(flags); }, kExitFailed);
 }

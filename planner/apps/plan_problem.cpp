@@ -23,6 +23,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFallback = 1;
+constexpr int kExitFailed = 2;
 /// The shortest of several calls is told: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
 constexpr double kEnough_us = 2e4;
@@ -61,7 +62,9 @@ void declare(CLI::App& app, Flags& flags) {
       "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
       "planning_us");
   hlc::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
-  app.footer("Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input.");
+  app.footer(
+      "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input or an output that "
+      "cannot be written.");
 }
 
 hlc::ProblemFile read(const Flags& flags) {
@@ -185,10 +188,6 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
-    return run(flags);
-  } catch (const std::exception& error) {
-    std::cerr << "plan_problem: " << error.what() << '\n';
-    return 2;
-  }
+  return hlc::exit_code_of(
+      "plan_problem", [&flags] { return run(flags); }, kExitFailed);
 }

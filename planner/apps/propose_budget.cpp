@@ -20,6 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kExitFailed = 2;
+
 /// Searches of fewer expansions say little about the time of one: preparing the search is most of
 /// it. They say how long that takes.
 constexpr std::size_t kTelling = 1000;
@@ -56,7 +58,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
       ->check(hlc::whole(1, 100000));
-  app.footer("Exit codes: 0 good, 1 the deadline leaves no time to search, 2 bad input.");
+  app.footer(
+      "Exit codes: 0 good, 1 the deadline leaves no time to search, 2 bad input or an output that "
+      "cannot be written.");
 }
 
 /// All problems that the scenario's controllers pose.
@@ -221,10 +225,6 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
-    return run(flags);
-  } catch (const std::exception& error) {
-    std::cerr << "propose_budget: " << error.what() << '\n';
-    return 2;
-  }
+  return hlc::exit_code_of(
+      "propose_budget", [&flags] { return run(flags); }, kExitFailed);
 }

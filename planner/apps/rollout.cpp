@@ -16,6 +16,8 @@
 
 namespace {
 
+constexpr int kExitFailed = 2;
+
 struct Tally {
   std::vector<hlc::Point> positions_m;  ///< planned, at the steps
   std::uint64_t generated_max{};
@@ -97,12 +99,8 @@ int main(int argc, char** argv) {
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::whole(1, 100000));
-  app.footer("Exit codes: 0 good, 2 bad input.");
+  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
-    return run(choices);
-  } catch (const std::exception& error) {
-    std::cerr << "rollout: " << error.what() << '\n';
-    return 2;
-  }
+  return hlc::exit_code_of(
+      "rollout", [&choices] { return run(choices); }, kExitFailed);
 }

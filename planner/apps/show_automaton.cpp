@@ -146,7 +146,8 @@ int main(int argc, char** argv) {
   app.add_option("AUTOMATON", path, "file written by build_automaton")->required();
   app.add_option("--configuration", configuration,
                  "configuration that it must be built from (default: the one beside it, if any)");
-  app.footer("Exit codes: 0 good, 2 bad input, a stale or edited file.");
+  app.footer(
+      "Exit codes: 0 good, 1 an output cannot be written, 2 bad input, a stale or edited file.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("show_automaton", [&] {
     const AutomatonFile file = hlc::read_current_automaton_file(path);

@@ -12,6 +12,8 @@
 
 namespace {
 
+constexpr int kExitFailed = 2;
+
 void print_table(const hlc::Scenario& scenario) {
   std::printf("scenario   %s, %zu steps of %g s, horizon %zu steps\n", scenario.name.c_str(),
               scenario.steps, scenario.subgraph->automaton().step_s, scenario.horizon_steps);
@@ -64,9 +66,9 @@ int main(int argc, char** argv) {
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.add_flag("--print_policy", policy, "print only the name of the policy that holds, or none");
   hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
-  app.footer("Exit codes: 0 good, 2 bad input.");
+  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
+  const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};
     if (choices.map_file) inputs.push_back(*choices.map_file);
     hlc::check_output_files({plot}, inputs);
@@ -84,9 +86,6 @@ int main(int argc, char** argv) {
     } else {
       print_table(scenario);
     }
-  } catch (const std::exception& error) {
-    std::cerr << "show_scenario: " << error.what() << '\n';
-    return 2;
-  }
-  return 0;
+  };
+  return hlc::exit_code_of("show_scenario", run, kExitFailed);
 }

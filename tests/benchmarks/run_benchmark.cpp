@@ -15,6 +15,8 @@
 
 namespace {
 
+constexpr int kExitFailed = 2;
+
 hlc::Nanoseconds wall_clock() {
   return static_cast<hlc::Nanoseconds>(
       std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count());
@@ -93,13 +95,8 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", repeats, "how often")
       ->check(hlc::whole(1, 10000))
       ->capture_default_str();
-  app.footer("Exit codes: 0 good, 2 bad input.");
+  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
-    run(choices, repeats);
-  } catch (const std::exception& error) {
-    std::cerr << "run_benchmark: " << error.what() << '\n';
-    return 2;
-  }
-  return 0;
+  return hlc::exit_code_of(
+      "run_benchmark", [&] { run(choices, repeats); }, kExitFailed);
 }

@@ -113,11 +113,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 good, 1 an engine's plan is not optimal or something failed, 2 bad input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  if (choices.lists) {
+  return hlc::exit_code_of("search_benchmark", [&choices] {
+    if (!choices.lists) return run(choices) ? 0 : 1;
     list();
     return 0;
-  }
-  bool is_optimal = false;
-  const int code = hlc::exit_code_of("search_benchmark", [&] { is_optimal = run(choices); });
-  return code != 0 ? code : (is_optimal ? 0 : 1);
+  });
 }

@@ -238,12 +238,11 @@ int main(int argc, char** argv) {
   }
   app.footer(
       "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
-      "input, 3 a record, table or figure cannot be written; what is there stays.");
+      "input, 3 a record, table, figure or what is printed cannot be written; what is there "
+      "stays.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   choices.is_sweep = sweep->count() > 0;
-  int code = 0;
-  const int problem =
-      hlc::exit_code_of("evaluate", [&] { code = run(choices, command_line(argc, argv)); });
   // A run that fails is recorded: what else goes wrong is an output.
-  return problem == 1 ? kExitNotWritten : problem != 0 ? problem : code;
+  return hlc::exit_code_of(
+      "evaluate", [&] { return run(choices, command_line(argc, argv)); }, kExitNotWritten);
 }

@@ -426,5 +426,15 @@ TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {
   refused(run, "flags.yaml: is not there");
 }
 
+TEST_F(Evaluate, WhatIsPrintedOnAFullDeviceIsAnOutputThatCannotBeWritten) {
+  const std::string errors = (folder_ / "errors").string();
+  const Outcome lost =
+      evaluate(">/dev/full 2>" + errors + "; code=$?; cat " + errors + "; exit $code");
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_THAT(lost.output,
+              HasSubstr("evaluate: standard output: cannot be written: No space left"));
+  EXPECT_EQ(results()["runs"].size(), 4U) << "what is written stays";
+}
+
 }  // namespace
 }  // namespace hlc::test
