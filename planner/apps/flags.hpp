@@ -34,6 +34,11 @@ inline std::string allowed_by_type(const CLI::App& app, const std::string& messa
   return {};
 }
 
+/// One line about what is wrong, whatever the names of files and keys in it hold.
+inline void complain(const std::string& program, const std::string& message) {
+  std::cerr << program << ": " << escaped(message) << '\n';
+}
+
 /// What is printed waits in a buffer: whether it came to its end shows only here.
 /// @throws std::runtime_error if some of it did not
 inline void flush_standard_output() {
@@ -57,18 +62,17 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
       flush_standard_output();
       return code;
     } catch (const std::runtime_error& error) {
-      std::cerr << app.get_name() << ": " << error.what() << '\n';
+      complain(app.get_name(), error.what());
       return 2;
     }
   } catch (const CLI::ExtrasError& error) {
-    std::cerr << app.get_name() << ": " << error.what() << ", allowed what --help lists\n";
+    complain(app.get_name(), std::string(error.what()) + ", allowed what --help lists");
     return 2;
   } catch (const CLI::ConversionError& error) {
-    std::cerr << app.get_name() << ": " << error.what() << allowed_by_type(app, error.what())
-              << '\n';
+    complain(app.get_name(), error.what() + allowed_by_type(app, error.what()));
     return 2;
   } catch (const CLI::ParseError& error) {
-    std::cerr << app.get_name() << ": " << error.what() << '\n';
+    complain(app.get_name(), error.what());
     return 2;
   }
 }
@@ -88,10 +92,10 @@ int exit_code_of(const char* program, Work work, int failed = 1) {
     flush_standard_output();
     return code;
   } catch (const std::invalid_argument& error) {
-    std::cerr << program << ": " << error.what() << '\n';
+    complain(program, error.what());
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << program << ": " << error.what() << '\n';
+    complain(program, error.what());
     return failed;
   }
 }

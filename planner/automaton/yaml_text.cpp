@@ -31,26 +31,29 @@ bool has_control_characters(const std::string& text) {
   return std::ranges::any_of(text, is_control);
 }
 
-std::string one_line(const std::string& text) {
-  constexpr std::size_t kLongest = 60;
-  const auto is_inside_character = [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // UTF-8: 10xxxxxx
-  };
+std::string escaped(const std::string& text) {
   std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (i >= kLongest && !is_inside_character(c)) return result + "...";
+  for (const char c : text) {
     if (c == '\n') {
       result += "\\n";
     } else if (is_control(c)) {
-      std::array<char, 5> escaped{};
-      std::snprintf(escaped.data(), escaped.size(), "\\x%02x", static_cast<unsigned char>(c));
-      result += escaped.data();
+      std::array<char, 5> code{};
+      std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned char>(c));
+      result += code.data();
     } else {
       result += c;
     }
   }
   return result;
+}
+
+std::string one_line(const std::string& text, std::size_t longest) {
+  const auto is_inside_character = [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // UTF-8: 10xxxxxx
+  };
+  std::size_t end = longest;
+  while (end < text.size() && is_inside_character(text[end])) ++end;
+  return end < text.size() ? escaped(text.substr(0, end)) + "..." : escaped(text);
 }
 
 }  // namespace hlc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace hlc {
@@ -13,8 +14,11 @@ namespace hlc {
 
 [[nodiscard]] bool has_control_characters(const std::string& text);
 
-/// The text as a message shows it: one line, line breaks and other control characters escaped as in
-/// C, and cut after 60 bytes (no character in two) with `...`.
-[[nodiscard]] std::string one_line(const std::string& text);
+/// Line breaks and other control characters escaped as in C.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+/// The text as a message shows it: one line, escaped, and cut after so many bytes (no character in
+/// two) with `...`.
+[[nodiscard]] std::string one_line(const std::string& text, std::size_t longest = 60);
 
 }  // namespace hlc

@@ -7,47 +7,79 @@
 #include <set>
 #include <stdexcept>
 
+#include "planner/automaton/yaml_text.hpp"
+
 namespace hlc {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestShown = 60;
+/// Whoever prints or frees a value goes into it as deep as it is.
+constexpr int kDeepest = 100;
+constexpr std::size_t kLongestReason = 200;
+constexpr char kJson[] = ", allowed one JSON object (RFC 8259)";
 
-/// The value in one line, cut if it is long.
 std::string shown(const json& value) {
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > kLongestShown) text = text.substr(0, kLongestShown) + " ...";
-  return text;
+  return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+std::string joined(const std::string& place, const std::string& key) {
+  return (place.empty() ? "" : place + ".") + one_line(key);
 }
 
 /// "[json.exception.parse_error.101] parse error at line 3, column 1: ..." without the brackets.
 std::string reason_of(const json::exception& error) {
   const std::string text = error.what();
   const auto end = text.find("] ");
-  std::string reason = end == std::string::npos ? text : text.substr(end + 2);
-  std::ranges::replace(reason, '\n', ' ');
-  return reason;
+  return one_line(end == std::string::npos ? text : text.substr(end + 2), kLongestReason);
+}
+
+/// An object that is being read.
+struct OpenObject {
+  std::set<std::string> keys;
+  std::string last_key;
+};
+
+/// "line 3: " of a number that no double holds, one character behind which the parser has stopped;
+/// empty if the stream cannot go back.
+std::string line_of_number(std::istream& stream) {
+  const std::streamoff end = stream.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in);
+  if (end <= 0) return {};
+  std::string before(static_cast<std::size_t>(end - 1), '\0');
+  stream.rdbuf()->pubseekpos(0, std::ios::in);
+  stream.rdbuf()->sgetn(before.data(), static_cast<std::streamsize>(before.size()));
+  return "line " + std::to_string(1 + std::ranges::count(before, '\n')) + ": ";
+}
+
+/// "start.x = 1e999": of the number, the parser's own words are "number overflow parsing '1e999'".
+std::string number_at(const std::vector<OpenObject>& objects, const std::string& reason) {
+  std::string place;
+  for (const OpenObject& object : objects) place = joined(place, object.last_key);
+  const std::size_t begin = reason.find('\'') + 1;
+  return (place.empty() ? "a number" : place) + " = " +
+         one_line(reason.substr(begin, reason.rfind('\'') - begin));
 }
 
 }  // namespace
 
-void JsonPlace::fail(const std::string& allowed) const {
+void JsonPlace::fail(const std::string& allowed) const { refuse(", allowed " + allowed); }
+
+void JsonPlace::refuse(const std::string& reason) const {
   throw std::invalid_argument(*file_ + ": " + (place_.empty() ? "the whole" : place_) + " = " +
-                              shown(*value_) + ", allowed " + allowed);
+                              shown(*value_) + reason);
 }
 
 std::optional<JsonPlace> JsonPlace::find(const std::string& key) const {
   if (!value_->is_object()) fail("an object");
   const auto found = value_->find(key);
   if (found == value_->end()) return std::nullopt;
-  return JsonPlace(*file_, place_.empty() ? key : place_ + "." + key, *found);
+  return JsonPlace(*file_, joined(place_, key), *found);
 }
 
 JsonPlace JsonPlace::at(const std::string& key, const std::string& allowed) const {
   if (std::optional<JsonPlace> found = find(key)) return *found;
-  throw std::invalid_argument(*file_ + ": " + (place_.empty() ? key : place_ + "." + key) +
-                              " is missing, allowed " + allowed);
+  throw std::invalid_argument(*file_ + ": " + joined(place_, key) + " is missing, allowed " +
+                              allowed);
 }
 
 std::vector<std::string> JsonPlace::keys() const {
@@ -65,8 +97,7 @@ void JsonPlace::check_keys(std::initializer_list<std::string_view> known) const 
     for (const std::string_view one : known) {
       allowed += (allowed.empty() ? "" : ", ") + std::string(one);
     }
-    throw std::invalid_argument(*file_ + ": unknown key " +
-                                (place_.empty() ? key : place_ + "." + key) + ", allowed " +
+    throw std::invalid_argument(*file_ + ": unknown key " + joined(place_, key) + ", allowed " +
                                 allowed);
   }
 }
@@ -121,21 +152,30 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   if (!stream || std::filesystem::is_directory(path)) {
     throw std::invalid_argument(path.string() + ": cannot be read, allowed a JSON file");
   }
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto refuse_repeated = [&](int /*depth*/, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key &&
-        !keys.back().insert(parsed.get<std::string>()).second) {
-      throw std::invalid_argument(path.string() + ": key " + parsed.get<std::string>() +
-                                  " stands twice in one object, allowed once");
+  std::vector<OpenObject> objects;
+  const auto check = [&](int depth, json::parse_event_t event, json& parsed) {
+    if (depth > kDeepest) {
+      throw std::invalid_argument(path.string() + ": lists or objects within each other" +
+                                  ", allowed " + std::to_string(kDeepest) + " at most");
+    }
+    if (event == json::parse_event_t::object_start) objects.emplace_back();
+    if (event == json::parse_event_t::object_end) objects.pop_back();
+    if (event == json::parse_event_t::key) {
+      objects.back().last_key = parsed.get<std::string>();
+      if (!objects.back().keys.insert(objects.back().last_key).second) {
+        throw std::invalid_argument(path.string() + ": key " + one_line(objects.back().last_key) +
+                                    " stands twice in one object, allowed once");
+      }
     }
     return true;
   };
   try {
-    return json::parse(stream, refuse_repeated);
+    return json::parse(stream, check);
+  } catch (const json::out_of_range& error) {
+    throw std::invalid_argument(path.string() + ": " + line_of_number(stream) +
+                                number_at(objects, error.what()) + ", allowed a finite number");
   } catch (const json::exception& error) {
-    throw std::invalid_argument(path.string() + ": " + reason_of(error));
+    throw std::invalid_argument(path.string() + ": " + reason_of(error) + kJson);
   }
 }
 

@@ -20,6 +20,9 @@ class JsonPlace {
 
   /// @throws std::invalid_argument
   [[noreturn]] void fail(const std::string& allowed) const;
+  /// The same with the whole of what follows the value.
+  /// @throws std::invalid_argument
+  [[noreturn]] void refuse(const std::string& reason) const;
 
   /// @throws as fail if there is no such key, or this is no object
   [[nodiscard]] JsonPlace at(const std::string& key, const std::string& allowed) const;

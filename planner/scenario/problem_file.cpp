@@ -18,6 +18,8 @@ namespace {
 /// A vertex of a polygon may lie this far inside the line of its neighbours: rounding.
 constexpr double kConvexTolerance_m = 1e-9;
 constexpr double kSmallestArea_m2 = 1e-12;
+/// Neighbours of such a number are 1e-10 apart, and so are its sine's and cosine's.
+constexpr double kLargestHeading_rad = 1e6;
 
 // ---- writing
 
@@ -58,6 +60,12 @@ double read_coordinate(const JsonPlace& place) {
   return value_m;
 }
 
+double read_heading(const JsonPlace& place) {
+  const double value_rad = place.number();
+  if (std::abs(value_rad) > kLargestHeading_rad) place.fail("numbers from -1e6 to 1e6");
+  return value_rad;
+}
+
 Point read_point(const JsonPlace& place) {
   const auto xy = place.list("[x, y]", 2);
   return {read_coordinate(xy[0]), read_coordinate(xy[1])};
@@ -73,18 +81,25 @@ double signed_area_m2(const ConvexPolygon::Vertices& vertices_m) {
   return 0.5 * twice_m2;
 }
 
-/// Turns left at every vertex, and once around altogether. @pre counter-clockwise
-bool is_convex(const ConvexPolygon::Vertices& vertices_m) {
+struct Turns {
+  bool left{};
+  bool right{};
+  double sum_rad{};  ///< 2 pi: once around, counter-clockwise
+};
+
+Turns turns_of(const ConvexPolygon::Vertices& vertices_m) {
   const std::size_t n = vertices_m.size();
-  double turned_rad = 0.0;
+  Turns turns;
   for (std::size_t i = 0; i < n; ++i) {
     const Point to = vertices_m[(i + 1) % n] - vertices_m[i];
     const Point next = vertices_m[(i + 2) % n] - vertices_m[(i + 1) % n];
     const double turn = cross(to, next);
-    if (turn < -kConvexTolerance_m * std::max(to.norm(), next.norm())) return false;
-    turned_rad += std::atan2(turn, to.dot(next));
+    const double tolerance = kConvexTolerance_m * std::max(to.norm(), next.norm());
+    turns.left = turns.left || turn > tolerance;
+    turns.right = turns.right || turn < -tolerance;
+    turns.sum_rad += std::atan2(turn, to.dot(next));
   }
-  return std::abs(turned_rad - 2.0 * std::numbers::pi) < 1e-3;
+  return turns;
 }
 
 ConvexPolygon read_polygon(const JsonPlace& place) {
@@ -99,12 +114,18 @@ ConvexPolygon read_polygon(const JsonPlace& place) {
       place.fail("a convex polygon whose vertices differ, the first not repeated at the end");
     }
   }
+  const Turns turns = turns_of(vertices);
+  if (turns.left && turns.right) {
+    place.fail("a convex polygon, its vertices in order: this one turns both left and right");
+  }
   const double area_m2 = signed_area_m2(vertices);
   if (!(std::abs(area_m2) >= kSmallestArea_m2)) {
     place.fail("a convex polygon with an area of at least 1e-12 m^2");
   }
   if (area_m2 < 0.0) std::ranges::reverse(vertices);
-  if (!is_convex(vertices)) place.fail("a convex polygon, its vertices in order");
+  if (std::abs(std::abs(turns.sum_rad) - 2.0 * std::numbers::pi) >= 1e-3) {
+    place.fail("a convex polygon, its vertices in order: this one crosses itself");
+  }
   return area_m;
 }
 
@@ -121,7 +142,7 @@ void read_start(const JsonPlace& place, const Subgraph& subgraph, HorizonProblem
   place.check_keys({"x", "y", "psi", "trim"});
   problem.start.x_m = read_coordinate(place.at("x", "a finite number"));
   problem.start.y_m = read_coordinate(place.at("y", "a finite number"));
-  problem.start.heading_rad = place.at("psi", "a finite number").number();
+  problem.start.heading_rad = read_heading(place.at("psi", "a finite number"));
   problem.start_trim = read_trim(place.at("trim", "the number of a trim, from 1"), subgraph);
 }
 
@@ -241,7 +262,10 @@ void check_keys(const JsonPlace& root) {
 
 std::filesystem::path automaton_of(const JsonPlace& root, const std::filesystem::path& path) {
   const std::string allowed = "the path of an automaton or configuration file";
-  return (path.parent_path() / root.at("automaton", allowed).text(allowed)).lexically_normal();
+  const JsonPlace place = root.at("automaton", allowed);
+  const std::string written = place.text(allowed);
+  if (written.empty()) place.fail(allowed);
+  return (path.parent_path() / written).lexically_normal();
 }
 
 ProblemFile read_rest(const JsonPlace& root, std::filesystem::path automaton_file,
@@ -312,13 +336,20 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
   const std::filesystem::path automaton =
       automaton_file ? *automaton_file : automaton_of(root, path);
   const JsonPlace subgraph = root.at("subgraph", "the name of a subgraph of the automaton");
+  bool is_automaton = false;
   const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
+    is_automaton = true;
     const SubgraphSpec* spec =
         find_subgraph(offered, subgraph.text("the name of a subgraph of the automaton"));
     if (spec == nullptr) subgraph.fail(names_of(offered));
     return *spec;
   };
-  return read_rest(root, automaton, read_subgraph(automaton, choose));
+  try {
+    return read_rest(root, automaton, read_subgraph(automaton, choose));
+  } catch (const std::invalid_argument& error) {
+    if (is_automaton || automaton_file) throw;
+    root.at("automaton", "").refuse(std::string(": ") + error.what());
+  }
 }
 
 ProblemFile read_problem_file(const std::filesystem::path& path,

@@ -130,6 +130,12 @@ TEST_F(ProblemPrograms, BadInputIsOneLineAndExitCode2) {
               HasSubstr("problem.json: unknown key start.phi, allowed x, y, psi, trim"));
 }
 
+TEST_F(ProblemPrograms, TheNameOfAFileStaysInOneLine) {
+  const Outcome outcome = run_program("plan_problem \"$(printf '/no\\nwhere\\033[31m')\"");
+  EXPECT_EQ(outcome.output,
+            "plan_problem: /no\\nwhere\\x1b[31m: cannot be read, allowed a JSON file\n");
+}
+
 TEST_F(ProblemPrograms, ThePlotIsAPictureThatExplainsItself) {
   for (const std::string& problem : {kShipped, infeasible()}) {
     const std::string plot = (folder_ / "plan.svg").string();

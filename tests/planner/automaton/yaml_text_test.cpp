@@ -42,6 +42,8 @@ TEST(OneLine, IsOneShortLine) {
   EXPECT_EQ(one_line(std::string(60, 'x')), std::string(60, 'x'));
   EXPECT_EQ(one_line(std::string(61, 'x')), std::string(60, 'x') + "...");
   EXPECT_EQ(one_line(std::string(59, 'x') + "µm"), std::string(59, 'x') + "µ...");
+  EXPECT_EQ(one_line("abcd", 3), "abc...");
+  EXPECT_EQ(escaped(std::string(80, 'x') + "\x1b"), std::string(80, 'x') + "\\x1b");
 }
 
 }  // namespace

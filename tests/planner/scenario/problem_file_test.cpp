@@ -20,6 +20,7 @@ namespace hlc::problem_file_test {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -225,11 +226,14 @@ TEST_F(ProblemFileTest, ErrorsOfPolygonsSayWhatIsWrong) {
               AllOf(HasSubstr("obstacles[2][0] = [[3,3],[3,4]]"), HasSubstr("at least 3")));
   EXPECT_THAT(error_with(square, "[[0, 0], [1, 1], [3, 3]]"), HasSubstr("with an area of"));
   EXPECT_THAT(error_with(square, "[[0, 0], [2, 0], [0.1, 0.1], [0, 2]]"),
-              HasSubstr("a convex polygon, its vertices in order"));
+              HasSubstr("its vertices in order: this one turns both left and right"));
+  EXPECT_THAT(error_with(square, "[[0, 0], [1, 1], [1, 0], [0, 1]]"),
+              HasSubstr("this one turns both left and right"))
+      << "a bow tie";
   EXPECT_THAT(error_with(square, "[[0, 0], [1, 0], [1, 1], [0, 0]]"), HasSubstr("not repeated"));
   // A star of five points turns left at each of them, but twice around.
   EXPECT_THAT(error_with(square, "[[1, 0], [-0.8, 0.6], [0.3, -0.95], [0.3, 0.95], [-0.8, -0.6]]"),
-              HasSubstr("its vertices in order"));
+              HasSubstr("its vertices in order: this one crosses itself"));
   EXPECT_EQ(error_with(square, "[[0, 0], [1, 0], [2, 0], [0, 2]]"), "")
       << "three on a line are fine";
 }
@@ -250,11 +254,63 @@ TEST_F(ProblemFileTest, ErrorsOfAnIncumbentNameTheManeuver) {
 TEST_F(ProblemFileTest, WhatIsNoJsonIsNamedWithItsPlace) {
   EXPECT_THAT(error_with("\"y\": 2", "\"y\": NaN"),
               AllOf(HasSubstr("problem.json: "), HasSubstr("line 6")));
-  EXPECT_THAT(error_with("\"y\": 2", "\"y\": 1e999"), HasSubstr("problem.json: "));
-  EXPECT_THAT(error_of(""), HasSubstr("problem.json: "));
+  for (const std::string& text :
+       {with("\"y\": 2", "\"y\": NaN"), with("\"y\": 2", "\"y\": -Infinity"), std::string(),
+        kHandWritten + "{}", "// three steps\n" + kHandWritten, with("[9, 1]]]", "[9, 1]]],"),
+        with("\"B\"", "\"\xff\""), "\"" + std::string(2'000'000, 'x')}) {
+    const std::string error = error_of(text);
+    EXPECT_THAT(error,
+                AllOf(HasSubstr("problem.json: parse error at line "),
+                      EndsWith(", allowed one JSON object (RFC 8259)"), Not(HasSubstr("\n"))));
+    EXPECT_LT(error.size(), 400 + file_.string().size());
+  }
   EXPECT_THAT(error_of("[1]"), HasSubstr("the whole = [1], allowed an object"));
   std::filesystem::remove(file_);
   EXPECT_THROW(static_cast<void>(read_problem_file(file_, subgraph_b())), std::invalid_argument);
+}
+
+TEST_F(ProblemFileTest, ANumberThatNoDoubleHoldsIsNamedWithItsPlace) {
+  const std::string allowed = ", allowed a finite number";
+  EXPECT_THAT(error_with("\"y\": 2", "\"y\": 1e999"),
+              EndsWith("problem.json: line 6: start.y = 1e999" + allowed));
+  EXPECT_THAT(error_with("\"step_s\": 0.2", "\"step_s\": -1e999\n"),
+              EndsWith("problem.json: line 5: step_s = -1e999" + allowed));
+  EXPECT_THAT(
+      error_with("[1.32, 2]", "[" + std::string(2'000'000, '9') + ", 2]"),
+      EndsWith("problem.json: line 7: reference = " + std::string(60, '9') + "..." + allowed));
+}
+
+TEST_F(ProblemFileTest, KeysAndValuesWithControlCharactersStayInOneLine) {
+  EXPECT_THAT(error_with("step_s", "ste\\np\\u001b[31m"),
+              HasSubstr("unknown key ste\\np\\x1b[31m, allowed automaton"));
+  EXPECT_THAT(error_with("\"y\": 2", "\"y\": \"\\n\\u001b\""),
+              HasSubstr(R"(start.y = "\n\u001b", allowed)"));
+}
+
+TEST_F(ProblemFileTest, ListsWithinListsWithinListsAreRefused) {
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  EXPECT_THAT(error_with("\"B\"", deep), HasSubstr("within each other, allowed 100 at most"));
+}
+
+TEST_F(ProblemFileTest, AnAutomatonThatIsNoneIsNamedWithTheKey) {
+  std::filesystem::copy_file(test::source_folder() + "/launch_scripts/scenarios/circle.yaml",
+                             folder_ / "circle.yaml");
+  for (const std::string name : {"nope.yaml", "", ".", "circle.yaml"}) {
+    put(with("paper.yaml", name));
+    try {
+      static_cast<void>(read_problem_file(file_));
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr("problem.json: automaton = \"" + name + "\""),
+                                      HasSubstr(", allowed ")));
+    }
+  }
+}
+
+TEST_F(ProblemFileTest, AHeadingIsLimitedToWhatADoubleHolds) {
+  EXPECT_EQ(error_with("\"psi\": 0", "\"psi\": -1e6"), "");
+  EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1e17"),
+              HasSubstr("start.psi = 1e+17, allowed numbers from -1e6 to 1e6"));
 }
 
 TEST_F(ProblemFileTest, DamagedFilesAreRefusedInOneLineOrRead) {
