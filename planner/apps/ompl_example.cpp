@@ -3,8 +3,10 @@
 //
 // Read it as an example of how the pieces fit together: a space information with controls
 // (planner/search/ompl_control.hpp), a goal and an objective (ompl_problem.hpp), the planner
-// (ompl_planner.hpp), and OMPL's SimpleSetup and Benchmark, which know nothing of the rest.
+// (ompl_planner.hpp), and OMPL's SimpleSetup, Benchmark and PlannerData, which know nothing of the
+// rest.
 #include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/control/PlannerData.h>
 #include <ompl/control/SimpleSetup.h>
 #include <ompl/control/planners/kpiece/KPIECE1.h>
 #include <ompl/control/planners/rrt/RRT.h>
@@ -17,7 +19,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -54,6 +56,7 @@ namespace {
 
 constexpr int kExitFailed = 2;
 constexpr char kCost[] = "path cost REAL";
+constexpr char kIsOptimal[] = "optimal BOOLEAN";
 constexpr char kShipped[] = "launch_scripts/problems/parked_car.json";
 /// OMPL's Benchmark names control planners so.
 constexpr std::string_view kPrefix = "control_";
@@ -83,10 +86,17 @@ void declare(CLI::App& app, Flags& flags) {
                  "reference point")
       ->check(hlc::within(0.0, 1e4))
       ->capture_default_str();
-  app.add_option("--seed", flags.seed, "of OMPL's random numbers")->check(hlc::whole(1, 1 << 30));
+  app.add_option("--seed", flags.seed, "of OMPL's random numbers")
+      ->check(hlc::whole(1, 1 << 30))
+      ->capture_default_str();
   hlc::declare_output(app, flags.log,
                       "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer(
+      "Of the file's `search`, max_expansions holds for this planner, which is run with each of "
+      "its "
+      "engines, and cost_to_go for best_first; criterion_weights are refused: the planners are "
+      "compared by the distance from the reference alone.\n\n"
+      "Exit codes: 0 good, 2 bad input or an output that cannot be written.");
 }
 
 /// KPIECE covers this plane with cells.
@@ -106,8 +116,10 @@ std::vector<ob::PlannerPtr> make_planners(const std::shared_ptr<oc::SpaceInforma
                                           const hlc::ReachableSets& reachable) {
   std::vector<ob::PlannerPtr> planners;
   for (const hlc::Engine engine : {hlc::Engine::kBranchAndBound, hlc::Engine::kBestFirst}) {
-    auto planner = std::make_shared<hlc::RecedingHorizonPlanner>(si, *file.subgraph, reachable,
-                                                                 hlc::SearchOptions{});
+    hlc::SearchOptions options = file.search;
+    if (engine == hlc::Engine::kBranchAndBound) options.cost_to_go = hlc::CostToGo::kReachable;
+    auto planner =
+        std::make_shared<hlc::RecedingHorizonPlanner>(si, *file.subgraph, reachable, options);
     planner->params().setParam("engine", hlc::to_string(engine));
     planner->setName(std::string("this planner, ") + hlc::to_string(engine));
     planners.push_back(planner);
@@ -126,7 +138,20 @@ double number(const ot::Benchmark::RunProperties& run, const char* name) {
   return found == run.end() ? 0.0 : std::stod(found->second);
 }
 
-void print(const ot::Benchmark::PlannerExperiment& planner) {
+/// What the costs of a planner's plans say.
+const char* kind_of_plans(const ot::Benchmark::PlannerExperiment& experiment,
+                          const ob::Planner& planner) {
+  const auto is_optimal = [](const ot::Benchmark::RunProperties& run) {
+    return !run.contains(kCost) || run.at(kIsOptimal) == "1";
+  };
+  if (const auto* ours = dynamic_cast<const hlc::RecedingHorizonPlanner*>(&planner)) {
+    if (ours->options().cost_to_go == hlc::CostToGo::k2022) return "first found";
+    return std::ranges::all_of(experiment.runs, is_optimal) ? "optimal" : "best so far";
+  }
+  return dynamic_cast<const oc::SST*>(&planner) != nullptr ? "best so far" : "first found";
+}
+
+void print(const ot::Benchmark::PlannerExperiment& planner, const char* kind) {
   std::vector<double> times_ms;
   std::vector<double> costs_m2;
   for (const auto& run : planner.runs) {
@@ -137,31 +162,95 @@ void print(const ot::Benchmark::PlannerExperiment& planner) {
   std::printf("%-32s %5zu %7zu %10.2f %10.2f", planner.name.c_str() + prefix, planner.runs.size(),
               costs_m2.size(), hlc::median(times_ms), std::ranges::max(times_ms));
   if (costs_m2.empty()) {
-    std::printf(" %12s %12s\n", "-", "-");
+    std::printf(" %12s %12s  %s\n", "-", "-", "none");
   } else {
-    std::printf(" %12.5f %12.5f\n", std::ranges::min(costs_m2), hlc::median(costs_m2));
+    std::printf(" %12.5f %12.5f  %s\n", std::ranges::min(costs_m2), hlc::median(costs_m2), kind);
   }
 }
 
-/// Shortest time of a `solve` that nothing ends but the planner.
-double bare_solve_us(ob::Planner& planner, const ob::ProblemDefinitionPtr& definition) {
-  double shortest_us = std::numeric_limits<double>::infinity();
-  for (int call = 0; call < kBareCalls; ++call) {
-    planner.clear();
-    definition->clearSolutionPaths();
-    planner.setProblemDefinition(definition);
+void forget_plans(ob::Planner& planner, const ob::ProblemDefinitionPtr& definition) {
+  planner.clear();
+  definition->clearSolutionPaths();
+  planner.setProblemDefinition(definition);
+}
+
+/// Shortest time of a `solve` in which nobody watches the planner; nothing if none comes to its end
+/// within `seconds`.
+std::optional<double> bare_solve_us(ob::Planner& planner,
+                                    const ob::ProblemDefinitionPtr& definition, double seconds) {
+  const auto time_is_up = ob::timedPlannerTerminationCondition(seconds);
+  std::optional<double> shortest_us;
+  for (int call = 0; call < kBareCalls && !time_is_up; ++call) {
+    forget_plans(planner, definition);
     const auto begin = std::chrono::steady_clock::now();
-    planner.solve(ob::plannerNonTerminatingCondition());
+    planner.solve(time_is_up);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
-    shortest_us = std::min(shortest_us, took.count());
+    if (!time_is_up) shortest_us = std::min(shortest_us.value_or(took.count()), took.count());
   }
   return shortest_us;
+}
+
+void print_alone(ob::Planner& planner, const ob::ProblemDefinitionPtr& definition, double seconds) {
+  const std::optional<double> shortest_us = bare_solve_us(planner, definition, seconds);
+  std::printf("%s alone: ", planner.getName().c_str());
+  if (shortest_us) {
+    std::printf("%.1f us\n", *shortest_us);
+  } else {
+    std::printf("more than %g s\n", seconds);
+  }
+  std::fflush(stdout);
+}
+
+void print(const ob::State& at) {
+  const hlc::HorizonState state = hlc::read_state(at);
+  std::printf("x %.3f m, y %.3f m, psi %.3f rad, trim %zu", state.pose.x_m, state.pose.y_m,
+              state.pose.heading_rad, state.trim.index + 1);
+}
+
+/// What a planner tells of its last `solve`, in words: OMPL's way for whoever draws or stores it.
+void print_data(const ob::Planner& planner, const ob::SpaceInformationPtr& si) {
+  oc::PlannerData data(std::dynamic_pointer_cast<oc::SpaceInformation>(si));
+  planner.getPlannerData(data);
+  std::printf("\nPlannerData of %s: %u vertices, %u edges\n", planner.getName().c_str(),
+              data.numVertices(), data.numEdges());
+  for (unsigned from = 0; from < data.numVertices(); ++from) {
+    std::printf("  vertex %u: ", from);
+    print(*data.getVertex(from).getState());
+    std::printf("%s%s\n", data.isStartVertex(from) ? ", start" : "",
+                data.isGoalVertex(from) ? ", goal" : "");
+    std::vector<unsigned> next;
+    data.getEdges(from, next);
+    for (const unsigned to : next) {
+      ob::Cost cost;
+      data.getEdgeWeight(from, to, &cost);
+      const auto& edge = dynamic_cast<const oc::PlannerDataEdgeControl&>(data.getEdge(from, to));
+      std::printf("  edge to vertex %u: one control for %g s, costs %.5f m^2\n", to,
+                  edge.getDuration(), cost.value());
+    }
+  }
+}
+
+/// @throws std::invalid_argument
+void check_can_be_compared(const hlc::ProblemFile& file, const std::filesystem::path& path) {
+  try {
+    hlc::check_can_be_searched(file);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path.string() + ": " + error.what());
+  }
+  const auto& weights = file.search.criterion_weights;
+  if (weights.empty()) return;
+  throw std::invalid_argument(path.string() + ": search.criterion_weights." +
+                              weights.front().criterion + " = " +
+                              hlc::shortest_text(weights.front().weight_m2) +
+                              ", allowed none: the planners are compared by the distance from the "
+                              "reference alone");
 }
 
 int run(const Flags& flags) {
   hlc::check_output_files({flags.log}, {flags.file});
   const hlc::ProblemFile file = hlc::read_problem_file(flags.file);
   hlc::check_output_files({flags.log}, {file.automaton_file});
+  check_can_be_compared(file, flags.file);
   const hlc::HorizonProblem& problem = file.problem;
   const hlc::ReachableSets reachable(*file.subgraph, problem.horizon_steps());
 
@@ -186,6 +275,7 @@ int run(const Flags& flags) {
     const auto& path = dynamic_cast<const oc::PathControl&>(*definition->getSolutionPath());
     const ob::Cost cost = hlc::path_cost(path, *definition->getOptimizationObjective());
     run[kCost] = hlc::shortest_text(cost.value());
+    run[kIsOptimal] = definition->getSolutions().front().optimized_ ? "1" : "0";
   });
   ot::Benchmark::Request request(flags.seconds, 4096.0, flags.runs);
   request.displayProgress = false;
@@ -195,16 +285,26 @@ int run(const Flags& flags) {
   std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
               problem.horizon_steps(), flags.radius_m, flags.seconds);
   std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
-  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "planner", "runs", "solved", "median", "max",
-              "best", "median");
-  for (const auto& planner : benchmark.getRecordedExperimentData().planners) print(planner);
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s  %s\n", "planner", "runs", "solved", "median",
+              "max", "best", "median", "plans");
+  const auto& experiments =
+      benchmark.getRecordedExperimentData().planners;  // in the order of adding
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    print(experiments[i], kind_of_plans(experiments[i], *planners[i]));
+  }
   std::printf(
-      "\nTimes are Benchmark's, with the threads in which it runs and watches a planner.\n");
+      "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
+      "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
+      "Times are Benchmark's, with the threads in which it runs and watches a planner.\n",
+      file.search.cost_to_go == hlc::CostToGo::k2022 ? ", and so does best_first with 2022" : "");
+  std::fflush(stdout);
   for (const ob::PlannerPtr& planner : planners) {
     if (dynamic_cast<const hlc::RecedingHorizonPlanner*>(planner.get()) == nullptr) continue;
-    std::printf("%s alone: %.1f us\n", planner->getName().c_str(),
-                bare_solve_us(*planner, setup.getProblemDefinition()));
+    print_alone(*planner, setup.getProblemDefinition(), flags.seconds);
   }
+  forget_plans(*planners.front(), setup.getProblemDefinition());
+  planners.front()->solve(flags.seconds);
+  print_data(*planners.front(), si);
   if (flags.log.file) {
     std::ostringstream log;
     benchmark.saveResultsToStream(log);

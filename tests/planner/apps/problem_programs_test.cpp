@@ -212,5 +212,50 @@ TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold
   EXPECT_EQ(run_program("ompl_example " + kShipped + " --seconds nan").exit_code, 2);
 }
 
+TEST_F(ProblemPrograms, TheOmplExampleSaysWhatItsPlansAreAndWhatPlannerDataHolds) {
+  const std::string command = "ompl_example --seconds 0.02 --runs 1 ";
+  const Outcome outcome = run_program(command + kShipped);
+  for (const char* text : {" optimal\n",
+                           "PlannerData of this planner, branch_and_bound: 9 vertices, "
+                           "8 edges\n  vertex 0: x 0.000 m",
+                           "trim 7, start\n", "trim 1, goal\n"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(text));
+  }
+  const std::string budget =
+      changed("\"step_s\"", "\"search\": {\"max_expansions\": 20}, \"step_s\"");
+  EXPECT_THAT(run_program(command + "--radius_m 5 " + budget).output,
+              HasSubstr(" best so far\nthis planner, best_first"));
+  EXPECT_THAT(run_program("ompl_example --help").output,
+              HasSubstr("--seed UINT:1 ... 1073741824=1"));
+}
+
+TEST_F(ProblemPrograms, TheOmplExampleRefusesWhatItsObjectiveDoesNotHold) {
+  const std::string weights =
+      changed("\"step_s\"", R"("search": {"criterion_weights": {"J2": 0.5}}, "step_s")");
+  const Outcome outcome = run_program("ompl_example " + weights);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("problem.json: search.criterion_weights.J2 = 0.5, allowed none"));
+}
+
+TEST_F(ProblemPrograms, TheOmplExampleEndsAlsoWhenASearchDoesNot) {
+  std::ofstream problem(folder_ / "endless.json");
+  problem << R"({"automaton": ")" << kLaunch
+          << R"(automata/paper.yaml", "subgraph": "D", "step_s": 0.2,
+    "horizon_steps": 64, "start": {"x": 0, "y": 0, "psi": 0, "trim": 1},
+    "search": {"max_expansions": 1000000000000}, "reference": [[0, 0])";
+  for (int j = 1; j < 64; ++j) problem << ", [" << 0.1 * j << ", 0]";
+  problem << "], \"obstacles\": [";
+  for (int j = 1; j < 64; ++j) problem << "[], ";
+  problem << "[[[-99, -99], [99, -99], [99, 99], [-99, 99]]]]}";
+  problem.close();
+  const Outcome outcome =
+      run_program("ompl_example --seconds 0.02 --runs 1 " + (folder_ / "endless.json").string());
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("branch_and_bound alone: more than 0.02 s\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("branch_and_bound: 0 vertices, 0 edges\n"));
+}
+
 }  // namespace
 }  // namespace hlc
