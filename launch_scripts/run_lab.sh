@@ -27,8 +27,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain; the vehicles take the next ones, the controllers N + 50
                           (default: a free block)
-  --dump-problems DIR     write each planning problem to a JSON file there, for plan_problem; in real time
-                          that may make steps late
+  --dump-problems DIR     write each planning problem to a JSON file there (new or empty folder), for plan_problem; in
+                          real time that may make steps late; refused if a policy drives (give --policy none)
   --out DIR               run folder (default: a new one in runs/)
   --preset NAME           build preset (default release)
   --startup_timeout_s N   how long to wait for processes that do not appear (default 20)
@@ -59,6 +59,7 @@ while (($#)); do
   shift
   name=${name#--}
   [[ $name != dump-problems ]] || name=dump_problems
+  [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , allowed a new or an empty folder"
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | steps | simulated_time | \
       noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
@@ -143,6 +144,19 @@ else
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
 
+make_empty_folder() { # flag, folder
+  local allowed="allowed a new or an empty folder" probe
+  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is no folder, $allowed"
+  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $allowed"
+  mkdir -p -- "$2" 2>/dev/null || fail "--$1 = $2: the folder cannot be made, $allowed"
+  probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) && rm -- "$probe" ||
+    fail "--$1 = $2: nothing can be written there, $allowed that may be written to"
+}
+[[ -z $out ]] || make_empty_folder out "$out" # first: the problems may lie in it
+if [[ -n $dump_problems ]]; then
+  make_empty_folder dump-problems "$dump_problems"
+  dump_problems=$(cd -- "$dump_problems" && pwd)
+fi
 if [[ -z $out ]]; then
   out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
   base=$out
@@ -151,10 +165,6 @@ if [[ -z $out ]]; then
     out=${base}_$i
     ((i < 1000)) || fail "cannot make a run folder in $root/runs"
   done
-elif [[ -e $out && -n $(ls -A "$out" 2>/dev/null) ]]; then
-  fail "--out = $out is not empty, allowed a new or an empty folder"
-else
-  mkdir -p "$out" 2>/dev/null || fail "--out = $out: the folder cannot be made, allowed a new or an empty folder"
 fi
 out=$(cd "$out" && pwd)
 mkdir -p "$out/logs" "$out/configuration" 2>/dev/null || fail "--out = $out: nothing can be written there"

@@ -24,7 +24,8 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --discovery_mode MODE   simple (default: multicast) or client, with the address of the lab domain's discovery server:
                           --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
   --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
-  --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
+  --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written);
+                          refused if a policy drives (give --policy none)
   --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
   --noise_seed N          measurement noise from this seed (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
@@ -62,6 +63,7 @@ take_flags() {
     shift
     name=${name#--}
     [[ $name != dump-problems ]] || name=dump_problems
+    [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , allowed a folder"
     [[ $name == out || $name == only || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
     printf -v "$name" '%s' "$value"
   done
@@ -105,6 +107,11 @@ share_domain() { # flag, domain
 if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; then
   share_domain --dds_domain "$((10#$dds_domain))"
   share_domain --middleware_domain "$((10#$middleware_domain))"
+fi
+if [[ -n $dump_problems ]]; then # other vehicles of the run may write there, too
+  { mkdir -p -- "$dump_problems" && probe=$(mktemp -- "$dump_problems/XXXXXX") && rm -- "$probe"; } 2>/dev/null ||
+    fail "--dump-problems = $dump_problems: nothing can be written there, allowed a folder that can be made and written to"
+  dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
 out=$(cd "$out" && pwd)

@@ -75,7 +75,7 @@ void declare(CLI::App& app, Flags& flags) {
       "--dump-problems,--dump_problems", flags.problem_folder,
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
       "written after a step's command; what is planned stays the same, but in real time "
-      "a slow disk may make the next step late");
+      "a slow disk may make the next step late. Refused if a policy drives (give --policy none)");
   app.add_option("--thread_priority", flags.thread_priority,
                  "real-time priority of the thread that plans, where the system allows it; 0: none")
       ->capture_default_str()

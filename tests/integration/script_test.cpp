@@ -105,7 +105,7 @@ std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> searched_vertices
 
 TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
   const std::filesystem::path out = folder_ / "run";
-  const std::filesystem::path problems = folder_ / "problems";
+  const std::filesystem::path problems = out / "problems";
   ChildProcess run = run_lab({"--steps", "10", "--engine", "best_first", "--dump-problems",
                               problems.string(), "--out", out.string()});
   ASSERT_EQ(run.wait_for(120s), 0) << output();
@@ -126,6 +126,38 @@ TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
   for (const auto& [name, rest] : expected) {
     EXPECT_EQ(rest.first, 0U) << name;
     EXPECT_EQ(rest.second, 0U) << name;
+  }
+}
+
+TEST_F(Scripts, AFolderForProblemsThatIsNotGoodIsRefusedBeforeAnythingStarts) {
+  const std::filesystem::path out = folder_ / "run";
+  std::filesystem::create_directory(folder_ / "full");
+  std::ofstream(folder_ / "full" / "vehicle_1.json") << "{}";
+  for (const std::string& problems :
+       {std::string("/dev/null"), std::string("/proc/problems"), std::string("/proc"),
+        std::string(), (folder_ / "full").string(),
+        (folder_ / "full" / "vehicle_1.json").string()}) {
+    ChildProcess run =
+        run_lab({"--steps", "10", "--dump-problems=" + problems, "--out", out.string()});
+    EXPECT_EQ(run.wait_for(60s), 2) << output();
+    EXPECT_NE(output().find("run_lab.sh: --dump-problems = " + problems), std::string::npos)
+        << output();
+    EXPECT_NE(output().find("allowed a new or an empty folder"), std::string::npos) << output();
+    EXPECT_EQ(std::ranges::count(output(), '\n'), 1) << output();
+    EXPECT_FALSE(std::filesystem::exists(out / "logs"));
+  }
+}
+
+TEST_F(Scripts, AVehicleRefusesAFolderForProblemsThatCannotBeMade) {
+  for (const std::string problems : {"", "/dev/null", "/proc/problems"}) {
+    ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario",
+                          "paper_red_alone", "--dds_domain", "50", "--transport", "lab",
+                          "--dump-problems=" + problems, "--out", (folder_ / "run").string()},
+                         folder_ / "output");
+    EXPECT_EQ(vehicle.wait_for(60s), 2) << output();
+    EXPECT_NE(output().find("vehicle.sh: --dump-problems = " + problems), std::string::npos)
+        << output();
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "run"));
   }
 }
 
