@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
 #include "planner/apps/cli.hpp"
 #include "planner/automaton/yaml_text.hpp"
@@ -70,6 +72,9 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
     return 2;
   } catch (const CLI::ConversionError& error) {
     complain(app.get_name(), error.what() + allowed_by_type(app, error.what()));
+    return 2;
+  } catch (const CLI::ArgumentMismatch& error) {
+    complain(app.get_name(), std::string(error.what()) + ", allowed with a value");
     return 2;
   } catch (const CLI::ParseError& error) {
     complain(app.get_name(), error.what());
@@ -136,6 +141,26 @@ inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
 inline CLI::Validator finite() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return within(-kInfinity, kInfinity);
+}
+
+/// For flags with names.
+inline CLI::Validator among(const std::vector<std::string>& names) {
+  std::string allowed;
+  for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
+  return CLI::Validator(
+      [names, allowed](std::string& text) {
+        if (std::ranges::find(names, text) != names.end()) return std::string{};
+        return one_line(text) + ", allowed " + allowed;
+      },
+      allowed);
+}
+
+/// @throws std::invalid_argument for a value that is there twice
+inline void check_each_once(const std::string& flag, const std::vector<std::string>& values) {
+  for (auto value = values.begin(); value != values.end(); ++value) {
+    if (std::find(values.begin(), value, *value) == value) continue;
+    throw std::invalid_argument(flag + " = " + *value + " twice, allowed each once");
+  }
 }
 
 /// The flags that choose a scenario.

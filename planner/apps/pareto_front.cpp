@@ -71,11 +71,11 @@ void declare(CLI::App& app, Flags& flags) {
                  "two criteria; the first is minimised, the second "
                  "bounded")
       ->expected(2)
-      ->check(CLI::IsMember(hlc::criterion_names()))
+      ->check(hlc::among(hlc::criterion_names()))
       ->capture_default_str();
   app.add_option("--spacing", flags.spacing,
                  "front: equal distances along it; second: equal steps of the second criterion")
-      ->check(CLI::IsMember({"front", "second"}))
+      ->check(hlc::among({"front", "second"}))
       ->capture_default_str();
   hlc::declare_output(app, flags.table, "table to write (CSV)")->required();
   hlc::declare_output(app, flags.plot, "plot to write (SVG)");

@@ -72,6 +72,7 @@ void list() {
 /// True if every engine's every plan was a best one.
 bool run(const Choices& choices) {
   hlc::check_output_files({choices.json});
+  hlc::check_each_once("--sets", choices.sets);
   hlc::test::ProblemSets sets;
   std::vector<hlc::test::SetReport> reports;
   for (const std::string& name : choices.sets) {
@@ -81,6 +82,7 @@ bool run(const Choices& choices) {
     print(reports.back(), std::cout);
     std::cout.flush();
   }
+  hlc::test::print_legend(std::cout);
   if (choices.json.file) {
     hlc::write_atomically(to_json(reports).dump(2) + '\n', *choices.json.file);
   }
@@ -104,11 +106,11 @@ int main(int argc, char** argv) {
   hlc::declare_output(app, choices.json, "also write the figures to this file (JSON)");
   app.add_option("--sets", choices.sets, "problem sets, separated by commas (default: all)")
       ->delimiter(',')
-      ->check(CLI::IsMember(all_sets()));
+      ->check(hlc::among(all_sets()));
   app.add_option("--problems", choices.problems, "only the first so many of each set")
       ->check(hlc::whole(1, 1000000));
   app.add_option("--only", choices.only, "run this engine alone, once per problem")
-      ->check(CLI::IsMember(hlc::test::contestant_names()));
+      ->check(hlc::among(hlc::test::contestant_names()));
   app.add_flag("--list", choices.lists, "name the sets and end");
   app.footer(
       "Exit codes: 0 good, 1 an engine's plan is not optimal or something failed, 2 bad input.");

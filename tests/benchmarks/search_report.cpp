@@ -104,6 +104,15 @@ void print(const SetReport& report, std::ostream& out) {
   out << '\n';
 }
 
+void print_legend(std::ostream& out) {
+  out << "p50, p99, max: time per problem (nearest rank); generated, expanded: vertices per "
+         "problem, "
+         "mean\n"
+         "ns/vertex: mean time / generated vertices\n"
+         "x mean, x p99, x max: times faster than plain: its mean, p99, max / this row's\n"
+         "optimal: every plan costs what that of plain does\n";
+}
+
 nlohmann::json to_json(const std::vector<SetReport>& reports) {
   nlohmann::json sets = nlohmann::json::array();
   for (const SetReport& report : reports) {

@@ -64,6 +64,8 @@ struct SetReport {
 
 /// A table, one line per engine.
 void print(const SetReport& report, std::ostream& out);
+/// What the columns of those tables are.
+void print_legend(std::ostream& out);
 
 /// {sets: [{name, problems, engines: [{name, mean_us, p50_us, p99_us, max_us, generated, expanded,
 /// ratio_mean, ratio_p99, ratio_max, optimal}]}]}; null for what there is not without a reference.

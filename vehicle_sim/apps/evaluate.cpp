@@ -55,14 +55,6 @@ std::string command_line(int argc, char** argv) {
 
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
-/// @throws std::invalid_argument for a value that is there twice
-void check_each_once(const char* flag, const std::vector<std::string>& values) {
-  for (auto value = values.begin(); value != values.end(); ++value) {
-    if (std::find(values.begin(), value, *value) == value) continue;
-    throw std::invalid_argument(std::string(flag) + " = " + *value + " twice, allowed each once");
-  }
-}
-
 /// Everything that the campaign reads. What cannot be read is bad input.
 hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
@@ -71,10 +63,10 @@ hlc::Campaign read(Choices& choices) {
   // Tables and figures tell scenarios by their names.
   std::vector<std::string> names;
   for (const auto& file : choices.plan.scenarios) names.push_back(file.stem().string());
-  check_each_once("--scenario", names);
-  check_each_once("--profile", choices.plan.profiles);
-  check_each_once("--subgraphs", choices.plan.subgraphs);
-  check_each_once("--policies", choices.plan.policies);
+  hlc::check_each_once("--scenario", names);
+  hlc::check_each_once("--profile", choices.plan.profiles);
+  hlc::check_each_once("--subgraphs", choices.plan.subgraphs);
+  hlc::check_each_once("--policies", choices.plan.policies);
   if (std::ranges::find(choices.plan.policies, "") != choices.plan.policies.end()) {
     throw std::invalid_argument("--policies: an empty name, allowed those of the scenario");
   }
@@ -222,7 +214,7 @@ int main(int argc, char** argv) {
   app.add_option("--figures", choices.figures.names,
                  "SVG files to draw into the folder `figures` of --out, as paths,distance or all")
       ->delimiter(',')
-      ->check(CLI::IsMember(figures));
+      ->check(hlc::among(figures));
   app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
                  "automaton configuration for the figure pareto_set; default: "
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
