@@ -44,7 +44,7 @@ struct Measured {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("scenario", flags.scenario.file, "scenario file (YAML)")->required();
+  app.add_option("scenario,--scenario", flags.scenario.file, "scenario file (YAML)")->required();
   app.add_option("--deadline_ms", flags.deadline_ms, "that a plan may take")
       ->required()
       ->check(hlc::within(0.001, 1e6));

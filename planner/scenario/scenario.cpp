@@ -202,9 +202,17 @@ SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
   }
   try {
     if (choices.engine) search.engine = engine_from_name(*choices.engine);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("--") + error.what());
+  }
+  try {
     check_search_options(search);
   } catch (const std::invalid_argument& error) {
-    if (choices.engine) throw std::invalid_argument(std::string("--") + error.what());
+    if (choices.engine) {
+      throw std::invalid_argument(
+          "--engine = " + *choices.engine + " with profile " + profile.name +
+          ", allowed best_first: the profile's cost-to-go is " + to_string(search.cost_to_go));
+    }
     node.fail("engine", "with profile " + profile.name + ": " + error.what());
   }
   return search;

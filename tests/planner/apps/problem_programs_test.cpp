@@ -178,8 +178,8 @@ TEST_F(ProblemPrograms, NorThatOfTheAutomatonThatIsReadForIt) {
 }
 
 TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
-  const std::string command =
-      "propose_budget " + kLaunch + "scenarios/paper_red_alone.yaml --steps 3 --engine best_first";
+  const std::string command = "propose_budget --scenario " + kLaunch +
+                              "scenarios/paper_red_alone.yaml --steps 3 --engine best_first";
   const Outcome outcome = run_program(command + " --deadline_ms 1000");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("engine best_first"));
@@ -193,6 +193,11 @@ TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
     EXPECT_EQ(run_program(command + " --deadline_ms " + bad).exit_code, 2) << bad;
   }
   EXPECT_EQ(run_program(command).exit_code, 2);
+  const Outcome profile = run_program(
+      "propose_budget " + kLaunch +
+      "scenarios/paper_red_alone.yaml --deadline_ms 9 --profile 2022 --engine branch_and_bound");
+  EXPECT_EQ(profile.exit_code, 2);
+  EXPECT_THAT(profile.output, HasSubstr("--engine = branch_and_bound with profile 2022, allowed"));
 }
 
 TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold) {
