@@ -543,6 +543,7 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
   const StepDeadlines& deadlines = options_.deadlines;
 
   exchange_.say(controller.observe(observation));
+  controller.warm_up();  // while the others' messages are on their way
   exchange_.wait_for<Traffic>(others(observation), until(deadlines.traffic));
   controller.couple(exchange_.heard<Traffic>());
 

@@ -21,6 +21,9 @@ constexpr double kBoundaryReserve_m = 0.4;
 /// Swept areas are rounded outwards on the way to the reachable area.
 constexpr double kReachRounding_m = 1e-5;
 
+/// Searches of so many expansions are repeated to warm up: a fraction of a millisecond.
+constexpr std::uint64_t kShortSearch = 1000;
+
 /// A route that the vehicle fits is better than any that it does not.
 constexpr double kFitsNot_m = 1e6;
 
@@ -142,6 +145,15 @@ void Controller::switch_to(std::shared_ptr<const Subgraph> next) {
   switch_to(prepare_subgraph(std::move(next), options_.horizon_steps, options_.search));
 }
 
+void Controller::warm_up() {
+  if (!former_problem_) return;
+  // After a switch its first trim may be one without a way out.
+  const bool leads_on = subgraph().distance_to_standstill(former_problem_->start_trim) <=
+                        former_problem_->horizon_steps();
+  if (leads_on) static_cast<void>(planner_->plan(*former_problem_));
+  former_problem_.reset();
+}
+
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
   const auto& states = step_.observation.states;
   const auto found = std::ranges::find(states, vehicle, &MeasuredVehicle::vehicle);
@@ -195,6 +207,11 @@ Traffic Controller::observe(const Observation& observation) {
   assert(has_plan());
   const StepIndex now = observation.step;
   former_heard_ = std::move(step_.heard);
+  former_problem_.reset();
+  if (!step_.problems.empty() && step_.report.expanded <= kShortSearch) {
+    former_problem_ = std::move(step_.problems.front());
+    former_problem_->incumbent.clear();  // of a plan that may be gone
+  }
   step_ = Step{};
   step_.observation = observation;
   step_.report = {.vehicle = options_.vehicle, .step = now};

@@ -115,6 +115,11 @@ class Controller {
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
   [[nodiscard]] Traffic observe(const Observation& observation);
+  /// Any time between the first phase and the third, at most once, by whoever waits for the others'
+  /// messages then: searches the former step's problem once more and forgets what is found, unless
+  /// that search was long. Changes nothing; but a processor that did other things since has in its
+  /// caches again what a search needs, which takes longer to fetch than most searches.
+  void warm_up();
   /// Second phase. `heard` may hold messages of other steps and senders: they are ignored.
   void couple(std::span<const Traffic> heard);
   /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
@@ -250,7 +255,8 @@ class Controller {
   std::map<VehicleId, StepIndex> last_not_standing_;
   bool drives_out_{false};
   Step step_;
-  std::map<VehicleId, Traffic> former_heard_;  ///< a step ago; only its memory is of use
+  std::map<VehicleId, Traffic> former_heard_;     ///< a step ago; only its memory is of use
+  std::optional<HorizonProblem> former_problem_;  ///< for `warm_up`; none if it is not worth it
 };
 
 }  // namespace hlc

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/automaton/subgraph_request.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 
 namespace hlc {
@@ -114,6 +115,33 @@ TEST(Controller, ThereIsNoIncumbentWhereThePlanIsMovedOntoTheVehicle) {
   static_cast<void>(step(*one, at(102, {beside})));
   ASSERT_FALSE(one->problems().empty());
   EXPECT_TRUE(one->problems().front().incumbent.empty());
+}
+
+// Nor after a switch: what was posed before may begin with a trim that is off now.
+TEST(Controller, WarmingUpChangesNothing) {
+  const auto cold = controller(1);
+  const auto warm = controller(1);
+  const auto slower =
+      requested_subgraph(cold->subgraph(), {.max_speed_mps = 0.4}, cold->options().horizon_steps);
+  for (const auto& one : {cold.get(), warm.get()}) {
+    static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  }
+  for (std::uint64_t k = 101; k < 121; ++k) {
+    if (k == 111) cold->switch_to(slower);
+    if (k == 111) warm->switch_to(slower);
+    const Report expected = step(*cold, at(k, {following(*cold, k)}));
+    static_cast<void>(warm->observe(at(k, {following(*warm, k)})));
+    warm->warm_up();
+    EXPECT_TRUE(warm->problems().empty());
+    warm->couple({});
+    static_cast<void>(warm->plan({}));
+    const Report report = warm->settle({}, {});
+    EXPECT_EQ(report.status, expected.status) << k;
+    EXPECT_EQ(report.cost_m2, expected.cost_m2) << k;
+    EXPECT_EQ(report.generated, expected.generated) << k;
+    EXPECT_EQ(report.expanded, expected.expanded) << k;
+    EXPECT_EQ(warm->plan_in_force().pose_at({k + 9}), cold->plan_in_force().pose_at({k + 9})) << k;
+  }
 }
 
 TEST(Controller, WithTheCostToGoOf2022ThereIsNoIncumbent) {
