@@ -159,7 +159,7 @@ TEST(OwnConversionRefuses, UnknownEnumerationValues) {
   report.reason(10);
   EXPECT_FALSE(from_wire(report).message.has_value());
   report.reason(0);
-  report.quality(3);
+  report.quality(4);
   EXPECT_FALSE(from_wire(report).message.has_value());
   RunStateMessage state;
   state.phase(2);
