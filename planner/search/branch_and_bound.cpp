@@ -93,7 +93,9 @@ class BranchAndBound::Core {
         path[k].doubts = &doubts_[k * blocks_of(tables.most_edges())];
       }
     }
-    const double gets_m = static_cast<double>(n) * tables.longest_m();
+    // As far as reference points may be from the start, if places seen from a vertex are to count.
+    const double far_m = tables.counted_m() - static_cast<double>(n) * tables.longest_m();
+    const double squared_far_m2 = far_m > 0.0 ? far_m * far_m : -1.0;
     plan.is_far = false;
     for (std::size_t j = 0; j < n; ++j) {
       reference_x_[j] = problem.reference_m[j].x();
@@ -102,7 +104,7 @@ class BranchAndBound::Core {
       const double dy_m = reference_y_[j] - problem.start.y_m;
       reference_dx_[j] = static_cast<float>(dx_m);
       reference_dy_[j] = static_cast<float>(dy_m);
-      plan.is_far |= std::hypot(dx_m, dy_m) + gets_m > tables.counted_m();
+      plan.is_far |= dx_m * dx_m + dy_m * dy_m > squared_far_m2;
     }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();

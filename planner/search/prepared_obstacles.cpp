@@ -14,7 +14,7 @@ static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v
 
 bool is_same(const ConvexPolygon& a, const ConvexPolygon& b) {
   const std::size_t size = a.vertices_m.size();
-  return size == b.vertices_m.size() &&
+  return size == b.vertices_m.size() && a.vertices_m.front() == b.vertices_m.front() &&
          std::memcmp(a.vertices_m.data(), b.vertices_m.data(), size * sizeof(Point)) == 0;
 }
 
