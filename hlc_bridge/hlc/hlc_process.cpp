@@ -16,6 +16,7 @@
 #include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/time/precedence.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/resident_memory.hpp"
 #include "hlc_bridge/time/thread_clock.hpp"
 #include "hlc_bridge/view/lab_map.hpp"
 
@@ -28,7 +29,8 @@ constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
 constexpr std::chrono::seconds kTwinStays{4};        // longer than a dead one's lease
 constexpr std::chrono::seconds kTwinStaysInLogicalTime{12};
-constexpr Nanoseconds kLateBegin = 2;     // steps after the trigger's time
+constexpr std::size_t kHeapReserve = std::size_t{4} << 20;  // a step's messages, problems and plans
+constexpr Nanoseconds kLateBegin = 2;                       // steps after the trigger's time
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 
 std::string joined(const std::set<std::string>& names) {
@@ -289,6 +291,8 @@ HlcProcess::Event HlcProcess::wait_for_event() {
 }
 
 void HlcProcess::prepare_thread() const {
+  make_code_resident();
+  reserve_heap(kHeapReserve);
   if (options_.thread_priority > 0 && !take_precedence(options_.thread_priority)) {
     spdlog::info("{}: no real-time priority (ulimit -r): others may interrupt a plan",
                  options_.node_id);
@@ -543,7 +547,7 @@ ReportRecord HlcProcess::run_step(const VehicleStateList& list, const Observatio
   const StepDeadlines& deadlines = options_.deadlines;
 
   exchange_.say(controller.observe(observation));
-  controller.warm_up();  // while the others' messages are on their way
+  static_cast<void>(controller.warm_up());  // while the others' messages are on their way
   exchange_.wait_for<Traffic>(others(observation), until(deadlines.traffic));
   controller.couple(exchange_.heard<Traffic>());
 

@@ -21,8 +21,26 @@ constexpr double kBoundaryReserve_m = 0.4;
 /// Swept areas are rounded outwards on the way to the reachable area.
 constexpr double kReachRounding_m = 1e-5;
 
-/// Searches of so many expansions are repeated to warm up: a fraction of a millisecond.
-constexpr std::uint64_t kShortSearch = 1000;
+/// A warm-up ends when the engine has asked so often whether to stop, every 64 expansions: after a
+/// fraction of a millisecond.
+constexpr int kWarmUpLooks = 16;
+
+/// What a problem becomes a step later, if everybody keeps to what was known: from where the
+/// vehicle will be, every step's reference and obstacles a step earlier, the last ones guessed.
+/// Without its incumbent, whose maneuvers may be gone.
+HorizonProblem one_step_later(HorizonProblem problem, const Traffic& own) {
+  problem.start = own.next_pose;
+  problem.start_trim = own.next_trim;
+  problem.incumbent.clear();
+  auto& reference_m = problem.reference_m;
+  if (reference_m.size() < 2) return problem;
+  reference_m.push_back(2.0 * reference_m.back() - reference_m[reference_m.size() - 2]);
+  reference_m.erase(reference_m.begin());
+  if (problem.obstacles_m.empty()) return problem;
+  std::ranges::rotate(problem.obstacles_m, problem.obstacles_m.begin() + 1);
+  problem.obstacles_m.back() = problem.obstacles_m[problem.obstacles_m.size() - 2];
+  return problem;
+}
 
 /// A route that the vehicle fits is better than any that it does not.
 constexpr double kFitsNot_m = 1e6;
@@ -145,13 +163,14 @@ void Controller::switch_to(std::shared_ptr<const Subgraph> next) {
   switch_to(prepare_subgraph(std::move(next), options_.horizon_steps, options_.search));
 }
 
-void Controller::warm_up() {
-  if (!former_problem_) return;
-  // After a switch its first trim may be one without a way out.
-  const bool leads_on = subgraph().distance_to_standstill(former_problem_->start_trim) <=
-                        former_problem_->horizon_steps();
-  if (leads_on) static_cast<void>(planner_->plan(*former_problem_));
+std::uint64_t Controller::warm_up() {
+  if (!former_problem_ && !path_s_m_) return 0;
+  const Traffic& own = step_.traffic;
+  const HorizonProblem problem = former_problem_ ? one_step_later(std::move(*former_problem_), own)
+                                                 : problem_alone(route().corridor);
   former_problem_.reset();
+  int looks = 0;
+  return planner_->plan(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
 }
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
@@ -208,10 +227,7 @@ Traffic Controller::observe(const Observation& observation) {
   const StepIndex now = observation.step;
   former_heard_ = std::move(step_.heard);
   former_problem_.reset();
-  if (!step_.problems.empty() && step_.report.expanded <= kShortSearch) {
-    former_problem_ = std::move(step_.problems.front());
-    former_problem_->incumbent.clear();  // of a plan that may be gone
-  }
+  if (!step_.problems.empty()) former_problem_ = std::move(step_.problems.front());
   step_ = Step{};
   step_.observation = observation;
   step_.report = {.vehicle = options_.vehicle, .step = now};

@@ -115,11 +115,12 @@ class Controller {
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
   [[nodiscard]] Traffic observe(const Observation& observation);
-  /// Any time between the first phase and the third, at most once, by whoever waits for the others'
-  /// messages then: searches the former step's problem once more and forgets what is found, unless
-  /// that search was long. Changes nothing; but a processor that did other things since has in its
-  /// caches again what a search needs, which takes longer to fetch than most searches.
-  void warm_up();
+  /// Any time between the first phase and the third, by whoever waits for the others' messages
+  /// then: searches what the former step's problem has become, as far as that is known without
+  /// them, and forgets what is found. Changes nothing; but a processor that did other things since
+  /// has in its caches again what a search needs, which takes longer to fetch than most searches.
+  /// Ends after 1024 expansions. Returns how many there were.
+  std::uint64_t warm_up();
   /// Second phase. `heard` may hold messages of other steps and senders: they are ignored.
   void couple(std::span<const Traffic> heard);
   /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
@@ -256,7 +257,7 @@ class Controller {
   bool drives_out_{false};
   Step step_;
   std::map<VehicleId, Traffic> former_heard_;     ///< a step ago; only its memory is of use
-  std::optional<HorizonProblem> former_problem_;  ///< for `warm_up`; none if it is not worth it
+  std::optional<HorizonProblem> former_problem_;  ///< for `warm_up`
 };
 
 }  // namespace hlc

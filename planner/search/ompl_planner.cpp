@@ -7,6 +7,7 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include <charconv>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -30,7 +31,8 @@ class OmplHorizonPlanner final : public HorizonPlanner {
     planner_.setup();
   }
 
-  SearchResult plan(const HorizonProblem& problem) override {
+  using HorizonPlanner::plan;
+  SearchResult plan(const HorizonProblem& problem, const std::function<bool()>& stop) override {
     if (definition_) {
       definition_->pose(problem);
       planner_.clear();
@@ -38,7 +40,7 @@ class OmplHorizonPlanner final : public HorizonPlanner {
       definition_ = std::make_shared<HorizonProblemDefinition>(si_, subgraph_, problem);
       planner_.setProblemDefinition(definition_);
     }
-    planner_.solve(ob::plannerNonTerminatingCondition());
+    planner_.solve(ob::PlannerTerminationCondition(stop));
     // The definition still refers to `problem`: nobody may ask it before it poses the next one.
     return planner_.take_result();
   }

@@ -1,19 +1,24 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "planner/search/horizon_problem.hpp"
+#include "planner/search/search_engine.hpp"
 
 namespace hlc {
-
-struct SearchTables;
 
 /// What the controller plans with: one call per plan. The implementation plans through an
 /// `ompl::base::Planner`; no OMPL name shows here. Not safe for two threads at once.
 class HorizonPlanner {
  public:
   virtual ~HorizonPlanner() = default;
-  [[nodiscard]] virtual SearchResult plan(const HorizonProblem& problem) = 0;
+  /// @param stop  as for SearchEngine::search
+  [[nodiscard]] virtual SearchResult plan(const HorizonProblem& problem,
+                                          const std::function<bool()>& stop) = 0;
+  [[nodiscard]] SearchResult plan(const HorizonProblem& problem) {
+    return plan(problem, never_stop);
+  }
 };
 
 /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon

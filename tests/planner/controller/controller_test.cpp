@@ -117,7 +117,7 @@ TEST(Controller, ThereIsNoIncumbentWhereThePlanIsMovedOntoTheVehicle) {
   EXPECT_TRUE(one->problems().front().incumbent.empty());
 }
 
-// Nor after a switch: what was posed before may begin with a trim that is off now.
+// Nor after a switch, when the vehicle may drive with a trim that is off now.
 TEST(Controller, WarmingUpChangesNothing) {
   const auto cold = controller(1);
   const auto warm = controller(1);
@@ -131,7 +131,9 @@ TEST(Controller, WarmingUpChangesNothing) {
     if (k == 111) warm->switch_to(slower);
     const Report expected = step(*cold, at(k, {following(*cold, k)}));
     static_cast<void>(warm->observe(at(k, {following(*warm, k)})));
-    warm->warm_up();
+    const std::uint64_t expanded = warm->warm_up();
+    const bool has_way_out = k < 111;
+    EXPECT_GE(expanded, has_way_out ? warm->options().horizon_steps : 0U) << k;
     EXPECT_TRUE(warm->problems().empty());
     warm->couple({});
     static_cast<void>(warm->plan({}));
@@ -142,6 +144,18 @@ TEST(Controller, WarmingUpChangesNothing) {
     EXPECT_EQ(report.expanded, expected.expanded) << k;
     EXPECT_EQ(warm->plan_in_force().pose_at({k + 9}), cold->plan_in_force().pose_at({k + 9})) << k;
   }
+}
+
+TEST(Controller, WarmingUpEndsWhereASearchIsLong) {
+  ControllerOptions options{.vehicle = {1}, .horizon_steps = 12};
+  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::kStraightLine};
+  // The way the car does not point: it has to turn.
+  Controller one(options, subgraph(), ReferencePath({Point(10.0, 0.0), Point(-10.0, 0.0)}, false),
+                 Corridor{});
+  static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  EXPECT_GT(step(one, at(101, {following(one, 101)})).expanded, 2000U);
+  static_cast<void>(one.observe(at(102, {following(one, 102)})));
+  EXPECT_EQ(one.warm_up(), 1024U);
 }
 
 TEST(Controller, WithTheCostToGoOf2022ThereIsNoIncumbent) {
