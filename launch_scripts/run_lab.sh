@@ -267,14 +267,17 @@ for pid in "${children[@]}"; do
   child=$?
   ((code != 0 || child == 0)) || code=$child
 done
-# The first that failed says why: the others may only have missed it.
-[[ ! -s $out/logs/failures ]] || read -r code _ <"$out/logs/failures"
+# The first that failed says why: the others may only have missed it. Any failure is worse than 1, a good
+# run of which something was not written.
+if [[ -s $out/logs/failures ]]; then
+  read -r code _ < <(grep -v '^1 ' "$out/logs/failures" || cat "$out/logs/failures")
+fi
 ((code <= 130)) || code=4 # killed or crashed
 ((code == 0)) || cat "$out/logs/vehicles.log" >&2
 
 if [[ -s $out/reports.csv ]]; then
   summarize
   summarized=$?
-  ((code != 0)) || code=$summarized
+  ((code > 1 || summarized == 0)) || code=$summarized
 fi
 exit "$code"

@@ -500,13 +500,15 @@ void HlcProcess::tell_begin(const VehicleStateList& list,
   spdlog::info("{}: joins the experiment, which runs", options_.node_id);
 }
 
+/// A budget once in a run: where one is too small now and then, the table says how often.
 void HlcProcess::tell_if_stuck(const Report& report) {
-  const bool is_stuck =
-      report.reason == FallbackReason::kOffRoute || report.reason == FallbackReason::kBudget;
-  if (is_stuck && told_stuck_ != report.reason) {
+  const bool is_off_route = report.reason == FallbackReason::kOffRoute;
+  const bool has_used_up_budget = report.reason == FallbackReason::kBudget;
+  if ((is_off_route && !told_off_route_) || (has_used_up_budget && !told_budget_)) {
     spdlog::error("{}: {}", options_.node_id, stuck_line(core_.controller(), report.reason));
   }
-  told_stuck_ = is_stuck ? report.reason : FallbackReason::kNone;
+  told_off_route_ = is_off_route;
+  told_budget_ = told_budget_ || has_used_up_budget;
 }
 
 void HlcProcess::look_back() {

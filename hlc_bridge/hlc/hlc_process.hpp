@@ -195,7 +195,8 @@ class HlcProcess {
   std::string last_fault_;           ///< of the last answer: told once, not every step
   std::optional<bool> told_placed_;  ///< whether the vehicle fits, as was told last
   std::string after_step_fault_;     ///< of the one call of `after_step` that failed
-  FallbackReason told_stuck_{FallbackReason::kNone};
+  bool told_off_route_{false};
+  bool told_budget_{false};
   std::chrono::steady_clock::time_point next_ready_at_{};
 
   // Readers last: their callbacks use everything above, and they end first.

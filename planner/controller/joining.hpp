@@ -34,7 +34,7 @@ namespace hlc {
 /// ever.
 struct Joining {
   bool is_possible{true};
-  bool is_certain{true};         ///< no search used up its budget: if impossible, then surely
+  bool is_certain{true};         ///< if it is impossible: no search used up its budget
   std::optional<Corridor> area;  ///< none: the plain corridor
 };
 
@@ -44,7 +44,7 @@ inline constexpr double kJoiningAhead_m = 0.8;
 /// @param start         standing; its `placement` on the route
 /// @param reach_m       the farthest that can be driven in the horizon from there
 /// @param pose_problem  the search problem from there in a corridor, without other vehicles
-/// @param search        called one to six times
+/// @param search        called up to six times
 [[nodiscard]] Joining join(const DrivableRoute& route, const Placement& placement,
                            const Pose& start, double reach_m, const Footprint& footprint,
                            const std::function<HorizonProblem(const Corridor&)>& pose_problem,

@@ -18,7 +18,9 @@ enum class StepStatus : std::uint8_t {
 enum class FallbackReason : std::uint8_t {
   kNone,
   kInfeasible,  ///< the search found that no plan exists
-  kBudget,      ///< the search used up its expansions
+  /// The search used up its expansions before it found a plan; or, of a vehicle that stands, one
+  /// that looked for a way into its lanes (joining.hpp) did so when it set out.
+  kBudget,
   kMissing,     ///< a coupled vehicle said nothing and its reachable set leaves no room
   kConflict,    ///< the new plan meets another vehicle's new or running plan
   kNeighbour,   ///< settle rule `agreed`: a vehicle of the same component fell back

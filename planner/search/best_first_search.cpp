@@ -64,6 +64,11 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
   const bool has_incumbent = write_incumbent(problem, result);
   const bool is_admissible = options_.cost_to_go != CostToGo::k2022;
   const double least_cost = static_cast<double>(n) * costs_.least();
+  const auto bound_of_start = [&] {  // which no path beats, whatever orders the search
+    const CostToGoFunction reachable(subgraph_, reachable_, problem, CostToGo::kReachable);
+    return reachable(problem.start_trim, 0, to_frame(problem.start)) +
+           costs_.to_go(problem.start_trim, n) + least_cost;
+  };
 
   vertices_.clear();
   vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
@@ -78,15 +83,16 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       if (!has_incumbent || cost_of(taken.vertex, n) < result.cost) {
         write_path(taken.vertex, problem, result);
       }
-      result.status = is_admissible ? SearchStatus::kOptimal : SearchStatus::kUnproven;
+      result.lower_bound = is_admissible ? result.cost : std::min(bound_of_start(), result.cost);
+      const bool is_proven = result.lower_bound == result.cost;
+      result.status = is_proven ? SearchStatus::kOptimal : SearchStatus::kUnproven;
       result.reason = NoPath::kNone;
-      result.lower_bound = is_admissible ? result.cost : least_cost;
       break;
     }
     const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
       // Every other entry of the open list has no smaller f.
-      const double bound = is_admissible ? taken.cost_estimate + least_cost : least_cost;
+      const double bound = is_admissible ? taken.cost_estimate + least_cost : bound_of_start();
       give_up(has_incumbent, bound, result);
       break;
     }

@@ -78,7 +78,7 @@ enum class SearchStatus {
   kOptimal,   ///< a path of least cost
   kBudget,    ///< gave up (max_expansions reached, or told to stop) with the best path so far
   kFallback,  ///< no path, see `reason`: the plan in force is to be driven on
-  kUnproven,  ///< the first path found with CostToGo::k2022, which is inadmissible
+  kUnproven,  ///< a path found with CostToGo::k2022, which is inadmissible: a better one may exist
 };
 
 /// Why there is no path.

@@ -150,6 +150,23 @@ TEST_F(Scripts, AFolderForProblemsThatIsNotGoodIsRefusedBeforeAnythingStarts) {
   }
 }
 
+// The folder goes while the run is under way.
+TEST_F(Scripts, ProblemsThatCouldNotBeWrittenAreAFailureButHideNone) {
+  const std::vector<std::pair<std::string, int>> expected{{"1", 1}, {"0.9", 5}};
+  for (const auto& [gains_scale, code] : expected) {
+    SCOPED_TRACE("gains " + gains_scale);
+    const std::filesystem::path problems = folder_ / ("problems_" + gains_scale);
+    ChildProcess run = run_lab({"--steps", "15", "--simulated_time", "false", "--gains_scale",
+                                gains_scale, "--dump-problems", problems.string(), "--out",
+                                (folder_ / ("run_" + gains_scale)).string()});
+    ASSERT_TRUE(eventually(60s, [&] {
+      return std::filesystem::exists(problems) && !std::filesystem::is_empty(problems);
+    })) << output();
+    std::filesystem::rename(problems, problems.string() + "_elsewhere");
+    EXPECT_EQ(run.wait_for(120s), code) << output();
+  }
+}
+
 TEST_F(Scripts, AVehicleRefusesAFolderForProblemsThatCannotBeMade) {
   for (const std::string problems : {"", "/dev/null", "/proc/problems"}) {
     ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario",
