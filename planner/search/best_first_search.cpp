@@ -2,6 +2,7 @@
 
 #include <ompl/datastructures/BinaryHeap.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
