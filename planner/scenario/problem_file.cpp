@@ -18,8 +18,6 @@ namespace {
 /// A vertex of a polygon may lie this far inside the line of its neighbours: rounding.
 constexpr double kConvexTolerance_m = 1e-9;
 constexpr double kSmallestArea_m2 = 1e-12;
-/// Neighbours of such a number are 1e-10 apart, and so are its sine's and cosine's.
-constexpr double kLargestHeading_rad = 1e6;
 
 // ---- writing
 
@@ -62,7 +60,9 @@ double read_coordinate(const JsonPlace& place) {
 
 double read_heading(const JsonPlace& place) {
   const double value_rad = place.number();
-  if (std::abs(value_rad) > kLargestHeading_rad) place.fail("numbers from -1e6 to 1e6");
+  if (std::abs(value_rad) > HorizonProblem::kLargestHeading_rad) {
+    place.fail("numbers from -1e6 to 1e6");
+  }
   return value_rad;
 }
 

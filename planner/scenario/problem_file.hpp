@@ -23,8 +23,7 @@ struct ProblemFile {
 inline constexpr std::size_t kMaxProblemSteps = 64;
 
 /// The file's text: a JSON object with these keys, in m, s, rad and the road's frame. Trims are
-/// numbered from 1. Coordinates are from -1e9 to 1e9, psi from -1e6 to 1e6: of larger angles a
-/// double does not hold the direction to 1e-9 any more.
+/// numbered from 1. Coordinates are from -1e9 to 1e9, psi from -1e6 to 1e6: see HorizonProblem.
 ///
 ///     automaton        file of an automaton or of a configuration; a relative path starts beside
 ///                      the JSON file

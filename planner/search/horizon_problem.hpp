@@ -17,9 +17,11 @@ namespace hlc {
 ///
 /// with p_j the position after step j and r_j the reference point of that step (paper, Section 4);
 /// with SearchOptions::criterion_weights the maneuvers' own criteria, too (edge_costs.hpp).
-/// Coordinates are at most kLargest_m.
+/// Coordinates are at most kLargest_m, the start's heading is at most kLargestHeading_rad.
 struct HorizonProblem {
   static constexpr double kLargest_m = 1e9;
+  /// Neighbouring doubles are at most 1.2e-10 apart up to here, and ever farther beyond.
+  static constexpr double kLargestHeading_rad = 1e6;
 
   Pose start;
   TrimId start_trim;

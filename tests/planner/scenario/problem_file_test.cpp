@@ -307,8 +307,9 @@ TEST_F(ProblemFileTest, AnAutomatonThatIsNoneIsNamedWithTheKey) {
   }
 }
 
-TEST_F(ProblemFileTest, AHeadingIsLimitedToWhatADoubleHolds) {
+TEST_F(ProblemFileTest, AHeadingIsLimitedLikeTheProblemsOwn) {
   EXPECT_EQ(error_with("\"psi\": 0", "\"psi\": -1e6"), "");
+  EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1000000.1"), EndsWith("from -1e6 to 1e6"));
   EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1e17"),
               HasSubstr("start.psi = 1e+17, allowed numbers from -1e6 to 1e6"));
 }
