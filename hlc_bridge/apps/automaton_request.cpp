@@ -335,7 +335,7 @@ int main(int argc, char** argv) {
                "automaton_request"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   return hlc::run_program(
       "automaton_request", signals,
       [&] {

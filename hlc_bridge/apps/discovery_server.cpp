@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Tells the participants of the lab domain of each other.", "discovery_server"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   return hlc::run_program(
       "discovery_server", signals, [&] { return make_server(flags); },
       [](Server& server) { server.stop(); });

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/core/planned_motion.hpp"
 #include "hlc_bridge/core/run_description.hpp"
 #include "hlc_bridge/record/commonroad_file.hpp"
@@ -101,14 +102,11 @@ int main(int argc, char** argv) {
       option->needs("--scenario");
     }
   }
-  app.footer("Exit codes: 0 good, 2 bad input.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  try {
+  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  const auto write = [&] {
     hlc::check_output_files({out}, {run / "run.json", run / "reports.csv"});
     hlc::write_file(*out.file, export_run(run, choices));
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "export_commonroad: " << error.what() << '\n';
-    return 2;
-  }
+  };
+  return hlc::exit_code_of("export_commonroad", write, hlc::kExitBadInput);
 }

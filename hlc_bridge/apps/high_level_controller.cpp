@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
                "high_level_controller"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   const std::string program = "high_level_controller";
   std::optional<hlc::Scenario> scenario;
   const int code = hlc::exit_code_of(program.c_str(), [&] {

@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
                hlc::kLabControlName};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) {
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
   return hlc::run_program(

@@ -38,7 +38,9 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->check(hlc::within(0.5, 600.0));
   flags.network.declare_network(app);
-  app.footer("Exit codes: 0 nothing is bad, 1 something is bad, 2 bad input.");
+  app.footer(
+      "Exit codes: 0 nothing is bad, 1 something is bad, 2 bad input or an output that cannot be "
+      "written.");
 }
 
 hlc::ListenOptions listen_options(const Flags& flags) {
@@ -79,7 +81,7 @@ int main(int argc, char** argv) {
                "lab_doctor"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   std::atomic<bool> stop{false};
   bool is_good = true;
   const int code = hlc::exit_code_of("lab_doctor", [&] {

@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
                "middleware"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) {
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
   return hlc::run_program(

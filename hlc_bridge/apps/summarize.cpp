@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 good, 2 bad input or an output that cannot be written, 5 driven, but a "
       "vehicle left its plan or touched another "
       "one.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) {
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
   return hlc::exit_code_of(

@@ -52,9 +52,9 @@ inline void flush_standard_output() {
                            (reason == 0 ? "" : ": " + std::generic_category().message(reason)));
 }
 
-/// Nothing if the flags are good; else the exit code, after the help or one line about the bad
-/// flag.
-inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
+/// Nothing if the flags are good; else the exit code: 0 after the help, 2 after one line about the
+/// bad flag, `failed`, as exit_code_of has it, after one line about a help that is not out.
+inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int failed = 1) {
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -65,7 +65,7 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv) {
       return code;
     } catch (const std::runtime_error& error) {
       complain(app.get_name(), error.what());
-      return 2;
+      return failed;
     }
   } catch (const CLI::ExtrasError& error) {
     complain(app.get_name(), std::string(error.what()) + ", allowed what --help lists");

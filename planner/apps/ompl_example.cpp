@@ -320,7 +320,7 @@ int main(int argc, char** argv) {
                "ompl_example"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::exit_code_of(
       "ompl_example", [&flags] { return run(flags); }, kExitFailed);
 }

@@ -187,7 +187,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Solves one planning problem from a file.", "plan_problem"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::exit_code_of(
       "plan_problem", [&flags] { return run(flags); }, kExitFailed);
 }

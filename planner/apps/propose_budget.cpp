@@ -224,7 +224,7 @@ int main(int argc, char** argv) {
       "propose_budget"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::exit_code_of(
       "propose_budget", [&flags] { return run(flags); }, kExitFailed);
 }

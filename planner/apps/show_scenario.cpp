@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   app.add_flag("--print_policy", policy, "print only the name of the policy that holds, or none");
   hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
   app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};
     if (choices.map_file) inputs.push_back(*choices.map_file);

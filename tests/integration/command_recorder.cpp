@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Writes every trajectory command of the lab domain to a file.", "command_recorder"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitDied)) return *code;
   return hlc::run_program(
       "command_recorder", signals, [&] { return std::make_shared<Recorder>(flags); },
       [](Recorder& recorder) { recorder.stop(); });

@@ -232,7 +232,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
       "input, 3 a record, table, figure or what is printed cannot be written; what is there "
       "stays.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
   // A run that fails is recorded: what else goes wrong is an output.
   return hlc::exit_code_of(

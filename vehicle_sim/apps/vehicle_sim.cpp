@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
                "vehicle_sim"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   return hlc::run_program(
       "vehicle_sim", signals,
       [&] { return std::make_shared<hlc::VehicleProcess>(process_options(flags)); },

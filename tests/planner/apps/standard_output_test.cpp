@@ -32,7 +32,8 @@ TEST(StandardOutput, WhatIsPrintedOnAFullDeviceIsAFailureInOneLine) {
       {"rollout --steps 2 --scenario " + kScenario, 2},
       {"show_scenario --scenario " + kScenario, 2},
       {"show_scenario --starts --scenario " + kScenario, 2},
-      {"generate_map --out " + (folder / "map.xml").string(), 1}};
+      {"generate_map --out " + (folder / "map.xml").string(), 1},
+      {"generate_map --help", 1}};
   for (const auto& [command, exit_code] : cases) {
     const test::Outcome outcome = test::run_program(command + " >/dev/full 2>" + errors +
                                                     "; code=$?; cat " + errors + "; exit $code");

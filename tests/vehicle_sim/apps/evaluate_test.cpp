@@ -436,5 +436,10 @@ TEST_F(Evaluate, WhatIsPrintedOnAFullDeviceIsAnOutputThatCannotBeWritten) {
   EXPECT_EQ(results()["runs"].size(), 4U) << "what is written stays";
 }
 
+TEST(Help, OnAFullDeviceEndsWithTheProgramsOwnFailureCode) {
+  EXPECT_EQ(run_program("evaluate --help >/dev/full 2>&1").exit_code, 3);
+  EXPECT_EQ(run_program("export_commonroad --help >/dev/full 2>&1").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace hlc::test
