@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 /// Whoever prints or frees a value goes into it as deep as it is.
-constexpr int kDeepest = 100;
+constexpr std::size_t kDeepest = 100;
 constexpr std::size_t kLongestReason = 200;
 constexpr char kJson[] = ", allowed one JSON object (RFC 8259)";
 
@@ -27,6 +27,10 @@ std::string joined(const std::string& place, const std::string& key) {
   return (place.empty() ? "" : place + ".") + one_line(key);
 }
 
+std::string entry_of(const std::string& place, std::size_t index) {
+  return place + "[" + std::to_string(index) + "]";
+}
+
 /// "[json.exception.parse_error.101] parse error at line 3, column 1: ..." without the brackets.
 std::string reason_of(const json::exception& error) {
   const std::string text = error.what();
@@ -34,11 +38,27 @@ std::string reason_of(const json::exception& error) {
   return one_line(end == std::string::npos ? text : text.substr(end + 2), kLongestReason);
 }
 
-/// An object that is being read.
-struct OpenObject {
-  std::set<std::string> keys;
-  std::string last_key;
+/// An object or a list that is being read.
+struct Open {
+  bool is_list{};
+  std::size_t entry{};         ///< of a list: the one that comes next, or is open
+  std::set<std::string> keys;  ///< of an object
+  std::string last_key;        ///< of an object
 };
+
+/// "incumbent[1].trim": where the next value stands.
+std::string place_of(const std::vector<Open>& opened) {
+  std::string place;
+  for (const Open& one : opened) {
+    place = one.is_list ? entry_of(place, one.entry) : joined(place, one.last_key);
+  }
+  return place;
+}
+
+/// A value is complete: in a list, the next one comes.
+void count_entry(std::vector<Open>& opened) {
+  if (!opened.empty() && opened.back().is_list) ++opened.back().entry;
+}
 
 /// "line 3: " of a number that no double holds, one character behind which the parser has stopped;
 /// empty if the stream cannot go back.
@@ -52,9 +72,7 @@ std::string line_of_number(std::istream& stream) {
 }
 
 /// "start.x = 1e999": of the number, the parser's own words are "number overflow parsing '1e999'".
-std::string number_at(const std::vector<OpenObject>& objects, const std::string& reason) {
-  std::string place;
-  for (const OpenObject& object : objects) place = joined(place, object.last_key);
+std::string number_at(const std::string& place, const std::string& reason) {
   const std::size_t begin = reason.find('\'') + 1;
   return (place.empty() ? "a number" : place) + " = " +
          one_line(reason.substr(begin, reason.rfind('\'') - begin));
@@ -112,7 +130,7 @@ std::vector<JsonPlace> JsonPlace::list(const std::string& allowed,
   std::vector<JsonPlace> places;
   places.reserve(value_->size());
   for (std::size_t i = 0; i < value_->size(); ++i) {
-    places.emplace_back(*file_, place_ + "[" + std::to_string(i) + "]", (*value_)[i]);
+    places.emplace_back(*file_, entry_of(place_, i), (*value_)[i]);
   }
   return places;
 }
@@ -152,20 +170,36 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   if (!stream || std::filesystem::is_directory(path)) {
     throw std::invalid_argument(path.string() + ": cannot be read, allowed a JSON file");
   }
-  std::vector<OpenObject> objects;
-  const auto check = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kDeepest) {
-      throw std::invalid_argument(path.string() + ": lists or objects within each other" +
-                                  ", allowed " + std::to_string(kDeepest) + " at most");
+  std::vector<Open> opened;
+  const auto open = [&](bool is_list) {
+    if (opened.size() == kDeepest) {
+      throw std::invalid_argument(
+          path.string() + ": " + one_line(place_of(opened), kLongestReason) +
+          ": lists or objects within each other, allowed " + std::to_string(kDeepest) + " at most");
     }
-    if (event == json::parse_event_t::object_start) objects.emplace_back();
-    if (event == json::parse_event_t::object_end) objects.pop_back();
-    if (event == json::parse_event_t::key) {
-      objects.back().last_key = parsed.get<std::string>();
-      if (!objects.back().keys.insert(objects.back().last_key).second) {
-        throw std::invalid_argument(path.string() + ": key " + one_line(objects.back().last_key) +
-                                    " stands twice in one object, allowed once");
-      }
+    opened.push_back({.is_list = is_list, .entry = 0, .keys = {}, .last_key = {}});
+  };
+  const auto check = [&](int, json::parse_event_t event, json& parsed) {
+    switch (event) {
+      case json::parse_event_t::object_start:
+      case json::parse_event_t::array_start:
+        open(event == json::parse_event_t::array_start);
+        break;
+      case json::parse_event_t::object_end:
+      case json::parse_event_t::array_end:
+        opened.pop_back();
+        count_entry(opened);
+        break;
+      case json::parse_event_t::key:
+        opened.back().last_key = parsed.get<std::string>();
+        if (!opened.back().keys.insert(opened.back().last_key).second) {
+          throw std::invalid_argument(path.string() + ": key " + place_of(opened) +
+                                      " stands twice in one object, allowed once");
+        }
+        break;
+      case json::parse_event_t::value:
+        count_entry(opened);
+        break;
     }
     return true;
   };
@@ -173,7 +207,8 @@ nlohmann::json read_json(const std::filesystem::path& path) {
     return json::parse(stream, check);
   } catch (const json::out_of_range& error) {
     throw std::invalid_argument(path.string() + ": " + line_of_number(stream) +
-                                number_at(objects, error.what()) + ", allowed a finite number");
+                                number_at(place_of(opened), error.what()) +
+                                ", allowed a finite number");
   } catch (const json::exception& error) {
     throw std::invalid_argument(path.string() + ": " + reason_of(error) + kJson);
   }

@@ -48,7 +48,8 @@ class JsonPlace {
 };
 
 /// @throws std::invalid_argument with one line naming the file, and line and column if it is no
-/// JSON; a key that stands twice in an object is refused
+/// JSON, the place of a number that no double holds, of a key that stands twice in an object or of
+/// too many lists and objects within each other
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path);
 
 }  // namespace hlc

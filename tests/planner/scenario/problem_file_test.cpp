@@ -205,7 +205,12 @@ TEST_F(ProblemFileTest, ErrorsNamePlaceValueAndWhatIsAllowed) {
   EXPECT_THAT(error_with(R"("subgraph": "B")", R"("subgraph": "Z")"),
               HasSubstr(R"(subgraph = "Z", allowed B)"));
   EXPECT_THAT(error_with(R"("corridor")", R"("subgraph": "B", "corridor")"),
-              HasSubstr("key subgraph stands twice"));
+              HasSubstr("problem.json: key subgraph stands twice"));
+  EXPECT_THAT(error_with("\"psi\": 0", R"("psi": 0, "x": 1)"),
+              HasSubstr("problem.json: key start.x stands twice"));
+  EXPECT_THAT(
+      error_with("\"corridor\"", R"("incumbent": [{}, {"trim": 1, "trim": 2}], "corridor")"),
+      HasSubstr("problem.json: key incumbent[1].trim stands twice"));
   EXPECT_THAT(error_with(R"("corridor")", R"("search": {"engine": "fast"}, "corridor")"),
               HasSubstr(R"(search.engine = "fast", allowed branch_and_bound, best_first)"));
   EXPECT_THAT(error_with(R"("corridor")", R"("search": {"max_expansions": 0}, "corridor")"),
@@ -275,9 +280,18 @@ TEST_F(ProblemFileTest, ANumberThatNoDoubleHoldsIsNamedWithItsPlace) {
               EndsWith("problem.json: line 6: start.y = 1e999" + allowed));
   EXPECT_THAT(error_with("\"step_s\": 0.2", "\"step_s\": -1e999\n"),
               EndsWith("problem.json: line 5: step_s = -1e999" + allowed));
+  EXPECT_THAT(error_with("[1.32, 2]", "[" + std::string(2'000'000, '9') + ", 2]"),
+              EndsWith("problem.json: line 7: reference[1][0] = " + std::string(60, '9') + "..." +
+                       allowed));
+  EXPECT_THAT(error_with("[4, 4]", "[4, 1e999]"),
+              EndsWith("problem.json: line 9: obstacles[2][0][2][1] = 1e999" + allowed));
   EXPECT_THAT(
-      error_with("[1.32, 2]", "[" + std::string(2'000'000, '9') + ", 2]"),
-      EndsWith("problem.json: line 7: reference = " + std::string(60, '9') + "..." + allowed));
+      error_with("\"corridor\"",
+                 R"("incumbent": [{"trim": 1, "label": "J2"}, {"trim": 1e999}], "corridor")"),
+      EndsWith("problem.json: line 10: incumbent[1].trim = 1e999" + allowed));
+  EXPECT_THAT(error_of("[[], {}, 0, [1], 1e999]"),
+              EndsWith("problem.json: line 1: [4] = 1e999" + allowed));
+  EXPECT_THAT(error_of("1e999"), EndsWith("problem.json: line 1: a number = 1e999" + allowed));
 }
 
 TEST_F(ProblemFileTest, KeysAndValuesWithControlCharactersStayInOneLine) {
@@ -289,7 +303,12 @@ TEST_F(ProblemFileTest, KeysAndValuesWithControlCharactersStayInOneLine) {
 
 TEST_F(ProblemFileTest, ListsWithinListsWithinListsAreRefused) {
   const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
-  EXPECT_THAT(error_with("\"B\"", deep), HasSubstr("within each other, allowed 100 at most"));
+  EXPECT_THAT(error_with("\"B\"", deep),
+              AllOf(HasSubstr("problem.json: subgraph[0][0]"),
+                    HasSubstr("[0]...: lists or objects within each other, allowed 100 at most")));
+  const auto lists = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
+  EXPECT_THAT(error_of(lists(101)), HasSubstr("problem.json: [0][0]"));
+  EXPECT_THAT(error_of(lists(100)), HasSubstr(", allowed an object"));
 }
 
 TEST_F(ProblemFileTest, AnAutomatonThatIsNoneIsNamedWithTheKey) {
