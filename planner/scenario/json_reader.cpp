@@ -19,10 +19,6 @@ constexpr std::size_t kDeepest = 100;
 constexpr std::size_t kLongestReason = 200;
 constexpr char kJson[] = ", allowed one JSON object (RFC 8259)";
 
-std::string shown(const json& value) {
-  return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace));
-}
-
 std::string joined(const std::string& place, const std::string& key) {
   return (place.empty() ? "" : place + ".") + one_line(key);
 }
@@ -80,11 +76,17 @@ std::string number_at(const std::string& place, const std::string& reason) {
 
 }  // namespace
 
-void JsonPlace::fail(const std::string& allowed) const { refuse(", allowed " + allowed); }
+std::string JsonPlace::shown() const {
+  return *file_ + ": " + (place_.empty() ? "the whole" : place_) + " = " +
+         one_line(value_->dump(-1, ' ', false, json::error_handler_t::replace));
+}
 
-void JsonPlace::refuse(const std::string& reason) const {
-  throw std::invalid_argument(*file_ + ": " + (place_.empty() ? "the whole" : place_) + " = " +
-                              shown(*value_) + reason);
+void JsonPlace::fail(const std::string& allowed) const {
+  throw std::invalid_argument(shown() + ", allowed " + allowed);
+}
+
+void JsonPlace::fail_because(const std::string& reason) const {
+  throw std::invalid_argument(shown() + ": " + reason);
 }
 
 std::optional<JsonPlace> JsonPlace::find(const std::string& key) const {

@@ -20,9 +20,9 @@ class JsonPlace {
 
   /// @throws std::invalid_argument
   [[noreturn]] void fail(const std::string& allowed) const;
-  /// The same with the whole of what follows the value.
+  /// The same with a reason instead of what is allowed: "problem.json: automaton = "a.yaml": ...".
   /// @throws std::invalid_argument
-  [[noreturn]] void refuse(const std::string& reason) const;
+  [[noreturn]] void fail_because(const std::string& reason) const;
 
   /// @throws as fail if there is no such key, or this is no object
   [[nodiscard]] JsonPlace at(const std::string& key, const std::string& allowed) const;
@@ -42,6 +42,9 @@ class JsonPlace {
   [[nodiscard]] bool truth() const;
 
  private:
+  /// "problem.json: start.psi = "north"".
+  [[nodiscard]] std::string shown() const;
+
   const std::string* file_;
   std::string place_;
   const nlohmann::json* value_;

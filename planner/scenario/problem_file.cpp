@@ -335,21 +335,27 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
   check_keys(root);
   const std::filesystem::path automaton =
       automaton_file ? *automaton_file : automaton_of(root, path);
-  const JsonPlace subgraph = root.at("subgraph", "the name of a subgraph of the automaton");
-  bool is_automaton = false;
+  const std::string allowed = "the name of a subgraph of the automaton";
+  const JsonPlace subgraph = root.at("subgraph", allowed);
+  const std::string wanted = subgraph.text(allowed);
+  bool is_unknown = false;
   const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
-    is_automaton = true;
-    const SubgraphSpec* spec =
-        find_subgraph(offered, subgraph.text("the name of a subgraph of the automaton"));
-    if (spec == nullptr) subgraph.fail(names_of(offered));
+    const SubgraphSpec* spec = find_subgraph(offered, wanted);
+    is_unknown = spec == nullptr;
+    if (is_unknown) subgraph.fail(names_of(offered));
     return *spec;
   };
-  try {
-    return read_rest(root, automaton, read_subgraph(automaton, choose));
-  } catch (const std::invalid_argument& error) {
-    if (is_automaton || automaton_file) throw;
-    root.at("automaton", "").refuse(std::string(": ") + error.what());
-  }
+  const auto read = [&] {
+    try {
+      return read_subgraph(automaton, choose);
+    } catch (const std::invalid_argument& error) {
+      if (is_unknown) throw;  // names the problem's file
+      if (!automaton_file) root.at("automaton", "").fail_because(error.what());
+      throw std::invalid_argument(name + ": with the automaton of " + automaton.string() + ": " +
+                                  error.what());
+    }
+  };
+  return read_rest(root, automaton, read());
 }
 
 ProblemFile read_problem_file(const std::filesystem::path& path,

@@ -326,6 +326,31 @@ TEST_F(ProblemFileTest, AnAutomatonThatIsNoneIsNamedWithTheKey) {
   }
 }
 
+TEST_F(ProblemFileTest, ASubgraphThatItsAutomatonDoesNotCarryIsNamedWithTheFile) {
+  std::ifstream good(kAutomaton);
+  std::string text((std::istreambuf_iterator<char>(good)), {});
+  const std::string all = "label: J2, trims: all";
+  ASSERT_NE(text.find(all), std::string::npos);
+  // J1 is faster on its way than at its ends: the limit leaves the trims, but takes their edges.
+  text.replace(text.find(all), all.size(), "label: J1, trims: [1, 7], max_speed_mps: 0.81");
+  std::ofstream(folder_ / "cut.yaml") << text;
+  const auto error = [this](const std::optional<std::filesystem::path>& automaton) {
+    try {
+      static_cast<void>(read_problem_file(file_, automaton));
+    } catch (const std::invalid_argument& refusal) {
+      return std::string(refusal.what());
+    }
+    return std::string();
+  };
+  const std::string reason = "subgraph 'B': no way from trim 7 to a trim of speed 0";
+  put(with("paper.yaml", "cut.yaml"));
+  EXPECT_THAT(error(std::nullopt),
+              AllOf(HasSubstr("problem.json: automaton = \"cut.yaml\": "), EndsWith(reason)));
+  put(kHandWritten);
+  EXPECT_THAT(error(folder_ / "cut.yaml"), AllOf(HasSubstr("problem.json: with the automaton of "),
+                                                 HasSubstr("cut.yaml: "), EndsWith(reason)));
+}
+
 TEST_F(ProblemFileTest, AHeadingIsLimitedLikeTheProblemsOwn) {
   EXPECT_EQ(error_with("\"psi\": 0", "\"psi\": -1e6"), "");
   EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1000000.1"), EndsWith("from -1e6 to 1e6"));
