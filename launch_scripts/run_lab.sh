@@ -144,17 +144,29 @@ else
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
 
-make_empty_folder() { # flag, folder
-  local allowed="allowed a new or an empty folder" probe
+allowed="allowed a new or an empty folder"
+check_new_or_empty() { # flag, folder
   [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is no folder, $allowed"
   [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $allowed"
-  mkdir -p -- "$2" 2>/dev/null || fail "--$1 = $2: the folder cannot be made, $allowed"
-  probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) && rm -- "$probe" ||
-    fail "--$1 = $2: nothing can be written there, $allowed that may be written to"
 }
-[[ -z $out ]] || make_empty_folder out "$out" # first: the problems may lie in it
+made=()
+make_folder() { # flag, folder
+  local probe
+  [[ -d $2 ]] || made=("$2" "${made[@]}")
+  if ! mkdir -p -- "$2" 2>/dev/null; then
+    rmdir -- "${made[@]}" 2>/dev/null
+    fail "--$1 = $2: the folder cannot be made, $allowed"
+  fi
+  if ! probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) || ! rm -- "$probe"; then
+    rmdir -- "${made[@]}" 2>/dev/null
+    fail "--$1 = $2: nothing can be written there, $allowed that may be written to"
+  fi
+}
+[[ -z $out ]] || check_new_or_empty out "$out"
+[[ -z $dump_problems ]] || check_new_or_empty dump-problems "$dump_problems"
+[[ -z $out ]] || make_folder out "$out" # first: the problems may lie in it
 if [[ -n $dump_problems ]]; then
-  make_empty_folder dump-problems "$dump_problems"
+  make_folder dump-problems "$dump_problems"
   dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
 if [[ -z $out ]]; then

@@ -11,10 +11,10 @@ namespace hlc {
 ///
 /// Files are named vehicle_<id>_step_<k>_search_<i>.json: k the step, with ten digits, i counts the
 /// searches of that step from 1 (there is a second one if the first plan would drift into
-/// something). Steps without a search write nothing. Replays of the files of a step take together
-/// the vertices that the step's report counts. Those by which a vehicle that stands finds out where
-/// it may drive off to, without other vehicles (joining.hpp), are
-/// vehicle_<id>_step_<k>_joining_<i>.
+/// something). Steps without a search write nothing. Replays of these files of a step take together
+/// the vertices that the step's report counts. The problems by which a vehicle that stands finds
+/// out where it may drive off to, without other vehicles (joining.hpp), are in
+/// vehicle_<id>_step_<k>_joining_<i>.json; their vertices count nowhere.
 class ProblemDump {
  public:
   /// Makes the folder if need be.

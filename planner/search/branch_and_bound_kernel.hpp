@@ -254,8 +254,11 @@ HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t dept
   return search.plan->is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
 }
 
-/// Takes away the child with the vertex' least key and notes the least of the others. At once,
-/// while the child is looked at: where the search comes back to the vertex, it knows how to go on.
+/// Takes away the child with this key, the vertex' least, and notes the least of the others. At
+/// once, while the child is looked at: where the search comes back to the vertex, it knows how to
+/// go on.
+/// @pre denormal numbers are compared as they are: keys differ in the child's number alone if f is
+/// 0
 HLC_INLINE void take(VertexData& vertex, double key) {
   const auto take_of_four = [&](std::uint32_t first) {
     const Doubles keys = load(vertex.keys + first);
