@@ -157,7 +157,7 @@ make_folder() { # flag, folder
     rmdir -- "${made[@]}" 2>/dev/null
     fail "--$1 = $2: the folder cannot be made, $allowed"
   fi
-  if ! probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) || ! rm -- "$probe"; then
+  if ! probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) || ! rm -- "$probe" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
     fail "--$1 = $2: nothing can be written there, $allowed that may be written to"
   fi
