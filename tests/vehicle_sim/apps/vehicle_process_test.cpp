@@ -191,6 +191,9 @@ TEST_F(VehicleProcessTest, DrivesInLogicalTimeUntilTheStopAndBrakesForOneSecond)
     if (t % kPeriod == 0) {
       lab.command(command_at(t + kListOffset));
     }
+    // For a reader that has not matched it yet the writer keeps 64.
+    const std::size_t ticks = static_cast<std::size_t>(t / kVehiclePeriod) + 1;
+    ASSERT_EQ(lab.states(ticks).size(), ticks);
   }
   lab.stop();
   for (int i = 1; i <= SimulatedVehicle::kBrakingTicks; ++i, t += kVehiclePeriod) {
