@@ -29,9 +29,10 @@ constexpr std::chrono::milliseconds kReadyRepeat{500};
 constexpr std::chrono::seconds kStopRequestWait{1};  // for a lab control that is to hear it
 constexpr std::chrono::seconds kTwinStays{4};        // longer than a dead one's lease
 constexpr std::chrono::seconds kTwinStaysInLogicalTime{12};
-constexpr std::size_t kHeapReserve = std::size_t{4} << 20;  // a step's messages, problems and plans
-constexpr Nanoseconds kLateBegin = 2;                       // steps after the trigger's time
+constexpr Nanoseconds kLateBegin = 2;     // steps after the trigger's time
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
+/// For a step's messages, problems and plans.
+constexpr std::size_t kHeapReserve = std::size_t{4} << 20;
 
 std::string joined(const std::set<std::string>& names) {
   std::string text;
@@ -508,7 +509,7 @@ void HlcProcess::tell_if_stuck(const Report& report) {
     spdlog::error("{}: {}", options_.node_id, stuck_line(core_.controller(), report.reason));
   }
   told_off_route_ = is_off_route;
-  told_budget_ = told_budget_ || has_used_up_budget;
+  told_budget_ |= has_used_up_budget;
 }
 
 void HlcProcess::look_back() {

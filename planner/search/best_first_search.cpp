@@ -65,10 +65,8 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
   const bool has_incumbent = write_incumbent(problem, result);
   const bool is_admissible = options_.cost_to_go != CostToGo::k2022;
   const double least_cost = static_cast<double>(n) * costs_.least();
-  const auto bound_of_start = [&] {  // which no path beats, whatever orders the search
-    const CostToGoFunction reachable(subgraph_, reachable_, problem, CostToGo::kReachable);
-    return reachable(problem.start_trim, 0, to_frame(problem.start)) +
-           costs_.to_go(problem.start_trim, n) + least_cost;
+  const auto bound_of_start = [&] {
+    return least_cost_of_problem(subgraph_, reachable_, costs_, problem);
   };
 
   vertices_.clear();

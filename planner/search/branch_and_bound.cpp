@@ -222,16 +222,14 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
   const bool has_path = search.best_cost < kNoPath;
   if (has_path) write_best(problem, result);
   if (search.gave_up) {
-    // The start's own bound is tighter than that of some of its children, now and then.
-    const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, CostToGo::kReachable);
-    const EdgeCosts& costs = core_->costs;
-    const double of_start = cost_to_go(problem.start_trim, 0, to_frame(problem.start)) +
-                            costs.to_go(problem.start_trim, n);
     // Keys stand for f but for their last bits, which number the children.
     constexpr double kLastBit = std::numeric_limits<double>::epsilon();
     search.lower_bound *= 1.0 - kLastBit * static_cast<double>(core_->tables.view().index_mask + 1);
-    search.lower_bound = std::max(search.lower_bound, of_start);
-    give_up(has_path, search.lower_bound + static_cast<double>(n) * costs.least(), result);
+    const EdgeCosts& costs = core_->costs;
+    const double of_open = search.lower_bound + static_cast<double>(n) * costs.least();
+    // The start's own bound is tighter than that of some of its children, now and then.
+    const double of_start = least_cost_of_problem(subgraph_, reachable_, costs, problem);
+    give_up(has_path, std::max(of_open, of_start), result);
   } else if (has_path) {
     result.status = SearchStatus::kOptimal;
     result.reason = NoPath::kNone;

@@ -257,8 +257,7 @@ HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t dept
 /// Takes away the child with this key, the vertex' least, and notes the least of the others. At
 /// once, while the child is looked at: where the search comes back to the vertex, it knows how to
 /// go on.
-/// @pre denormal numbers are compared as they are: keys differ in the child's number alone if f is
-/// 0
+/// @pre denormal numbers are compared as they are: where f is 0 keys hold the child's number alone
 HLC_INLINE void take(VertexData& vertex, double key) {
   const auto take_of_four = [&](std::uint32_t first) {
     const Doubles keys = load(vertex.keys + first);

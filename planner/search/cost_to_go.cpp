@@ -99,4 +99,12 @@ double CostToGoFunction::operator()(TrimId trim, std::size_t depth, const Frame&
   return h;
 }
 
+double least_cost_of_problem(const Subgraph& subgraph, const ReachableSets& reachable,
+                             const EdgeCosts& costs, const HorizonProblem& problem) {
+  const std::size_t n = problem.horizon_steps();
+  const CostToGoFunction cost_to_go(subgraph, reachable, problem, CostToGo::kReachable);
+  return cost_to_go(problem.start_trim, 0, to_frame(problem.start)) +
+         costs.to_go(problem.start_trim, n) + static_cast<double>(n) * costs.least();
+}
+
 }  // namespace hlc

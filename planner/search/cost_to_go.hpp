@@ -7,6 +7,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
+#include "planner/search/edge_costs.hpp"
 #include "planner/search/frame.hpp"
 #include "planner/search/horizon_problem.hpp"
 
@@ -87,5 +88,11 @@ class CostToGoFunction {
   /// With kStraightLine d_1 ... d_n; with k2022 one row of n per depth, n - depth of it in use.
   std::vector<double> reach_m_;
 };
+
+/// Lower bound on what every plan of a problem costs [m^2], whatever orders the search:
+/// `kReachable` at the start and the least that the maneuvers themselves cost.
+/// @param reachable  for at least the problem's steps
+[[nodiscard]] double least_cost_of_problem(const Subgraph& subgraph, const ReachableSets& reachable,
+                                           const EdgeCosts& costs, const HorizonProblem& problem);
 
 }  // namespace hlc
