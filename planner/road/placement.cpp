@@ -20,8 +20,7 @@ constexpr double kFront_m = 0.1;
 Point along(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
 
 /// Across the direction of travel, outwards on that side.
-Point outwards(double heading_rad, Side side) {
-  const Point direction = along(heading_rad);
+Point outwards(const Point& direction, Side side) {
   const Point left(-direction.y(), direction.x());
   return side == Side::kLeft ? left : Point(-left);
 }
@@ -62,9 +61,8 @@ std::vector<BoundPiece> pieces_between(const Corridor& corridor, Side side, doub
 
 /// Distance of the bound from the path at s, along the normal there; infinite if there is none.
 double bound_m(std::span<const BoundPiece> pieces, Side side, double route_length_m, double s_m,
-               const Point& origin_m, double heading_rad) {
-  const Point direction = along(heading_rad);
-  const Point normal = outwards(heading_rad, side);
+               const Point& origin_m, const Point& direction) {
+  const Point normal = outwards(direction, side);
   double nearest_m = kInfinity;
   for (const BoundPiece& piece : pieces) {
     if (!is_in_window(piece.middle_s_m, s_m - piece.reach_m, s_m + piece.reach_m, route_length_m)) {
@@ -112,11 +110,11 @@ void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m
   for (const Point& point : outline_m) {
     const double at_s_m = route.path.project_within(point, from_s_m, to_s_m).s_m;
     const Point origin_m = route.path.at(at_s_m);
-    const double heading_rad = route.path.heading_rad_at(at_s_m);
+    const Point direction = along(route.path.heading_rad_at(at_s_m));
     for (OneSide& one : sides) {
-      const double across_m = outwards(heading_rad, one.side).dot(point - origin_m);
+      const double across_m = outwards(direction, one.side).dot(point - origin_m);
       const double room_m =
-          bound_m(one.pieces, one.side, corridor.route_length_m(), at_s_m, origin_m, heading_rad);
+          bound_m(one.pieces, one.side, corridor.route_length_m(), at_s_m, origin_m, direction);
       one.beyond_m = std::max(one.beyond_m, across_m - room_m);
     }
   }
@@ -127,8 +125,12 @@ Placement best_place(const ReferencePath& path, const Pose& pose) {
   Placement best{.distance_m = kInfinity};
   const std::vector<double>& joints = path.joints_s_m();
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
-    const double heading_rad = path.heading_rad_at((joints[i] + joints[i + 1]) / 2.0);
+    // Most are too far away, wherever they lead: none of their points is nearer than the first by
+    // more than the length.
+    const double from_first_m = (pose.position_m() - path.points_m()[i]).norm();
+    if (from_first_m - (joints[i + 1] - joints[i]) > misfit_m(best)) continue;
     const auto projection = path.project_within(pose.position_m(), joints[i], joints[i + 1]);
+    const double heading_rad = path.heading_rad_at((joints[i] + joints[i + 1]) / 2.0);
     const Placement one{.s_m = projection.s_m,
                         .distance_m = projection.distance_m,
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
@@ -177,7 +179,7 @@ Corridor widened(const DrivableRoute& route, const Widening& widening) {
       }
       Point& point = bound.points_m[i];
       const Point moved =
-          point + by_m * outwards(route.path.heading_rad_at(bound.s_m[i]), bound.side);
+          point + by_m * outwards(along(route.path.heading_rad_at(bound.s_m[i])), bound.side);
       point = moved.cwiseMax(ground.min_m.cwiseMin(point)).cwiseMin(ground.max_m.cwiseMax(point));
     }
   }

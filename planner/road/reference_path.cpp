@@ -9,8 +9,12 @@
 namespace hlc {
 namespace {
 
+/// Above the rounding of a distance.
+constexpr double kRounding_m = 1e-9;
+
 /// The representative of s in [0, length).
 double wrapped(double s_m, double length_m) {
+  if (s_m >= 0.0 && s_m < length_m) return s_m;
   const double rest_m = std::fmod(s_m, length_m);
   const double positive_m = rest_m < 0.0 ? rest_m + length_m : rest_m;
   return positive_m < length_m ? positive_m : 0.0;  // -1e-20 + length rounds to length
@@ -64,10 +68,21 @@ double ReferencePath::heading_rad_at(double s_m) const {
 
 void ReferencePath::improve(Projection& best, const Point& point_m, double from_s_m,
                             double to_s_m) const {
-  for (std::size_t i = segment_at(from_s_m); i + 1 < s_m_.size() && s_m_[i] <= to_s_m; ++i) {
+  const std::size_t first = segment_at(from_s_m);
+  // The nearest joint tells which segments are worth a closer look.
+  double squared_m2 = best.distance_m * best.distance_m;
+  for (std::size_t i = first; i < points_m_.size() && s_m_[i] <= to_s_m; ++i) {
+    if (s_m_[i] < from_s_m) continue;
+    squared_m2 = std::min(squared_m2, (point_m - points_m_[i]).squaredNorm());
+  }
+  const double reach_m = std::sqrt(squared_m2) + kRounding_m;
+  for (std::size_t i = first; i + 1 < s_m_.size() && s_m_[i] <= to_s_m; ++i) {
     const Point& a = points_m_[i];
-    const Point& b = points_m_[(i + 1) % points_m_.size()];
     const double length = s_m_[i + 1] - s_m_[i];
+    // No point of the segment is nearer than its begin by more than its length.
+    const double near_m = reach_m + length;
+    if ((point_m - a).squaredNorm() > near_m * near_m) continue;
+    const Point& b = points_m_[(i + 1) % points_m_.size()];
     const double t_min = std::max(0.0, (from_s_m - s_m_[i]) / length);
     const double t_max = std::min(1.0, (to_s_m - s_m_[i]) / length);
     const double t =
