@@ -65,14 +65,14 @@ double bound_m(std::span<const BoundPiece> pieces, Side side, double route_lengt
   const Point normal = outwards(direction, side);
   double nearest_m = kInfinity;
   for (const BoundPiece& piece : pieces) {
-    if (!is_in_window(piece.middle_s_m, s_m - piece.reach_m, s_m + piece.reach_m, route_length_m)) {
-      continue;
-    }
     const Point from = piece.from_m - origin_m;
     const Point to = piece.to_m - origin_m;
     const double a = direction.dot(from);
     const double b = direction.dot(to);
     if (a * b > 0.0 || a == b) continue;
+    if (!is_in_window(piece.middle_s_m, s_m - piece.reach_m, s_m + piece.reach_m, route_length_m)) {
+      continue;
+    }
     const double t = a / (a - b);
     const double across_m = normal.dot((1.0 - t) * from + t * to);
     if (across_m > 0.0) nearest_m = std::min(nearest_m, across_m);
