@@ -49,7 +49,7 @@ bool has_separating_edge(const ConvexPolygon& a, const Points& b_m) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Point& from = vertices[i];
     const Point edge = vertices[next(i, vertices.size())] - from;
-    bool separates = true;
+    bool separates = edge != Point::Zero();  // a corner that comes twice hides nothing
     for (const Point& point : b_m) {
       if (cross(edge, point - from) > 0.0) {
         separates = false;

@@ -364,6 +364,18 @@ TEST(Intersects, APolygonIntersectsItselfAndWhatLiesInside) {
   EXPECT_FALSE(intersects(kSquare, Segment{{1.5, 0.5}, {1.5, 0.5}}));
 }
 
+TEST(Intersects, ACornerThatComesTwiceHidesNothing) {
+  for (std::size_t twice = 0; twice < kSquare.vertices_m.size(); ++twice) {
+    ConvexPolygon square = kSquare;
+    square.vertices_m.insert(square.vertices_m.begin() + static_cast<std::ptrdiff_t>(twice),
+                             square.vertices_m[twice]);
+    EXPECT_TRUE(intersects(square, kSquare)) << "corner " << twice;
+    EXPECT_TRUE(intersects(kSquare, square)) << "corner " << twice;
+    EXPECT_TRUE(intersects(square, Segment{{0.4, 0.4}, {0.6, 0.6}})) << "corner " << twice;
+    EXPECT_FALSE(intersects(square, Segment{{1.5, 0.5}, {1.5, 0.6}})) << "corner " << twice;
+  }
+}
+
 TEST(Intersects, TheEmptyPolygonIntersectsNothing) {
   EXPECT_FALSE(intersects(kSquare, ConvexPolygon{}));
   EXPECT_FALSE(intersects(ConvexPolygon{}, kSquare));
