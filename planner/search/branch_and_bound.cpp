@@ -19,24 +19,39 @@ namespace hlc {
 namespace {
 
 using branch_and_bound::blocks_of;
+using branch_and_bound::kCos;
 using branch_and_bound::kFloatLanes;
 using branch_and_bound::kNoPath;
+using branch_and_bound::kSin;
+using branch_and_bound::kX;
+using branch_and_bound::kY;
 using branch_and_bound::Question;
 using branch_and_bound::TableStore;
 using branch_and_bound::VertexData;
 
-branch_and_bound::Kernel choose_kernel(BranchAndBound::Instructions instructions) {
-#ifdef HLC_AVX2_KERNEL
-  if (instructions == BranchAndBound::Instructions::kBest && __builtin_cpu_supports("avx2")) {
-    return branch_and_bound::avx2_kernel();
-  }
+branch_and_bound::Kernel choose_kernel(BranchAndBound::Instructions most) {
+  using Instructions = BranchAndBound::Instructions;
+#ifdef HLC_AVX_KERNELS
+  const bool has_avx2 = __builtin_cpu_supports("avx2");
+  const bool has_avx512 = has_avx2 && __builtin_cpu_supports("avx512f") &&
+                          __builtin_cpu_supports("avx512vl") &&
+                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  if (most == Instructions::kBest && has_avx512) return branch_and_bound::avx512_kernel();
+  if (most != Instructions::kPortable && has_avx2) return branch_and_bound::avx2_kernel();
 #endif
-  static_cast<void>(instructions);
+  static_cast<void>(most);
   return branch_and_bound::portable_kernel();
 }
 
+void put(VertexData& vertex, const Frame& at) {
+  vertex.place[kX] = at.origin_m.x();
+  vertex.place[kY] = at.origin_m.y();
+  vertex.place[kCos] = at.cos_heading;
+  vertex.place[kSin] = at.sin_heading;
+}
+
 Frame frame_of(const VertexData& vertex) {
-  return {{vertex.x, vertex.y}, vertex.cos_heading, vertex.sin_heading};
+  return {{vertex.place[kX], vertex.place[kY]}, vertex.place[kCos], vertex.place[kSin]};
 }
 
 }  // namespace
@@ -61,8 +76,6 @@ class BranchAndBound::Core {
     placed_.vertices_m.reserve(most_corners);
     search.tables = &tables.view();
     search.plan = &plan;
-    area_.resize(tables.most_blocks());
-    search.placed = area_.data();
     to_go_.resize(2 * tables.most_edges());
     search.to_go = to_go_.data();
     search.decides = [](const void* core, const Question& question) {
@@ -80,36 +93,37 @@ class BranchAndBound::Core {
     if (reference_x_.size() < n) {
       reference_x_.resize(n);
       reference_y_.resize(n);
-      reference_dx_.resize(n + kFloatLanes);
-      reference_dy_.resize(n + kFloatLanes);
+      seen_stride_ = n + kFloatLanes;
+      seen_x_.resize((n + 1) * seen_stride_);
+      seen_y_.resize((n + 1) * seen_stride_);
       path.resize(n + 1);
       keys_.resize((n + 1) * tables.most_edges());
-      doubts_.resize((n + 1) * blocks_of(tables.most_edges()));
       best_edges.resize(n + 1);
       best_x.resize(n + 1);
       best_y.resize(n + 1);
       for (std::size_t k = 0; k <= n; ++k) {
         path[k].keys = &keys_[k * tables.most_edges()];
-        path[k].doubts = &doubts_[k * blocks_of(tables.most_edges())];
       }
     }
     // As far as reference points may be from the start, if places seen from a vertex are to count.
     const double far_m = tables.counted_m() - static_cast<double>(n) * tables.longest_m();
     const double squared_far_m2 = far_m > 0.0 ? far_m * far_m : -1.0;
     plan.is_far = false;
+    const auto units_per_m = static_cast<double>(tables.view().units_per_m);
     for (std::size_t j = 0; j < n; ++j) {
       reference_x_[j] = problem.reference_m[j].x();
       reference_y_[j] = problem.reference_m[j].y();
       const double dx_m = reference_x_[j] - problem.start.x_m;
       const double dy_m = reference_y_[j] - problem.start.y_m;
-      reference_dx_[j] = static_cast<float>(dx_m);
-      reference_dy_[j] = static_cast<float>(dy_m);
+      seen_x_[j] = static_cast<float>(dx_m * units_per_m);
+      seen_y_[j] = static_cast<float>(dy_m * units_per_m);
       plan.is_far |= dx_m * dx_m + dy_m * dy_m > squared_far_m2;
     }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
-    plan.reference_dx = reference_dx_.data();
-    plan.reference_dy = reference_dy_.data();
+    plan.seen_x = seen_x_.data();
+    plan.seen_y = seen_y_.data();
+    plan.seen_stride = seen_stride_;
 
     if (levels_.size() < n) levels_.resize(n);
     for (std::size_t depth = 0; depth < n; ++depth) {
@@ -127,14 +141,18 @@ class BranchAndBound::Core {
     search.lower_bound = 0.0;
 
     const Frame start = to_frame(problem.start);
-    path[0].x = start.origin_m.x();
-    path[0].y = start.origin_m.y();
-    path[0].cos_heading = start.cos_heading;
-    path[0].sin_heading = start.sin_heading;
+    put(path[0], start);
     path[0].cost_to_come = 0.0;
+    path[0].from_start = {0.0F, 0.0F, static_cast<float>(start.cos_heading),
+                          static_cast<float>(start.sin_heading)};
+    path[0].move = &path[0].from_start;
     path[0].trim = static_cast<std::uint32_t>(problem.start_trim.index);
 
     obstacles.list(problem, plan);
+    for (std::size_t k = 0; k <= n; ++k) {
+      path[k].near = obstacles.near(k);
+      path[k].seen = obstacles.seen(k);
+    }
     kernel.prepare(plan, path[0]);
   }
 
@@ -170,14 +188,13 @@ class BranchAndBound::Core {
  private:
   std::vector<double> reference_x_;
   std::vector<double> reference_y_;
-  std::vector<float> reference_dx_;
-  std::vector<float> reference_dy_;
+  std::vector<float> seen_x_;
+  std::vector<float> seen_y_;
+  std::size_t seen_stride_{};
   std::vector<float> to_go_;
   std::vector<double> keys_;
-  std::vector<std::uint8_t> doubts_;
   std::vector<branch_and_bound::Level> levels_;
-  std::vector<branch_and_bound::PolygonBlock> area_;  ///< room for a placed area
-  mutable ConvexPolygon placed_;                      ///< its capacity holds the largest area
+  mutable ConvexPolygon placed_;  ///< its capacity holds the largest area
 };
 
 BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable,
@@ -248,19 +265,17 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
     const std::uint32_t edge = core.tables.find({vertex.trim}, problem.incumbent[depth]);
     if (edge == TableStore::kNoEdge) return;
     if (core.search.levels[depth].penalty[edge] >= branch_and_bound::kForbidden) return;
-    if (!core.kernel.is_free(core.search, edge, depth + 1, vertex, false)) return;
+    if (!core.kernel.is_free(core.search, edge, depth + 1, vertex)) return;
     const branch_and_bound::EdgeData& data = tables.edges[edge];
-    const Frame next =
-        compose(frame_of(vertex), {{data.x, data.y}, data.cos_heading, data.sin_heading});
-    vertex.x = next.origin_m.x();
-    vertex.y = next.origin_m.y();
-    vertex.cos_heading = next.cos_heading;
-    vertex.sin_heading = next.sin_heading;
+    const Frame next = compose(frame_of(vertex), {{data.displacement[kX], data.displacement[kY]},
+                                                  data.displacement[kCos],
+                                                  data.displacement[kSin]});
+    put(vertex, next);
     vertex.cost_to_come += (next.origin_m - problem.reference_m[depth]).squaredNorm() + data.cost;
     vertex.trim = data.to;
     core.best_edges[depth] = edge;
-    core.best_x[depth] = vertex.x;
-    core.best_y[depth] = vertex.y;
+    core.best_x[depth] = vertex.place[kX];
+    core.best_y[depth] = vertex.place[kY];
   }
   core.search.best_cost = vertex.cost_to_come;
 }
@@ -292,17 +307,13 @@ std::vector<double> BranchAndBound::estimates(const HorizonProblem& problem) {
 
 void BranchAndBound::prepare(const HorizonProblem& problem) { core_->prepare(problem); }
 
-bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start,
-                             bool among_all) const {
+bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const {
   VertexData vertex = core_->path[0];
-  vertex.x = start.origin_m.x();
-  vertex.y = start.origin_m.y();
-  vertex.cos_heading = start.cos_heading;
-  vertex.sin_heading = start.sin_heading;
+  put(vertex, start);
   vertex.trim = static_cast<std::uint32_t>(maneuver.from.index);
   const std::uint32_t edge = core_->tables.find(maneuver.from, &maneuver);
   assert(edge != TableStore::kNoEdge);
-  return core_->kernel.is_free(core_->search, edge, step, vertex, among_all);
+  return core_->kernel.is_free(core_->search, edge, step, vertex);
 }
 
 }  // namespace hlc

@@ -43,18 +43,17 @@ struct SearchTables;
 /// the edge can cost, whatever they do.
 ///
 /// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
-/// step is left out once per plan (PreparedObstacles). Most of the rest is decided by rectangles:
-/// one around each area and one inside it, apart if the outer ones are, met if the inner ones are.
-/// Where several children of a vertex may be tried, all its edges are compared at once, eight at a
-/// time; else the one that is tried, with eight obstacles at a time. Boundaries have rectangles
-/// around eight segments in a row. What is left is decided when a child is tried, by a
-/// separating-axis test in single precision, unless two areas touch to within its rounding: there
-/// by the very test of CollisionCheck.
+/// step is left out once per plan (PreparedObstacles). Of the rest, what comes near a rectangle
+/// around all edges out of a vertex is moved into the vertex' frame, once for all its children; an
+/// obstacle around the vertex itself forbids them all. A child that is tried is compared with these
+/// by a separating-axis test in single precision, eight edges at a time, unless two areas touch to
+/// within its rounding: there by the very test of CollisionCheck. Polygons of more than eight
+/// corners are compared piece by piece. Boundaries have rectangles around eight segments in a row.
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
 /// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,
 /// no virtual call and no allocation. The inner loop (branch_and_bound_kernel.hpp) exists for any
-/// processor and for AVX2; the processor chooses, and both give the same bits.
+/// processor, for AVX2 and for AVX-512; the processor chooses, and all give the same bits.
 ///
 /// Children whose f differ in the last bits only, of which a child's number takes as many as it
 /// needs, count as equal: a best path may cost 2^-52 times the number of a trim's edges, relative
@@ -64,8 +63,10 @@ struct SearchTables;
 /// they were computed for.
 class BranchAndBound final : public SearchEngine {
  public:
+  /// Which instructions may be used; of them the best that the processor has.
   enum class Instructions {
-    kBest,      ///< AVX2 where the processor has it
+    kBest,      ///< AVX-512, too
+    kAvx2,      ///< AVX2, too
     kPortable,  ///< those of any processor
   };
 
@@ -94,10 +95,7 @@ class BranchAndBound final : public SearchEngine {
   void prepare(const HorizonProblem& problem);
   /// As CollisionCheck::is_free, for the problem prepared last.
   /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`; 1 <= step <= horizon
-  /// @param among_all  compared with obstacles together with all edges out of its trim, as where
-  /// several may be tried, or alone: the answer is the same
-  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start,
-                             bool among_all) const;
+  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
 
  private:
   class Core;

@@ -5,9 +5,9 @@
 
 /// What the kernel of BranchAndBound works on: plain arrays that BranchAndBound owns and fills.
 ///
-/// Only aggregates stand here, no function with a body, because one of the kernel's two
-/// translation units is compiled for another instruction set: the linker may keep either copy of an
-/// inline function.
+/// Only aggregates stand here, no function with a body, because the kernel's translation
+/// units are compiled for different instruction sets: the linker may keep any copy of an inline
+/// function.
 ///
 /// Everything that is handled four (in single precision eight) at a time is padded to a multiple
 /// of that. Blocks of eight floats lie at addresses that no load of them spreads over two cache
@@ -45,46 +45,33 @@ struct alignas(32) PolygonBlock {
   float offset[kFloatLanes];
 };
 
-/// Of a convex polygon: a rectangle that contains it, and one with the same centre and axes that it
-/// contains. Two polygons are apart if the outer ones are, and meet if the inner ones do.
-struct Rectangles {
-  float x;  ///< centre
+/// What is around the swept areas of a trim's edges: a rectangle, centre, unit vector of its first
+/// axis, half the size per axis.
+struct Surroundings {
+  float x;
   float y;
-  float along_x;  ///< unit vector of the first axis
+  float along_x;
   float along_y;
-  float outer_along;  ///< half the size, per axis
-  float outer_aside;
-  float inner_along;  ///< kNoInner: unknown
-  float inner_aside;
+  float half_along;
+  float half_aside;
+  /// Where a maneuver starts lies inside of every area.
+  bool all_hold_start;
 };
-/// Half the size of an inner rectangle that meets nothing.
-inline constexpr float kNoInner = -1e15F;
+/// Half the size of a rectangle that meets nothing.
+inline constexpr float kNoRectangle = -1e15F;
 
-/// Those of eight polygons.
-struct alignas(32) RectanglesBlock {
+/// Boxes of eight obstacles: centre and half the size, along the plan's axes.
+struct alignas(32) BoxesBlock {
   float x[kFloatLanes];
   float y[kFloatLanes];
-  float along_x[kFloatLanes];
-  float along_y[kFloatLanes];
-  float outer_along[kFloatLanes];
-  float outer_aside[kFloatLanes];
-  float inner_along[kFloatLanes];
-  float inner_aside[kFloatLanes];
-};
-/// Half the size of an outer rectangle that meets nothing.
-inline constexpr float kNoOuter = -1e15F;
-
-/// Eight obstacles. At first the outer rectangle is the box, and there is no inner one.
-struct ObstaclesBlock {
-  RectanglesBlock rectangles;
-  std::uint32_t is_there;  ///< one bit per obstacle; the rest is padding
-  /// One bit per obstacle: its rectangles, and the blocks of its corners, are written. Done when
-  /// they are first needed.
+  float half_x[kFloatLanes];
+  float half_y[kFloatLanes];
+  /// One bit per obstacle: the blocks of its corners are written. Done when they are first needed.
   std::uint32_t is_ready;
 };
 
-/// An area of a maneuver in the frame of its start.
-struct Area {
+/// A maneuver's area within lanes, in the frame of its start.
+struct LaneArea {
   std::uint32_t first_block;  ///< of `Tables::area_blocks`
   std::uint32_t num_blocks;   ///< 0: the area is empty
   float centre_x;             ///< of the box
@@ -93,15 +80,27 @@ struct Area {
   float half_y;
 };
 
-struct EdgeData {
-  double x;  ///< displacement [m], and the direction of its heading
-  double y;
-  double cos_heading;
-  double sin_heading;
-  double cost;       ///< of the maneuver itself (EdgeCosts::above_least)
-  std::uint32_t to;  ///< trim
-  Area swept;
-  Area lane;
+/// From one frame to another, in the first's axes, in single precision: displacement [1 /
+/// Tables::units_per_m m], direction of the heading.
+struct Move {
+  float x;
+  float y;
+  float cos_heading;
+  float sin_heading;
+};
+
+/// Where something is and where it heads: numbers of `place` and the like.
+enum Coordinate : std::uint32_t { kX, kY, kCos, kSin };
+
+struct alignas(64) EdgeData {
+  double displacement[4];  ///< x, y [m], cosine and sine of the heading
+  double turned[4];        ///< position and heading of it, turned to the left: -y, x, -sine, cosine
+  Move move;               ///< the displacement once more
+  double cost;             ///< of the maneuver itself (EdgeCosts::above_least)
+  std::uint32_t to;        ///< trim
+  /// The swept area: convex pieces of up to eight corners. Most have one.
+  std::uint32_t first_swept;  ///< of `Tables::area_blocks`
+  std::uint32_t num_swept;
 };
 
 /// Steps of a BoundBlock.
@@ -124,10 +123,8 @@ struct Tables {
   const double* displacement_y;
   const BoundBlock* bounds;  ///< per group `bound_size`: see Level::bounds and BranchAndBound
   const PolygonBlock* area_blocks;
-  /// Rectangles of the swept areas, in the frame of the start, eight edges of a trim at a time.
-  const RectanglesBlock* rectangles;
-  const std::uint32_t* first_rectangles;  ///< per trim, its first of `rectangles`
-  const Rectangles* around;               ///< per trim, the outer one of all its swept areas
+  const LaneArea* lane_areas;  ///< per edge
+  const Surroundings* around;  ///< per trim
   std::size_t bound_size;
   float units_per_m;      ///< units of a bound in a metre
   float squared_unit_m2;  ///< square of the unit
@@ -139,9 +136,16 @@ struct Tables {
 struct PolygonData {
   const double* corners;  ///< x, y, x, y ...
   std::uint32_t size;
-  std::uint32_t step;         ///< from 0
-  std::uint32_t first_block;  ///< of `Plan::obstacle_blocks`
-  std::uint32_t num_blocks;
+  std::uint32_t step;    ///< from 0
+  std::uint32_t number;  ///< among the step's, as the problem has them
+};
+
+/// Of an obstacle with more than eight corners a convex piece: its first corner and, from number
+/// `second` on, some more in a row. What meets the obstacle meets a piece. Most have one.
+struct PieceData {
+  std::uint32_t polygon;
+  std::uint32_t second;
+  std::uint32_t size;
 };
 
 /// Eight boundary segments in a row, with their directions (larger component 1; a segment without
@@ -171,8 +175,12 @@ struct Plan {
   std::size_t horizon_steps;
   const double* reference_x;  ///< r_1 ... r_n
   const double* reference_y;
-  const float* reference_dx;  ///< the same relative to the start, and eight more
-  const float* reference_dy;
+  /// Reference points relative to the start [1 / Tables::units_per_m m], and eight more: at first
+  /// along the axes of the problem's frame. Then, `seen_stride` further each time, seen from every
+  /// vertex of a path but the last, those after its next one.
+  float* seen_x;
+  float* seen_y;
+  std::size_t seen_stride;
   bool is_far;  ///< seen from a vertex, a place of theirs may be no number of 16 bits
 
   // What the problem has, and what can be reached.
@@ -188,15 +196,13 @@ struct Plan {
   double origin_x;  ///< the start
   double origin_y;
   double scale;  ///< largest coordinate of a float, or more [m]
-  /// Obstacles [first_obstacle[j - 1], first_obstacle[j]) are those of step j; every step's begin
-  /// at a multiple of eight. The padding is where nothing meets it.
+  /// Obstacles [first_obstacle[j - 1], last_obstacle[j - 1]) are those of step j; every step's
+  /// begin at a multiple of eight. Equal polygons of a step, one after the other, are one.
   std::uint32_t* first_obstacle;
-  std::uint32_t* obstacles;  ///< its number among the polygons
-  ObstaclesBlock* obstacle_rectangles;
-  Rectangles* near;  ///< scratch: one per obstacle
+  std::uint32_t* last_obstacle;
+  PieceData* obstacles;
+  BoxesBlock* obstacle_boxes;
   PolygonBlock* obstacle_blocks;
-  double* corners;  ///< scratch: x and y of the largest obstacle's corners, one more
-  std::size_t corner_stride;
   std::uint32_t num_blocks;       ///< of boundary segments that can be met
   std::uint32_t* segment_source;  ///< per block, the number of its first segment in the problem
   SegmentBlock* segment_blocks;
@@ -205,25 +211,22 @@ struct Plan {
   float tolerance;
 };
 
-/// Of which edges out of a vertex has it still to be decided whether they meet an obstacle?
-enum class Doubtful { kAll, kNoted, kNone };
-
 /// A vertex on the path that is being tried.
 struct VertexData {
-  double x;
-  double y;
-  double cos_heading;
-  double sin_heading;
+  double place[4];  ///< x, y [m], cosine and sine of the heading
   double cost_to_come;
   std::uint32_t trim;
   std::uint32_t from_edge;   ///< the edge that led here
   std::uint32_t first_edge;  ///< of those out of the trim
   std::uint32_t num_edges;   ///< with padding
-  double* keys;              ///< f of its children, each with the child's number in the last bits
-  double next_key;           ///< the least of those that were not tried yet
-  /// One bit per child, with Doubtful::kNoted: is it one of them?
-  std::uint8_t* doubts;
-  Doubtful doubtful;
+  /// How it is seen from the vertex before it or, in `from_start`, from the plan's start.
+  const Move* move;
+  Move from_start;
+  double* keys;         ///< f of its children, each with the child's number in the last bits
+  double next_key;      ///< the least of those that were not tried yet
+  std::uint32_t* near;  ///< obstacles that an edge from here may meet
+  PolygonBlock* seen;   ///< the same seen from here
+  std::uint32_t num_near;
 };
 
 /// What is the same for all vertices of one depth.
@@ -250,10 +253,9 @@ struct Question {
 struct Search {
   const Tables* tables;
   Plan* plan;
-  const Level* levels;   ///< n
-  VertexData* path;      ///< n + 1 vertices; the first is the start
-  float* to_go;          ///< scratch: per edge of a trim, two
-  PolygonBlock* placed;  ///< room for the largest area
+  const Level* levels;  ///< n
+  VertexData* path;     ///< n + 1 vertices; the first is the start
+  float* to_go;         ///< scratch: per edge of a trim, two
   bool (*decides)(const void* context, const Question& question);
   const void* decides_context;
   bool (*stop)(const void* context);
@@ -271,7 +273,7 @@ struct Search {
   double lower_bound;  ///< of what is still open, if it gave up
 };
 
-/// The kernel, once per instruction set; both give the same bits.
+/// The kernel, once per instruction set; all give the same bits.
 struct Kernel {
   /// Leaves out of the problem's obstacles and boundary what the plan cannot meet.
   void (*prepare)(Plan& plan, const VertexData& start);
@@ -279,14 +281,14 @@ struct Kernel {
   /// Writes the keys of the start's children.
   void (*expand)(Search& search);
   /// Is the edge free in step `step`, driven from this vertex?
-  /// @param vertex  placed, with its trim and room for keys and doubts, which are written
-  /// @param among_all  compared with obstacles together with the others out of the vertex, or alone
-  bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex,
-                  bool among_all);
+  /// @param vertex  placed, with its trim and room for keys, which are written
+  bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex);
 };
 
 [[nodiscard]] Kernel portable_kernel();
 /// @pre the processor has AVX2
 [[nodiscard]] Kernel avx2_kernel();
+/// @pre the processor has AVX2 and AVX-512 F, VL, DQ and BW
+[[nodiscard]] Kernel avx512_kernel();
 
 }  // namespace hlc::branch_and_bound

@@ -1,10 +1,11 @@
 // The inner loop of BranchAndBound. It is long-winded for speed: four children at a time, their
 // bounds for four steps at a time, branches where they are foreseeable. Like its preparation,
 // collision test and vectors (files of their own) it shares nothing with other files but the plain
-// data of branch_and_bound_data.hpp. It is compiled twice, for any processor
-// (branch_and_bound_portable.cpp) and with AVX2 (branch_and_bound_avx2.cpp); only these two include
-// it. The same operations in the same order, no contraction: both give the same bits. No function
-// here may be visible outside, and none from elsewhere be used, or the linker could mix the two.
+// data of branch_and_bound_data.hpp. It is compiled three times, for any processor
+// (branch_and_bound_portable.cpp), with AVX2 (branch_and_bound_avx2.cpp) and with AVX-512
+// (branch_and_bound_avx512.cpp); only these include it. The same operations in the same order, no
+// contraction: all give the same bits. No function here may be visible outside, and none from
+// elsewhere be used, or the linker could mix them.
 //
 // What it computes is said in branch_and_bound.hpp.
 #pragma once
@@ -21,58 +22,86 @@ namespace {
 constexpr std::int16_t kLowest = -32768;
 constexpr std::int16_t kHighest = 32767;
 
-/// What a cost-to-go may be too large by: see TableStore::compute_bounds.
-constexpr float kSurely = 1.0F - 0x5p-20F;
+/// What a cost-to-go may be too large by, and one whose reference points are seen from the start:
+/// see TableStore::compute_bounds.
+constexpr float kSurely = 1.0F - 0xAp-20F;
+constexpr float kSurelyFar = 1.0F - 0x5p-20F;
 
-constexpr float kCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
-constexpr float kSin = 0x1.87de2ap-2F;
+constexpr float kAxisCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
+constexpr float kAxisSin = 0x1.87de2ap-2F;
 
-/// The reference points of four steps, seen from a vertex, along each axis [1 / Tables::units_per_m
-/// m], each beside the intervals of a BoundBlock.
-using Along = Shorts[kBoundAxes];
-
-/// The reference points of eight steps, the second four only where asked for.
-HLC_INLINE void project(const float* reference_dx, const float* reference_dy, const Placement& at,
-                        float units_per_m, bool has_second, Along& first, Along& second) {
-  const Floats dx = (load(reference_dx) - at.x) * all(units_per_m);
-  const Floats dy = (load(reference_dy) - at.y) * all(units_per_m);
-  const Floats ahead = dx * at.cos_heading + dy * at.sin_heading;
-  const Floats aside = dy * at.cos_heading - dx * at.sin_heading;
-  const Floats ahead_cos = ahead * all(kCos);
-  const Floats ahead_sin = ahead * all(kSin);
-  const Floats aside_cos = aside * all(kCos);
-  const Floats aside_sin = aside * all(kSin);
-  const Floats diagonal = all(static_cast<float>(kDiagonal));
-  const Shorts along[kBoundAxes / 2] = {
-      rounded(ahead, ahead_cos + aside_sin),
-      rounded((ahead + aside) * diagonal, ahead_sin + aside_cos),
-      rounded(aside, aside_cos - ahead_sin),
-      rounded((aside - ahead) * diagonal, aside_sin - ahead_cos),
-  };
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < kBoundAxes / 2; ++i) {
-    first[2 * i] = four_times_four<0>(along[i]);
-    first[2 * i + 1] = four_times_four<1>(along[i]);
-  }
-  if (!has_second) return;
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < kBoundAxes / 2; ++i) {
-    second[2 * i] = four_times_four<2>(along[i]);
-    second[2 * i + 1] = four_times_four<3>(along[i]);
-  }
+/// A vertex, seen from the plan's start.
+HLC_INLINE Move move_from_start(const Plan& plan, const VertexData& vertex, float units_per_m) {
+  const auto units = static_cast<double>(units_per_m);
+  return {static_cast<float>((vertex.place[kX] - plan.origin_x) * units),
+          static_cast<float>((vertex.place[kY] - plan.origin_y) * units),
+          static_cast<float>(vertex.place[kCos]), static_cast<float>(vertex.place[kSin])};
 }
 
-/// Squared distances of four reference points from the intervals of four edges each, on the axis
-/// that has most, 0 within them all; those of steps 0 and 1 added, edge by edge, and those of 2
-/// and 3.
+/// So many vertices in a row are seen each from the one before, the first of them from the start:
+/// what is known early need not wait for the vertex' place, and rounding does not add up for long
+/// (TableStore::compute_bounds).
+constexpr std::size_t kSeenInARow = 8;
+
+/// How a vertex at this depth is seen, which this edge of the one before leads to.
+HLC_INLINE const Move* move_to(const Search& search, VertexData& vertex, std::size_t depth,
+                               const EdgeData& edge) {
+  if (depth % kSeenInARow != 0) return &edge.move;
+  vertex.from_start = move_from_start(*search.plan, vertex, search.tables->units_per_m);
+  return &vertex.from_start;
+}
+
+/// Where eight reference points are, seen from a vertex [1 / Tables::units_per_m m]: numbers 0, 1,
+/// 4, 5, 2, 3, 6 and 7.
+struct Seen {
+  Floats ahead;
+  Floats aside;
+};
+
+/// The reference points from step `step` on, seen from a vertex at this depth.
+HLC_INLINE Seen see(const Plan& plan, std::size_t depth, const Move& move, std::size_t step) {
+  const std::size_t from = (depth % kSeenInARow == 0 ? 0 : depth * plan.seen_stride) + step;
+  const std::size_t to = (depth + 1) * plan.seen_stride + step;
+  const Floats x = middle_swapped(load(plan.seen_x + from)) - all(move.x);
+  const Floats y = middle_swapped(load(plan.seen_y + from)) - all(move.y);
+  const Seen seen{x * all(move.cos_heading) + y * all(move.sin_heading),
+                  y * all(move.cos_heading) - x * all(move.sin_heading)};
+  store(plan.seen_x + to, middle_swapped(seen.ahead));
+  store(plan.seen_y + to, middle_swapped(seen.aside));
+  return seen;
+}
+
+/// Eight reference points along two axes in each, as `rounded` has them.
+using Along = Shorts[kBoundAxes / 2];
+
+HLC_INLINE void project(const Seen& seen, Along& along) {
+  const Floats ahead_cos = seen.ahead * all(kAxisCos);
+  const Floats ahead_sin = seen.ahead * all(kAxisSin);
+  const Floats aside_cos = seen.aside * all(kAxisCos);
+  const Floats aside_sin = seen.aside * all(kAxisSin);
+  const Floats diagonal = all(static_cast<float>(kDiagonal));
+  along[0] = rounded(seen.ahead, ahead_cos + aside_sin);
+  along[1] = rounded((seen.ahead + seen.aside) * diagonal, ahead_sin + aside_cos);
+  along[2] = rounded(seen.aside, aside_cos - ahead_sin);
+  along[3] = rounded((seen.aside - seen.ahead) * diagonal, aside_sin - ahead_cos);
+}
+
+/// Squared distances of four reference points, the first or the second of eight, from the intervals
+/// of four edges each, on the axis that has most, 0 within them all; those of steps 0 and 1 added,
+/// edge by edge, and those of 2 and 3.
+template <int kFour>
 HLC_INLINE Floats squared_beyond(const BoundBlock& bound, const Along& along) {
-  const auto beyond = [&](std::size_t axis) {
-    return larger(difference(along[axis], load(bound.high[axis])),
-                  difference(load(bound.low[axis]), along[axis]));
+  const auto beyond = [&](std::size_t axis, const Shorts& places) {
+    return larger(difference(places, load(bound.high[axis])),
+                  difference(load(bound.low[axis]), places));
+  };
+  const auto beyond_two = [&](std::size_t two) {
+    return larger(beyond(2 * two, four_times_two<kFour>(along[two])),
+                  beyond(2 * two + 1, four_times_two<kFour + 2>(along[two])));
   };
   // By twos: a processor has the largest of eight after three steps.
-  const Shorts first = larger(larger(beyond(0), beyond(1)), larger(beyond(2), beyond(3)));
-  const Shorts second = larger(larger(beyond(4), beyond(5)), larger(beyond(6), beyond(7)));
+  const Shorts first = larger(beyond_two(0), beyond_two(1));
+  const Shorts second = larger(beyond_two(2), beyond_two(3));
   return squares_of_two_added(larger(larger(first, second), all_shorts(0)));
 }
 
@@ -99,20 +128,21 @@ HLC_INLINE Expansion begin_expansion(Search& search, VertexData& vertex, std::si
   const std::size_t first_group = tables.first_group[vertex.trim];
   const std::size_t first_edge = kLanes * first_group;
   const std::size_t num_edges = kLanes * (tables.first_group[vertex.trim + 1] - first_group);
-  vertex.doubtful = Doubtful::kAll;
   vertex.first_edge = static_cast<std::uint32_t>(first_edge);
   vertex.num_edges = static_cast<std::uint32_t>(num_edges);
   search.generated += level.permitted[vertex.trim];
   ++search.expanded;
-  const double dx = plan.reference_x[depth] - vertex.x;
-  const double dy = plan.reference_y[depth] - vertex.y;
+  const double dx = plan.reference_x[depth] - vertex.place[kX];
+  const double dy = plan.reference_y[depth] - vertex.place[kY];
+  const double c = vertex.place[kCos];
+  const double s = vertex.place[kSin];
   return {first_group,
           num_edges,
           level.penalty + first_edge,
           tables.displacement_x + first_edge,
           tables.displacement_y + first_edge,
-          all(dx * vertex.cos_heading + dy * vertex.sin_heading),
-          all(dy * vertex.cos_heading - dx * vertex.sin_heading),
+          all(dx * c + dy * s),
+          all(dy * c - dx * s),
           all(vertex.cost_to_come)};
 }
 
@@ -143,65 +173,81 @@ HLC_INLINE double expand_without_bound(Search& search, VertexData& vertex, std::
   return least(lowest);
 }
 
+/// Of a long horizon, what all steps but the last eight or fewer add to the bounds of a vertex'
+/// edges: writes Search::to_go. Returns the first block that is left.
+[[gnu::noinline]] std::size_t bound_first_steps(const Search& search, const VertexData& vertex,
+                                                std::size_t depth) {
+  const Tables& tables = *search.tables;
+  const Level& level = search.levels[depth];
+  const BoundBlock* const first_bounds =
+      tables.bounds + vertex.first_edge / kLanes * tables.bound_size;
+  std::size_t block = 0;
+  for (; block + 2 < level.num_blocks; block += 2) {
+    Along along;
+    project(see(*search.plan, depth, *vertex.move, depth + 1 + kBoundSteps * block), along);
+    const std::uint32_t* const places = level.bounds + block;
+    const BoundBlock* bounds = first_bounds;
+    for (std::size_t edge = 0; edge < vertex.num_edges; edge += kLanes) {
+      Floats to_go = squared_beyond<0>(bounds[places[0]], along);
+      if (block != 0) to_go += load(search.to_go + 2 * edge);
+      store(search.to_go + 2 * edge, to_go + squared_beyond<1>(bounds[places[1]], along));
+      bounds += tables.bound_size;
+    }
+  }
+  return block;
+}
+
 /// Writes the keys of a vertex' children. Returns the least.
 HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) {
   const Tables& tables = *search.tables;
-  const Plan& plan = *search.plan;
-  const std::size_t num_blocks = search.levels[depth].num_blocks;
-  const Floats scale = all(kSurely * tables.squared_unit_m2);
-  const Placement at = placement_of(plan, vertex);
+  const Level& level = search.levels[depth];
   const Expansion expansion = begin_expansion(search, vertex, depth);
-  Doubles lowest = all(kForbidden);
-  for (std::size_t block = 0;; block += 2) {
-    // Eight steps at a time; what those before add up to waits in memory.
-    const bool is_last = num_blocks <= block + 2;
-    const bool has_second = num_blocks > block + 1;
-    const std::size_t step = depth + 1 + kBoundSteps * block;
-    Along first;
-    Along second;
-    project(plan.reference_dx + step, plan.reference_dy + step, at, tables.units_per_m, has_second,
-            first, second);
-    const std::uint32_t* const places = search.levels[depth].bounds + block;
-    const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
-    for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
-      Floats to_go = squared_beyond(bounds[places[0]], first);
-      if (block != 0) to_go += load(search.to_go + 2 * edge);
-      if (has_second) to_go += squared_beyond(bounds[places[1]], second);
-      bounds += tables.bound_size;
-      if (is_last) {
-        const Doubles f = cost_without_bound(expansion, edge) + halves_added(to_go * scale);
-        lowest = smaller(keep_key(tables, vertex, edge, f), lowest);
-      } else {
-        store(search.to_go + 2 * edge, to_go);
-      }
-    }
-    if (is_last) return least(lowest);
+  const bool is_long = level.num_blocks > 2;
+  const std::size_t block = is_long ? bound_first_steps(search, vertex, depth) : 0;
+  Along along;
+  project(see(*search.plan, depth, *vertex.move, depth + 1 + kBoundSteps * block), along);
+  const bool has_second = level.num_blocks > block + 1;
+  const std::size_t bound_size = tables.bound_size;
+  const BoundBlock* const bounds = tables.bounds + expansion.first_group * bound_size;
+  const BoundBlock* first = bounds + level.bounds[block];
+  const BoundBlock* second = bounds + level.bounds[has_second ? block + 1 : block];
+  const Floats scale = all(kSurely * tables.squared_unit_m2);
+  const auto key_of_four = [&](std::size_t edge) {
+    Floats to_go = squared_beyond<0>(*first, along);
+    if (is_long) to_go += load(search.to_go + 2 * edge);
+    if (has_second) to_go += squared_beyond<1>(*second, along);
+    const Doubles f = cost_without_bound(expansion, edge) + halves_added(to_go * scale);
+    return keep_key(tables, vertex, edge, f);
+  };
+  Doubles lowest = key_of_four(0);
+  for (std::size_t edge = kLanes; edge < expansion.num_edges; edge += kLanes) {
+    for (Shorts& two_axes : along) stay_in_loop(two_axes);
+    first += bound_size;
+    second += bound_size;
+    lowest = smaller(key_of_four(edge), lowest);
   }
+  return least(lowest);
 }
 
 /// Where a reference point, seen from a vertex, lies along each axis [1 / Tables::units_per_m m].
-struct Seen {
+struct SeenAlong {
   float along[kBoundAxes];
 };
 
-HLC_INLINE Seen see(const Plan& plan, std::size_t step, const VertexData& at, float units_per_m) {
-  const auto c = static_cast<float>(at.cos_heading);
-  const auto s = static_cast<float>(at.sin_heading);
-  const float dx =
-      (plan.reference_dx[step] - static_cast<float>(at.x - plan.origin_x)) * units_per_m;
-  const float dy =
-      (plan.reference_dy[step] - static_cast<float>(at.y - plan.origin_y)) * units_per_m;
-  const float ahead = dx * c + dy * s;
-  const float aside = dy * c - dx * s;
+HLC_INLINE SeenAlong see_alone(const Plan& plan, std::size_t step, const Move& at) {
+  const float dx = plan.seen_x[step] - at.x;
+  const float dy = plan.seen_y[step] - at.y;
+  const float ahead = dx * at.cos_heading + dy * at.sin_heading;
+  const float aside = dy * at.cos_heading - dx * at.sin_heading;
   const auto diagonal = static_cast<float>(kDiagonal);
-  return {{ahead, ahead * kCos + aside * kSin, (ahead + aside) * diagonal,
-           ahead * kSin + aside * kCos, aside, aside * kCos - ahead * kSin,
-           (aside - ahead) * diagonal, aside * kSin - ahead * kCos}};
+  return {{ahead, ahead * kAxisCos + aside * kAxisSin, (ahead + aside) * diagonal,
+           ahead * kAxisSin + aside * kAxisCos, aside, aside * kAxisCos - ahead * kAxisSin,
+           (aside - ahead) * diagonal, aside * kAxisSin - ahead * kAxisCos}};
 }
 
 /// How far a reference point lies beyond an interval of a block, on the axis that has most. Ends
 /// that are saturated bound nothing.
-HLC_INLINE float beyond(const BoundBlock& bound, std::size_t interval, const Seen& seen) {
+HLC_INLINE float beyond(const BoundBlock& bound, std::size_t interval, const SeenAlong& seen) {
   constexpr float kMost = 1e18F;  // its square, and the sum of many, are still numbers
   float most = 0.0F;
   for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
@@ -222,14 +268,14 @@ double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
   const Plan& plan = *search.plan;
   const Level& level = search.levels[depth];
   const Expansion expansion = begin_expansion(search, vertex, depth);
+  const Move at = move_from_start(plan, vertex, tables.units_per_m);
   const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
   Doubles lowest = all(kForbidden);
   for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
     float to_go[kLanes] = {};
     for (std::size_t block = 0; block < level.num_blocks; ++block) {
       for (std::size_t step = 0; step < kBoundSteps; ++step) {
-        const Seen seen =
-            see(plan, depth + 1 + kBoundSteps * block + step, vertex, tables.units_per_m);
+        const SeenAlong seen = see_alone(plan, depth + 1 + kBoundSteps * block + step, at);
         for (std::size_t e = 0; e < kLanes; ++e) {
           const float distance =
               beyond(bounds[level.bounds[block]], 8 * (step / 2) + 2 * e + step % 2, seen);
@@ -238,7 +284,7 @@ double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
       }
     }
     bounds += tables.bound_size;
-    const float scale = kSurely * tables.squared_unit_m2;
+    const float scale = kSurelyFar * tables.squared_unit_m2;
     const Doubles costs_to_go{
         static_cast<double>(to_go[0] * scale), static_cast<double>(to_go[1] * scale),
         static_cast<double>(to_go[2] * scale), static_cast<double>(to_go[3] * scale)};
@@ -250,8 +296,15 @@ double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
 
 /// Writes the keys of a vertex' children, with a bound or without. Returns the least.
 HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t depth, bool has_bound) {
-  if (!has_bound) return expand_without_bound(search, vertex, depth);
-  return search.plan->is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
+  const Plan& plan = *search.plan;
+  if (!has_bound) {
+    // Children may be bounded again, and see from here.
+    for (std::size_t step = depth + 1; step < plan.horizon_steps; step += kFloatLanes) {
+      static_cast<void>(see(plan, depth, *vertex.move, step));
+    }
+    return expand_without_bound(search, vertex, depth);
+  }
+  return plan.is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
 }
 
 /// Takes away the child with this key, the vertex' least, and notes the least of the others. At
@@ -270,6 +323,11 @@ HLC_INLINE void take(VertexData& vertex, double key) {
     lowest = smaller(take_of_four(first), lowest);
   }
   vertex.next_key = least(lowest);
+}
+
+/// Of a place its position, with zeros for the heading.
+HLC_INLINE Doubles position_of(const double* place) {
+  return where_set(0b0011, load(place), all(0.0));
 }
 
 HLC_INLINE std::uint64_t bits(double value) {
@@ -312,7 +370,7 @@ void run(Search& search) {
   for (;;) {
     const bool has_bound = search.levels[depth].num_blocks != 0 && has_patience;
     double key = expand_by(search, *vertex, depth, has_bound);
-    if (key < best) key = look_at_obstacles(search, depth + 1, *vertex, key, best);
+    if (key < best && !list_near(search, depth + 1, *vertex)) key = kForbidden;
 
     // The next vertex to expand: the first free child that is worth it, here or further back.
     for (;;) {
@@ -328,26 +386,24 @@ void run(Search& search) {
       }
       const auto number = static_cast<std::uint32_t>(bits(key) & tables.index_mask);
       take(*vertex, key);
-      if (!is_free(search, number, depth + 1, *vertex)) {
+      const std::uint32_t edge = vertex->first_edge + number;
+      if (!is_free(search, edge, *vertex)) {
         key = vertex->next_key;
         continue;
       }
 
-      const std::uint32_t edge = vertex->first_edge + number;
       const EdgeData& data = tables.edges[edge];
-      const double c = vertex->cos_heading;
-      const double s = vertex->sin_heading;
       VertexData& child = vertex[1];
-      child.x = vertex->x + c * data.x - s * data.y;
-      child.y = vertex->y + s * data.x + c * data.y;
+      store(child.place,
+            position_of(vertex->place) + (all(vertex->place[kCos]) * load(data.displacement) +
+                                          all(vertex->place[kSin]) * load(data.turned)));
       child.from_edge = edge;
-      const double dx = child.x - plan.reference_x[depth];
-      const double dy = child.y - plan.reference_y[depth];
+      const double dx = child.place[kX] - plan.reference_x[depth];
+      const double dy = child.place[kY] - plan.reference_y[depth];
       child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy) + data.cost;
       if (depth + 1 < n) {
-        child.cos_heading = c * data.cos_heading - s * data.sin_heading;
-        child.sin_heading = s * data.cos_heading + c * data.sin_heading;
         child.trim = data.to;
+        child.move = move_to(search, child, depth + 1, data);
         break;
       }
       if (child.cost_to_come < best) {
@@ -355,8 +411,8 @@ void run(Search& search) {
         has_patience = true;
         for (std::size_t k = 0; k < n; ++k) {
           search.best_edges[k] = search.path[k + 1].from_edge;
-          search.best_x[k] = search.path[k + 1].x;
-          search.best_y[k] = search.path[k + 1].y;
+          search.best_x[k] = search.path[k + 1].place[kX];
+          search.best_y[k] = search.path[k + 1].place[kY];
         }
       }
       key = vertex->next_key;
@@ -380,16 +436,8 @@ void expand_start(Search& search) {
   static_cast<void>(expand_by(search, search.path[0], 0, search.levels[0].num_blocks != 0));
 }
 
-bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex,
-                   bool among_all) {
-  const Tables& tables = *search.tables;
-  vertex.first_edge = kLanes * tables.first_group[vertex.trim];
-  vertex.num_edges = kLanes * tables.first_group[vertex.trim + 1] - vertex.first_edge;
-  const std::uint32_t number = edge - vertex.first_edge;
-  vertex.keys[number] = 0.0;
-  vertex.doubtful = Doubtful::kAll;
-  if (among_all) static_cast<void>(forbid_met(search, step, vertex, 0.0));
-  return vertex.keys[number] < kForbidden && is_free(search, number, step, vertex);
+bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex) {
+  return list_near(search, step, vertex) && is_free(search, edge, vertex);
 }
 
 #undef HLC_INLINE

@@ -1,6 +1,6 @@
 // What BranchAndBound's inner loop prepares once per plan, in single precision, relative to the
 // plan's start: obstacles and boundary segments that can be met, with what encloses them. Compiled
-// twice, as branch_and_bound_kernel.hpp, and for the same reason self-contained.
+// as often as branch_and_bound_kernel.hpp, and for the same reason self-contained.
 #pragma once
 
 #include "planner/search/branch_and_bound_data.hpp"
@@ -15,22 +15,23 @@ constexpr double kDiagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
 constexpr std::uint32_t kEveryLane = 0xff;
 
 /// Corners, normals and offsets of an obstacle.
-HLC_INLINE void write_corners(const Plan& plan, const PolygonData& polygon) {
-  double* const x = plan.corners;
-  double* const y = plan.corners + plan.corner_stride;
-  const std::uint32_t padded = polygon.num_blocks * kFloatLanes;
-  for (std::uint32_t i = 0; i < polygon.size; ++i) {
-    x[i] = polygon.corners[2 * i] - plan.origin_x;
-    y[i] = polygon.corners[2 * i + 1] - plan.origin_y;
+HLC_INLINE void write_piece(const Plan& plan, const PieceData& piece, PolygonBlock& block) {
+  alignas(32) double x[kFloatLanes + 1];
+  alignas(32) double y[kFloatLanes + 1];
+  const double* const corners = plan.polygons[piece.polygon].corners;
+  const double* const others = corners + 2 * piece.second;
+  x[0] = corners[0] - plan.origin_x;
+  y[0] = corners[1] - plan.origin_y;
+  for (std::uint32_t i = 1; i < piece.size; ++i) {
+    x[i] = others[2 * i - 2] - plan.origin_x;
+    y[i] = others[2 * i - 1] - plan.origin_y;
   }
-  for (std::uint32_t i = polygon.size; i <= padded; ++i) {
+  for (std::uint32_t i = piece.size; i <= kFloatLanes; ++i) {
     x[i] = x[0];
     y[i] = y[0];
   }
   const double least_length = kLeastLength * plan.scale;
-  for (std::uint32_t i = 0; i < padded; i += kLanes) {
-    PolygonBlock& block = plan.obstacle_blocks[polygon.first_block + i / kFloatLanes];
-    const std::uint32_t lane = i % kFloatLanes;
+  for (std::uint32_t i = 0; i < kFloatLanes; i += kLanes) {
     const Doubles from_x = load(x + i);
     const Doubles from_y = load(y + i);
     const Doubles along_x = load(x + i + 1) - from_x;
@@ -41,94 +42,13 @@ HLC_INLINE void write_corners(const Plan& plan, const PolygonData& polygon) {
     const Doubles scale = if_less(all(least_length), length, all(1.0) / length, all(0.0));
     const Doubles normal_x = along_y * scale;
     const Doubles normal_y = all(0.0) - along_x * scale;
-    store(block.x + lane, from_x);
-    store(block.y + lane, from_y);
-    store(block.normal_x + lane, normal_x);
-    store(block.normal_y + lane, normal_y);
-    store(block.offset + lane, normal_x * from_x + normal_y * from_y);
+    store(block.x + i, from_x);
+    store(block.y + i, from_y);
+    store(block.normal_x + i, normal_x);
+    store(block.normal_y + i, normal_y);
+    store(block.offset + i, normal_x * from_x + normal_y * from_y);
   }
-  PolygonBlock& last = plan.obstacle_blocks[polygon.first_block + polygon.num_blocks - 1];
-  for (std::uint32_t i = polygon.size; i < padded; ++i)
-    last.offset[i % kFloatLanes] = kSeparatesNothing;
-}
-
-/// From where to where a polygon's corners lie along an axis.
-struct Extent {
-  float low;
-  float high;
-};
-
-HLC_INLINE Extent extent(const PolygonBlock* blocks, std::uint32_t num_blocks, float axis_x,
-                         float axis_y) {
-  Floats low = load(blocks[0].x) * all(axis_x) + load(blocks[0].y) * all(axis_y);
-  Floats high = low;
-  for (std::uint32_t i = 1; i < num_blocks; ++i) {
-    const Floats place = load(blocks[i].x) * all(axis_x) + load(blocks[i].y) * all(axis_y);
-    low = smaller(place, low);
-    high = larger(place, high);
-  }
-  return {least(low), largest(high)};
-}
-
-/// Rectangles of an obstacle, along its longest edge, and everything else that is needed of it.
-void make_ready(const Plan& plan, std::uint32_t item) {
-  const PolygonData& polygon = plan.polygons[plan.obstacles[item]];
-  write_corners(plan, polygon);
-  const double* const x = plan.corners;
-  const double* const y = plan.corners + plan.corner_stride;
-  double along_x = 1.0;
-  double along_y = 0.0;
-  double longest = 0.0;
-  for (std::uint32_t i = 0; i < polygon.size; ++i) {
-    const double dx = x[i + 1] - x[i];
-    const double dy = y[i + 1] - y[i];
-    const double squared = dx * dx + dy * dy;
-    const bool is_longer = squared > longest;
-    longest = is_longer ? squared : longest;
-    along_x = is_longer ? dx : along_x;
-    along_y = is_longer ? dy : along_y;
-  }
-  const double scale = longest > 0.0 ? 1.0 / __builtin_sqrt(longest) : 1.0;
-  const auto axis_x = static_cast<float>(along_x * scale);
-  const auto axis_y = static_cast<float>(along_y * scale);
-  const PolygonBlock* const blocks = plan.obstacle_blocks + polygon.first_block;
-  const Extent along = extent(blocks, polygon.num_blocks, axis_x, axis_y);
-  const Extent aside = extent(blocks, polygon.num_blocks, -axis_y, axis_x);
-  const float middle_along = 0.5F * (along.low + along.high);
-  const float middle_aside = 0.5F * (aside.low + aside.high);
-  const float half_along = 0.5F * (along.high - along.low);
-  const float half_aside = 0.5F * (aside.high - aside.low);
-  const float centre_x = middle_along * axis_x - middle_aside * axis_y;
-  const float centre_y = middle_along * axis_y + middle_aside * axis_x;
-
-  // The share of the outer rectangle that every edge leaves inside. An edge without direction
-  // leaves nothing: of such a polygon the exact test alone knows what it meets.
-  Floats share = all(1.0F);
-  for (std::uint32_t i = 0; i < polygon.num_blocks; ++i) {
-    const Floats normal_x = load(blocks[i].normal_x);
-    const Floats normal_y = load(blocks[i].normal_y);
-    const Floats inside =
-        load(blocks[i].offset) - (normal_x * all(centre_x) + normal_y * all(centre_y));
-    const Floats taken =
-        absolute(normal_x * all(axis_x) + normal_y * all(axis_y)) * all(half_along) +
-        absolute(normal_y * all(axis_x) - normal_x * all(axis_y)) * all(half_aside);
-    share = smaller(if_less(all(0.0F), taken, inside / taken, inside), share);
-  }
-  const float inner = least(share);
-  const bool has_inner = inner > 0.0F;
-
-  ObstaclesBlock& obstacles = plan.obstacle_rectangles[item / kFloatLanes];
-  RectanglesBlock& block = obstacles.rectangles;
-  const std::uint32_t lane = item % kFloatLanes;
-  block.x[lane] = centre_x;
-  block.y[lane] = centre_y;
-  block.along_x[lane] = axis_x;
-  block.along_y[lane] = axis_y;
-  block.outer_along[lane] = half_along;
-  block.outer_aside[lane] = half_aside;
-  block.inner_along[lane] = has_inner ? inner * half_along : kNoInner;
-  block.inner_aside[lane] = has_inner ? inner * half_aside : kNoInner;
-  obstacles.is_ready |= 1U << lane;
+  for (std::uint32_t i = piece.size; i < kFloatLanes; ++i) block.offset[i] = kSeparatesNothing;
 }
 
 /// Places along the axes of the start's frame.
@@ -146,70 +66,80 @@ HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double*
   return (lanes_less(load(reach + kAxes), low) | lanes_less(high, load(reach))) != 0;
 }
 
-/// Nothing meets what is in a block before obstacles are written into it.
-HLC_INLINE void write_padding(ObstaclesBlock& obstacles) {
-  obstacles.is_there = 0;
-  obstacles.is_ready = 0;
-  RectanglesBlock& block = obstacles.rectangles;
-  store(block.x, all(kFarAway));
-  store(block.y, all(kFarAway));
-  store(block.along_x, all(1.0F));
-  store(block.along_y, all(0.0F));
-  store(block.outer_along, all(0.0F));
-  store(block.outer_aside, all(0.0F));
-  store(block.inner_along, all(kNoInner));
-  store(block.inner_aside, all(kNoInner));
+/// From the lowest to the highest x and y of a polygon, each twice.
+struct Bounds {
+  Doubles lowest;
+  Doubles highest;
+};
+
+HLC_INLINE Bounds bounds_of(const PolygonData& polygon) {
+  // Two corners at a time; the last two may come twice.
+  const std::uint32_t last_pair = 2 * polygon.size - 4;
+  Doubles lowest = load(polygon.corners + last_pair);
+  Doubles highest = lowest;
+  for (std::uint32_t i = 0; i < last_pair; i += 4) {
+    const Doubles pair = load(polygon.corners + i);
+    lowest = smaller(pair, lowest);
+    highest = larger(pair, highest);
+  }
+  return {smaller(lowest, halves_swapped(lowest)), larger(highest, halves_swapped(highest))};
+}
+
+/// The same corners in the same order, to the last bit?
+HLC_INLINE bool is_equal(const PolygonData& a, const PolygonData& b) {
+  if (a.size != b.size) return false;
+  for (std::uint32_t i = 0; i < 2 * a.size; i += 4) {
+    const std::uint32_t at = i < 2 * a.size - 4 ? i : 2 * a.size - 4;
+    if (!are_equal(load(a.corners + at), load(b.corners + at))) return false;
+  }
+  return true;
 }
 
 /// Obstacles that can be met in their step, with a box around each.
 HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
+  constexpr std::uint32_t kMostOthers = kFloatLanes - 1;  // corners of a piece beside its first
   const Axes absolute_axes{absolute(axes.x), absolute(axes.y)};
+  const Doubles origin{plan.origin_x, plan.origin_y, plan.origin_x, plan.origin_y};
+  Doubles largest_coordinate = all(0.0);
   std::uint32_t count = 0;
-  std::size_t next = 0;
-  double scale = plan.scale;
+  const PolygonData* polygon = plan.polygons;
+  const PolygonData* const last = plan.polygons + plan.num_polygons;
   plan.first_obstacle[0] = 0;
   for (std::size_t step = 0; step < plan.horizon_steps; ++step) {
-    for (; next < plan.num_polygons && plan.polygons[next].step == step; ++next) {
-      const PolygonData& polygon = plan.polygons[next];
-      const double* const corners = polygon.corners;
-      // Two corners at a time; the last two may come twice.
-      const std::uint32_t last_pair = 2 * polygon.size - 4;
-      Doubles lowest = load(corners + last_pair);
-      Doubles highest = lowest;
-      for (std::uint32_t i = 0; i < last_pair; i += 4) {
-        const Doubles pair = load(corners + i);
-        lowest = smaller(pair, lowest);
-        highest = larger(pair, highest);
-      }
-      const double min_x = lowest[0] < lowest[2] ? lowest[0] : lowest[2];
-      const double min_y = lowest[1] < lowest[3] ? lowest[1] : lowest[3];
-      const double max_x = highest[0] > highest[2] ? highest[0] : highest[2];
-      const double max_y = highest[1] > highest[3] ? highest[1] : highest[3];
-      const double centre_x = 0.5 * (min_x + max_x) - plan.origin_x;
-      const double centre_y = 0.5 * (min_y + max_y) - plan.origin_y;
-      const double half_x = 0.5 * (max_x - min_x);
-      const double half_y = 0.5 * (max_y - min_y);
-      const Doubles centre = along_axes(axes, centre_x, centre_y);
-      const Doubles half = along_axes(absolute_axes, half_x, half_y);
-      if (is_beyond(centre - half, centre + half, plan.reach[step])) continue;
-      const std::uint32_t lane = count % kFloatLanes;
-      ObstaclesBlock& obstacles = plan.obstacle_rectangles[count / kFloatLanes];
-      if (lane == 0) write_padding(obstacles);
-      RectanglesBlock& block = obstacles.rectangles;
-      block.x[lane] = static_cast<float>(centre_x);
-      block.y[lane] = static_cast<float>(centre_y);
-      block.outer_along[lane] = static_cast<float>(half_x);
-      block.outer_aside[lane] = static_cast<float>(half_y);
-      obstacles.is_there |= 1U << lane;
-      plan.obstacles[count] = static_cast<std::uint32_t>(next);
-      ++count;
-      const double size = absolute(centre_x) + absolute(centre_y) + half_x + half_y;
-      scale = size > scale ? size : scale;
+    const double* const reach = plan.reach[step];
+    for (const PolygonData* before = nullptr; polygon != last && polygon->step == step;
+         before = polygon++) {
+      // A vehicle that keeps to its former plan is where both of its plans say.
+      if (before != nullptr && is_equal(*before, *polygon)) continue;
+      const Bounds bounds = bounds_of(*polygon);
+      const Doubles centre = all(0.5) * (bounds.lowest + bounds.highest) - origin;
+      const Doubles half = all(0.5) * (bounds.highest - bounds.lowest);
+      const Doubles place = along_axes(axes, centre[0], centre[1]);
+      const Doubles size = along_axes(absolute_axes, half[0], half[1]);
+      if (is_beyond(place - size, place + size, reach)) continue;
+      std::uint32_t second = 1;
+      do {
+        const std::uint32_t others = polygon->size - second;
+        const std::uint32_t lane = count % kFloatLanes;
+        BoxesBlock& boxes = plan.obstacle_boxes[count / kFloatLanes];
+        boxes.x[lane] = static_cast<float>(centre[0]);
+        boxes.y[lane] = static_cast<float>(centre[1]);
+        boxes.half_x[lane] = static_cast<float>(half[0]);
+        boxes.half_y[lane] = static_cast<float>(half[1]);
+        boxes.is_ready = 0;
+        plan.obstacles[count] = {static_cast<std::uint32_t>(polygon - plan.polygons), second,
+                                 1 + (others < kMostOthers ? others : kMostOthers)};
+        ++count;
+        second += kMostOthers - 1;
+      } while (second + 1 < polygon->size);
+      largest_coordinate = larger(absolute(centre) + half, largest_coordinate);
     }
+    plan.last_obstacle[step] = count;
     count = (count + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
     plan.first_obstacle[step + 1] = count;
   }
-  plan.scale = scale;
+  const double size = largest_coordinate[0] + largest_coordinate[1];
+  plan.scale = size > plan.scale ? size : plan.scale;
 }
 
 /// An oriented rectangle that contains eight segments in a row, along the line from the first one's
@@ -350,15 +280,15 @@ HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double*
 }
 
 void prepare(Plan& plan, const VertexData& start) {
-  const double c = start.cos_heading;
-  const double s = start.sin_heading;
+  const double c = start.place[kCos];
+  const double s = start.place[kSin];
   const double diagonal = (c - s) * kDiagonal;
   const double other = (c + s) * kDiagonal;
   const double x[kAxes] = {c, diagonal, -s, -other};
   const double y[kAxes] = {s, other, c, diagonal};
   const Axes axes{load(x), load(y)};
-  plan.origin_x = start.x;
-  plan.origin_y = start.y;
+  plan.origin_x = start.place[kX];
+  plan.origin_y = start.place[kY];
   prepare_obstacles(plan, axes);
   prepare_segments(plan, x, y);
   plan.tolerance = 0x1p-18F * static_cast<float>(plan.scale);

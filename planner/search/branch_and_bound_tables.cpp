@@ -39,45 +39,15 @@ Interval interval_along(const ConvexPolygon& area_m, const Point& axis) {
   return interval;
 }
 
-/// Half the size of the largest rectangle in an area with that centre and axes; zero if an edge has
-/// no direction: of such an area the exact test alone knows what it meets.
-Point largest_inside(const ConvexPolygon& area_m, const Point& centre, const Point& along,
-                     const Point& aside, const Point& outer) {
+/// The smallest rectangle around an area with one side along an edge.
+Surroundings rectangle_around(const ConvexPolygon& area_m) {
   const auto& corners = area_m.vertices_m;
-  Point largest = Point::Zero();
-  constexpr int kSizes = 64;
-  for (int size = 1; size <= kSizes; ++size) {
-    const double half_along = outer.x() * size / kSizes;
-    double half_aside = outer.y();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Point edge = corners[(i + 1) % corners.size()] - corners[i];
-      if (edge.norm() <= kLeastEdge_m) return Point::Zero();
-      const Point normal{edge.y(), -edge.x()};
-      const double left =
-          normal.dot(corners[i] - centre) - std::abs(normal.dot(along)) * half_along;
-      const double across = std::abs(normal.dot(aside));
-      if (left <= 0.0) {
-        half_aside = 0.0;
-      } else if (across * half_aside > left) {
-        half_aside = left / across;
-      }
-    }
-    if (half_along * half_aside > largest.prod()) largest = {half_along, half_aside};
-  }
-  return largest;
-}
-
-/// The smallest rectangle around an area with one side along an edge, and the largest one inside
-/// with its centre and axes.
-Rectangles rectangles_of(const ConvexPolygon& area_m) {
-  const auto& corners = area_m.vertices_m;
-  if (corners.empty()) return {0.0F, 0.0F, 1.0F, 0.0F, kNoOuter, kNoOuter, kNoInner, kNoInner};
+  if (corners.empty()) return {0.0F, 0.0F, 1.0F, 0.0F, kNoRectangle, kNoRectangle};
   const Box box = bounding_box(area_m);  // of an area without an edge that has a direction
   const Point middle = 0.5 * (box.min_m + box.max_m);
   const Point half = 0.5 * (box.max_m - box.min_m);
-  Rectangles best{
-      static_cast<float>(middle.x()), static_cast<float>(middle.y()), 1.0F,     0.0F,
-      static_cast<float>(half.x()),   static_cast<float>(half.y()),   kNoInner, kNoInner};
+  Surroundings best{static_cast<float>(middle.x()), static_cast<float>(middle.y()), 1.0F, 0.0F,
+                    static_cast<float>(half.x()),   static_cast<float>(half.y())};
   double least_size_m2 = std::numeric_limits<double>::infinity();
   for (std::size_t edge = 0; edge < corners.size(); ++edge) {
     const Point side = corners[(edge + 1) % corners.size()] - corners[edge];
@@ -87,23 +57,28 @@ Rectangles rectangles_of(const ConvexPolygon& area_m) {
     const Point aside{-along.y(), along.x()};
     const Interval ahead = interval_along(area_m, along);
     const Interval left = interval_along(area_m, aside);
-    const Point outer{0.5 * (ahead.high - ahead.low), 0.5 * (left.high - left.low)};
-    if (!(outer.prod() < least_size_m2)) continue;
-    least_size_m2 = outer.prod();
+    const Point half_size{0.5 * (ahead.high - ahead.low), 0.5 * (left.high - left.low)};
+    if (!(half_size.prod() < least_size_m2)) continue;
+    least_size_m2 = half_size.prod();
     const Point centre =
         0.5 * (ahead.low + ahead.high) * along + 0.5 * (left.low + left.high) * aside;
-    const Point inner = largest_inside(area_m, centre, along, aside, outer);
-    const bool has_inner = inner.prod() > 0.0;
-    best = {static_cast<float>(centre.x()),
-            static_cast<float>(centre.y()),
-            static_cast<float>(along.x()),
-            static_cast<float>(along.y()),
-            static_cast<float>(outer.x()),
-            static_cast<float>(outer.y()),
-            has_inner ? static_cast<float>(inner.x()) : kNoInner,
-            has_inner ? static_cast<float>(inner.y()) : kNoInner};
+    best = {static_cast<float>(centre.x()),    static_cast<float>(centre.y()),
+            static_cast<float>(along.x()),     static_cast<float>(along.y()),
+            static_cast<float>(half_size.x()), static_cast<float>(half_size.y())};
   }
   return best;
+}
+
+/// Does the origin lie inside an area, with room?
+bool holds_origin(const ConvexPolygon& area_m) {
+  constexpr double kRoom_m = 1e-3;
+  const auto& corners = area_m.vertices_m;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point edge = corners[(i + 1) % corners.size()] - corners[i];
+    const double inside = edge.y() * corners[i].x() - edge.x() * corners[i].y();
+    if (!(inside > kRoom_m * edge.norm())) return false;
+  }
+  return !corners.empty();
 }
 
 }  // namespace
@@ -127,8 +102,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
   view_.bounds = bounds_.data();
   view_.numbers = numbers_.data();
   view_.area_blocks = area_blocks_.data();
-  view_.rectangles = rectangles_.data();
-  view_.first_rectangles = first_rectangles_.data();
+  view_.lane_areas = lane_areas_.data();
   view_.around = around_.data();
 }
 
@@ -143,15 +117,14 @@ void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
       longest_m_ = std::max(longest_m_, displacement.origin_m.norm());
       area_radius_m_ = std::max(area_radius_m_, displacement.origin_m.norm());
       maneuvers_.push_back(&maneuver);
-      edges_.push_back({displacement.origin_m.x(), displacement.origin_m.y(),
-                        displacement.cos_heading, displacement.sin_heading,
-                        costs.above_least(maneuver), static_cast<std::uint32_t>(edge.to.index),
-                        add_area(maneuver.swept_area_m), add_area(maneuver.lane_area_m)});
+      edges_.push_back(edge_data(edge, displacement, costs));
+      lane_areas_.push_back(add_lane_area(maneuver.lane_area_m));
     }
-    add_rectangles(successors);
+    add_surroundings(successors);
     while (edges_.size() % kLanes != 0 || edges_.size() == kLanes * first_group_.back()) {
       maneuvers_.push_back(nullptr);
       edges_.push_back({});
+      lane_areas_.push_back({});
     }
     most_edges_ = std::max(most_edges_, padded(successors.size()));
     first_group_.push_back(static_cast<std::uint32_t>(edges_.size() / kLanes));
@@ -162,50 +135,66 @@ void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
     numbers_.push_back(std::bit_cast<double>(number));
   }
   for (const EdgeData& edge : edges_) {
-    displacement_x_.push_back(edge.x);
-    displacement_y_.push_back(edge.y);
+    displacement_x_.push_back(edge.displacement[kX]);
+    displacement_y_.push_back(edge.displacement[kY]);
   }
 }
 
-void TableStore::add_rectangles(std::span<const Edge> successors) {
-  first_rectangles_.push_back(static_cast<std::uint32_t>(rectangles_.size()));
+void TableStore::add_surroundings(std::span<const Edge> successors) {
   std::vector<ConvexPolygon> areas_m;
-  for (std::size_t number = 0; number < padded(successors.size(), kFloatLanes); ++number) {
-    ConvexPolygon area_m;  // none: padding
-    if (number < successors.size()) area_m = successors[number].maneuver->swept_area_m;
-    if (!area_m.vertices_m.empty()) areas_m.push_back(area_m);
-    const std::size_t lane = number % kFloatLanes;
-    if (lane == 0) rectangles_.emplace_back();
-    RectanglesBlock& block = rectangles_.back();
-    const Rectangles rectangles = rectangles_of(area_m);
-    block.x[lane] = rectangles.x;
-    block.y[lane] = rectangles.y;
-    block.along_x[lane] = rectangles.along_x;
-    block.along_y[lane] = rectangles.along_y;
-    block.outer_along[lane] = rectangles.outer_along;
-    block.outer_aside[lane] = rectangles.outer_aside;
-    block.inner_along[lane] = rectangles.inner_along;
-    block.inner_aside[lane] = rectangles.inner_aside;
+  bool all_hold_start = true;
+  for (const Edge& edge : successors) {
+    const ConvexPolygon& area_m = edge.maneuver->swept_area_m;
+    if (!area_m.empty()) areas_m.push_back(area_m);
+    all_hold_start = all_hold_start && holds_origin(area_m);
   }
-  around_.push_back(rectangles_of(areas_m.empty() ? ConvexPolygon{} : convex_hull(areas_m)));
+  around_.push_back(rectangle_around(areas_m.empty() ? ConvexPolygon{} : convex_hull(areas_m)));
+  around_.back().all_hold_start = all_hold_start;
 }
 
-Area TableStore::add_area(const ConvexPolygon& area_m) {
+EdgeData TableStore::edge_data(const Edge& edge, const Frame& displacement,
+                               const EdgeCosts& costs) {
+  const double x_m = displacement.origin_m.x();
+  const double y_m = displacement.origin_m.y();
+  const double c = displacement.cos_heading;
+  const double s = displacement.sin_heading;
+  EdgeData data{.displacement = {x_m, y_m, c, s},
+                .turned = {-y_m, x_m, -s, c},
+                .cost = costs.above_least(*edge.maneuver),
+                .to = static_cast<std::uint32_t>(edge.to.index),
+                .first_swept = static_cast<std::uint32_t>(area_blocks_.size())};
+  const auto& corners = edge.maneuver->swept_area_m.vertices_m;
+  constexpr std::size_t kMost = kFloatLanes - 1;  // beside the first one
+  for (std::size_t first = 1; first + 1 < corners.size(); first += kMost - 1) {
+    const std::size_t last = std::min(first + kMost, corners.size());
+    std::vector<Point> piece{corners.front()};
+    for (std::size_t i = first; i < last; ++i) piece.push_back(corners[i]);
+    add_blocks(piece);
+    ++data.num_swept;
+  }
+  return data;
+}
+
+LaneArea TableStore::add_lane_area(const ConvexPolygon& area_m) {
   const auto& corners = area_m.vertices_m;
-  Area area{};
+  LaneArea area{};
   area.first_block = static_cast<std::uint32_t>(area_blocks_.size());
   area.num_blocks = static_cast<std::uint32_t>(blocks_of(corners.size()));
-  area_blocks_.resize(area_blocks_.size() + area.num_blocks);
-  most_blocks_ = std::max<std::size_t>(most_blocks_, area.num_blocks);
   if (corners.empty()) return area;
-
+  add_blocks({corners.data(), corners.size()});
   const Box box = bounding_box(area_m);
   const Point centre = 0.5 * (box.min_m + box.max_m);
   area.centre_x = static_cast<float>(centre.x());
   area.centre_y = static_cast<float>(centre.y());
   area.half_x = static_cast<float>(0.5 * (box.max_m.x() - box.min_m.x()));
   area.half_y = static_cast<float>(0.5 * (box.max_m.y() - box.min_m.y()));
-  for (std::size_t i = 0; i < area.num_blocks * kFloatLanes; ++i) {
+  return area;
+}
+
+void TableStore::add_blocks(std::span<const Point> corners) {
+  const std::size_t first_block = area_blocks_.size();
+  area_blocks_.resize(first_block + blocks_of(corners.size()));
+  for (std::size_t i = 0; i < blocks_of(corners.size()) * kFloatLanes; ++i) {
     const bool is_padding = i >= corners.size();
     const Point& from = corners[is_padding ? 0 : i];
     const Point along =
@@ -213,7 +202,7 @@ Area TableStore::add_area(const ConvexPolygon& area_m) {
     const double length = along.cwiseAbs().maxCoeff();
     const Point normal =
         length > kLeastEdge_m ? Point(along.y() / length, -along.x() / length) : Point::Zero();
-    PolygonBlock& block = area_blocks_[area.first_block + i / kFloatLanes];
+    PolygonBlock& block = area_blocks_[first_block + i / kFloatLanes];
     const std::size_t lane = i % kFloatLanes;
     block.x[lane] = static_cast<float>(from.x());
     block.y[lane] = static_cast<float>(from.y());
@@ -222,7 +211,6 @@ Area TableStore::add_area(const ConvexPolygon& area_m) {
     block.offset[lane] = is_padding ? kSeparatesNothing : static_cast<float>(normal.dot(from));
     area_radius_m_ = std::max(area_radius_m_, from.norm());
   }
-  return area;
 }
 
 void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs,
@@ -255,23 +243,29 @@ void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs
   }
 }
 
-// With u = 2^-24, the distance L from the start to the farthest vertex of kMostSteps steps, q a
-// reference point seen from a vertex and p its place along an axis, p is in single precision off by
-// at most 10 u ||q|| + 4 u L. Let R be the largest |c| + w of all axes. Intervals that are 64 u R +
-// 4 u L wider on both sides make up for the second term and, where ||q|| is at most 4 R, for the
-// first. Beyond, the distance on the axis that has most is at least 0.98 ||q|| - R > 0.7 ||q||, so
-// it is off by less than 17 u of itself and its square by less than 36 u.
+// With u = 2^-24, let L be the distance from the start to the farthest vertex of kMostSteps steps,
+// D the longest displacement, q a reference point seen from a vertex and p its place along an axis.
+// Seen from the start, in single precision, q is off by at most 6 u ||q|| + 2 u L. From one vertex
+// to the next a turn and a shift add 5 u ||q'|| + u D, where q' is q seen from the one before, so
+// that ||q'|| <= ||q|| + 7 D in a row of eight vertices, and the axis 4 u ||q||. So p is off by at
+// most 44 u ||q|| + 4 u L + 256 u D. Let R be the largest |c| + w of all axes. Intervals that are
+// 192 u R + 4 u L + 256 u D wider on both sides make up for the last two terms and, where ||q|| is
+// at most 4 R, for the first. Beyond, the distance on the axis that has most is at least
+// 0.98 ||q|| - R > 0.7 ||q||, so it is off by less than 63 u of itself and its square by less than
+// 128 u. (Of reference points that are always seen from the start p is off by at most 10 u ||q|| +
+// 4 u L, and the square by less than 36 u.)
 //
 // Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
 // too. From there on all is exact but the sum of squares: m / 4 + 2 roundings. Factor kSurely of
-// the kernel, 1 - 80 u, makes up for it and for the square above. Where p might be no number of 16
-// bits it is left as it is, and its distance and square are rounded once more each.
+// the kernel, 1 - 160 u, makes up for it and for the square above; kSurelyFar is 1 - 80 u. Where p
+// might be no number of 16 bits it is left as it is, and its distance and square are rounded once
+// more each.
 //
 // Nothing here depends on how many steps there are tables for: equal searches expand equally many
 // vertices.
 void TableStore::compute_bounds(const ReachableSets& reachable) {
-  constexpr double kRelative = 0x1p-18;
-  const double farthest = 0x1p-22 * static_cast<double>(kMostSteps) * longest_m_;
+  constexpr double kRelative = 0xCp-20;
+  const double farthest = (0x1p-22 * static_cast<double>(kMostSteps) + 0x1p-16) * longest_m_;
   // Fine enough for what is near, and so coarse that horizons of sixteen steps need nothing beyond.
   constexpr double kCountedSteps = 40.0;
   constexpr double kLargest = std::numeric_limits<std::int16_t>::max();
@@ -279,8 +273,15 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
   view_.units_per_m =
       static_cast<float>(1.0 / std::max(kCountedSteps * longest_m_ / kLargest, kLeastUnit_m));
   const double unit_m = 1.0 / static_cast<double>(view_.units_per_m);
-  counted_m_ = (kLargest - 1.0) * (1.0 - 0x1p-18) * unit_m;
+  counted_m_ = (kLargest - 1.0) * (1.0 - 0x1p-17) * unit_m;
   view_.squared_unit_m2 = static_cast<float>(unit_m * unit_m);
+  for (EdgeData& edge : edges_) {
+    const auto units = static_cast<double>(view_.units_per_m);
+    edge.move = {static_cast<float>(edge.displacement[kX] * units),
+                 static_cast<float>(edge.displacement[kY] * units),
+                 static_cast<float>(edge.displacement[kCos]),
+                 static_cast<float>(edge.displacement[kSin])};
+  }
   const std::size_t cap = max_steps_left_;
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
   num_bound_blocks_ = (max_steps + kBoundSteps - 1) / kBoundSteps;
@@ -292,7 +293,9 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
     if (maneuvers_[edge] == nullptr) continue;
     const EdgeData& data = edges_[edge];
-    const Frame frame{{data.x, data.y}, data.cos_heading, data.sin_heading};
+    const Frame frame{{data.displacement[kX], data.displacement[kY]},
+                      data.displacement[kCos],
+                      data.displacement[kSin]};
     const auto write = [&](BoundBlock& bound, std::size_t lane, std::size_t steps,
                            std::size_t left) {
       std::array<Interval, kBoundAxes> intervals;

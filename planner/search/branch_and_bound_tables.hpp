@@ -10,6 +10,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/branch_and_bound_data.hpp"
 #include "planner/search/edge_costs.hpp"
+#include "planner/search/frame.hpp"
 
 namespace hlc::branch_and_bound {
 
@@ -55,16 +56,17 @@ class TableStore {
   [[nodiscard]] double longest_m() const { return longest_m_; }
   /// So far from a vertex a place along an axis is a number of 16 bits.
   [[nodiscard]] double counted_m() const { return counted_m_; }
-  /// Blocks of the largest area.
-  [[nodiscard]] std::size_t most_blocks() const { return most_blocks_; }
   /// Most edges out of one trim, padded.
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
 
  private:
   void add_edges(const Subgraph& subgraph, const EdgeCosts& costs);
-  /// Those of the swept areas of a trim's edges, and around all.
-  void add_rectangles(std::span<const Edge> successors);
-  [[nodiscard]] Area add_area(const ConvexPolygon& area_m);
+  /// A rectangle around the swept areas of a trim's edges.
+  void add_surroundings(std::span<const Edge> successors);
+  [[nodiscard]] EdgeData edge_data(const Edge& edge, const Frame& displacement,
+                                   const EdgeCosts& costs);
+  [[nodiscard]] LaneArea add_lane_area(const ConvexPolygon& area_m);
+  void add_blocks(std::span<const Point> corners);
   void list_permitted(const Subgraph& subgraph, const EdgeCosts& costs, std::size_t max_steps);
   void compute_bounds(const ReachableSets& reachable);
   void list_levels(std::size_t max_steps);
@@ -82,9 +84,8 @@ class TableStore {
   std::array<std::vector<double>, 2> penalty_;
   std::array<std::vector<std::uint32_t>, 2> permitted_;
   std::vector<PolygonBlock> area_blocks_;
-  std::vector<RectanglesBlock> rectangles_;
-  std::vector<std::uint32_t> first_rectangles_;
-  std::vector<Rectangles> around_;
+  std::vector<LaneArea> lane_areas_;
+  std::vector<Surroundings> around_;
   std::vector<double> reach_;
   std::size_t reach_steps_{};
   std::vector<double> numbers_;
@@ -94,7 +95,6 @@ class TableStore {
   std::size_t num_trims_{};
   std::size_t max_steps_left_{};
   std::size_t most_edges_{};
-  std::size_t most_blocks_{};
   std::size_t num_bound_blocks_{};  ///< fours of steps after an edge
   std::size_t penalty_rows_{};      ///< by steps left, the last for all that are more
   Tables view_{};

@@ -8,12 +8,14 @@
 /// written with the compiler's vectors, others too). The same operations give the same bits both
 /// ways.
 ///
-/// Everything is inlined and in an unnamed namespace: the two translation units that include this
-/// must not share a function.
+/// Everything is inlined and in an unnamed namespace: the translation units that include this must
+/// not share a function.
 namespace hlc::branch_and_bound {
 namespace {
 
 #define HLC_INLINE [[gnu::always_inline]] inline
+
+using HalfDoubles = double __attribute__((vector_size(16)));
 
 #ifdef __AVX2__
 using Doubles = double __attribute__((vector_size(32)));
@@ -96,12 +98,22 @@ HLC_INLINE Doubles numbered(const Doubles& a, std::uint64_t mask, const Doubles&
       reinterpret_cast<DoubleBits>(number));
 }
 /// One bit per element, the lowest first: a < b?
+#ifdef __AVX512VL__
+constexpr int kLess = 0x11;  // not if one is no number
+HLC_INLINE std::uint32_t lanes_less(const Floats& a, const Floats& b) {
+  return static_cast<std::uint8_t>(__builtin_ia32_cmpps256_mask(a, b, kLess, 0xff));
+}
+HLC_INLINE std::uint32_t lanes_less(const Doubles& a, const Doubles& b) {
+  return static_cast<std::uint8_t>(__builtin_ia32_cmppd256_mask(a, b, kLess, 0x0f));
+}
+#else
 HLC_INLINE std::uint32_t lanes_less(const Floats& a, const Floats& b) {
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats>(a < b)));
 }
 HLC_INLINE std::uint32_t lanes_less(const Doubles& a, const Doubles& b) {
   return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(a < b)));
 }
+#endif
 /// Limited to 16 bits.
 HLC_INLINE Shorts difference(const Shorts& a, const Shorts& b) {
   return __builtin_ia32_psubsw256(a, b);
@@ -111,24 +123,40 @@ HLC_INLINE Shorts difference(const Shorts& a, const Shorts& b) {
 HLC_INLINE Shorts rounded(const Floats& a, const Floats& b) {
   return __builtin_ia32_packssdw256(__builtin_ia32_cvtps2dq256(a), __builtin_ia32_cvtps2dq256(b));
 }
-/// Of sixteen the four from number 4 kFour on: the first two four times, then the last two.
-template <int kFour>
-HLC_INLINE Shorts four_times_four(const Shorts& a) {
-  constexpr int kFirst = 2 * kFour;
-  constexpr int kSecond = kFirst + 1;
+/// Of each half the two from number 2 kTwo on, four times.
+template <int kTwo>
+HLC_INLINE Shorts four_times_two(const Shorts& a) {
   const auto twos = reinterpret_cast<FloatBits>(a);
-  return reinterpret_cast<Shorts>(__builtin_shufflevector(
-      twos, twos, kFirst, kFirst, kFirst, kFirst, kSecond, kSecond, kSecond, kSecond));
+  return reinterpret_cast<Shorts>(__builtin_shufflevector(twos, twos, kTwo, kTwo, kTwo, kTwo,
+                                                          kTwo + 4, kTwo + 4, kTwo + 4, kTwo + 4));
+}
+/// Elements 2 and 3 in the place of 4 and 5, and these in theirs.
+HLC_INLINE Floats middle_swapped(const Floats& a) {
+  return __builtin_shufflevector(a, a, 0, 1, 4, 5, 2, 3, 6, 7);
 }
 /// Squares of each two in a row, added.
 HLC_INLINE Floats squares_of_two_added(const Shorts& a) {
   return __builtin_convertvector(__builtin_ia32_pmaddwd256(a, a), Floats);
 }
+/// What is computed from it stays in a loop: there are not registers enough to keep it all.
+HLC_INLINE void stay_in_loop(Shorts& a) { asm("" : "+x"(a)); }
+HLC_INLINE Doubles halves_swapped(const Doubles& a) {
+  return __builtin_shufflevector(a, a, 2, 3, 0, 1);
+}
+HLC_INLINE bool are_equal(const Doubles& a, const Doubles& b) {
+  return __builtin_ia32_movmskpd256(reinterpret_cast<Doubles>(a == b)) == 0xf;
+}
+/// The smaller of elements 0 and 2 and of 1 and 3.
+HLC_INLINE HalfDoubles smaller_half(const Doubles& a) {
+  const HalfDoubles low = __builtin_shufflevector(a, a, 0, 1);
+  const HalfDoubles high = __builtin_shufflevector(a, a, 2, 3);
+  return low < high ? low : high;
+}
 /// Elements 0 and 4, 1 and 5, 2 and 6, 3 and 7.
 HLC_INLINE Doubles halves_added(const Floats& a) {
   const auto low = __builtin_shufflevector(a, a, 0, 1, 2, 3);
   const auto high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
-  return __builtin_convertvector(low + high, Doubles);
+  return __builtin_ia32_cvtps2pd256(low + high);
 }
 #else
 /// Two halves: the compiler makes poor code of longer vectors than the processor has.
@@ -157,7 +185,6 @@ struct Pair {
   }
   HLC_INLINE friend Pair& operator+=(Pair& a, const Pair& b) { return a = a + b; }
 };
-using HalfDoubles = double __attribute__((vector_size(16)));
 using HalfFloats = float __attribute__((vector_size(16)));
 using HalfDoubleBits = long long __attribute__((vector_size(16)));
 using HalfFloatBits = int __attribute__((vector_size(16)));
@@ -293,16 +320,19 @@ HLC_INLINE Shorts difference(const Shorts& a, const Shorts& b) {
 HLC_INLINE Shorts rounded(const Floats& a, const Floats& b) {
   return {rounded(a.low, b.low), rounded(a.high, b.high)};
 }
-template <int kFour>
-HLC_INLINE Shorts four_times_four(const Shorts& a) {
-  constexpr int kFirst = 2 * kFour % 4;
-  constexpr int kSecond = kFirst + 1;
-  const auto twos = reinterpret_cast<HalfFloatBits>(kFour < 2 ? a.low : a.high);
-  return {reinterpret_cast<HalfShorts>(
-              __builtin_shufflevector(twos, twos, kFirst, kFirst, kFirst, kFirst)),
-          reinterpret_cast<HalfShorts>(
-              __builtin_shufflevector(twos, twos, kSecond, kSecond, kSecond, kSecond))};
+template <int kTwo>
+HLC_INLINE Shorts four_times_two(const Shorts& a) {
+  const auto low = reinterpret_cast<HalfFloatBits>(a.low);
+  const auto high = reinterpret_cast<HalfFloatBits>(a.high);
+  return {
+      reinterpret_cast<HalfShorts>(__builtin_shufflevector(low, low, kTwo, kTwo, kTwo, kTwo)),
+      reinterpret_cast<HalfShorts>(__builtin_shufflevector(high, high, kTwo, kTwo, kTwo, kTwo))};
 }
+HLC_INLINE Floats middle_swapped(const Floats& a) {
+  return {__builtin_shufflevector(a.low, a.high, 0, 1, 4, 5),
+          __builtin_shufflevector(a.low, a.high, 2, 3, 6, 7)};
+}
+HLC_INLINE void stay_in_loop(Shorts&) {}
 HLC_INLINE Floats squares_of_two_added(const Shorts& a) {
   return {__builtin_convertvector(squares_of_two_added(a.low), HalfFloats),
           __builtin_convertvector(squares_of_two_added(a.high), HalfFloats)};
@@ -311,6 +341,7 @@ HLC_INLINE Doubles halves_added(const Floats& a) {
   const HalfFloats sum = a.low + a.high;
   return {HalfDoubles{sum[0], sum[1]}, HalfDoubles{sum[2], sum[3]}};
 }
+HLC_INLINE HalfDoubles smaller_half(const Doubles& a) { return a.low < a.high ? a.low : a.high; }
 HLC_INLINE std::uint32_t signs(const HalfFloats& a) {
 #ifdef __SSE2__
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps(a));
@@ -336,17 +367,16 @@ HLC_INLINE std::uint32_t lanes_less(const Doubles& a, const Doubles& b) {
   return signs(reinterpret_cast<HalfDoubles>(a.low < b.low)) |
          signs(reinterpret_cast<HalfDoubles>(a.high < b.high)) << 2U;
 }
+HLC_INLINE Doubles halves_swapped(const Doubles& a) { return {a.high, a.low}; }
+HLC_INLINE bool are_equal(const Doubles& a, const Doubles& b) {
+  return (signs(reinterpret_cast<HalfDoubles>(a.low == b.low)) &
+          signs(reinterpret_cast<HalfDoubles>(a.high == b.high))) == 3;
+}
 #endif
 
 HLC_INLINE double least(const Doubles& a) {
-  const double low = a[0] < a[1] ? a[0] : a[1];
-  const double high = a[2] < a[3] ? a[2] : a[3];
-  return low < high ? low : high;
-}
-HLC_INLINE double largest(const Doubles& a) {
-  const double low = a[0] > a[1] ? a[0] : a[1];
-  const double high = a[2] > a[3] ? a[2] : a[3];
-  return low > high ? low : high;
+  const HalfDoubles half = smaller_half(a);
+  return half[0] < half[1] ? half[0] : half[1];
 }
 HLC_INLINE float least(const Floats& a) {
   float value = a[0];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <type_traits>
 
 namespace hlc::branch_and_bound {
@@ -12,10 +11,10 @@ namespace {
 static_assert(sizeof(Point) == 2 * sizeof(double));
 static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v<Segment>);
 
-bool is_same(const ConvexPolygon& a, const ConvexPolygon& b) {
-  const std::size_t size = a.vertices_m.size();
-  return size == b.vertices_m.size() && a.vertices_m.front() == b.vertices_m.front() &&
-         std::memcmp(a.vertices_m.data(), b.vertices_m.data(), size * sizeof(Point)) == 0;
+/// Pieces of up to eight corners.
+std::size_t pieces_of(std::size_t corners) {
+  constexpr std::size_t kTriangles = kFloatLanes - 2;
+  return (corners - 2 + kTriangles - 1) / kTriangles;
 }
 
 template <class T>
@@ -35,14 +34,14 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
     reach_[step] = tables_.reach(problem.start_trim, step, n - step);
   }
   grow(first_obstacle_, n + 1);
+  grow(last_obstacle_, n);
   // Every step's obstacles are padded.
-  const std::size_t rectangle_blocks = blocks_of(num_polygons_) + n;
-  grow(obstacles_, rectangle_blocks * kFloatLanes);
-  grow(obstacle_rectangles_, rectangle_blocks);
-  grow(near_, rectangle_blocks * kFloatLanes);
-  grow(obstacle_blocks_, num_blocks_);
-  const std::size_t corner_stride = most_blocks_ * kFloatLanes + 1;
-  grow(corners_, 2 * corner_stride);
+  const std::size_t boxes_blocks = blocks_of(num_pieces_) + n;
+  grow(obstacles_, boxes_blocks * kFloatLanes);
+  grow(obstacle_boxes_, boxes_blocks);
+  grow(near_, (n + 1) * most_in_step_ + 1);
+  grow(seen_, (n + 1) * most_in_step_ + 1);
+  grow(obstacle_blocks_, boxes_blocks * kFloatLanes);
   const std::size_t segment_blocks = blocks_of(problem.boundary_m.size());
   grow(segment_source_, segment_blocks);
   grow(segment_blocks_, segment_blocks);
@@ -56,12 +55,10 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   plan.reach = reach_.data();
   plan.scale = tables_.reach_m(n);
   plan.first_obstacle = first_obstacle_.data();
+  plan.last_obstacle = last_obstacle_.data();
   plan.obstacles = obstacles_.data();
-  plan.obstacle_rectangles = obstacle_rectangles_.data();
-  plan.near = near_.data();
+  plan.obstacle_boxes = obstacle_boxes_.data();
   plan.obstacle_blocks = obstacle_blocks_.data();
-  plan.corners = corners_.data();
-  plan.corner_stride = corner_stride;
   plan.segment_source = segment_source_.data();
   plan.segment_blocks = segment_blocks_.data();
   plan.segment_rectangles = segment_rectangles_.data();
@@ -71,29 +68,23 @@ void PreparedObstacles::list_polygons() {
   std::size_t most = 0;
   for (const auto& areas_m : problem_->obstacles_m) most += areas_m.size();
   grow(polygons_, most);
-  grow(sources_, most);
   num_polygons_ = 0;
-  num_blocks_ = 0;
-  most_blocks_ = 0;
+  num_pieces_ = 0;
+  most_in_step_ = 0;
   for (std::size_t step = 0; step < problem_->obstacles_m.size(); ++step) {
-    const ConvexPolygon* before = nullptr;
-    for (const ConvexPolygon& polygon_m : problem_->obstacles_m[step]) {
-      const std::size_t size = polygon_m.vertices_m.size();
+    const std::size_t before = num_pieces_;
+    const auto& areas_m = problem_->obstacles_m[step];
+    for (std::size_t number = 0; number < areas_m.size(); ++number) {
+      const auto& corners_m = areas_m[number].vertices_m;
+      const std::size_t size = corners_m.size();
       if (size == 0) continue;
       assert(size >= 3);
-      // A vehicle that keeps to its former plan is where both of its plans say, to the last bit.
-      if (before != nullptr && is_same(*before, polygon_m)) continue;
-      before = &polygon_m;
-      const std::size_t blocks = blocks_of(size);
-      polygons_[num_polygons_] = {
-          polygon_m.vertices_m.front().data(), static_cast<std::uint32_t>(size),
-          static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(num_blocks_),
-          static_cast<std::uint32_t>(blocks)};
-      sources_[num_polygons_] = &polygon_m;
-      ++num_polygons_;
-      num_blocks_ += blocks;
-      most_blocks_ = std::max(most_blocks_, blocks);
+      polygons_[num_polygons_++] = {corners_m.front().data(), static_cast<std::uint32_t>(size),
+                                    static_cast<std::uint32_t>(step),
+                                    static_cast<std::uint32_t>(number)};
+      num_pieces_ += pieces_of(size);
     }
+    most_in_step_ = std::max(most_in_step_, num_pieces_ - before);
   }
 }
 

@@ -25,9 +25,14 @@ class PreparedObstacles {
   /// @param problem  must stay unchanged as long as the plan is used
   void list(const HorizonProblem& problem, Plan& plan);
 
+  /// Room for all obstacles of any step, once per vertex of a path.
+  [[nodiscard]] std::uint32_t* near(std::size_t depth) { return &near_[depth * most_in_step_]; }
+  [[nodiscard]] PolygonBlock* seen(std::size_t depth) { return &seen_[depth * most_in_step_]; }
+
   /// What an obstacle or a segment of the plan is in the problem.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
-    return *sources_[obstacles_[item]];
+    const PolygonData& polygon = polygons_[obstacles_[item].polygon];
+    return problem_->obstacles_m[polygon.step][polygon.number];
   }
   [[nodiscard]] const Segment& segment(std::uint32_t item) const {
     const std::size_t number = segment_source_[item / kFloatLanes] + item % kFloatLanes;
@@ -40,17 +45,17 @@ class PreparedObstacles {
   const TableStore& tables_;
   const HorizonProblem* problem_{};
   std::size_t num_polygons_{};
-  std::size_t num_blocks_{};   ///< of all obstacles
-  std::size_t most_blocks_{};  ///< of the largest
+  std::size_t num_pieces_{};
+  std::size_t most_in_step_{};  ///< pieces
   std::vector<PolygonData> polygons_;
-  std::vector<const ConvexPolygon*> sources_;  ///< of `polygons_`
   std::vector<const double*> reach_;
   std::vector<std::uint32_t> first_obstacle_;
-  std::vector<std::uint32_t> obstacles_;
-  std::vector<ObstaclesBlock> obstacle_rectangles_;
-  std::vector<Rectangles> near_;
+  std::vector<std::uint32_t> last_obstacle_;
+  std::vector<PieceData> obstacles_;
+  std::vector<BoxesBlock> obstacle_boxes_;
+  std::vector<std::uint32_t> near_;
+  std::vector<PolygonBlock> seen_;
   std::vector<PolygonBlock> obstacle_blocks_;
-  std::vector<double> corners_;
   std::vector<std::uint32_t> segment_source_;
   std::vector<SegmentBlock> segment_blocks_;
   std::vector<SegmentRectanglesBlock> segment_rectangles_;

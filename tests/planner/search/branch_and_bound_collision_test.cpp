@@ -20,17 +20,6 @@ using test::straight_problem;
 constexpr std::size_t kMaxSteps = 8;
 using Instructions = BranchAndBound::Instructions;
 
-/// What the engine says of an edge among all, which must be what it says of it alone; which way is
-/// asked first, with obstacles that nobody has looked at yet, takes turns.
-bool is_free_both_ways(const BranchAndBound& engine, const Maneuver& maneuver, std::size_t step,
-                       const Frame& start) {
-  static bool among_all = false;
-  among_all = !among_all;
-  const bool is_free = engine.is_free(maneuver, step, start, among_all);
-  EXPECT_EQ(engine.is_free(maneuver, step, start, !among_all), is_free);
-  return is_free;
-}
-
 class BranchAndBoundCollision : public testing::TestWithParam<Instructions> {};
 
 TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWalks) {
@@ -51,7 +40,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWa
       const auto permitted = subgraph.successors(trim, kMaxSteps - step + 1);
       for (const Edge& edge : permitted) {
         const bool is_free = check.is_free(*edge.maneuver, step, frame);
-        ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, step, frame), is_free)
+        ASSERT_EQ(engine.is_free(*edge.maneuver, step, frame), is_free)
             << "seed " << seed << ", step " << step;
         collisions += is_free ? 0U : 1U;
         ++edges;
@@ -153,7 +142,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckWhereAreasOnlyJustTou
     check.prepare(problem);
     engine.prepare(problem);
     const bool is_free = check.is_free(maneuver, step, frame);
-    ASSERT_EQ(is_free_both_ways(engine, maneuver, step, frame), is_free) << "shift " << shift_m;
+    ASSERT_EQ(engine.is_free(maneuver, step, frame), is_free) << "shift " << shift_m;
     ++answers[is_free ? 1 : 0];
   }
   EXPECT_GE(answers[0], 600U);
@@ -183,7 +172,7 @@ TEST_P(BranchAndBoundCollision, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
           problem.obstacles_m[step - 1] = {
               box(inner_m.x() - 1e-4, inner_m.x() + 1e-4, inner_m.y() - 1e-4, inner_m.y() + 1e-4)};
           engine.prepare(problem);
-          ASSERT_FALSE(is_free_both_ways(engine, *maneuver, step, to_frame(pose)))
+          ASSERT_FALSE(engine.is_free(*maneuver, step, to_frame(pose)))
               << number << " step " << step;
         }
         problem.obstacles_m[step - 1].clear();
@@ -208,13 +197,17 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
       problem.start_trim = TrimId{6};
       problem.reference_m.assign(kMaxSteps, problem.start.position_m());
       problem.obstacles_m.resize(kMaxSteps);
-      const Point centre_m = problem.start.position_m() + Point{test::uniform(random, -0.4, 0.4),
-                                                                test::uniform(random, -0.4, 0.4)};
+      // As large as the vehicle, or with room for it in every part.
+      const double radius_m = seed % 2 == 0 ? 0.15 : 2.0;
+      const double farthest_m = radius_m + 0.25;
+      const Point centre_m =
+          problem.start.position_m() + Point{test::uniform(random, -farthest_m, farthest_m),
+                                             test::uniform(random, -farthest_m, farthest_m)};
       std::vector<Point> round_m;
       for (std::size_t i = 0; i < corners; ++i) {
         const double angle_rad =
             2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
-        round_m.push_back(centre_m + 0.15 * Point{std::cos(angle_rad), std::sin(angle_rad)});
+        round_m.push_back(centre_m + radius_m * Point{std::cos(angle_rad), std::sin(angle_rad)});
       }
       problem.obstacles_m[0] = {convex_hull(std::move(round_m)), ConvexPolygon{}};
       check.prepare(problem);
@@ -222,7 +215,7 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
       const Frame start = to_frame(problem.start);
       for (const Edge& edge : subgraph.successors(problem.start_trim)) {
         const bool is_free = check.is_free(*edge.maneuver, 1, start);
-        ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, 1, start), is_free)
+        ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free)
             << corners << " corners, seed " << seed;
         ++answers[is_free ? 1 : 0];
       }
@@ -230,6 +223,29 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
   }
   EXPECT_GE(answers[0], 100U);
   EXPECT_GE(answers[1], 100U);
+}
+
+// Equal obstacles in a row are one; these share two corners of three.
+TEST_P(BranchAndBoundCollision, ObstaclesThatBeginAlikeAreTwo) {
+  const Subgraph subgraph = test::make_test_subgraph();
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  HorizonProblem problem;
+  problem.start_trim = subgraph.standstill();
+  problem.reference_m.assign(kMaxSteps, Point::Zero());
+  problem.obstacles_m.resize(kMaxSteps);
+  const Point first{-0.3, 0.3};
+  const Point second{-0.3, 0.2};
+  const ConvexPolygon beside{{first, second, Point{0.3, 0.25}}};
+  const ConvexPolygon across{{first, second, Point{0.3, -0.3}}};
+  problem.obstacles_m[0] = {beside, beside};
+  engine.prepare(problem);
+  const Maneuver& standing =
+      *subgraph.automaton().find(subgraph.standstill(), subgraph.standstill(), kOwnStepLabel);
+  EXPECT_TRUE(engine.is_free(standing, 1, to_frame(Pose{})));
+  problem.obstacles_m[0] = {beside, across};
+  engine.prepare(problem);
+  EXPECT_FALSE(engine.is_free(standing, 1, to_frame(Pose{})));
 }
 
 // A tolerance that large reaches where the padding of obstacles stands.
@@ -247,7 +263,7 @@ TEST_P(BranchAndBoundCollision, AnObstacleOfAnySizeIsTheOnlyOneThatIsLookedAt) {
     check.prepare(problem);
     engine.prepare(problem);
     for (const Edge& edge : subgraph.successors(problem.start_trim)) {
-      ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, 1, to_frame(Pose{})),
+      ASSERT_EQ(engine.is_free(*edge.maneuver, 1, to_frame(Pose{})),
                 check.is_free(*edge.maneuver, 1, to_frame(Pose{})))
           << "size " << size_m;
     }
@@ -274,8 +290,44 @@ TEST_P(BranchAndBoundCollision, AVehicleWithNextToNoSizeIsSeen) {
   engine.prepare(problem);
   for (const Edge& edge : subgraph.successors(problem.start_trim)) {
     ASSERT_FALSE(check.is_free(*edge.maneuver, 1, to_frame(Pose{})));
-    ASSERT_FALSE(is_free_both_ways(engine, *edge.maneuver, 1, to_frame(Pose{})));
+    ASSERT_FALSE(engine.is_free(*edge.maneuver, 1, to_frame(Pose{})));
   }
+}
+
+// An obstacle around a vertex stops only areas that cover the vertex. Here they lie ahead of it.
+TEST_P(BranchAndBoundCollision, AnObstacleAroundAVertexIsNotMetByAreasBesideIt) {
+  const auto automaton = std::make_shared<UniversalAutomaton>(*test::make_test_automaton());
+  for (Maneuver& maneuver : automaton->maneuvers) {
+    for (Point& corner_m : maneuver.swept_area_m.vertices_m) corner_m += Point{0.3, 0.0};
+  }
+  const Subgraph subgraph = test::make_test_subgraph(automaton, test::kAllTrims);
+  const ReachableSets reachable(subgraph, kMaxSteps);
+  CollisionCheck check(subgraph, reachable);
+  BranchAndBound engine(subgraph, reachable, {}, GetParam());
+  std::array<std::size_t, 2> answers{};
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    std::mt19937_64 random(seed);
+    HorizonProblem problem;
+    problem.start_trim = test::random_trim(subgraph, random);
+    problem.reference_m.assign(kMaxSteps, Point::Zero());
+    problem.obstacles_m.resize(kMaxSteps);
+    std::vector<Point> corners_m;
+    for (int i = 0; i < 4; ++i) {
+      const double angle_rad = 0.5 * std::numbers::pi * i + test::uniform(random, 0.0, 1.5);
+      corners_m.push_back(test::uniform(random, 0.1, 0.4) *
+                          Point{std::cos(angle_rad), std::sin(angle_rad)});
+    }
+    problem.obstacles_m[0] = {convex_hull(std::move(corners_m))};
+    check.prepare(problem);
+    engine.prepare(problem);
+    for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+      const bool is_free = check.is_free(*edge.maneuver, 1, to_frame(Pose{}));
+      ASSERT_EQ(engine.is_free(*edge.maneuver, 1, to_frame(Pose{})), is_free) << "seed " << seed;
+      ++answers[is_free ? 1 : 0];
+    }
+  }
+  EXPECT_GE(answers[0], 50U);
+  EXPECT_GE(answers[1], 50U);
 }
 
 // From a thousandth of a millimetre to kilometres, anywhere on a large map, with corners that come
@@ -326,7 +378,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
     const Frame start = to_frame(problem.start);
     for (const Edge& edge : subgraph.successors(problem.start_trim)) {
       const bool is_free = check.is_free(*edge.maneuver, 1, start);
-      ASSERT_EQ(is_free_both_ways(engine, *edge.maneuver, 1, start), is_free) << "size " << size_m;
+      ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free) << "size " << size_m;
       ++answers[is_free ? 1 : 0];
     }
   }
@@ -334,10 +386,18 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
   EXPECT_GE(answers[1], 1000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothKernels, BranchAndBoundCollision,
-                         testing::Values(Instructions::kBest, Instructions::kPortable),
+INSTANTIATE_TEST_SUITE_P(AllKernels, BranchAndBoundCollision,
+                         testing::Values(Instructions::kBest, Instructions::kAvx2,
+                                         Instructions::kPortable),
                          [](const auto& instance) {
-                           return instance.param == Instructions::kBest ? "Best" : "Portable";
+                           switch (instance.param) {
+                             case Instructions::kBest:
+                               return "Best";
+                             case Instructions::kAvx2:
+                               return "Avx2";
+                             default:
+                               return "Portable";
+                           }
                          });
 
 }  // namespace

@@ -55,12 +55,14 @@ struct Engines {
       : subgraph(std::move(switched_on)),
         reachable(subgraph, max_steps),
         fast(subgraph, reachable, options),
+        avx2(subgraph, reachable, options, Instructions::kAvx2),
         portable(subgraph, reachable, options, Instructions::kPortable),
         plain(subgraph, reachable, options) {}
 
   Subgraph subgraph;
   ReachableSets reachable;
   BranchAndBound fast;
+  BranchAndBound avx2;
   BranchAndBound portable;
   BestFirstSearch plain;
 };
@@ -192,12 +194,13 @@ TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
 }
 
 // Also where a search ends early: its lower bound shows every bit of the children's bounds.
-TEST(BranchAndBound, BothKernelsGiveTheSameBits) {
+TEST(BranchAndBound, AllKernelsGiveTheSameBits) {
   const Subgraph subgraph = test::make_test_subgraph();
   const ReachableSets reachable(subgraph, kManySteps);
   std::size_t cut = 0;
   for (const std::size_t budget : {1U, 5U, 20U}) {
     BranchAndBound best(subgraph, reachable, {.max_expansions = budget});
+    BranchAndBound avx2(subgraph, reachable, {.max_expansions = budget}, Instructions::kAvx2);
     BranchAndBound portable(subgraph, reachable, {.max_expansions = budget},
                             Instructions::kPortable);
     for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
@@ -206,6 +209,7 @@ TEST(BranchAndBound, BothKernelsGiveTheSameBits) {
       const HorizonProblem problem =
           test::random_problem(subgraph, 2 + test::pick(random, kManySteps - 1), random);
       const SearchResult result = best.search(problem, never_stop);
+      expect_same(avx2.search(problem, never_stop), result);
       expect_same(portable.search(problem, never_stop), result);
       cut += result.status != SearchStatus::kOptimal ? 1U : 0U;
     }
@@ -226,20 +230,28 @@ TEST(BranchAndBound, TriesTheWholeTreeBeforeItSaysInfeasible) {
   EXPECT_EQ(result.expanded, 130'251);
 }
 
-// Without a path for thousands of expansions the search does without costs-to-go.
+// Without a path for thousands of expansions the search does without costs-to-go; once there is
+// one, those of the vertices on it must be theirs.
 TEST(BranchAndBound, FindsTheBestPathAlsoWhereTheFirstOneComesLate) {
   Engines engines(test::make_test_subgraph());
   for (const double free_until_m : {1.3, 1.5, 1.8}) {
-    SCOPED_TRACE(free_until_m);
-    HorizonProblem problem = straight_problem(8);
-    problem.obstacles_m.resize(8);
-    problem.obstacles_m.back() = {box(free_until_m, 99.0, -99.0, 99.0)};
-    const SearchResult result = engines.fast.search(problem, never_stop);
-    const SearchResult plain = engines.plain.search(problem, never_stop);
-    ASSERT_EQ(result.status, SearchStatus::kOptimal);
-    EXPECT_GT(result.expanded, 10'000U);
-    EXPECT_NEAR(result.cost, plain.cost, 1e-9);
-    expect_same(engines.portable.search(problem, never_stop), result);
+    for (const double aside_m : {0.0, 0.003, 0.008, -0.012}) {
+      SCOPED_TRACE("free until " + std::to_string(free_until_m) + ", aside " +
+                   std::to_string(aside_m));
+      HorizonProblem problem = straight_problem(8);
+      for (std::size_t step = 0; step < 8; ++step) {
+        problem.reference_m[step].y() += aside_m * static_cast<double>(step * step);
+      }
+      problem.obstacles_m.resize(8);
+      problem.obstacles_m.back() = {box(free_until_m, 99.0, -99.0, 99.0)};
+      const SearchResult result = engines.fast.search(problem, never_stop);
+      const SearchResult plain = engines.plain.search(problem, never_stop);
+      ASSERT_EQ(result.status, SearchStatus::kOptimal);
+      EXPECT_GT(result.expanded, 5'000U);
+      EXPECT_NEAR(result.cost, plain.cost, 1e-9);
+      expect_same(engines.avx2.search(problem, never_stop), result);
+      expect_same(engines.portable.search(problem, never_stop), result);
+    }
   }
 }
 
