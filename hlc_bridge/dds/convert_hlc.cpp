@@ -42,21 +42,27 @@ PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
 /// A search takes no coordinates beyond.
 bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= HorizonProblem::kLargest_m; }
 
-bool is_valid(const PolygonMessage& wire) {
-  const auto& vertices = wire.vertices_m();
-  return vertices.size() != 1 && vertices.size() != 2 && vertices.size() <= kMaxEntries &&
-         std::ranges::all_of(vertices, [](const PointMessage& point) {
-           return is_near(point.x_m()) && is_near(point.y_m());
-         });
-}
-
+/// Without corners that come twice in a row.
 ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {
   ConvexPolygon result;
-  result.vertices_m.reserve(wire.vertices_m().size());
+  auto& vertices = result.vertices_m;
+  vertices.reserve(wire.vertices_m().size());
   for (const PointMessage& point : wire.vertices_m()) {
-    result.vertices_m.emplace_back(point.x_m(), point.y_m());
+    const Point vertex{point.x_m(), point.y_m()};
+    if (vertices.empty() || vertices.back() != vertex) vertices.push_back(vertex);
   }
+  while (vertices.size() > 1 && vertices.back() == vertices.front()) vertices.pop_back();
   return result;
+}
+
+bool is_valid(const PolygonMessage& wire) {
+  const auto& vertices = wire.vertices_m();
+  return vertices.size() <= kMaxEntries &&
+         std::ranges::all_of(vertices,
+                             [](const PointMessage& point) {
+                               return is_near(point.x_m()) && is_near(point.y_m());
+                             }) &&
+         (vertices.empty() || polygon_from_wire(wire).vertices_m.size() >= 3);
 }
 
 AreasMessage areas_to_wire(const OccupiedAreas& areas) {

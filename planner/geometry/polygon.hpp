@@ -83,8 +83,8 @@ inline constexpr double kRoundingAllowance_m = 1e-12;
 
 /// Separating axis test: true if the two share a point that is inside at least one of them
 /// (polygons that only touch do not intersect; the empty polygon intersects nothing; a corner may
-/// come twice). Does not allocate; compares no boxes, because a caller that asks often keeps them
-/// and asks `overlap` first.
+/// come twice, if not all are one). Does not allocate; compares no boxes, because a caller that
+/// asks often keeps them and asks `overlap` first.
 [[nodiscard]] bool intersects(const ConvexPolygon& a, const ConvexPolygon& b);
 [[nodiscard]] bool intersects(const ConvexPolygon& polygon, const Segment& segment);
 

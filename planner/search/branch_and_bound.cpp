@@ -18,7 +18,6 @@
 namespace hlc {
 namespace {
 
-using branch_and_bound::blocks_of;
 using branch_and_bound::kCos;
 using branch_and_bound::kFloatLanes;
 using branch_and_bound::kNoPath;
@@ -29,17 +28,28 @@ using branch_and_bound::Question;
 using branch_and_bound::TableStore;
 using branch_and_bound::VertexData;
 
-branch_and_bound::Kernel choose_kernel(BranchAndBound::Instructions most) {
-  using Instructions = BranchAndBound::Instructions;
+using Instructions = BranchAndBound::Instructions;
+
+/// The last of those up to `most` that the processor has.
+Instructions available(Instructions most) {
 #ifdef HLC_AVX_KERNELS
   const bool has_avx2 = __builtin_cpu_supports("avx2");
   const bool has_avx512 = has_avx2 && __builtin_cpu_supports("avx512f") &&
                           __builtin_cpu_supports("avx512vl") &&
                           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  if (most == Instructions::kBest && has_avx512) return branch_and_bound::avx512_kernel();
-  if (most != Instructions::kPortable && has_avx2) return branch_and_bound::avx2_kernel();
+  if (has_avx512) return most;
+  if (has_avx2) return std::min(most, Instructions::kAvx2);
 #endif
   static_cast<void>(most);
+  return Instructions::kPortable;
+}
+
+branch_and_bound::Kernel kernel_of(Instructions instructions) {
+#ifdef HLC_AVX_KERNELS
+  if (instructions == Instructions::kAvx512) return branch_and_bound::avx512_kernel();
+  if (instructions == Instructions::kAvx2) return branch_and_bound::avx2_kernel();
+#endif
+  static_cast<void>(instructions);
   return branch_and_bound::portable_kernel();
 }
 
@@ -59,13 +69,13 @@ Frame frame_of(const VertexData& vertex) {
 /// Tables, memory of a search, and the kernel's view of both.
 class BranchAndBound::Core {
  public:
-  Core(const Subgraph& subgraph, std::shared_ptr<const SearchTables> shared,
-       Instructions instructions)
+  Core(const Subgraph& subgraph, std::shared_ptr<const SearchTables> shared, Instructions most)
       : shared_(std::move(shared)),
         costs(shared_->costs),
         tables(shared_->store),
         obstacles(tables),
-        kernel(choose_kernel(instructions)) {
+        instructions(available(most)),
+        kernel(kernel_of(instructions)) {
     std::size_t most_corners = 0;
     for (const TrimId trim : subgraph.starts()) {
       for (const Edge& edge : subgraph.successors(trim)) {
@@ -94,8 +104,8 @@ class BranchAndBound::Core {
       reference_x_.resize(n);
       reference_y_.resize(n);
       seen_stride_ = n + kFloatLanes;
-      seen_x_.resize((n + 1) * seen_stride_);
-      seen_y_.resize((n + 1) * seen_stride_);
+      seen_x_.resize(n * seen_stride_);
+      seen_y_.resize(n * seen_stride_);
       path.resize(n + 1);
       keys_.resize((n + 1) * tables.most_edges());
       best_edges.resize(n + 1);
@@ -151,7 +161,7 @@ class BranchAndBound::Core {
     obstacles.list(problem, plan);
     for (std::size_t k = 0; k <= n; ++k) {
       path[k].near = obstacles.near(k);
-      path[k].seen = obstacles.seen(k);
+      path[k].near_blocks = obstacles.near_blocks(k);
     }
     kernel.prepare(plan, path[0]);
   }
@@ -177,6 +187,7 @@ class BranchAndBound::Core {
   const EdgeCosts& costs;
   const TableStore& tables;
   branch_and_bound::PreparedObstacles obstacles;
+  Instructions instructions;
   branch_and_bound::Kernel kernel;
   branch_and_bound::Plan plan{};
   branch_and_bound::Search search{};
@@ -198,7 +209,7 @@ class BranchAndBound::Core {
 };
 
 BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable,
-                               SearchOptions options, Instructions instructions,
+                               SearchOptions options, Instructions most,
                                std::shared_ptr<const SearchTables> tables)
     : subgraph_(subgraph), reachable_(reachable), options_(std::move(options)) {
   if (options_.cost_to_go != CostToGo::kReachable) {
@@ -207,7 +218,7 @@ BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& re
         "for another one choose engine best_first");
   }
   if (!tables) tables = std::make_shared<const SearchTables>(subgraph, reachable, options_);
-  core_ = std::make_unique<Core>(subgraph, std::move(tables), instructions);
+  core_ = std::make_unique<Core>(subgraph, std::move(tables), most);
 }
 
 BranchAndBound::~BranchAndBound() = default;
@@ -304,6 +315,8 @@ std::vector<double> BranchAndBound::estimates(const HorizonProblem& problem) {
   }
   return estimates;
 }
+
+BranchAndBound::Instructions BranchAndBound::instructions() const { return core_->instructions; }
 
 void BranchAndBound::prepare(const HorizonProblem& problem) { core_->prepare(problem); }
 

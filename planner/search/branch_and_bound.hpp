@@ -35,9 +35,9 @@ struct SearchTables;
 /// is admissible for the same automata as CostToGo::kReachable and under the same assumption. The
 /// intervals depend on (edge, i, min(m - i, largest distance to standstill)) alone: a table, made
 /// once. It holds whole numbers of 16 bits, so that a vector has four edges and four steps, of a
-/// unit of an 819th of the longest displacement; rounding makes each e_i smaller by at most two of
-/// them. Where a reference point may lie farther than 40 longest displacements from a vertex, they
-/// are compared one by one, in single precision (TableStore::compute_bounds).
+/// unit of an 819th of the longest displacement; rounding makes each e_i smaller by at most two
+/// and a half of them. Where a reference point may lie farther than 40 longest displacements from a
+/// vertex, they are compared one by one, in single precision (TableStore::compute_bounds).
 ///
 /// To f belongs what the maneuvers cost themselves (EdgeCosts), and to h the least that those after
 /// the edge can cost, whatever they do.
@@ -63,19 +63,16 @@ struct SearchTables;
 /// they were computed for.
 class BranchAndBound final : public SearchEngine {
  public:
-  /// Which instructions may be used; of them the best that the processor has.
-  enum class Instructions {
-    kBest,      ///< AVX-512, too
-    kAvx2,      ///< AVX2, too
-    kPortable,  ///< those of any processor
-  };
+  /// Of those that a processor has the last one is the fastest.
+  enum class Instructions { kPortable, kAvx2, kAvx512 };
 
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph` and
   /// has at most 80 steps
+  /// @param most  the last that may be used, if the processor has them
   /// @param tables  of this subgraph, these sets and options; none: it makes its own
   /// @throws std::invalid_argument unless options.cost_to_go is kReachable
   BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options,
-                 Instructions instructions = Instructions::kBest,
+                 Instructions most = Instructions::kAvx512,
                  std::shared_ptr<const SearchTables> tables = nullptr);
   ~BranchAndBound() override;
   using SearchEngine::search;
@@ -85,12 +82,16 @@ class BranchAndBound final : public SearchEngine {
   void search(const HorizonProblem& problem, const std::function<bool()>& stop,
               SearchResult& result) override;
 
+  /// What this processor allows of it.
+  [[nodiscard]] Instructions instructions() const;
+
   /// f of every edge out of the start, in the order of Subgraph::successors(start_trim), as the
   /// search sees it, without n EdgeCosts::least(); infinite for those that recursive feasibility or
   /// `avoids_steering_limit` forbids. @pre as `search`, with a horizon of at least one step
   [[nodiscard]] std::vector<double> estimates(const HorizonProblem& problem);
 
   /// Prepares the obstacles and the boundary of a problem, for `is_free`; `search` does it itself.
+  /// @pre as `estimates`
   /// @param problem  must stay as it is while `is_free` is asked
   void prepare(const HorizonProblem& problem);
   /// As CollisionCheck::is_free, for the problem prepared last.

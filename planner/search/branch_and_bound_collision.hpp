@@ -2,11 +2,12 @@
 // obstacles, edges or boundary segments at a time. Long-winded for speed; compiled as often as
 // branch_and_bound_kernel.hpp, and for the same reason self-contained.
 //
-// Obstacles are prepared relative to the plan's start, where coordinates are small, and compared in
-// the frame of the vertex. Each step of the computation rounds by half a unit in the last place,
-// 2^-24 of the largest coordinate S, or twice that after a rotation; from corners, normals, boxes
-// and placements to a distance they add up to less than 64 of them. The tolerance is 2^-18 S. What
-// is apart or overlaps by more is certain; what is between is asked of Search::decides.
+// Obstacles and boundary are prepared relative to the plan's start, where coordinates are small.
+// Obstacles are compared in the frame of the vertex, where the largest coordinate is at most twice
+// that relative to the start, S. Each step of the computation rounds by half a unit in the last
+// place, 2^-24 of a coordinate, or twice that after a rotation; from corners, normals, boxes and
+// placements to a distance they add up to less than 64 times 2^-24 S. The tolerance is 2^-18 S.
+// What is apart or overlaps by more is certain; what is between is asked of Search::decides.
 #pragma once
 
 #include "planner/search/branch_and_bound_data.hpp"
@@ -83,7 +84,7 @@ HLC_INLINE void make_ready(const Plan& plan, std::uint32_t first, std::uint32_t 
 
 /// Lists the obstacles of a step that what is around all edges out of a vertex does not surely
 /// miss, seen from the vertex. False if one is around the vertex itself, so that all edges meet it.
-HLC_INLINE bool list_near(const Search& search, std::size_t step, VertexData& vertex) {
+HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& vertex) {
   const Plan& plan = *search.plan;
   vertex.num_near = 0;
   std::uint32_t first = plan.first_obstacle[step - 1];
@@ -123,7 +124,8 @@ HLC_INLINE bool list_near(const Search& search, std::size_t step, VertexData& ve
     make_ready(plan, first, near);
     for (; near != 0; near &= near - 1) {
       const std::uint32_t item = first + static_cast<std::uint32_t>(__builtin_ctz(near));
-      const Floats inside = see_from(at, plan.obstacle_blocks[item], vertex.seen[vertex.num_near]);
+      const Floats inside =
+          see_from(at, plan.obstacle_blocks[item], vertex.near_blocks[vertex.num_near]);
       if (around.all_hold_start && lanes_less(tolerance, inside) == kEveryLane) return false;
       vertex.near[vertex.num_near++] = item;
     }
@@ -141,7 +143,7 @@ HLC_INLINE bool keeps_off_obstacles(const Search& search, std::uint32_t edge,
   const PolygonBlock* area = tables.area_blocks + tables.edges[edge].first_swept;
   for (std::uint32_t left = tables.edges[edge].num_swept; left != 0; --left, ++area) {
     for (std::uint32_t i = 0; i < num_near; ++i) {
-      const Answer answer = compare(vertex.seen[i], *area, tolerance);
+      const Answer answer = compare(vertex.near_blocks[i], *area, tolerance);
       if (answer == Answer::kApart) continue;
       if (answer == Answer::kMeet ||
           search.decides(search.decides_context, {edge, false, vertex.near[i], &vertex})) {

@@ -14,8 +14,9 @@
 /// lines.
 ///
 /// Costs are doubles. Bounds are computed from whole numbers of 16 bits, distances in a small unit
-/// (TableStore). Collision tests compute with floats, relative to the plan's start, with a
-/// tolerance above the rounding; where that leaves a doubt, `Search::decides` says what is true.
+/// (TableStore). Collision tests compute with floats, relative to the plan's start or to a vertex,
+/// with a tolerance above the rounding; where that leaves a doubt, `Search::decides` says what is
+/// true.
 namespace hlc::branch_and_bound {
 
 /// Doubles, floats, and whole numbers of 16 bits, of one vector.
@@ -147,6 +148,9 @@ struct PieceData {
   std::uint32_t second;
   std::uint32_t size;
 };
+/// Most corners of a piece beside its first one, and how far from `second` to that of the next.
+inline constexpr std::uint32_t kMostOthers = kFloatLanes - 1;
+inline constexpr std::uint32_t kNextPiece = kMostOthers - 1;
 
 /// Eight boundary segments in a row, with their directions (larger component 1; a segment without
 /// length has 0). What is missing to eight repeats the last.
@@ -170,7 +174,8 @@ struct alignas(32) SegmentRectanglesBlock {
 };
 
 /// One problem, prepared. Reference, obstacles and boundary as the problem has them are in its
-/// frame, all floats relative to the start, along the same axes.
+/// frame, all floats relative to the start, along the same axes, but for what is seen from a
+/// vertex.
 struct Plan {
   std::size_t horizon_steps;
   const double* reference_x;  ///< r_1 ... r_n
@@ -211,6 +216,15 @@ struct Plan {
   float tolerance;
 };
 
+/// So many vertices in a row are seen each from the one before, the first of them from the start:
+/// what is known early need not wait for the vertex' place, and rounding does not add up for long.
+inline constexpr std::size_t kSeenInARow = 8;
+
+/// What a cost-to-go may be too large by, and one whose reference points are always seen from the
+/// start; see TableStore::compute_bounds for all three.
+inline constexpr float kSurely = 1.0F - 0xAp-20F;
+inline constexpr float kSurelyFar = 1.0F - 0x5p-20F;
+
 /// A vertex on the path that is being tried.
 struct VertexData {
   double place[4];  ///< x, y [m], cosine and sine of the heading
@@ -222,10 +236,10 @@ struct VertexData {
   /// How it is seen from the vertex before it or, in `from_start`, from the plan's start.
   const Move* move;
   Move from_start;
-  double* keys;         ///< f of its children, each with the child's number in the last bits
-  double next_key;      ///< the least of those that were not tried yet
-  std::uint32_t* near;  ///< obstacles that an edge from here may meet
-  PolygonBlock* seen;   ///< the same seen from here
+  double* keys;               ///< f of its children, each with the child's number in the last bits
+  double next_key;            ///< the least of those that were not tried yet
+  std::uint32_t* near;        ///< obstacles that an edge from here may meet
+  PolygonBlock* near_blocks;  ///< the same seen from here
   std::uint32_t num_near;
 };
 
@@ -252,7 +266,7 @@ struct Question {
 /// One search: what it works on and what comes of it.
 struct Search {
   const Tables* tables;
-  Plan* plan;
+  const Plan* plan;
   const Level* levels;  ///< n
   VertexData* path;     ///< n + 1 vertices; the first is the start
   float* to_go;         ///< scratch: per edge of a trim, two
@@ -281,7 +295,7 @@ struct Kernel {
   /// Writes the keys of the start's children.
   void (*expand)(Search& search);
   /// Is the edge free in step `step`, driven from this vertex?
-  /// @param vertex  placed, with its trim and room for keys, which are written
+  /// @param vertex  placed, with its trim and room for what is near, which is written
   bool (*is_free)(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex);
 };
 

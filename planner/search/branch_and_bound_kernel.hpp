@@ -22,11 +22,6 @@ namespace {
 constexpr std::int16_t kLowest = -32768;
 constexpr std::int16_t kHighest = 32767;
 
-/// What a cost-to-go may be too large by, and one whose reference points are seen from the start:
-/// see TableStore::compute_bounds.
-constexpr float kSurely = 1.0F - 0xAp-20F;
-constexpr float kSurelyFar = 1.0F - 0x5p-20F;
-
 constexpr float kAxisCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
 constexpr float kAxisSin = 0x1.87de2ap-2F;
 
@@ -37,11 +32,6 @@ HLC_INLINE Move move_from_start(const Plan& plan, const VertexData& vertex, floa
           static_cast<float>((vertex.place[kY] - plan.origin_y) * units),
           static_cast<float>(vertex.place[kCos]), static_cast<float>(vertex.place[kSin])};
 }
-
-/// So many vertices in a row are seen each from the one before, the first of them from the start:
-/// what is known early need not wait for the vertex' place, and rounding does not add up for long
-/// (TableStore::compute_bounds).
-constexpr std::size_t kSeenInARow = 8;
 
 /// How a vertex at this depth is seen, which this edge of the one before leads to.
 HLC_INLINE const Move* move_to(const Search& search, VertexData& vertex, std::size_t depth,
@@ -58,7 +48,8 @@ struct Seen {
   Floats aside;
 };
 
-/// The reference points from step `step` on, seen from a vertex at this depth.
+/// The reference points from step `step` on, seen from a vertex at this depth. Beyond the horizon
+/// there may be any numbers: the intervals of steps that are none hold every place.
 HLC_INLINE Seen see(const Plan& plan, std::size_t depth, const Move& move, std::size_t step) {
   const std::size_t from = (depth % kSeenInARow == 0 ? 0 : depth * plan.seen_stride) + step;
   const std::size_t to = (depth + 1) * plan.seen_stride + step;
@@ -269,25 +260,23 @@ double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
   const Level& level = search.levels[depth];
   const Expansion expansion = begin_expansion(search, vertex, depth);
   const Move at = move_from_start(plan, vertex, tables.units_per_m);
+  const auto scale = static_cast<double>(kSurelyFar * tables.squared_unit_m2);
   const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
   Doubles lowest = all(kForbidden);
   for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
-    float to_go[kLanes] = {};
+    double to_go[kLanes] = {};
     for (std::size_t block = 0; block < level.num_blocks; ++block) {
       for (std::size_t step = 0; step < kBoundSteps; ++step) {
         const SeenAlong seen = see_alone(plan, depth + 1 + kBoundSteps * block + step, at);
         for (std::size_t e = 0; e < kLanes; ++e) {
           const float distance =
               beyond(bounds[level.bounds[block]], 8 * (step / 2) + 2 * e + step % 2, seen);
-          to_go[e] += distance * distance;
+          to_go[e] += static_cast<double>(distance * distance);
         }
       }
     }
     bounds += tables.bound_size;
-    const float scale = kSurelyFar * tables.squared_unit_m2;
-    const Doubles costs_to_go{
-        static_cast<double>(to_go[0] * scale), static_cast<double>(to_go[1] * scale),
-        static_cast<double>(to_go[2] * scale), static_cast<double>(to_go[3] * scale)};
+    const Doubles costs_to_go = all(scale) * Doubles{to_go[0], to_go[1], to_go[2], to_go[3]};
     const Doubles f = cost_without_bound(expansion, edge) + costs_to_go;
     lowest = smaller(keep_key(tables, vertex, edge, f), lowest);
   }
@@ -297,14 +286,15 @@ double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
 /// Writes the keys of a vertex' children, with a bound or without. Returns the least.
 HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t depth, bool has_bound) {
   const Plan& plan = *search.plan;
-  if (!has_bound) {
-    // Children may be bounded again, and see from here.
+  if (has_bound) {
+    return plan.is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
+  }
+  if (!plan.is_far) {  // children may be bounded again, and see from here
     for (std::size_t step = depth + 1; step < plan.horizon_steps; step += kFloatLanes) {
       static_cast<void>(see(plan, depth, *vertex.move, step));
     }
-    return expand_without_bound(search, vertex, depth);
   }
-  return plan.is_far ? expand_far(search, vertex, depth) : expand(search, vertex, depth);
+  return expand_without_bound(search, vertex, depth);
 }
 
 /// Takes away the child with this key, the vertex' least, and notes the least of the others. At
@@ -370,7 +360,8 @@ void run(Search& search) {
   for (;;) {
     const bool has_bound = search.levels[depth].num_blocks != 0 && has_patience;
     double key = expand_by(search, *vertex, depth, has_bound);
-    if (key < best && !list_near(search, depth + 1, *vertex)) key = kForbidden;
+    // A vertex that nothing leads on from is left for good: it needs no next key.
+    if (key < best && !look_around(search, depth + 1, *vertex)) key = kForbidden;
 
     // The next vertex to expand: the first free child that is worth it, here or further back.
     for (;;) {
@@ -437,7 +428,7 @@ void expand_start(Search& search) {
 }
 
 bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, VertexData& vertex) {
-  return list_near(search, step, vertex) && is_free(search, edge, vertex);
+  return look_around(search, step, vertex) && is_free(search, edge, vertex);
 }
 
 #undef HLC_INLINE

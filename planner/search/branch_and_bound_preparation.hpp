@@ -85,7 +85,7 @@ HLC_INLINE Bounds bounds_of(const PolygonData& polygon) {
   return {smaller(lowest, halves_swapped(lowest)), larger(highest, halves_swapped(highest))};
 }
 
-/// The same corners in the same order, to the last bit?
+/// Equal corners in the same order?
 HLC_INLINE bool is_equal(const PolygonData& a, const PolygonData& b) {
   if (a.size != b.size) return false;
   for (std::uint32_t i = 0; i < 2 * a.size; i += 4) {
@@ -97,7 +97,6 @@ HLC_INLINE bool is_equal(const PolygonData& a, const PolygonData& b) {
 
 /// Obstacles that can be met in their step, with a box around each.
 HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
-  constexpr std::uint32_t kMostOthers = kFloatLanes - 1;  // corners of a piece beside its first
   const Axes absolute_axes{absolute(axes.x), absolute(axes.y)};
   const Doubles origin{plan.origin_x, plan.origin_y, plan.origin_x, plan.origin_y};
   Doubles largest_coordinate = all(0.0);
@@ -117,8 +116,7 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
       const Doubles place = along_axes(axes, centre[0], centre[1]);
       const Doubles size = along_axes(absolute_axes, half[0], half[1]);
       if (is_beyond(place - size, place + size, reach)) continue;
-      std::uint32_t second = 1;
-      do {
+      for (std::uint32_t second = 1; second + 1 < polygon->size; second += kNextPiece) {
         const std::uint32_t others = polygon->size - second;
         const std::uint32_t lane = count % kFloatLanes;
         BoxesBlock& boxes = plan.obstacle_boxes[count / kFloatLanes];
@@ -130,8 +128,7 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
         plan.obstacles[count] = {static_cast<std::uint32_t>(polygon - plan.polygons), second,
                                  1 + (others < kMostOthers ? others : kMostOthers)};
         ++count;
-        second += kMostOthers - 1;
-      } while (second + 1 < polygon->size);
+      }
       largest_coordinate = larger(absolute(centre) + half, largest_coordinate);
     }
     plan.last_obstacle[step] = count;

@@ -11,9 +11,7 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-std::size_t padded(std::size_t size, std::size_t lanes = kLanes) {
-  return (size + lanes - 1) / lanes * lanes;
-}
+std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
 
 /// A whole number as near as 16 bits allow.
 std::int16_t limited(double value) {
@@ -91,6 +89,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1);
   add_edges(subgraph, costs);
   list_permitted(subgraph, costs, max_steps);
+  choose_unit();
   compute_bounds(reachable);
   list_levels(max_steps);
   list_reach(subgraph, reachable);
@@ -164,9 +163,8 @@ EdgeData TableStore::edge_data(const Edge& edge, const Frame& displacement,
                 .to = static_cast<std::uint32_t>(edge.to.index),
                 .first_swept = static_cast<std::uint32_t>(area_blocks_.size())};
   const auto& corners = edge.maneuver->swept_area_m.vertices_m;
-  constexpr std::size_t kMost = kFloatLanes - 1;  // beside the first one
-  for (std::size_t first = 1; first + 1 < corners.size(); first += kMost - 1) {
-    const std::size_t last = std::min(first + kMost, corners.size());
+  for (std::size_t first = 1; first + 1 < corners.size(); first += kNextPiece) {
+    const std::size_t last = std::min(first + kMostOthers, corners.size());
     std::vector<Point> piece{corners.front()};
     for (std::size_t i = first; i < last; ++i) piece.push_back(corners[i]);
     add_blocks(piece);
@@ -243,45 +241,51 @@ void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs
   }
 }
 
-// With u = 2^-24, let L be the distance from the start to the farthest vertex of kMostSteps steps,
-// D the longest displacement, q a reference point seen from a vertex and p its place along an axis.
-// Seen from the start, in single precision, q is off by at most 6 u ||q|| + 2 u L. From one vertex
-// to the next a turn and a shift add 5 u ||q'|| + u D, where q' is q seen from the one before, so
-// that ||q'|| <= ||q|| + 7 D in a row of eight vertices, and the axis 4 u ||q||. So p is off by at
-// most 44 u ||q|| + 4 u L + 256 u D. Let R be the largest |c| + w of all axes. Intervals that are
-// 192 u R + 4 u L + 256 u D wider on both sides make up for the last two terms and, where ||q|| is
-// at most 4 R, for the first. Beyond, the distance on the axis that has most is at least
-// 0.98 ||q|| - R > 0.7 ||q||, so it is off by less than 63 u of itself and its square by less than
-// 128 u. (Of reference points that are always seen from the start p is off by at most 10 u ||q|| +
-// 4 u L, and the square by less than 36 u.)
-//
-// Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
-// too. From there on all is exact but the sum of squares: m / 4 + 2 roundings. Factor kSurely of
-// the kernel, 1 - 160 u, makes up for it and for the square above; kSurelyFar is 1 - 80 u. Where p
-// might be no number of 16 bits it is left as it is, and its distance and square are rounded once
-// more each.
-//
-// Nothing here depends on how many steps there are tables for: equal searches expand equally many
-// vertices.
-void TableStore::compute_bounds(const ReachableSets& reachable) {
-  constexpr double kRelative = 0xCp-20;
-  const double farthest = (0x1p-22 * static_cast<double>(kMostSteps) + 0x1p-16) * longest_m_;
+void TableStore::choose_unit() {
   // Fine enough for what is near, and so coarse that horizons of sixteen steps need nothing beyond.
   constexpr double kCountedSteps = 40.0;
   constexpr double kLargest = std::numeric_limits<std::int16_t>::max();
   constexpr double kLeastUnit_m = 0x1p-40;  // single precision has its square and its reciprocal
   view_.units_per_m =
       static_cast<float>(1.0 / std::max(kCountedSteps * longest_m_ / kLargest, kLeastUnit_m));
-  const double unit_m = 1.0 / static_cast<double>(view_.units_per_m);
+  const auto units_per_m = static_cast<double>(view_.units_per_m);
+  const double unit_m = 1.0 / units_per_m;
   counted_m_ = (kLargest - 1.0) * (1.0 - 0x1p-17) * unit_m;
   view_.squared_unit_m2 = static_cast<float>(unit_m * unit_m);
   for (EdgeData& edge : edges_) {
-    const auto units = static_cast<double>(view_.units_per_m);
-    edge.move = {static_cast<float>(edge.displacement[kX] * units),
-                 static_cast<float>(edge.displacement[kY] * units),
+    edge.move = {static_cast<float>(edge.displacement[kX] * units_per_m),
+                 static_cast<float>(edge.displacement[kY] * units_per_m),
                  static_cast<float>(edge.displacement[kCos]),
                  static_cast<float>(edge.displacement[kSin])};
   }
+}
+
+// With u = 2^-24, let L be the distance from the start to the farthest vertex of kMostSteps steps,
+// D the longest displacement, q a reference point seen from a vertex and p its place along an axis.
+// Seen from the start, in single precision, q is off by at most 6 u ||q|| + 2 u L. A step from one
+// vertex to the next adds at most 5 u ||q_i|| + u D, where q_i is seen from the i-th of seven, so
+// that ||q_i|| <= ||q|| + (7 - i) D, and the axis 3 u ||q||. So after a row of eight vertices p is
+// off by at most (6 + 7 * 5 + 3) u ||q|| + 2 u L + (7 * 6 + 21 * 5 + 7) u D. Let R be the largest
+// |c| + w of all axes. Intervals that are 192 u R + 4 u L + 256 u D wider on both sides make up for
+// the last two terms and, where ||q|| is at most 4 R, for the first. Beyond, the distance on the
+// axis that has most is at least 0.98 ||q|| - R > 0.7 ||q||, so it is off by less than 63 u of
+// itself and its square by less than 128 u. (Of reference points that are always seen from the
+// start p is off by at most 9 u ||q|| + 2 u L, and the square by less than 36 u.)
+//
+// Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
+// too. From there on all is exact but the sum of squares and its scale: m / 4 + 4 roundings. Factor
+// kSurely, 1 - 160 u, makes up for them and for the square above. Where p might be no number of 16
+// bits it is left as it is, its distance and square are rounded once more each, and the sum is one
+// of doubles; kSurelyFar is 1 - 80 u.
+//
+// Nothing here depends on how many steps there are tables for: equal searches expand equally many
+// vertices.
+static_assert(kSeenInARow == 8);
+
+void TableStore::compute_bounds(const ReachableSets& reachable) {
+  constexpr double kRelative = 0xCp-20;
+  const double farthest = (0x1p-22 * static_cast<double>(kMostSteps) + 0x1p-16) * longest_m_;
+  const double unit_m = 1.0 / static_cast<double>(view_.units_per_m);
   const std::size_t cap = max_steps_left_;
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
   num_bound_blocks_ = (max_steps + kBoundSteps - 1) / kBoundSteps;

@@ -68,6 +68,8 @@ class TableStore {
   [[nodiscard]] LaneArea add_lane_area(const ConvexPolygon& area_m);
   void add_blocks(std::span<const Point> corners);
   void list_permitted(const Subgraph& subgraph, const EdgeCosts& costs, std::size_t max_steps);
+  /// Of bounds, and the edges' displacements in it.
+  void choose_unit();
   void compute_bounds(const ReachableSets& reachable);
   void list_levels(std::size_t max_steps);
   void list_reach(const Subgraph& subgraph, const ReachableSets& reachable);

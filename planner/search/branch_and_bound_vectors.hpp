@@ -301,10 +301,15 @@ HLC_INLINE HalfShorts difference(const HalfShorts& a, const HalfShorts& b) {
   for (std::size_t i = 0; i < 8; ++i) result[i] = limited(a[i] - b[i]);
   return result;
 }
+HLC_INLINE short rounded(float value) {
+  if (!(value > -32768.0F)) return -32768;
+  return value < 32767.0F ? static_cast<short>(__builtin_rintf(value)) : 32767;
+}
 HLC_INLINE HalfShorts rounded(const HalfFloats& a, const HalfFloats& b) {
   HalfShorts result{};
-  for (std::size_t i = 0; i < 8; ++i) {
-    result[i] = limited(static_cast<int>(__builtin_rintf(i < 4 ? a[i] : b[i - 4])));
+  for (std::size_t i = 0; i < 4; ++i) {
+    result[i] = rounded(a[i]);
+    result[i + 4] = rounded(b[i]);
   }
   return result;
 }

@@ -11,11 +11,9 @@ namespace {
 static_assert(sizeof(Point) == 2 * sizeof(double));
 static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v<Segment>);
 
-/// Pieces of up to eight corners.
-std::size_t pieces_of(std::size_t corners) {
-  constexpr std::size_t kTriangles = kFloatLanes - 2;
-  return (corners - 2 + kTriangles - 1) / kTriangles;
-}
+/// As many as PieceData of a polygon with so many corners. Each but the last takes kNextPiece of
+/// the triangles at its first corner.
+std::size_t pieces_of(std::size_t corners) { return (corners - 2 + kNextPiece - 1) / kNextPiece; }
 
 template <class T>
 void grow(std::vector<T>& values, std::size_t size) {
@@ -40,7 +38,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   grow(obstacles_, boxes_blocks * kFloatLanes);
   grow(obstacle_boxes_, boxes_blocks);
   grow(near_, (n + 1) * most_in_step_ + 1);
-  grow(seen_, (n + 1) * most_in_step_ + 1);
+  grow(near_blocks_, (n + 1) * most_in_step_ + 1);
   grow(obstacle_blocks_, boxes_blocks * kFloatLanes);
   const std::size_t segment_blocks = blocks_of(problem.boundary_m.size());
   grow(segment_source_, segment_blocks);
@@ -77,8 +75,8 @@ void PreparedObstacles::list_polygons() {
     for (std::size_t number = 0; number < areas_m.size(); ++number) {
       const auto& corners_m = areas_m[number].vertices_m;
       const std::size_t size = corners_m.size();
-      if (size == 0) continue;
-      assert(size >= 3);
+      assert(size == 0 || size >= 3);
+      if (size < 3) continue;
       polygons_[num_polygons_++] = {corners_m.front().data(), static_cast<std::uint32_t>(size),
                                     static_cast<std::uint32_t>(step),
                                     static_cast<std::uint32_t>(number)};

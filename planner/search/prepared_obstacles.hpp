@@ -27,7 +27,9 @@ class PreparedObstacles {
 
   /// Room for all obstacles of any step, once per vertex of a path.
   [[nodiscard]] std::uint32_t* near(std::size_t depth) { return &near_[depth * most_in_step_]; }
-  [[nodiscard]] PolygonBlock* seen(std::size_t depth) { return &seen_[depth * most_in_step_]; }
+  [[nodiscard]] PolygonBlock* near_blocks(std::size_t depth) {
+    return &near_blocks_[depth * most_in_step_];
+  }
 
   /// What an obstacle or a segment of the plan is in the problem.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
@@ -54,7 +56,7 @@ class PreparedObstacles {
   std::vector<PieceData> obstacles_;
   std::vector<BoxesBlock> obstacle_boxes_;
   std::vector<std::uint32_t> near_;
-  std::vector<PolygonBlock> seen_;
+  std::vector<PolygonBlock> near_blocks_;
   std::vector<PolygonBlock> obstacle_blocks_;
   std::vector<std::uint32_t> segment_source_;
   std::vector<SegmentBlock> segment_blocks_;

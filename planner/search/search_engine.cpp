@@ -40,7 +40,7 @@ std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
     return std::make_unique<BestFirstSearch>(subgraph, reachable, options);
   }
   return std::make_unique<BranchAndBound>(subgraph, reachable, options,
-                                          BranchAndBound::Instructions::kBest, std::move(tables));
+                                          BranchAndBound::Instructions::kAvx512, std::move(tables));
 }
 
 }  // namespace hlc

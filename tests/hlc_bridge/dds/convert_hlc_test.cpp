@@ -80,10 +80,23 @@ TEST(OwnConversionRefuses, VehicleIdsOutside1To30) {
   EXPECT_TRUE(can_be_written(good<Traffic>()));
 }
 
+TEST(OwnConversion, LeavesOutCornersOfPolygonsThatComeTwice) {
+  auto traffic = good<Traffic>();
+  traffic.reachable_area_m = {{Point{0, 0}, Point{0, 0}, Point{1, 0}, Point{1, 0}, Point{1, 0},
+                               Point{0, 1}, Point{0, 0}, Point{0, 0}}};
+  TrafficMessage wire;
+  to_wire(traffic, wire);
+  const auto read = from_wire(wire).message;
+  ASSERT_TRUE(read.has_value());
+  const ConvexPolygon expected{{Point{0, 0}, Point{1, 0}, Point{0, 1}}};
+  EXPECT_EQ(read->reachable_area_m, expected);
+}
+
 TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
   const std::vector<ConvexPolygon> bad{
       {{Point{0, 0}}},
       {{Point{0, 0}, Point{1, 0}}},
+      {{Point{0, 0}, Point{1, 0}, Point{1, 0}, Point{0, 0}}},
       {{Point{0, 0}, Point{1, 0}, Point{kNan, 1}}},
       {{Point{0, 0}, Point{1, 0}, Point{1, std::numeric_limits<double>::infinity()}}},
       {{Point{0, 0}, Point{-1.001e9, 0}, Point{0, 1}}},

@@ -168,6 +168,7 @@ std::size_t compare_horizons(const Subgraph& subgraph, const std::vector<std::si
     const SearchResult result = engines.fast.search(problem, never_stop);
     EXPECT_EQ(result.status, plain.status);
     EXPECT_NEAR(result.cost, plain.cost, 1e-9);
+    expect_same(engines.avx2.search(problem, never_stop), result);
     expect_same(engines.portable.search(problem, never_stop), result);
     if (result.status != SearchStatus::kOptimal) continue;
     ++solved;
@@ -179,6 +180,13 @@ std::size_t compare_horizons(const Subgraph& subgraph, const std::vector<std::si
 TEST(BranchAndBound, AgreesWithBestFirstOnTheLongestHorizons) {
   EXPECT_GE(compare_horizons(test::make_test_subgraph(), {9, 10, 12, 16}, test::num_seeds(80)),
             30U);
+}
+
+// Horizons of more than two rows of eight steps, and those whose reference points may be too far
+// for whole numbers.
+TEST(BranchAndBound, AgreesWithBestFirstOnHorizonsOfManyRows) {
+  const Subgraph few = test::make_test_subgraph({kSlow}, {1, 6, 7, 8});
+  EXPECT_GE(compare_horizons(few, {17, 18, 24, 33, 39, 40, 64}, test::num_seeds(120)), 30U);
 }
 
 TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
