@@ -138,7 +138,8 @@ HLC_INLINE Floats middle_swapped(const Floats& a) {
 HLC_INLINE Floats squares_of_two_added(const Shorts& a) {
   return __builtin_convertvector(__builtin_ia32_pmaddwd256(a, a), Floats);
 }
-/// What is computed from it stays in a loop: there are not registers enough to keep it all.
+/// What is computed from it stays in a loop: sixteen registers are not enough to keep it all, and
+/// memory is slower (with more of them it makes no difference).
 HLC_INLINE void stay_in_loop(Shorts& a) { asm("" : "+x"(a)); }
 HLC_INLINE Doubles halves_swapped(const Doubles& a) {
   return __builtin_shufflevector(a, a, 2, 3, 0, 1);
