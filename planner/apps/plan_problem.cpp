@@ -27,7 +27,6 @@ constexpr int kExitFailed = 2;
 /// The shortest of several calls is told: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
 constexpr double kEnough_us = 2e4;
-constexpr std::uint64_t kMostExpansions = 1'000'000'000'000;
 
 struct Flags {
   std::filesystem::path file;
@@ -54,7 +53,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--cost_to_go", flags.cost_to_go,
                  "reachable, straight_line or 2022; the last two with best_first");
   app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1")
-      ->check(hlc::whole(1, kMostExpansions));
+      ->check(hlc::whole(1, hlc::SearchOptions::kMostExpansions));
   app.add_flag(
       "--json", flags.json,
       "print one JSON object: status (optimal, budget, unproven, fallback), reason (of a fallback: "

@@ -137,15 +137,16 @@ std::vector<JsonPlace> JsonPlace::list(const std::string& allowed,
   return places;
 }
 
-double JsonPlace::number(double least, const std::string& allowed) const {
+double JsonPlace::number(double least, double most, const std::string& allowed) const {
   if (!value_->is_number()) fail(allowed);
   const auto value = value_->get<double>();
-  if (!std::isfinite(value) || value < least) fail(allowed);
+  if (!std::isfinite(value) || value < least || value > most) fail(allowed);
   return value;
 }
 
 double JsonPlace::number() const {
-  return number(std::numeric_limits<double>::lowest(), "a finite number");
+  using Limits = std::numeric_limits<double>;
+  return number(Limits::lowest(), Limits::max(), "a finite number");
 }
 
 std::size_t JsonPlace::whole(std::size_t least, std::size_t most) const {

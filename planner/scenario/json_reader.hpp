@@ -35,7 +35,7 @@ class JsonPlace {
   /// @param size  that the list must have, if it must have one; `allowed` then says so
   [[nodiscard]] std::vector<JsonPlace> list(const std::string& allowed,
                                             std::optional<std::size_t> size = std::nullopt) const;
-  [[nodiscard]] double number(double least, const std::string& allowed) const;
+  [[nodiscard]] double number(double least, double most, const std::string& allowed) const;
   [[nodiscard]] double number() const;
   [[nodiscard]] std::size_t whole(std::size_t least, std::size_t most) const;
   [[nodiscard]] std::string text(const std::string& allowed) const;

@@ -107,7 +107,8 @@ LookAheadSettings read_look_ahead(const YamlNode& rule) {
   const YamlNode weights = node.optional_map("criterion_weights");
   for (const std::string& criterion : weights.keys()) {
     settings.criterion_weights.push_back(
-        {criterion, weights.required<double>(criterion, at_least(0.0))});
+        {criterion,
+         weights.required<double>(criterion, between(0.0, SearchOptions::kMostWeight_m2))});
   }
   settings.least_gain =
       node.optional<double>("least_gain", settings.least_gain, between(0.0, 0.99));

@@ -170,13 +170,14 @@ std::vector<PlanningWeight> read_weights(const JsonPlace& place, const Subgraph&
   const std::vector<std::string> known = criteria_of(subgraph);
   std::vector<PlanningWeight> weights;
   for (const std::string& criterion : place.keys()) {
-    const JsonPlace weight = place.at(criterion, "a number from 0");
+    const std::string range = "a number from 0 to 1e9";
+    const JsonPlace weight = place.at(criterion, range);
     if (std::ranges::find(known, criterion) == known.end()) {
       std::string allowed = "criteria of the automaton's maneuvers:";
       for (const std::string& name : known) allowed += " " + name;
       weight.fail(allowed);
     }
-    weights.push_back({criterion, weight.number(0.0, "a number from 0")});
+    weights.push_back({criterion, weight.number(0.0, SearchOptions::kMostWeight_m2, range)});
   }
   return weights;
 }
@@ -207,7 +208,7 @@ SearchOptions read_search(const JsonPlace& place, const Subgraph& subgraph) {
     }
   }
   if (const auto budget = place.find("max_expansions")) {
-    search.max_expansions = budget->whole(1, std::numeric_limits<std::size_t>::max());
+    search.max_expansions = budget->whole(1, SearchOptions::kMostExpansions);
   }
   if (const auto weights = place.find("criterion_weights")) {
     search.criterion_weights = read_weights(*weights, subgraph);
@@ -229,7 +230,8 @@ HorizonProblem read_problem(const JsonPlace& root, const Subgraph& subgraph) {
   }
   if (const auto speeds = root.find("reference_speed")) {
     for (const JsonPlace& entry : speeds->list(per_step, n)) {
-      problem.reference_speed_mps.push_back(entry.number(0.0, "a finite number, at least 0"));
+      problem.reference_speed_mps.push_back(
+          entry.number(0.0, std::numeric_limits<double>::max(), "a finite number, at least 0"));
     }
   }
   if (const auto obstacles = root.find("obstacles")) {

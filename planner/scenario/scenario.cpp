@@ -192,7 +192,8 @@ SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
                           const Profile& profile) {
   SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
   search.max_expansions =
-      node.optional<std::size_t>("max_expansions", search.max_expansions, at_least(1.0));
+      node.optional<std::size_t>("max_expansions", search.max_expansions,
+                                 between(1.0, static_cast<double>(SearchOptions::kMostExpansions)));
   if (const auto name = node.optional<std::string>("engine", ""); node.has("engine")) {
     try {
       search.engine = engine_from_name(name);
@@ -223,7 +224,8 @@ std::vector<PlanningWeight> read_criterion_weights(const YamlNode& node, const S
   const std::vector<std::string> known = criteria_of(subgraph);
   std::vector<PlanningWeight> result;
   for (const std::string& criterion : weights.keys()) {
-    result.push_back({criterion, weights.required<double>(criterion, at_least(0.0))});
+    result.push_back({criterion, weights.required<double>(
+                                     criterion, between(0.0, SearchOptions::kMostWeight_m2))});
     if (std::ranges::find(known, criterion) != known.end()) continue;
     std::string allowed = "criteria of the automaton's maneuvers:";
     for (const std::string& name : known) allowed += " " + name;

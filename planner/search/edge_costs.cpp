@@ -46,9 +46,9 @@ EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>
     if (std::ranges::find(known, criterion) == known.end()) {
       throw std::invalid_argument("criterion_weights: " + criterion + ", allowed " + joined(known));
     }
-    if (!(weight_m2 >= 0.0 && std::isfinite(weight_m2))) {
+    if (!(weight_m2 >= 0.0 && weight_m2 <= SearchOptions::kMostWeight_m2)) {
       throw std::invalid_argument("criterion_weights: " + criterion + " = " +
-                                  std::to_string(weight_m2) + ", allowed numbers from 0");
+                                  std::to_string(weight_m2) + ", allowed numbers from 0 to 1e9");
     }
   }
   least_ = std::numeric_limits<double>::infinity();

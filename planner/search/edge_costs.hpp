@@ -22,7 +22,8 @@ namespace hlc {
 /// the result. All plans have n maneuvers, so the order of plans is the same.
 class EdgeCosts {
  public:
-  /// @throws std::invalid_argument for a weight that is not a number from 0, or a criterion that an
+  /// @throws std::invalid_argument for a weight that is not a number from 0 to 1e9
+  /// (SearchOptions::kMostWeight_m2), or a criterion that an
   /// edge of the subgraph holds no value of
   EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>& weights,
             std::size_t max_steps);

@@ -65,6 +65,10 @@ struct PlanningWeight {
 };
 
 struct SearchOptions {
+  /// Beyond, costs would come near what no path costs.
+  static constexpr double kMostWeight_m2 = 1e9;
+  static constexpr std::size_t kMostExpansions = 1'000'000'000'000;
+
   Engine engine{Engine::kBranchAndBound};
   /// kStraightLine and k2022: with kBestFirst only.
   CostToGo cost_to_go{CostToGo::kReachable};

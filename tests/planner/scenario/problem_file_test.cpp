@@ -220,7 +220,7 @@ TEST_F(ProblemFileTest, ErrorsNamePlaceValueAndWhatIsAllowed) {
       HasSubstr("search.criterion_weights.J9 = 1, allowed criteria of the automaton's"));
   EXPECT_THAT(
       error_with(R"("corridor")", R"("search": {"criterion_weights": {"J2": -1}}, "corridor")"),
-      HasSubstr("search.criterion_weights.J2 = -1, allowed a number from 0"));
+      HasSubstr("search.criterion_weights.J2 = -1, allowed a number from 0 to 1e9"));
   EXPECT_THAT(error_with(R"("corridor")", R"("avoids_steering_limit": 1, "corridor")"),
               HasSubstr("avoids_steering_limit = 1, allowed true, false"));
 }
