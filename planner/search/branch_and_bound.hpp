@@ -37,7 +37,8 @@ struct SearchTables;
 /// once. It holds whole numbers of 16 bits, so that a vector has four edges and four steps, of a
 /// unit of an 819th of the longest displacement; rounding makes each e_i smaller by at most two
 /// and a half of them. Where a reference point may lie farther than 40 longest displacements from a
-/// vertex, they are compared one by one, in single precision (TableStore::compute_bounds).
+/// vertex, they are compared one by one, in double precision, with the corners that the half-planes
+/// of neighbouring axes make, too (TableStore::compute_bounds).
 ///
 /// To f belongs what the maneuvers cost themselves (EdgeCosts), and to h the least that those after
 /// the edge can cost, whatever they do.

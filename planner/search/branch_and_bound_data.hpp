@@ -220,10 +220,10 @@ struct Plan {
 /// what is known early need not wait for the vertex' place, and rounding does not add up for long.
 inline constexpr std::size_t kSeenInARow = 8;
 
-/// What a cost-to-go may be too large by, and one whose reference points are always seen from the
-/// start; see TableStore::compute_bounds for all three.
+/// What a cost-to-go may be too large by, and one of reference points that are far away; see
+/// TableStore::compute_bounds for all three.
 inline constexpr float kSurely = 1.0F - 0xAp-20F;
-inline constexpr float kSurelyFar = 1.0F - 0x5p-20F;
+inline constexpr double kSurelyFar = 1.0 - 0x1p-40;
 
 /// A vertex on the path that is being tried.
 struct VertexData {

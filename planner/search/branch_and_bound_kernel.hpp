@@ -24,6 +24,8 @@ constexpr std::int16_t kHighest = 32767;
 
 constexpr float kAxisCos = 0x1.d906bcp-1F;  // cos and sin of 22.5 degrees
 constexpr float kAxisSin = 0x1.87de2ap-2F;
+constexpr double kFarCos = 0x1.d906bcf328d46p-1;
+constexpr double kFarSin = 0x1.87de2a6aea963p-2;
 
 /// A vertex, seen from the plan's start.
 HLC_INLINE Move move_from_start(const Plan& plan, const VertexData& vertex, float units_per_m) {
@@ -220,63 +222,90 @@ HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) 
   return least(lowest);
 }
 
-/// Where a reference point, seen from a vertex, lies along each axis [1 / Tables::units_per_m m].
-struct SeenAlong {
-  float along[kBoundAxes];
+/// Where a reference point, seen from a vertex, lies along each axis and then against each
+/// [1 / Tables::units_per_m m].
+struct FarPoint {
+  double along[2 * kBoundAxes];
 };
 
-HLC_INLINE SeenAlong see_alone(const Plan& plan, std::size_t step, const Move& at) {
-  const float dx = plan.seen_x[step] - at.x;
-  const float dy = plan.seen_y[step] - at.y;
-  const float ahead = dx * at.cos_heading + dy * at.sin_heading;
-  const float aside = dy * at.cos_heading - dx * at.sin_heading;
-  const auto diagonal = static_cast<float>(kDiagonal);
-  return {{ahead, ahead * kAxisCos + aside * kAxisSin, (ahead + aside) * diagonal,
-           ahead * kAxisSin + aside * kAxisCos, aside, aside * kAxisCos - ahead * kAxisSin,
-           (aside - ahead) * diagonal, aside * kAxisSin - ahead * kAxisCos}};
+HLC_INLINE FarPoint see_far(const Plan& plan, std::size_t step, const VertexData& vertex,
+                            double units_per_m) {
+  const double dx = (plan.reference_x[step] - vertex.place[kX]) * units_per_m;
+  const double dy = (plan.reference_y[step] - vertex.place[kY]) * units_per_m;
+  const double ahead = dx * vertex.place[kCos] + dy * vertex.place[kSin];
+  const double aside = dy * vertex.place[kCos] - dx * vertex.place[kSin];
+  const double along[kBoundAxes] = {ahead,
+                                    ahead * kFarCos + aside * kFarSin,
+                                    (ahead + aside) * kDiagonal,
+                                    ahead * kFarSin + aside * kFarCos,
+                                    aside,
+                                    aside * kFarCos - ahead * kFarSin,
+                                    (aside - ahead) * kDiagonal,
+                                    aside * kFarSin - ahead * kFarCos};
+  FarPoint point;
+  for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
+    point.along[axis] = along[axis];
+    point.along[axis + kBoundAxes] = -along[axis];
+  }
+  return point;
 }
 
-/// How far a reference point lies beyond an interval of a block, on the axis that has most. Ends
-/// that are saturated bound nothing.
-HLC_INLINE float beyond(const BoundBlock& bound, std::size_t interval, const SeenAlong& seen) {
-  constexpr float kMost = 1e18F;  // its square, and the sum of many, are still numbers
-  float most = 0.0F;
+/// Squared distance of a reference point from an interval of a block, on all axes together: from
+/// the half-plane that it lies farthest beyond or, if that is farther, from where this one's border
+/// meets that of a neighbour. Ends that are saturated bound nothing.
+HLC_INLINE double squared_beyond_far(const BoundBlock& bound, std::size_t interval,
+                                     const FarPoint& point) {
+  constexpr double kMost = 1e36;  // the sum of many is still a number
+  constexpr std::size_t kDirections = 2 * kBoundAxes;
+  double beyond[kDirections];
   for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
     const std::int16_t low = bound.low[axis][interval];
     const std::int16_t high = bound.high[axis][interval];
-    const float below = low == kLowest ? 0.0F : static_cast<float>(low) - seen.along[axis];
-    const float above = high == kHighest ? 0.0F : seen.along[axis] - static_cast<float>(high);
-    most = below > most ? below : most;
-    most = above > most ? above : most;
+    beyond[axis] = high == kHighest ? -1.0 : point.along[axis] - high;
+    beyond[axis + kBoundAxes] = low == kLowest ? -1.0 : point.along[axis + kBoundAxes] + low;
   }
-  return most < kMost ? most : kMost;
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < kDirections; ++i) {
+    farthest = beyond[i] > beyond[farthest] ? i : farthest;
+  }
+  const double a = beyond[farthest];
+  if (!(a > 0.0)) return 0.0;
+  double squared = a * a;
+  const std::size_t neighbours[] = {farthest + 1, farthest + kDirections - 1};
+  for (const std::size_t next : neighbours) {
+    const double b = beyond[next % kDirections];
+    if (!(b > kFarCos * a)) continue;
+    const double of_corner = (a * a + b * b - 2.0 * kFarCos * a * b) / (kFarSin * kFarSin);
+    squared = of_corner > squared ? of_corner : squared;
+  }
+  return squared < kMost ? squared : kMost;
 }
 
-/// As `expand`, for reference points so far away that places are no numbers of 16 bits: one edge
-/// and step at a time.
+/// As `expand`, for reference points so far away that places are no numbers of 16 bits, and that
+/// sixteen directions see too little of the distance: one edge and step at a time, in double
+/// precision.
 double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
   const Level& level = search.levels[depth];
   const Expansion expansion = begin_expansion(search, vertex, depth);
-  const Move at = move_from_start(plan, vertex, tables.units_per_m);
-  const auto scale = static_cast<double>(kSurelyFar * tables.squared_unit_m2);
+  const auto units_per_m = static_cast<double>(tables.units_per_m);
+  const Doubles scale = all(kSurelyFar / (units_per_m * units_per_m));
   const BoundBlock* bounds = tables.bounds + expansion.first_group * tables.bound_size;
   Doubles lowest = all(kForbidden);
   for (std::size_t edge = 0; edge < expansion.num_edges; edge += kLanes) {
     double to_go[kLanes] = {};
-    for (std::size_t block = 0; block < level.num_blocks; ++block) {
-      for (std::size_t step = 0; step < kBoundSteps; ++step) {
-        const SeenAlong seen = see_alone(plan, depth + 1 + kBoundSteps * block + step, at);
-        for (std::size_t e = 0; e < kLanes; ++e) {
-          const float distance =
-              beyond(bounds[level.bounds[block]], 8 * (step / 2) + 2 * e + step % 2, seen);
-          to_go[e] += static_cast<double>(distance * distance);
-        }
+    for (std::size_t step = depth + 1; step < plan.horizon_steps; ++step) {
+      const std::size_t after = step - depth - 1;
+      const std::size_t of_four = after % kBoundSteps;
+      const BoundBlock& bound = bounds[level.bounds[after / kBoundSteps]];
+      const FarPoint point = see_far(plan, step, vertex, units_per_m);
+      for (std::size_t e = 0; e < kLanes; ++e) {
+        to_go[e] += squared_beyond_far(bound, 8 * (of_four / 2) + 2 * e + of_four % 2, point);
       }
     }
     bounds += tables.bound_size;
-    const Doubles costs_to_go = all(scale) * Doubles{to_go[0], to_go[1], to_go[2], to_go[3]};
+    const Doubles costs_to_go = scale * Doubles{to_go[0], to_go[1], to_go[2], to_go[3]};
     const Doubles f = cost_without_bound(expansion, edge) + costs_to_go;
     lowest = smaller(keep_key(tables, vertex, edge, f), lowest);
   }

@@ -269,14 +269,15 @@ void TableStore::choose_unit() {
 // |c| + w of all axes. Intervals that are 192 u R + 4 u L + 256 u D wider on both sides make up for
 // the last two terms and, where ||q|| is at most 4 R, for the first. Beyond, the distance on the
 // axis that has most is at least 0.98 ||q|| - R > 0.7 ||q||, so it is off by less than 63 u of
-// itself and its square by less than 128 u. (Of reference points that are always seen from the
-// start p is off by at most 9 u ||q|| + 2 u L, and the square by less than 36 u.)
+// itself and its square by less than 128 u.
 //
 // Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
 // too. From there on all is exact but the sum of squares and its scale: m / 4 + 4 roundings. Factor
-// kSurely, 1 - 160 u, makes up for them and for the square above. Where p might be no number of 16
-// bits it is left as it is, its distance and square are rounded once more each, and the sum is one
-// of doubles; kSurelyFar is 1 - 80 u.
+// kSurely, 1 - 160 u, makes up for them and for the square above.
+//
+// Where p might be no number of 16 bits, everything is computed in double precision. Two axes
+// together take the difference of two squares, which makes rounding some 14 times as large; with m
+// terms it stays below 2^-44 of the sum, and kSurelyFar is 1 - 2^-40.
 //
 // Nothing here depends on how many steps there are tables for: equal searches expand equally many
 // vertices.

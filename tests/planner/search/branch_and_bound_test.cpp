@@ -182,6 +182,29 @@ TEST(BranchAndBound, AgreesWithBestFirstOnTheLongestHorizons) {
             30U);
 }
 
+// Sixteen directions alone see too little of a far reference point between two of them: the search
+// would expand thousands of vertices.
+TEST(BranchAndBound, IsGuidedByFarReferencesAsByNearOnes) {
+  Engines engines(test::make_test_subgraph(), {}, 12);
+  for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    HorizonProblem problem = straight_problem(seed % 2 == 0 ? 8 : 12);
+    problem.start_trim = test::random_trim(engines.subgraph, random);
+    const double angle_rad = test::uniform(random, -4.0, 4.0);
+    const double distance_m = std::pow(10.0, test::uniform(random, 0.9, 5.0));
+    for (Point& reference_m : problem.reference_m) {
+      reference_m += distance_m * Point{std::cos(angle_rad), std::sin(angle_rad)};
+    }
+    const SearchResult result = engines.fast.search(problem, never_stop);
+    const SearchResult plain = engines.plain.search(problem, never_stop);
+    EXPECT_NEAR(result.cost, plain.cost, 1e-12 * plain.cost);
+    EXPECT_LE(result.expanded, 10 * plain.expanded);
+    expect_same(engines.avx2.search(problem, never_stop), result);
+    expect_same(engines.portable.search(problem, never_stop), result);
+  }
+}
+
 // Horizons of more than two rows of eight steps, and those whose reference points may be too far
 // for whole numbers.
 TEST(BranchAndBound, AgreesWithBestFirstOnHorizonsOfManyRows) {
