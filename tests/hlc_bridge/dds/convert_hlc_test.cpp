@@ -93,6 +93,8 @@ TEST(OwnConversion, LeavesOutCornersOfPolygonsThatComeTwice) {
 }
 
 TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
+  ConvexPolygon too_many;
+  for (int i = 0; i < 1001; ++i) too_many.vertices_m.emplace_back(i, i * i);
   const std::vector<ConvexPolygon> bad{
       {{Point{0, 0}}},
       {{Point{0, 0}, Point{1, 0}}},
@@ -100,7 +102,7 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
       {{Point{0, 0}, Point{1, 0}, Point{kNan, 1}}},
       {{Point{0, 0}, Point{1, 0}, Point{1, std::numeric_limits<double>::infinity()}}},
       {{Point{0, 0}, Point{-1.001e9, 0}, Point{0, 1}}},
-      {ConvexPolygon::Vertices(1001, Point{0, 0})}};
+      too_many};
   for (const ConvexPolygon& polygon : bad) {
     auto traffic = good<Traffic>();
     traffic.reachable_area_m = polygon;

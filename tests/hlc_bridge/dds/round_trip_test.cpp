@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <random>
@@ -102,8 +103,11 @@ TEST(LargeMessage, OfSeveralDatagramsArrives) {
   constexpr std::size_t kDepth = 8;  // of the topic's history: what repairs can be asked for
   Traffic traffic;
   traffic.vehicle = {1};
-  traffic.running.areas_m.assign(
-      50, ConvexPolygon{ConvexPolygon::Vertices(200, Point{1.0, 2.0})});  // 160 kB
+  ConvexPolygon round;
+  for (int i = 0; i < 200; ++i) {
+    round.vertices_m.emplace_back(std::cos(0.01 * i), std::sin(0.01 * i));
+  }
+  traffic.running.areas_m.assign(50, round);  // 160 kB
   for (std::size_t i = 0; i < kDepth; ++i) {
     traffic.step = {i};
     ASSERT_TRUE(writer.write(traffic));
