@@ -15,13 +15,13 @@
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
-#include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "hlc_bridge/time/signal.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace {
 

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/exit_codes.hpp"
-#include "hlc_bridge/core/planned_motion.hpp"
-#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/commonroad_file.hpp"
 #include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
 #include "hlc_bridge/record/text_file.hpp"
+#include "hlc_bridge/result/planned_motion.hpp"
+#include "hlc_bridge/result/run_description.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/road/lanelet_map.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/dds/transport.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/coordination/messages.hpp"
 

@@ -10,8 +10,8 @@
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/lab_control/lab_control_process.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/process/lab_control_process.hpp"
 
 namespace {
 

@@ -8,9 +8,9 @@
 
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
-#include "hlc_bridge/core/exit_codes.hpp"
 #include "hlc_bridge/doctor/listen.hpp"
 #include "hlc_bridge/doctor/shared_memory.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 
 namespace {

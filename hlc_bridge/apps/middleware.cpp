@@ -1,5 +1,5 @@
 // The middleware of one vehicle's controller, or of several. Flags as in the lab.
-#include "hlc_bridge/middleware/middleware_process.hpp"
+#include "hlc_bridge/process/middleware_process.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -9,7 +9,7 @@
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
-#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <system_error>
 
-#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
 
 namespace hlc {
 namespace {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/time/exit_watchdog.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 

@@ -8,10 +8,6 @@
 #include <string>
 
 #include "hlc_bridge/apps/flags.hpp"
-#include "hlc_bridge/core/driving_fault.hpp"
-#include "hlc_bridge/core/run_description.hpp"
-#include "hlc_bridge/core/run_summary.hpp"
-#include "hlc_bridge/core/summary_table.hpp"
 #include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
@@ -20,7 +16,11 @@
 #include "hlc_bridge/record/step_files.hpp"
 #include "hlc_bridge/record/summary_file.hpp"
 #include "hlc_bridge/record/text_file.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "hlc_bridge/result/driving_fault.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
+#include "hlc_bridge/result/summary_table.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/search/search_options.hpp"
 

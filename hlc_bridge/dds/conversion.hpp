@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 
 /// Common to all conversions. Only sources of this folder include this file.
 namespace hlc {

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "planner/search/horizon_problem.hpp"
-
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is carried over.
 namespace hlc {
@@ -40,7 +38,7 @@ PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
 }
 
 /// A search takes no coordinates beyond.
-bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= HorizonProblem::kLargest_m; }
+bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= kLargestCoordinate_m; }
 
 /// Without corners that come twice in a row.
 ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {

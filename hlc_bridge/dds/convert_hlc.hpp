@@ -8,9 +8,9 @@
 #include <RunStateMessage.h>
 #include <TrafficMessage.h>
 
-#include "hlc_bridge/core/automaton_messages.hpp"
-#include "hlc_bridge/core/run_messages.hpp"
 #include "hlc_bridge/dds/conversion.hpp"
+#include "hlc_bridge/messages/automaton_messages.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
 
 /// Our own generated types to and from plain messages. Only sources of this folder (and its tests)
 /// include this file.

@@ -17,8 +17,8 @@
 #include <VehicleStateList.h>
 #include <Visualization.h>
 
-#include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/dds/conversion.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 
 /// The lab's generated types to and from plain messages. Only sources of this folder (and its
 /// tests) include this file.

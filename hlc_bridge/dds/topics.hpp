@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "hlc_bridge/core/automaton_messages.hpp"
-#include "hlc_bridge/core/messages.hpp"
-#include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/messages/automaton_messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
 
 namespace hlc {

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <iterator>
 
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/core/settled_states.hpp"
-#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/settled_states.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc {
 namespace {

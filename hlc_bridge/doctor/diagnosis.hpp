@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/messages.hpp"
 #include "hlc_bridge/doctor/finding.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 
 namespace hlc {
 
@@ -20,7 +20,7 @@ struct HeardVehicle {
   /// how much its clock is behind ours (negative: it is ahead).
   std::int64_t least_age_ns{};
   bool logical_time{};  ///< its stamps are not of this century
-  bool is_located{};    ///< by its last state (core/settled_states.hpp)
+  bool is_located{};    ///< by its last state (messages/settled_states.hpp)
 };
 
 /// What was heard of a run, or of a lab before a run.

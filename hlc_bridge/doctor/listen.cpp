@@ -6,10 +6,10 @@
 #include <utility>
 #include <variant>
 
-#include "hlc_bridge/core/run_parameters.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "hlc_bridge/time/signal.hpp"
 

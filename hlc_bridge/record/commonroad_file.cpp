@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

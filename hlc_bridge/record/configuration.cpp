@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "hlc_bridge/record/text_file.hpp"
-#include "planner/automaton/yaml_reader.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_reader.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hlc_bridge/core/run_summary.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 
 namespace hlc {
 

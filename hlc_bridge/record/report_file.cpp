@@ -6,9 +6,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "hlc_bridge/core/csv_field.hpp"
 #include "hlc_bridge/record/text_file.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/csv_field.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

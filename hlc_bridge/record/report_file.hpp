@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
 
 namespace hlc {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/automaton/atomic_write.hpp"
+#include "planner/common/atomic_write.hpp"
 
 namespace hlc {
 namespace {

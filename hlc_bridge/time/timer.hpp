@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 
 namespace hlc {
 

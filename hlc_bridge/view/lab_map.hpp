@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 #include "planner/controller/controller.hpp"
 
 namespace hlc {

@@ -16,7 +16,7 @@
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
-#include "planner/automaton/atomic_write.hpp"
+#include "planner/common/atomic_write.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/plot/automaton_plot.hpp"

@@ -17,8 +17,8 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/automaton/yaml_reader.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_reader.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/trim_choice.hpp"
 
 namespace {

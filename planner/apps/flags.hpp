@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "planner/apps/cli.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
 
 /// What the command lines of all programs have in common: `--name=value` and `--name value`,

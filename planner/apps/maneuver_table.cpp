@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

@@ -2,7 +2,7 @@
 // start, same goal, same obstacles, same motions, same cost.
 //
 // Read it as an example of how the pieces fit together: a space information with controls
-// (planner/search/ompl_control.hpp), a goal and an objective (ompl_problem.hpp), the planner
+// (planner/search/ompl/ompl_control.hpp), a goal and an objective (ompl_problem.hpp), the planner
 // (ompl_planner.hpp), and OMPL's SimpleSetup, Benchmark and PlannerData, which know nothing of the
 // rest.
 #include <ompl/base/ProjectionEvaluator.h>
@@ -27,12 +27,12 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/automaton/atomic_write.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/atomic_write.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/geometry/median.hpp"
 #include "planner/scenario/problem_file.hpp"
-#include "planner/search/ompl_control.hpp"
-#include "planner/search/ompl_planner.hpp"
+#include "planner/search/ompl/ompl_control.hpp"
+#include "planner/search/ompl/ompl_planner.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace ob = ompl::base;

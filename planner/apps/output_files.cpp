@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

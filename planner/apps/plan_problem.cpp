@@ -11,7 +11,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/automaton/atomic_write.hpp"
+#include "planner/common/atomic_write.hpp"
 #include "planner/plot/problem_plot.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/planner.hpp"

@@ -6,7 +6,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/automaton/atomic_write.hpp"
+#include "planner/common/atomic_write.hpp"
 #include "planner/plot/scenario_plot.hpp"
 #include "planner/scenario/scenario.hpp"
 

@@ -5,17 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "planner/automaton/criterion.hpp"
+#include "planner/automaton/trim_id.hpp"
 #include "planner/geometry/polygon.hpp"
 #include "planner/vehicle/identified_vehicle.hpp"
 #include "planner/vehicle/single_track.hpp"
 
 namespace hlc {
-
-/// Number of a trim, from 0: the paper's pi_1 is TrimId{0}. Printed and written in files from 1.
-struct TrimId {
-  std::size_t index{};
-  friend auto operator<=>(const TrimId&, const TrimId&) = default;
-};
 
 /// Constant speed and steering (paper, Section 2): u = 0.
 struct Trim {
@@ -29,20 +25,6 @@ struct Trim {
 
 /// Label of every trim's own step.
 inline const std::string kOwnStepLabel = "trim";
-
-/// Value of one criterion, over a motion or, as a unit cost, per second.
-struct CriterionValue {
-  std::string name;  ///< see planner/maneuver_design/criteria.hpp
-  double value{};
-  friend bool operator==(const CriterionValue&, const CriterionValue&) = default;
-};
-
-/// Share of a criterion in a weighted sum.
-struct CriterionWeight {
-  std::string criterion;  ///< see planner/maneuver_design/criteria.hpp
-  double weight{};
-  friend bool operator==(const CriterionWeight&, const CriterionWeight&) = default;
-};
 
 /// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step,
 /// the trim driven for one step, for every label).

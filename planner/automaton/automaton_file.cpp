@@ -8,13 +8,13 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "planner/automaton/atomic_write.hpp"
 #include "planner/automaton/maneuver_check.hpp"
-#include "planner/automaton/sha256.hpp"
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/automaton/yaml_reader.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/atomic_write.hpp"
+#include "planner/common/sha256.hpp"
+#include "planner/common/yaml_reader.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

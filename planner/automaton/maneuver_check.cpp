@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"

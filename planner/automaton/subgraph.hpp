@@ -11,13 +11,6 @@
 
 namespace hlc {
 
-/// An edge by its ends.
-struct TrimPair {
-  TrimId from;
-  TrimId to;
-  friend auto operator<=>(const TrimPair&, const TrimPair&) = default;
-};
-
 /// Which edges there are between the trims of a subgraph, beside each trim's own step.
 enum class EdgeRule {
   kChain,  ///< every equilibrium trim to and from every trim, and neighbours in their order
@@ -90,10 +83,10 @@ struct Edge {
 ///    *exit edges*: let its exit distance be the fewest edges of the universal automaton, of any
 ///    label but without those in `off`, that lead to a trim that is on. Its exit edges are those
 ///    that lead one nearer; with the labels of the subgraph, or, if there are none, with any label.
-///    Under a speed limit first of all those of any label that are not faster than both their trims:
-///    who has to slow down does not speed up before.
-///    So a vehicle that is too fast for the subgraph is slowed down over as many steps as it needs,
-///    and what is off is left on the shortest way. The speed limit does not hold on it: it cannot.
+///    Under a speed limit first of all those of any label that are not faster than both their
+///    trims: who has to slow down does not speed up before. So a vehicle that is too fast for the
+///    subgraph is slowed down over as many steps as it needs, and what is off is left on the
+///    shortest way. The speed limit does not hold on it: it cannot.
 /// 3. An equilibrium trim can be held for ever, on or off: it keeps its own step. So standing is
 ///    always a plan.
 /// 4. A trim without any way out gives no new plan; the fallback is driven.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
-#include "planner/automaton/yaml_reader.hpp"
+#include "planner/common/yaml_reader.hpp"
 
 namespace hlc {
 

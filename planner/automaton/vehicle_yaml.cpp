@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "planner/automaton/automaton.hpp"
-#include "planner/automaton/yaml_reader.hpp"
+#include "planner/common/yaml_reader.hpp"
 
 namespace hlc {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/automaton/automaton.hpp"
+#include "planner/automaton/trim_id.hpp"
 #include "planner/geometry/polygon.hpp"
 #include "planner/geometry/pose.hpp"
 

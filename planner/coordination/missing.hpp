@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "planner/coordination/messages.hpp"
+#include "planner/geometry/footprint.hpp"
 
 namespace hlc {
 

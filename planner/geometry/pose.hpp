@@ -4,6 +4,9 @@
 
 namespace hlc {
 
+/// Of any coordinate that comes from outside.
+inline constexpr double kLargestCoordinate_m = 1e9;
+
 /// A point or a displacement in the plane [m].
 using Point = Eigen::Vector2d;
 

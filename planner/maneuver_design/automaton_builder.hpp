@@ -7,7 +7,7 @@
 
 #include "planner/automaton/automaton.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
-#include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
 namespace hlc {
 

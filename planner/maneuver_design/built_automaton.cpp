@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/automaton/sha256.hpp"
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/sha256.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {

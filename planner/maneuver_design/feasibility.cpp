@@ -5,8 +5,8 @@
 #include <limits>
 #include <sstream>
 
-#include "planner/maneuver_design/decision_variables.hpp"
-#include "planner/maneuver_design/shooting.hpp"
+#include "planner/maneuver_design/solver/decision_variables.hpp"
+#include "planner/maneuver_design/solver/shooting.hpp"
 
 namespace hlc {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
 namespace hlc {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/maneuver_design/shooting.hpp"
-#include "planner/maneuver_design/transcription.hpp"
+#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/solver/transcription.hpp"
 #include "planner/maneuver_design/weighted_sum.hpp"
 
 namespace hlc {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/maneuver_design/dominance.hpp"
-#include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
 namespace hlc {
 

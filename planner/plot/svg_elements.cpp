@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "planner/road/xml_text.hpp"
+#include "planner/common/xml_text.hpp"
 
 namespace hlc::svg {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "planner/automaton/lab_check.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/policy/policy.hpp"
 #include "planner/policy/prepared_choice.hpp"
 #include "planner/policy/speed_zones.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "planner/automaton/subgraph_request.hpp"
+#include "planner/automaton/requested_subgraph.hpp"
 #include "planner/controller/prepared_subgraph.hpp"
 
 namespace hlc {

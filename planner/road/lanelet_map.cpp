@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "planner/road/xml_text.hpp"
+#include "planner/common/xml_text.hpp"
 
 namespace hlc {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "planner/automaton/yaml_reader.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_reader.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 

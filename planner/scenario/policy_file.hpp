@@ -6,7 +6,7 @@
 #include <string>
 
 #include "planner/automaton/subgraph.hpp"
-#include "planner/automaton/yaml_reader.hpp"
+#include "planner/common/yaml_reader.hpp"
 #include "planner/policy/policy_settings.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 

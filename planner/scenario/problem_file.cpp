@@ -5,9 +5,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/automaton/atomic_write.hpp"
-#include "planner/automaton/yaml_text.hpp"
-#include "planner/scenario/json_reader.hpp"
+#include "planner/common/atomic_write.hpp"
+#include "planner/common/json_reader.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/search_options.hpp"

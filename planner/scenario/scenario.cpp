@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "planner/automaton/lab_check.hpp"
-#include "planner/automaton/yaml_reader.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_reader.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/policy/speed_zones.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"

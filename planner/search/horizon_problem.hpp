@@ -19,7 +19,7 @@ namespace hlc {
 /// with SearchOptions::criterion_weights the maneuvers' own criteria, too (edge_costs.hpp).
 /// Coordinates are at most kLargest_m, the start's heading is at most kLargestHeading_rad.
 struct HorizonProblem {
-  static constexpr double kLargest_m = 1e9;
+  static constexpr double kLargest_m = kLargestCoordinate_m;
   /// Neighbouring doubles are at most 1.2e-10 apart up to here, and ever farther beyond.
   static constexpr double kLargestHeading_rad = 1e6;
 

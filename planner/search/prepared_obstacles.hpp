@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/search/branch_and_bound_data.hpp"
-#include "planner/search/branch_and_bound_tables.hpp"
+#include "planner/search/branch_and_bound/data.hpp"
+#include "planner/search/branch_and_bound/tables.hpp"
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc::branch_and_bound {

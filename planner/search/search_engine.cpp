@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/search/best_first_search.hpp"
-#include "planner/search/branch_and_bound.hpp"
+#include "planner/search/best_first/best_first_search.hpp"
+#include "planner/search/branch_and_bound/branch_and_bound.hpp"
 
 namespace hlc {
 

@@ -4,7 +4,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
-#include "planner/search/branch_and_bound_tables.hpp"
+#include "planner/search/branch_and_bound/tables.hpp"
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/horizon_problem.hpp"
 

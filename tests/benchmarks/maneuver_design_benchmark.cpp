@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/controller/controller.hpp"
 #include "planner/geometry/median.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/criteria.hpp"
-#include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 #include "tests/support/folders.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 #include "planner/geometry/median.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/automaton/atomic_write.hpp"
+#include "planner/common/atomic_write.hpp"
 #include "tests/benchmarks/contestants.hpp"
 #include "tests/benchmarks/problem_sets.hpp"
 #include "tests/benchmarks/search_report.hpp"

@@ -22,53 +22,73 @@ using Names = std::set<std::string>;
 /// Folder of the house -> folders that its files may include, beside itself. A folder stands for
 /// those below it.
 const std::map<std::string, Names> kArrows{
+    {"planner/common", {}},
     {"planner/geometry", {}},
     {"planner/vehicle", {"planner/geometry"}},
-    {"planner/automaton", {"planner/vehicle", "planner/geometry"}},
-    {"planner/maneuver_design", {"planner/automaton", "planner/vehicle", "planner/geometry"}},
-    {"planner/road", {"planner/vehicle", "planner/geometry"}},
+    {"planner/automaton", {"planner/common", "planner/vehicle", "planner/geometry"}},
+    {"planner/maneuver_design",
+     {"planner/automaton", "planner/common", "planner/vehicle", "planner/geometry"}},
+    {"planner/road", {"planner/common", "planner/vehicle", "planner/geometry"}},
     {"planner/search",
-     {"planner/automaton", "planner/road", "planner/vehicle", "planner/geometry"}},
+     {"planner/automaton", "planner/common", "planner/road", "planner/vehicle",
+      "planner/geometry"}},
     {"planner/coordination",
-     {"planner/search", "planner/automaton", "planner/road", "planner/vehicle",
+     {"planner/search", "planner/automaton", "planner/common", "planner/road", "planner/vehicle",
       "planner/geometry"}},
     {"planner/controller",
-     {"planner/coordination", "planner/search", "planner/automaton", "planner/road",
-      "planner/vehicle", "planner/geometry"}},
+     {"planner/coordination", "planner/search", "planner/automaton", "planner/common",
+      "planner/road", "planner/vehicle", "planner/geometry"}},
     {"planner/policy",
      {"planner/controller", "planner/coordination", "planner/search", "planner/automaton",
-      "planner/road", "planner/vehicle", "planner/geometry"}},
+      "planner/common", "planner/road", "planner/vehicle", "planner/geometry"}},
     {"planner/scenario",
      {"planner/policy", "planner/controller", "planner/coordination", "planner/search",
-      "planner/automaton", "planner/maneuver_design", "planner/road", "planner/vehicle",
-      "planner/geometry"}},
+      "planner/automaton", "planner/maneuver_design", "planner/common", "planner/road",
+      "planner/vehicle", "planner/geometry"}},
     {"planner/rollout",
-     {"planner/policy", "planner/scenario", "planner/controller", "planner/coordination", "planner/search",
-      "planner/automaton", "planner/road", "planner/vehicle", "planner/geometry"}},
+     {"planner/policy", "planner/scenario", "planner/controller", "planner/coordination",
+      "planner/search", "planner/automaton", "planner/common", "planner/road", "planner/vehicle",
+      "planner/geometry"}},
     {"planner/plot",
      {"planner/scenario", "planner/maneuver_design", "planner/search", "planner/automaton",
-      "planner/road", "planner/vehicle", "planner/geometry"}},
+      "planner/common", "planner/road", "planner/vehicle", "planner/geometry"}},
     {"planner/apps", {"planner"}},
-    {"hlc_bridge/core", {"planner"}},
-    {"hlc_bridge/time", {"hlc_bridge/core"}},
-    {"hlc_bridge/dds", {"hlc_bridge/core", "planner"}},
-    {"hlc_bridge/record", {"hlc_bridge/core", "planner"}},
-    {"hlc_bridge/middleware", {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "planner"}},
-    {"hlc_bridge/hlc",
-     {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/view", "planner"}},
-    {"hlc_bridge/lab_control",
-     {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/record", "planner"}},
-    {"hlc_bridge/doctor", {"hlc_bridge/core", "hlc_bridge/dds", "hlc_bridge/time"}},
-    {"hlc_bridge/view", {"hlc_bridge/core", "planner"}},
+    // Who carries messages needs nothing of the planner but what they are made of.
+    {"hlc_bridge/messages",
+     {"planner/geometry", "planner/coordination/messages.hpp", "planner/coordination/report.hpp",
+      "planner/automaton/trim_id.hpp", "planner/automaton/criterion.hpp",
+      "planner/automaton/subgraph_request.hpp"}},
+    {"hlc_bridge/time", {"hlc_bridge/messages"}},
+    {"hlc_bridge/dds",
+     {"hlc_bridge/messages", "planner/geometry", "planner/coordination/messages.hpp",
+      "planner/coordination/report.hpp"}},
+    {"hlc_bridge/hlc", {"hlc_bridge/messages", "planner"}},
+    {"hlc_bridge/middleware", {"hlc_bridge/messages"}},
+    {"hlc_bridge/lab_control", {"hlc_bridge/messages"}},
+    {"hlc_bridge/result", {"hlc_bridge/messages", "planner"}},
+    {"hlc_bridge/record", {"hlc_bridge/result", "hlc_bridge/messages", "planner"}},
+    {"hlc_bridge/view", {"hlc_bridge/messages", "planner"}},
+    {"hlc_bridge/process",
+     {"hlc_bridge/hlc", "hlc_bridge/middleware", "hlc_bridge/lab_control", "hlc_bridge/messages",
+      "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/view", "hlc_bridge/record",
+      "hlc_bridge/result", "planner"}},
+    {"hlc_bridge/doctor", {"hlc_bridge/messages", "hlc_bridge/dds", "hlc_bridge/time"}},
     {"hlc_bridge/apps", {"hlc_bridge", "planner"}},
     {"vehicle_sim/plant", {"planner/geometry", "planner/vehicle"}},
     // The follower sees commands on the wire, never a plan.
-    {"vehicle_sim/tracking", {"hlc_bridge/core", "planner/geometry", "planner/vehicle"}},
+    {"vehicle_sim/tracking", {"hlc_bridge/messages", "planner/geometry", "planner/vehicle"}},
+    {"vehicle_sim/vehicle",
+     {"hlc_bridge/messages", "hlc_bridge/result/run_record.hpp", "vehicle_sim/plant",
+      "vehicle_sim/tracking", "planner/geometry", "planner/vehicle"}},
+    {"vehicle_sim/closed_loop",
+     {"hlc_bridge/messages", "hlc_bridge/hlc", "hlc_bridge/middleware", "hlc_bridge/lab_control",
+      "hlc_bridge/result", "vehicle_sim/vehicle", "vehicle_sim/tracking", "planner"}},
     {"vehicle_sim/campaign",
-     {"hlc_bridge/core", "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
+     {"hlc_bridge/messages", "hlc_bridge/result", "vehicle_sim/closed_loop", "vehicle_sim/vehicle",
+      "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
     {"vehicle_sim/apps",
-     {"vehicle_sim/campaign", "vehicle_sim/plant", "vehicle_sim/tracking", "hlc_bridge/dds",
-      "hlc_bridge/time", "hlc_bridge/core", "hlc_bridge/record", "hlc_bridge/apps", "planner"}},
+     {"vehicle_sim", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/messages",
+      "hlc_bridge/result", "hlc_bridge/record", "hlc_bridge/apps", "planner"}},
 };
 
 /// Headers from outside that only some places may name: pattern of the header, pattern of the
@@ -81,22 +101,22 @@ struct Outside {
 const std::vector<Outside> kOutside{
     {"^(fastdds|fastrtps|fastcdr)/.*", "^hlc_bridge/dds/fast_dds\\..*",
      "Fast DDS has one entry, hlc_bridge/dds/fast_dds"},
-    {"^(ompl)/.*", "^planner/(search/(ompl_|best_first_search).*|apps/.*)",
+    {"^(ompl)/.*", "^planner/(search/(ompl|best_first)/.*|apps/.*)",
      "OMPL stays in its adapter and the best-first engine"},
     {"^nlopt.*", "^planner/maneuver_design/.*", "only maneuver_design optimises"},
-    {"^yaml-cpp/.*", "^planner/automaton/yaml_reader.*", "YAML is read by yaml_reader"},
-    {"^openssl/.*", "^planner/automaton/sha256.*", "hashes are made in one place"},
+    {"^yaml-cpp/.*", "^planner/common/yaml_reader.*", "YAML is read by yaml_reader"},
+    {"^openssl/.*", "^planner/common/sha256.*", "hashes are made in one place"},
     {"^tinyxml2.*", "^planner/road/.*", "XML is read in planner/road"},
-    {"^spdlog/.*", "^(hlc_bridge/(hlc|middleware|lab_control|apps)|vehicle_sim/apps)/.*",
-     "only processes log"},
+    {"^spdlog/.*", "^(hlc_bridge/(process|apps)|vehicle_sim/apps)/.*", "only processes log"},
     {"^CLI/.*", "^planner/apps/cli.hpp", "CLI11 has one entry, planner/apps/cli.hpp"},
     {"^(thread|mutex|condition_variable|future|chrono|iostream|ctime)$",
-     "^(hlc_bridge/(?!core/).*|vehicle_sim/apps/.*|planner/apps/.*)",
-     "the planner, the cores and the simulated vehicle know no clock, thread or console"},
+     "^(hlc_bridge/(time|dds|process|record|doctor|apps)/.*|vehicle_sim/apps/.*|planner/apps/.*)",
+     "planner, machines, results and the simulated vehicle know no clock, thread or console"},
 };
 
+/// Of a folder everything in it, of a file that one.
 bool is_below(const std::string& path, const std::string& folder) {
-  return path.starts_with(folder + "/");
+  return path == folder || path.starts_with(folder + "/");
 }
 
 /// The folder of the house that a path from the root lies in; nothing for foreign paths.
@@ -157,7 +177,7 @@ TEST(House, EveryIncludeFollowsAnArrow) {
 
 TEST(House, AnArrowThatRunsUpIsNoticed) {
   EXPECT_TRUE(fault_of("planner/geometry/pose.cpp", "planner/search/planner.hpp"));
-  EXPECT_TRUE(fault_of("hlc_bridge/hlc/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
+  EXPECT_TRUE(fault_of("hlc_bridge/process/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
   EXPECT_TRUE(fault_of("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
   EXPECT_FALSE(fault_of("planner/search/planner.hpp", "planner/geometry/pose.hpp"));
 }

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hlc_bridge/core/run_description.hpp"
-#include "hlc_bridge/core/run_summary.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 #include "tests/integration/lab_processes.hpp"
 #include "tests/support/folders.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc::test {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
-#include "hlc_bridge/core/node_names.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "tests/integration/recorded_commands.hpp"
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "hlc_bridge/core/encounters.hpp"
-#include "hlc_bridge/core/run_record.hpp"
+#include "hlc_bridge/result/encounters.hpp"
+#include "hlc_bridge/result/run_record.hpp"
 #include "tests/integration/recorded_commands.hpp"
 
 /// What the vehicles' own records say of a fault.

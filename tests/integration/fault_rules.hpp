@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "hlc_bridge/core/messages.hpp"
-#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/result/run_description.hpp"
 #include "tests/integration/driven_plan.hpp"
 #include "tests/integration/run_processes.hpp"
 

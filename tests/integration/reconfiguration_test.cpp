@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"

@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "hlc_bridge/core/messages.hpp"
-#include "hlc_bridge/core/run_record.hpp"
+#include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/result/run_record.hpp"
 
 namespace hlc::test {
 
@@ -18,7 +18,7 @@ using Commands = std::map<std::pair<std::uint8_t, Nanoseconds>, TrajectoryComman
 /// handed to the system. @throws std::runtime_error
 void append(const TrajectoryCommand& command, std::FILE& file);
 
-/// Of two commands with the same create_stamp (the second is the copy, hlc_bridge/core/command.hpp)
+/// Of two commands with the same create_stamp (the second is the copy, hlc_bridge/hlc/command.hpp)
 /// the second. A last line without an end is left out.
 [[nodiscard]] Commands read_commands(const std::filesystem::path& file);
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/run_messages.hpp"
-#include "hlc_bridge/core/run_record.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
+#include "hlc_bridge/result/run_record.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/integration/recorded_commands.hpp"
 #include "tests/support/child_process.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "hlc_bridge/core/run_messages.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
 
 /// What the controllers of a run reported.
 namespace hlc::test {

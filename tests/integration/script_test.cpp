@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
 #include "tests/support/child_process.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "planner/coordination/missing.hpp"

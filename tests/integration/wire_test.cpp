@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/node_names.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
 #include "tests/integration/discovered_endpoints.hpp"
 #include "tests/integration/lab_processes.hpp"
 

@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include "hlc_bridge/core/run_description.hpp"
-#include "hlc_bridge/core/run_summary.hpp"
 #include "hlc_bridge/doctor/shared_memory.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 #include "tests/integration/driven_plan.hpp"
 #include "tests/integration/lab_network.hpp"
 #include "tests/integration/lab_processes.hpp"

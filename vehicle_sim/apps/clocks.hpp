@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "hlc_bridge/time/thread_clock.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc {
 

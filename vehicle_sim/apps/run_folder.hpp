@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "planner/scenario/scenario.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc {
 

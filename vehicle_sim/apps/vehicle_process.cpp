@@ -8,8 +8,8 @@
 #include <utility>
 #include <variant>
 
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc {
 namespace {

@@ -7,18 +7,18 @@
 #include <variant>
 #include <vector>
 
-#include "hlc_bridge/core/exit_codes.hpp"
-#include "hlc_bridge/core/messages.hpp"
-#include "hlc_bridge/core/run_parameters.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/time/logical_timer.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/wait_notice.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
-#include "vehicle_sim/campaign/simulated_vehicle.hpp"
+#include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc {
 

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "hlc_bridge/core/driving_fault.hpp"
-#include "hlc_bridge/core/run_description.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "hlc_bridge/result/driving_fault.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/scenario/starts.hpp"
 
 namespace hlc {

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/run_summary.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/campaign/driven_costs.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
 #include "vehicle_sim/campaign/run_figures.hpp"
 #include "vehicle_sim/campaign/subgraph_use.hpp"
 #include "vehicle_sim/campaign/zone_excess.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc {
 

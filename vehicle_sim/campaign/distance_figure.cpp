@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "hlc_bridge/core/encounters.hpp"
-#include "hlc_bridge/core/run_description.hpp"
+#include "hlc_bridge/result/encounters.hpp"
+#include "hlc_bridge/result/run_description.hpp"
 #include "vehicle_sim/campaign/figure_parts.hpp"
 
 namespace hlc {

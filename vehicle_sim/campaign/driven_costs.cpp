@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/planned_motion.hpp"
+#include "hlc_bridge/result/planned_motion.hpp"
 
 namespace hlc {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "hlc_bridge/core/run_record.hpp"
+#include "hlc_bridge/result/run_record.hpp"
 
 namespace hlc {
 

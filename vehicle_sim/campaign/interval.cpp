@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "hlc_bridge/core/statistics.hpp"
+#include "hlc_bridge/result/statistics.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 
 namespace hlc {

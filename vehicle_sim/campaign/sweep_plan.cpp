@@ -5,7 +5,7 @@
 #include <set>
 
 #include "planner/automaton/automaton_file.hpp"
-#include "planner/automaton/yaml_text.hpp"
+#include "planner/common/yaml_text.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 
 namespace hlc {

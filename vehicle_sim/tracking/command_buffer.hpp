@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 
 namespace hlc {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 #include "planner/vehicle/identified_motion.hpp"
 
 /// How the vehicle answers the commands that are no trajectory (wire contract, 6.4), with the lab's

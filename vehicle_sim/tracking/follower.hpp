@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 #include "planner/vehicle/identified_motion.hpp"
 
 namespace hlc {

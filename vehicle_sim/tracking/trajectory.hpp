@@ -3,8 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "hlc_bridge/core/command.hpp"
-#include "hlc_bridge/core/messages.hpp"
+#include "hlc_bridge/messages/messages.hpp"
 #include "planner/geometry/timed_curve.hpp"
 
 /// How the lab's vehicle reads the timed points of a trajectory command (wire contract, 6.3).

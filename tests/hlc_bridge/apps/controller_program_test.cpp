@@ -7,10 +7,10 @@
 #include <fstream>
 #include <vector>
 
-#include "hlc_bridge/core/exit_codes.hpp"
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/core/time_grid.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"

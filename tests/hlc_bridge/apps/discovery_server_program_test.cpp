@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "hlc_bridge/core/exit_codes.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "tests/support/program.hpp"
 
 namespace hlc::test {

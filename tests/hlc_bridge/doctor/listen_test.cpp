@@ -4,9 +4,9 @@
 
 #include <future>
 
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/core/run_parameters.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"

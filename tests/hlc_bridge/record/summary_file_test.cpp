@@ -40,12 +40,12 @@ RunSummary some_summary() {
 
 TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
-  EXPECT_THAT(keys(json), ElementsAre("scenario", "profile", "map", "seed", "subgraph",
-                                      "horizon_steps", "step_s", "steps", "vehicles",
-                                      "generated_vertices_sum_max", "min_footprint_distance_m",
-                                      "collisions", "wall_s", "realtime_factor", "trace_sha256",
-                                      "revision", "host", "engine", "expanded_vertices_sum_max",
-                                      "policy"));
+  EXPECT_THAT(
+      keys(json),
+      ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps", "step_s",
+                  "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
+                  "collisions", "wall_s", "realtime_factor", "trace_sha256", "revision", "host",
+                  "engine", "expanded_vertices_sum_max", "policy"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle),
               ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hlc_bridge/core/csv_field.hpp"
+#include "planner/common/csv_field.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc {

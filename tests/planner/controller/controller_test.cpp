@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/automaton/subgraph_request.hpp"
+#include "planner/automaton/requested_subgraph.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 
 namespace hlc {

@@ -1,5 +1,5 @@
 // What a report says of the plan in force and of what it was planned on.
-#include "planner/controller/report.hpp"
+#include "planner/coordination/report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "planner/automaton/maneuver_check.hpp"
-#include "planner/automaton/sha256.hpp"
+#include "planner/common/sha256.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/temporary_folder.hpp"
 

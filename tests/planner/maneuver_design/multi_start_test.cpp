@@ -8,7 +8,7 @@
 
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/friction_circle.hpp"
-#include "planner/maneuver_design/maneuver_solver.hpp"
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/num_seeds.hpp"
 

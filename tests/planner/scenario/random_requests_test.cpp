@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "planner/automaton/subgraph_request.hpp"
+#include "planner/automaton/requested_subgraph.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/starts.hpp"

@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "planner/search/best_first_search.hpp"
-#include "planner/search/branch_and_bound.hpp"
+#include "planner/search/best_first/best_first_search.hpp"
+#include "planner/search/branch_and_bound/branch_and_bound.hpp"
 #include "tests/support/exhaustive_search.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plan_check.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "hlc_bridge/core/node_names.hpp"
-#include "hlc_bridge/core/time_grid.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 #include "tests/support/domain_reservation.hpp"
 
 namespace hlc {

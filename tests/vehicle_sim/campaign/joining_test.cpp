@@ -10,13 +10,13 @@
 #include <map>
 #include <random>
 
-#include "hlc_bridge/core/run_description.hpp"
-#include "hlc_bridge/core/run_summary.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 #include "planner/automaton/deviation.hpp"
 #include "planner/scenario/starts.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc::joining_test {
 namespace {

@@ -6,11 +6,11 @@
 #include <iostream>
 #include <numbers>
 
-#include "hlc_bridge/core/run_description.hpp"
-#include "hlc_bridge/core/run_summary.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 #include "tests/support/folders.hpp"
-#include "tests/vehicle_sim/campaign/closed_loop.hpp"
-#include "vehicle_sim/campaign/experiment.hpp"
+#include "tests/vehicle_sim/vehicle/closed_loop.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc::lab_tracking_test {
 namespace {

@@ -10,8 +10,8 @@
 #include "planner/automaton/deviation.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/num_seeds.hpp"
-#include "tests/vehicle_sim/campaign/closed_loop.hpp"
-#include "tests/vehicle_sim/campaign/controlled_loop.hpp"
+#include "tests/vehicle_sim/vehicle/closed_loop.hpp"
+#include "tests/vehicle_sim/vehicle/controlled_loop.hpp"
 
 namespace hlc::margin_test {
 namespace {

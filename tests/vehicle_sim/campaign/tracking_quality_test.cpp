@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/vehicle_sim/campaign/closed_loop.hpp"
+#include "tests/vehicle_sim/vehicle/closed_loop.hpp"
 
 namespace hlc::tracking_quality_test {
 namespace {

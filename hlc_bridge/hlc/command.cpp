@@ -1,0 +1,45 @@
+#include "hlc_bridge/hlc/command.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hlc {
+namespace {
+
+/// After valid_after: until then the copy is usable, and the vehicle looks ahead.
+constexpr double kReach_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime + kLookAhead);
+/// A list that comes at the begin of its step leaves so much more.
+constexpr double kReachReserve_s = 0.09;
+
+}  // namespace
+
+TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step, Nanoseconds t_now,
+                             Nanoseconds period, const VehicleParameters& parameters,
+                             double interval_s) {
+  TrajectoryCommand command{
+      .vehicle_id = vehicle.value, .create_stamp = t_now, .valid_after_stamp = t_now};
+  if (plan == nullptr) return command;
+  const auto step_start = static_cast<std::int64_t>(step.value * period);
+  const double step_s = 1e-9 * static_cast<double>(period);
+  const double offset_s = 1e-9 * static_cast<double>(static_cast<std::int64_t>(t_now) - step_start);
+  const double reach_s = kReach_s + std::max(kReachReserve_s, offset_s);
+  for (const TimedPoint& sample :
+       sample_trajectory(*plan, step, interval_s, reach_s, step_s, parameters)) {
+    const std::int64_t t = step_start + std::llround(1e9 * sample.time_s);
+    if (t < 0) continue;  // logical time starts at 0
+    command.points.push_back({.t = static_cast<Nanoseconds>(t),
+                              .x_m = sample.position_m.x(),
+                              .y_m = sample.position_m.y(),
+                              .vx_mps = sample.velocity_mps.x(),
+                              .vy_mps = sample.velocity_mps.y()});
+  }
+  return command;
+}
+
+TrajectoryCommand copy_for_later(const TrajectoryCommand& command) {
+  TrajectoryCommand copy = command;
+  copy.valid_after_stamp += kCopyDelay;
+  return copy;
+}
+
+}  // namespace hlc

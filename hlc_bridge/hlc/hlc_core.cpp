@@ -1,0 +1,107 @@
+#include "hlc_bridge/hlc/hlc_core.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hlc_bridge/hlc/command.hpp"
+#include "hlc_bridge/hlc/own_command_check.hpp"
+#include "planner/common/yaml_text.hpp"
+
+namespace hlc {
+
+HlcCore::HlcCore(std::unique_ptr<Controller> controller) : controller_(std::move(controller)) {}
+
+std::string HlcCore::problem_with(const VehicleStateList& list) const {
+  const double step_s = controller_->subgraph().automaton().step_s;
+  const bool fits =
+      list.period_ms > 0 && std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) <= 1e-9;
+  if (fits) return {};
+  return "the middleware's period is " + std::to_string(list.period_ms) +
+         " ms, the automaton's step is " + shortest_text(step_s) + " s";
+}
+
+std::optional<Observation> HlcCore::observe(const VehicleStateList& list) {
+  Observation observation = observation_of(list);
+  if (last_step_ && observation.step <= *last_step_) return std::nullopt;
+  last_step_ = observation.step;
+  return observation;
+}
+
+void HlcCore::note(const VehicleStateList& list, const Observation& observation) {
+  for (const VehicleState& state : list.states) {
+    if (is_usable(state, list.t_now)) settled_[{state.vehicle_id}].add(state);
+  }
+  const MeasuredVehicle* vehicle = own(observation);
+  stood_lists_ = vehicle != nullptr && is_seen_standing(*vehicle, {}) ? stood_lists_ + 1 : 0;
+}
+
+bool HlcCore::has_settled(VehicleId vehicle) const {
+  const auto found = settled_.find(vehicle);
+  return found != settled_.end() && found->second.have_settled();
+}
+
+bool HlcCore::have_all_settled(const Observation& observation) const {
+  return std::ranges::all_of(observation.active,
+                             [this](VehicleId vehicle) { return has_settled(vehicle); });
+}
+
+const MeasuredVehicle* HlcCore::own(const Observation& observation) const {
+  const auto found = std::ranges::find(observation.states, controller_->options().vehicle,
+                                       &MeasuredVehicle::vehicle);
+  return found == observation.states.end() ? nullptr : &*found;
+}
+
+bool HlcCore::may_stand_by(const Observation& observation) const {
+  const MeasuredVehicle* vehicle = own(observation);
+  if (controller_->has_plan()) return vehicle == nullptr || is_seen_standing(*vehicle, {});
+  return stood_lists_ >= controller_->options().horizon_steps &&
+         has_settled(controller_->options().vehicle);
+}
+
+bool HlcCore::begins(const VehicleStateList& list, const Observation& observation,
+                     bool logical_time, const std::optional<Nanoseconds>& trigger) {
+  if (has_begun_ || !controller_->has_plan() || !controller_->fits_route()) return has_begun_;
+  has_begun_ = logical_time ? is_complete(observation) && have_all_settled(observation)
+                            : trigger && list.t_now >= *trigger && own(observation) != nullptr &&
+                                  may_stand_by(observation);
+  return has_begun_;
+}
+
+AnswerToList HlcCore::answer(const VehicleStateList& list) {
+  const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
+  const ControllerOptions& options = controller_->options();
+  const auto with_copy = [](TrajectoryCommand command) {
+    AnswerToList result{.command = std::move(command), .copy = std::nullopt, .fault = ""};
+    if (!result.command.points.empty()) result.copy = copy_for_later(result.command);
+    return result;
+  };
+  AnswerToList result =
+      with_copy(command_of(options.vehicle, plan, step_of(list), list.t_now, period_of(list),
+                           controller_->subgraph().automaton().vehicle,
+                           options.lab ? options.lab->point_interval_s : kPointInterval_s));
+  std::string fault = fault_of(result);
+  if (fault.empty()) {
+    last_good_ = result.command;
+    return result;
+  }
+  result = with_copy(said_again(
+      last_good_.value_or(TrajectoryCommand{.vehicle_id = options.vehicle.value}), list.t_now));
+  result.fault = std::move(fault);
+  return result;
+}
+
+std::string HlcCore::fault_of(const AnswerToList& answer) const {
+  const std::optional<LabLimits>& lab = controller_->options().lab;
+  const std::string fault = fault_of_own(answer.command, lab);
+  return fault.empty() && answer.copy ? fault_of_own(*answer.copy, lab) : fault;
+}
+
+Report with_answer(Report report, const AnswerToList& answer) {
+  if (answer.fault.empty()) return report;
+  report.reason = FallbackReason::kUndrivable;
+  if (report.status == StepStatus::kPlanned) report.status = StepStatus::kFallback;
+  return report;
+}
+
+}  // namespace hlc

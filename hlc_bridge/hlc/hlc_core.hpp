@@ -1,0 +1,90 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hlc_bridge/hlc/observation.hpp"
+#include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/messages/settled_states.hpp"
+#include "planner/controller/controller.hpp"
+
+namespace hlc {
+
+/// A command and, unless it is one to stand, the same again for later (copy_for_later).
+struct AnswerToList {
+  TrajectoryCommand command;
+  std::optional<TrajectoryCommand> copy;
+  /// Why it is not the plan in force but what was sent last; empty if it is the plan.
+  std::string fault;
+};
+
+/// The report of the step that this is the answer of: with a fault it is a fallback.
+[[nodiscard]] Report with_answer(Report report, const AnswerToList& answer);
+
+/// What a controller's process decides, without network, clock or waiting: which lists count, when
+/// the experiment begins, and how a plan becomes commands. Between `begins` and `answer` the owner
+/// takes the controller through the phases of its step and exchanges the messages.
+///
+///     problem_with → observe → note → begins ─yes─► phases of controller() ─► answer
+///                                        └────no──► controller().stand_by ─► answer
+class HlcCore {
+ public:
+  explicit HlcCore(std::unique_ptr<Controller> controller);
+
+  [[nodiscard]] Controller& controller() { return *controller_; }
+  [[nodiscard]] const Controller& controller() const { return *controller_; }
+
+  /// What is wrong with the list's period, in one line; empty if nothing is. Such a list must not
+  /// be used.
+  [[nodiscard]] std::string problem_with(const VehicleStateList& list) const;
+
+  /// What the list tells; nothing if its step was observed before: each step is done once.
+  /// @pre nothing is wrong with the list
+  [[nodiscard]] std::optional<Observation> observe(const VehicleStateList& list);
+
+  /// Remembers the list's states, by which the start is decided. To be called for every list that
+  /// was observed until the experiment begins.
+  void note(const VehicleStateList& list, const Observation& observation);
+
+  /// In real time, before the experiment has begun here: whether the vehicle may be told to stand
+  /// where it is. One that moves drives what a former controller left it, or somebody moves it by
+  /// hand, and one that is not seen may do so: it is left alone (no plan, no command). So is one
+  /// that has not stood in the lists of a whole horizon, since the plan that it was left may be to
+  /// wait and then drive, and one whose states cannot be trusted yet (SettledStates). Once it has
+  /// been told to stand, it is told so as long as it is not seen moving.
+  [[nodiscard]] bool may_stand_by(const Observation& observation) const;
+
+  /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
+  /// fits its route (Controller::fits_route), and
+  ///   * in logical time (`trigger` says nothing then) every active vehicle has a usable state in
+  ///     it and has settled (SettledStates), the same for all controllers;
+  ///   * in real time the list is not before the trigger's next_start, and shows the vehicle
+  ///     standing.
+  [[nodiscard]] bool begins(const VehicleStateList& list, const Observation& observation,
+                            bool logical_time, const std::optional<Nanoseconds>& trigger);
+  [[nodiscard]] bool has_begun() const { return has_begun_; }
+
+  /// The plan in force as commands, in answer to the list; without a plan a command to stand. They
+  /// are checked (own_command_check.hpp). If something is wrong, the last good command is the
+  /// answer again, which ends in standstill: the vehicle leaves its plan, and the controller treats
+  /// it as one that was disturbed. Plans beyond the lab's limits do not come so far: the controller
+  /// drops them before anybody hears of them. To be called once per list.
+  [[nodiscard]] AnswerToList answer(const VehicleStateList& list);
+
+ private:
+  [[nodiscard]] std::string fault_of(const AnswerToList& answer) const;
+  [[nodiscard]] bool have_all_settled(const Observation& observation) const;
+  [[nodiscard]] bool has_settled(VehicleId vehicle) const;
+  [[nodiscard]] const MeasuredVehicle* own(const Observation& observation) const;
+
+  std::unique_ptr<Controller> controller_;
+  std::map<VehicleId, SettledStates> settled_;
+  std::optional<StepIndex> last_step_;
+  std::size_t stood_lists_{};  ///< in a row, up to the last one
+  std::optional<TrajectoryCommand> last_good_;
+  bool has_begun_{};
+};
+
+}  // namespace hlc

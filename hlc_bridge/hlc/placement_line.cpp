@@ -1,0 +1,52 @@
+#include "hlc_bridge/hlc/placement_line.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace hlc {
+namespace {
+
+template <class... Values>
+std::string text_of(const char* format, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+std::string vehicle_text(const Controller& controller) {
+  return "vehicle " + std::to_string(controller.options().vehicle.value);
+}
+
+}  // namespace
+
+std::string placement_line(const Controller& controller) {
+  const Placement& placement = controller.placement().value();
+  const std::string& route = controller.route().name;
+  if (controller.fits_route()) {
+    return vehicle_text(controller) + " takes route " + route +
+           (controller.routes().size() > 1 ? ", which it fits best," : "") +
+           text_of(" at %.3f m, %.0f mm beside its path, turned by %.3f rad", placement.s_m,
+                   1e3 * placement.distance_m, placement.turned_rad);
+  }
+  return vehicle_text(controller) + " fits no route: nearest is " + route +
+         text_of(
+             " at %.3f m; it reaches %.0f mm beyond the lanes (allowed %.0f mm), is turned by "
+             "%.3f rad (allowed %.3f rad)",
+             placement.s_m, 1e3 * std::max(0.0, placement.beyond_m()), 1e3 * kFitsBeyond_m,
+             placement.turned_rad, kFitsTurned_rad) +
+         (placement.is_on_ground ? "" : ", and is not on the map");
+}
+
+std::string stuck_line(const Controller& controller, FallbackReason reason) {
+  if (reason == FallbackReason::kBudget) {
+    return vehicle_text(controller) + " has no new plan: its search used up max_expansions = " +
+           std::to_string(controller.options().search.max_expansions);
+  }
+  const auto n = controller.options().horizon_steps;
+  return vehicle_text(controller) + " stands: no plan of " + std::to_string(n) +
+         " steps leads from there into the lanes of route " + controller.route().name;
+}
+
+}  // namespace hlc

@@ -1,0 +1,131 @@
+#include "hlc_bridge/hlc/weight_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/automaton/lab_check.hpp"
+#include "planner/automaton/requested_subgraph.hpp"
+#include "planner/automaton/vehicle_yaml.hpp"
+#include "planner/common/yaml_text.hpp"
+#include "planner/maneuver_design/automaton_builder.hpp"
+#include "planner/maneuver_design/criteria.hpp"
+
+namespace hlc {
+namespace {
+
+constexpr double kSpeedRounding_mps = 1e-6;  // of the states of maneuvers, as in Subgraph
+
+[[noreturn]] void refuse_weights(const std::string& reason) {
+  throw std::invalid_argument("weights: " + reason);
+}
+
+void check_weights(const std::vector<CriterionWeight>& weights) {
+  const std::vector<std::string> known = criterion_names();
+  double sum = 0.0;
+  for (const auto& [criterion, weight] : weights) {
+    if (std::ranges::find(known, criterion) == known.end()) {
+      std::string names;
+      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+      refuse_weights("criterion '" + one_line(criterion) + "', allowed " + names);
+    }
+    if (std::ranges::count(weights, criterion, &CriterionWeight::criterion) > 1) {
+      refuse_weights(criterion + " is listed twice");
+    }
+    if (!(weight >= 0.0) || !std::isfinite(weight)) {
+      refuse_weights(criterion + " = " + shortest_text(weight) + ", allowed at least 0");
+    }
+    sum += weight;
+  }
+  if (sum <= 0.0) refuse_weights("all 0, allowed at least one above 0");
+}
+
+/// It may have been edited since the automaton was built.
+bool describes(const AutomatonConfiguration& configuration, const UniversalAutomaton& automaton) {
+  return configuration.trims == automaton.trims && configuration.step_s == automaton.step_s &&
+         to_yaml(configuration.limits) == to_yaml(automaton.limits) &&
+         to_yaml(configuration.vehicle, configuration.identified) ==
+             to_yaml(automaton.vehicle, automaton.identified);
+}
+
+}  // namespace
+
+WeightDesign::WeightDesign(std::shared_ptr<const UniversalAutomaton> automaton, Source source,
+                           std::optional<LabLimits> lab)
+    : automaton_(std::move(automaton)),
+      source_(std::move(source)),
+      lab_(lab),
+      top_speed_mps_(top_speed_mps(*automaton_)) {}
+
+const AutomatonConfiguration& WeightDesign::configuration() {
+  if (configuration_) return *configuration_;
+  if (!source_) refuse_weights("what the automaton was built from is not known");
+  AutomatonConfiguration read = source_();
+  if (!describes(read, *automaton_)) {
+    refuse_weights(read.source + " says something else than the automaton that is driven on");
+  }
+  return configuration_.emplace(std::move(read));
+}
+
+std::shared_ptr<const UniversalAutomaton> WeightDesign::known(const std::string& label) const {
+  for (const auto& [kept_label, automaton] : kept_) {
+    if (kept_label == label) return automaton;
+  }
+  return automaton_;
+}
+
+void WeightDesign::keep(const std::string& label,
+                        std::shared_ptr<const UniversalAutomaton> automaton) {
+  std::erase_if(kept_, [&label](const auto& kept) { return kept.first == label; });
+  kept_.emplace_front(label, std::move(automaton));
+  if (kept_.size() > kMaxKept) kept_.pop_back();
+}
+
+std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
+    const SubgraphSpec& spec, const std::vector<CriterionWeight>& weights,
+    const std::stop_token& stop) {
+  check_weights(weights);
+  const std::string label = label_of(weights);
+  AutomatonConfiguration wanted = configuration();
+  wanted.criteria = {{.label = label, .weights = weights}};
+  wanted.subgraphs = {spec};
+  wanted.edges = EdgeChoice::kSubgraphs;
+  wanted.places = {};  // of keys that did not ask for this
+  wanted.limits.speed_max_mps = std::min(wanted.limits.speed_max_mps, top_speed_mps_);
+
+  std::shared_ptr<const UniversalAutomaton> automaton = known(label);
+  std::vector<DesignTask> tasks = design_tasks(wanted);
+  std::erase_if(tasks, [&](const DesignTask& task) {
+    return automaton->find(task.edge.from, task.edge.to, label) != nullptr;
+  });
+  if (!tasks.empty()) {
+    std::vector<Maneuver> designed = design(wanted, tasks, [&stop] {
+      if (stop.stop_requested()) refuse_weights("the controller ends");
+    });
+    auto larger = std::make_shared<UniversalAutomaton>(*automaton);
+    std::ranges::move(designed, std::back_inserter(larger->maneuvers));
+    automaton = std::move(larger);
+  }
+  keep(label, automaton);
+  return automaton;
+}
+
+void WeightDesign::check(const Subgraph& subgraph) const {
+  for (const TrimId from : subgraph.starts()) {
+    for (const Edge& edge : subgraph.successors(from)) {
+      const double speed_mps = top_speed_mps(*edge.maneuver);
+      if (speed_mps <= top_speed_mps_ + kSpeedRounding_mps) continue;
+      throw std::invalid_argument("maneuver " + std::to_string(from.index + 1) + " -> " +
+                                  std::to_string(edge.to.index + 1) + " (" + edge.maneuver->label +
+                                  ") reaches " + shortest_text(speed_mps) + " m/s, allowed " +
+                                  shortest_text(top_speed_mps_) +
+                                  ", the most that the scenario's automaton holds");
+    }
+  }
+  if (!lab_) return;
+  if (const std::string fault = lab_fault_of(subgraph, *lab_); !fault.empty()) {
+    throw std::invalid_argument(fault + " by the lab");
+  }
+}
+
+}  // namespace hlc

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "hlc_bridge/lab_control/lab_run.hpp"
+#include "hlc_bridge/lab_control/tick_master.hpp"
+
+namespace hlc {
+
+/// A run in logical time: time stands still until the lab control releases the next tick.
+///
+/// Timers are those of the vehicles and of the middlewares. The next tick T is released when
+///   * every living timer has answered all ticks before (TickMaster), and
+///   * every living controller has reported the step of the last list before T.
+/// Then everything that happens before T has happened, whatever the order in which messages arrive:
+/// a run's results depend on its inputs only. A controller without a middleware gets no lists and
+/// owes no reports.
+///
+/// A timer that repeats its request for the tick that is released already may have missed the
+/// trigger: it is sent again. (Timers ignore triggers for other ticks than the one they wait for.)
+class LogicalRun : public LabRun {
+ public:
+  explicit LogicalRun(LabRunSettings settings);
+
+  void ready(const ReadyStatus& status) override;
+
+ protected:
+  [[nodiscard]] std::vector<std::string> not_ready() const override;
+  void go_on(LabRunActions& actions) override;
+  [[nodiscard]] Nanoseconds clock() const override;
+  [[nodiscard]] std::vector<std::string> owing() const override;
+  void drop(const std::string& process) override;
+
+ private:
+  /// Controllers that have not yet reported the step of the last list before `tick`.
+  [[nodiscard]] std::vector<std::string> unreported_before(Nanoseconds tick) const;
+  [[nodiscard]] std::optional<Nanoseconds> next_tick() const;
+
+  TickMaster ticks_;
+  std::set<std::string> controllers_;  ///< living, with living middleware
+  bool send_again_{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,100 @@
+#include "hlc_bridge/lab_control/real_time_run.hpp"
+
+#include <algorithm>
+
+#include "hlc_bridge/messages/node_names.hpp"
+
+namespace hlc {
+
+void RealTimeRun::ready(const ReadyStatus& status) {
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    if (status.source_id == middleware_ready_id(id)) {
+      ready_.insert(middleware_name(id));
+    }
+  }
+}
+
+void RealTimeRun::state(const VehicleState& state) {
+  if (state.vehicle_id != 0) {
+    settled_[state.vehicle_id].add(state);
+  }
+}
+
+std::vector<std::string> RealTimeRun::not_ready() const {
+  std::vector<std::string> lines;
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    if (ready_.count(middleware_name(id)) == 0) {
+      lines.push_back(middleware_name(id));
+    }
+    const auto vehicle = settled_.find(id);
+    if (vehicle == settled_.end() || !vehicle->second.have_settled()) {
+      lines.push_back(vehicle_name(id));
+    }
+  }
+  return lines;
+}
+
+void RealTimeRun::go_on(LabRunActions& actions) {
+  if (!start_) {
+    start_ = now() + kStartDelay;
+    actions.triggers.push_back(*start_);
+  }
+}
+
+void RealTimeRun::drop(const std::string& process) {
+  ready_.erase(process);
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    if (process == vehicle_name(id)) {
+      settled_.erase(id);
+    }
+    const bool ends_reports = process == controller_name(id) || process == middleware_name(id);
+    if (ends_reports && phase() != Phase::kGathering) {
+      silenced_.insert(id);
+    }
+  }
+}
+
+void RealTimeRun::welcome(const std::string& process) {
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    if (process == controller_name(id)) {
+      silenced_.erase(id);
+    }
+  }
+}
+
+Nanoseconds RealTimeRun::report_due(std::uint8_t vehicle_id) const {
+  if (!start_ || silenced_.count(vehicle_id) != 0) {
+    return kNever;
+  }
+  return std::max(*start_, last_heard(vehicle_id)) + kReportTimeout;
+}
+
+Nanoseconds RealTimeRun::drive_due(std::uint8_t vehicle_id) const {
+  if (!start_ || !first_step() || silenced_.count(vehicle_id) != 0 ||
+      has_left_standby(vehicle_id)) {
+    return kNever;
+  }
+  return std::max(*start_, *first_step() * settings().period) + kReportTimeout;
+}
+
+std::vector<Death> RealTimeRun::overdue() const {
+  std::vector<Death> deaths;
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    if (now() >= report_due(id)) {
+      deaths.push_back({controller_name(id), "it has not reported for too long"});
+    } else if (now() >= drive_due(id)) {
+      deaths.push_back({controller_name(id), "it stays on standby while others drive"});
+    }
+  }
+  return deaths;
+}
+
+Nanoseconds RealTimeRun::next_overdue() const {
+  Nanoseconds time = kNever;
+  for (const std::uint8_t id : settings().vehicle_ids) {
+    time = std::min({time, report_due(id), drive_due(id)});
+  }
+  return time;
+}
+
+}  // namespace hlc

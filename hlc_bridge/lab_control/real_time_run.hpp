@@ -1,0 +1,54 @@
+#pragma once
+
+#include "hlc_bridge/lab_control/lab_run.hpp"
+#include "hlc_bridge/messages/settled_states.hpp"
+
+namespace hlc {
+
+/// A run in real time: the lab control starts and stops it, time passes by itself (wire
+/// contract, 5.2).
+///
+/// It begins when every middleware has told that its controller is ready, every vehicle's
+/// states have settled, and the triggers reach every timer; step 0 is the first list at or after
+/// the start trigger's time, one second later. `now` of advance() is the time since the epoch.
+///
+/// From the start trigger's time on, every living controller owes a report at least every
+/// kReportTimeout, since it reports every list; and when one has left standby, so must the others
+/// within that time. Who does not is dead, even if its participant still announces itself.
+class RealTimeRun : public LabRun {
+ public:
+  /// From the trigger to the start.
+  static constexpr Nanoseconds kStartDelay = 1 * kNanosecondsPerSecond;
+
+  /// Longer than the lease of 2 s, after which a process without signs of life is lost: a
+  /// controller whose middleware is gone gets no lists to report, and is not the one to be named.
+  static constexpr Nanoseconds kReportTimeout = 2'500'000'000;
+
+  explicit RealTimeRun(LabRunSettings settings) : LabRun{std::move(settings)} {}
+
+  void ready(const ReadyStatus& status) override;
+  void state(const VehicleState& state) override;
+
+ protected:
+  [[nodiscard]] std::vector<std::string> not_ready() const override;
+  void go_on(LabRunActions& actions) override;
+  [[nodiscard]] Nanoseconds clock() const override { return now(); }
+  void drop(const std::string& process) override;
+  void welcome(const std::string& process) override;
+  [[nodiscard]] std::vector<Death> overdue() const override;
+  [[nodiscard]] Nanoseconds next_overdue() const override;
+  [[nodiscard]] Nanoseconds wall_time_of(Nanoseconds t) const override { return t; }
+
+ private:
+  /// When the living controller of the vehicle is dead unless it speaks (`report_due`), and unless
+  /// it drives (`drive_due`); kNever if that is not to be expected.
+  [[nodiscard]] Nanoseconds report_due(std::uint8_t vehicle_id) const;
+  [[nodiscard]] Nanoseconds drive_due(std::uint8_t vehicle_id) const;
+
+  std::set<std::string> ready_;                    ///< node names of middlewares
+  std::map<std::uint8_t, SettledStates> settled_;  ///< by vehicle
+  std::set<std::uint8_t> silenced_;                ///< their controllers are gone, or get no lists
+  std::optional<Nanoseconds> start_;               ///< next_start of the trigger
+};
+
+}  // namespace hlc

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+
+/// A position that the lab's cameras have not measured for longer is not trusted: from then on the
+/// vehicle adds up its odometer and gyroscope, and nothing in its poses shows how wrong they are.
+/// The cameras see it 50 times a second, some 80 ms before it learns of it, and now and then one
+/// is lost; so this is more than 20 measurements in a row. The vehicle itself stops only after 3 s.
+inline constexpr Nanoseconds kMaxPositionAge = kNanosecondsPerSecond / 2;
+
+/// Whether its position was measured at most kMaxPositionAge before the state was created. A
+/// vehicle that has never been located gives the time of its clock as its position's age.
+[[nodiscard]] bool is_located(const VehicleState& state);
+
+/// When a vehicle's states may be trusted: the one rule for the start in both kinds of time. Poses
+/// of the lab's vehicles jump in their first half second, while they find themselves.
+///
+/// A vehicle has settled when its states of the last kSpan, by create_stamp, were all
+///   * finite (pose and speed),
+///   * located (is_located), and
+///   * consistent, each with the one before: created later, by at most kMostPause, and no further
+///     away than kMostJump_m + kMostSpeed_mps * (time between them).
+/// The first state that is not begins a new second, which it opens itself if it is finite and
+/// located. A state that was heard already (same create_stamp) says nothing.
+class SettledStates {
+ public:
+  static constexpr Nanoseconds kSpan = kNanosecondsPerSecond;
+  static constexpr Nanoseconds kMostPause = kNanosecondsPerSecond / 2;
+  static constexpr double kMostSpeed_mps = 5.0;
+  static constexpr double kMostJump_m = 0.05;
+
+  void add(const VehicleState& state);
+  [[nodiscard]] bool have_settled() const;
+
+ private:
+  std::optional<VehicleState> last_;
+  Nanoseconds since_{};  ///< create_stamp of the first of an unbroken row that ends with last_
+};
+
+[[nodiscard]] bool is_finite(const VehicleState& state);
+
+}  // namespace hlc

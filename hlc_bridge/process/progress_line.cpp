@@ -1,0 +1,32 @@
+#include "hlc_bridge/process/progress_line.hpp"
+
+namespace hlc {
+
+void ProgressLine::update(Nanoseconds now, const std::string& text) {
+  if (!next_) {
+    next_ = now + kQuietTime;
+  }
+  if (now < *next_) {
+    return;
+  }
+  if (is_terminal_) {
+    const std::string line =
+        text.size() <= kTerminalColumns ? text : text.substr(0, kTerminalColumns - 3) + "...";
+    std::fprintf(stream_, "\r\x1b[K%s", line.c_str());  // to the line's begin, clear it
+  } else {
+    std::fprintf(stream_, "%s\n", text.c_str());
+  }
+  std::fflush(stream_);
+  is_open_ = is_terminal_;
+  next_ = now + (is_terminal_ ? kTerminalInterval : kLogInterval);
+}
+
+void ProgressLine::end_line() {
+  if (is_open_) {
+    std::fprintf(stream_, "\n");
+    std::fflush(stream_);
+    is_open_ = false;
+  }
+}
+
+}  // namespace hlc

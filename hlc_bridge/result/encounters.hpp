@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hlc_bridge/result/run_record.hpp"
+
+namespace hlc {
+
+/// How close the driven footprints came to each other.
+struct Encounters {
+  std::optional<double> min_distance_m;  ///< none if no two vehicles were ever recorded together
+  std::size_t collisions{};              ///< how often a pair began to touch
+};
+
+/// Looks at every instant in [from, to] at which a vehicle was recorded, for every pair of vehicles
+/// that both have a pose then (driven_pose_at; after the end of its record a vehicle stands where
+/// it was seen last). Footprints are rectangles along the yaw, without margin.
+/// @param vehicles  their footprints; vehicles without a drive are passed over
+[[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
+                                    const Drives& drives, Nanoseconds from, Nanoseconds to);
+
+/// The distance of two driven footprints at one time.
+struct TimedDistance {
+  Nanoseconds t{};
+  double distance_m{};  ///< 0: they touch
+};
+
+/// The same for one pair at every such instant, for who wants to see it over time.
+[[nodiscard]] std::vector<TimedDistance> footprint_distances(const VehicleDescription& a,
+                                                             const Drive& drive_a,
+                                                             const VehicleDescription& b,
+                                                             const Drive& drive_b, Nanoseconds from,
+                                                             Nanoseconds to);
+
+}  // namespace hlc

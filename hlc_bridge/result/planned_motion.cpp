@@ -1,0 +1,90 @@
+#include "hlc_bridge/result/planned_motion.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "planner/common/yaml_text.hpp"
+
+namespace hlc {
+namespace {
+
+[[noreturn]] void refuse(const StepRecord& row, const std::string& what) {
+  throw std::runtime_error("vehicle " + std::to_string(row.record.report.vehicle.value) +
+                           ", step " + std::to_string(row.step) + ": " + what);
+}
+
+/// As people count them, from 1.
+std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
+
+/// Pose at the begin of a motion of which the end is known.
+Pose begin_of(const Maneuver& maneuver, const Pose& end) {
+  return compose(end, between(maneuver.displacement, Pose{}));
+}
+
+}  // namespace
+
+const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
+                                const UniversalAutomaton& automaton) {
+  if (next == nullptr || next->step != row.step + 1) return nullptr;
+  const Report& report = row.record.report;
+  // Who stands and is set down anew may go on in another equilibrium.
+  const bool is_own_step = report.maneuver == kOwnStepLabel;
+  const TrimId to = is_own_step ? report.planned_trim : next->record.report.planned_trim;
+  if (to == report.planned_trim && !is_own_step) return nullptr;
+  return automaton.find(report.planned_trim, to, report.maneuver);
+}
+
+std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanoseconds period,
+                                  Nanoseconds interval, const UniversalAutomaton& automaton) {
+  std::vector<State> states;
+  const VehicleParameters& vehicle = automaton.vehicle;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k]->step != k) refuse(*rows[k], "the step before was not reported");
+    const Report& report = rows[k]->record.report;
+    if (report.planned_trim.index >= automaton.trims.size()) {
+      refuse(*rows[k], "planned_trim is none of the automaton");
+    }
+    const Trim& trim = automaton.trims[report.planned_trim.index];
+    states.push_back({.pose = report.planned_pose,
+                      .speed_mps = trim.speed_mps,
+                      .steering_rad = trim.steering_rad});
+    if (k + 1 == rows.size() || rows[k + 1]->step != k + 1) continue;
+    const Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
+    if (maneuver == nullptr) {
+      refuse(*rows[k], "no maneuver from trim " + number_of(report.planned_trim) + " to " +
+                           number_of(rows[k + 1]->record.report.planned_trim) + " with label '" +
+                           one_line(report.maneuver) + "', allowed those of the automaton");
+    }
+    const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
+    for (Nanoseconds t = interval; t < period; t += interval) {
+      State state = state_at(*maneuver, 1e-9 * static_cast<double>(t), vehicle);
+      state.pose = compose(begin, state.pose);
+      states.push_back(state);
+    }
+  }
+  return states;
+}
+
+std::vector<State> driven_motion(std::span<const DrivenSample> drive, Nanoseconds begin,
+                                 Nanoseconds interval, std::size_t count) {
+  std::vector<State> states;
+  const auto is_before = [](const DrivenSample& sample, Nanoseconds t) { return sample.t < t; };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Nanoseconds t = begin + i * interval;
+    const std::optional<Pose> pose = driven_pose_at(drive, t);
+    if (!pose) break;
+    const auto after = std::lower_bound(drive.begin(), drive.end(), t, is_before);
+    double speed_mps = after->speed_mps;
+    if (after->t != t) {
+      const DrivenSample& before = *std::prev(after);
+      const double part =
+          static_cast<double>(t - before.t) / static_cast<double>(after->t - before.t);
+      speed_mps = before.speed_mps + part * (after->speed_mps - before.speed_mps);
+    }
+    states.push_back({.pose = *pose, .speed_mps = speed_mps, .steering_rad = 0.0});
+  }
+  return states;
+}
+
+}  // namespace hlc

@@ -1,0 +1,48 @@
+#include "hlc_bridge/result/run_description.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/common/yaml_text.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace hlc {
+
+RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> noise_seed) {
+  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  RunDescription description;
+  description.scenario = scenario.name;
+  description.profile = scenario.profile.name;
+  description.engine = to_string(scenario.search.engine);
+  description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
+  description.noise_seed = noise_seed;
+  description.subgraph = scenario.subgraph->spec().name;
+  description.policy = scenario.policy;
+  description.horizon_steps = scenario.horizon_steps;
+  description.step_s = automaton.step_s;
+  description.automaton = scenario.subgraph;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    description.vehicles.push_back(
+        {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
+  }
+  return description;
+}
+
+void check_run(const RunFacts& facts, const RunDescription& description) {
+  const double period_s = 1e-9 * static_cast<double>(facts.period);
+  if (std::abs(period_s - description.step_s) > 1e-9) {
+    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
+                             ", must be the step of scenario " + description.scenario + ", " +
+                             shortest_text(description.step_s) + " s");
+  }
+  for (const std::uint8_t id : facts.vehicle_ids) {
+    if (std::none_of(description.vehicles.begin(), description.vehicles.end(),
+                     [id](const auto& vehicle) { return vehicle.id.value == id; })) {
+      throw std::runtime_error("run.json: vehicle_ids has " + std::to_string(id) +
+                               ", which is not in scenario " + description.scenario);
+    }
+  }
+}
+
+}  // namespace hlc

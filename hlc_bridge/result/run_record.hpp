@@ -1,0 +1,91 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/messages/death.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
+#include "planner/automaton/subgraph.hpp"
+#include "planner/geometry/footprint.hpp"
+#include "planner/policy/policy_settings.hpp"
+#include "planner/road/reference_path.hpp"
+
+/// What a run leaves behind, as plain data; `hlc_bridge/record` reads and writes the files.
+namespace hlc {
+
+struct VehicleDescription {
+  VehicleId id;
+  std::string name;
+  std::optional<ReferencePath> route;  ///< centre line; none in a scenario without lanes
+  Footprint footprint;                 ///< without margin
+};
+
+/// What was driven: the scenario, as far as the result speaks of it.
+struct RunDescription {
+  std::string scenario;
+  std::string profile;
+  std::string engine;  ///< that searched
+  std::string map;
+  std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
+  std::string subgraph;
+  std::string policy{kNoPolicy};  ///< by which the controllers changed it
+  std::size_t horizon_steps{};
+  double step_s{};
+  std::vector<VehicleDescription> vehicles;
+  /// What was planned on: knows the planned poses between steps. None: only those at the steps.
+  std::shared_ptr<const Subgraph> automaton;
+};
+
+/// How the run went, as the lab control saw it.
+struct RunFacts {
+  bool simulated_time{};
+  std::vector<std::uint8_t> vehicle_ids;
+  Nanoseconds period{};
+  std::uint64_t steps{};                    ///< asked for
+  std::optional<std::uint64_t> first_step;  ///< k0; none if nobody started
+  double wall_s{};                          ///< from the first trigger to the last answer
+  double clock_s{};                         ///< time of the run that passed meanwhile
+  int exit_code{};
+  std::string reason;  ///< one line; empty if all went well
+  std::vector<Death> died;
+};
+
+/// A vehicle's true state at a tick.
+struct DrivenSample {
+  Nanoseconds t{};
+  Pose pose;  ///< heading_rad is the yaw
+  double speed_mps{};
+  double throttle{};
+  double steering{};
+  Nanoseconds command_create{};  ///< create_stamp of the command that was followed; 0: none
+};
+
+/// Everything that one vehicle's process recorded, by increasing time.
+using Drive = std::vector<DrivenSample>;
+using Drives = std::map<std::uint8_t, Drive>;
+
+/// One vehicle in one step of the experiment.
+struct StepRecord {
+  std::uint64_t step{};        ///< from 0: k - k0
+  ReportRecord record;         ///< of step k
+  std::optional<Pose> driven;  ///< at t(k); none if it was not recorded
+};
+
+/// The first step that anybody reported as not standby; nothing if nobody started.
+[[nodiscard]] std::optional<std::uint64_t> first_step_of(std::span<const ReportRecord> reports);
+
+/// Pose at `t`: the sample of that time, else linear between its neighbours if they are not farther
+/// apart than 0.1 s (yaw along the shorter arc), else nothing. @pre samples by increasing time
+[[nodiscard]] std::optional<Pose> driven_pose_at(std::span<const DrivenSample> drive,
+                                                 Nanoseconds t);
+
+/// The steps 0 ... steps - 1 that were reported, by step, then vehicle; the last report of a step
+/// counts. Empty if nobody started.
+[[nodiscard]] std::vector<StepRecord> step_records(std::span<const ReportRecord> reports,
+                                                   const Drives& drives, const RunFacts& facts);
+
+}  // namespace hlc

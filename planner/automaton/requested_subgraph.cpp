@@ -1,0 +1,162 @@
+#include "planner/automaton/requested_subgraph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/common/yaml_text.hpp"
+
+namespace hlc {
+namespace {
+
+[[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
+
+/// As people count them, from 1.
+std::string as_text(TrimId trim) { return std::to_string(trim.index + 1); }
+
+std::string as_text(const TrimPair& edge) { return as_text(edge.from) + " -> " + as_text(edge.to); }
+
+const std::string& as_text(const std::string& text) { return text; }
+
+template <class Items>
+std::string listed(const Items& items) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ", ") + as_text(item);
+  return text;
+}
+
+bool contains(const std::vector<TrimId>& trims, TrimId trim) {
+  return std::ranges::find(trims, trim) != trims.end();
+}
+
+void check_trim(TrimId trim, const UniversalAutomaton& automaton) {
+  if (trim.index >= automaton.trims.size()) {
+    refuse("trim " + as_text(trim) + ", allowed 1 ... " + std::to_string(automaton.trims.size()));
+  }
+}
+
+void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
+                   const SubgraphRequest& request) {
+  const std::vector<std::string>& labels = request.labels;
+  if (!request.weights.empty()) {
+    if (!labels.empty()) refuse("labels " + listed(labels) + " and weights, allowed one of both");
+    spec.labels = {label_of(request.weights)};
+    spec.edges.clear();
+    return;
+  }
+  if (labels.empty()) return;
+  std::set<std::string> known;
+  for (const Maneuver& maneuver : automaton.maneuvers) {
+    if (maneuver.from != maneuver.to) known.insert(maneuver.label);
+  }
+  for (const std::string& label : labels) {
+    if (!known.contains(label)) {
+      refuse("label '" + one_line(label) + "', allowed " + listed(known) +
+             ", which the automaton holds");
+    }
+  }
+  spec.labels = labels;
+  spec.edges.clear();
+}
+
+/// Keeps the order of the declaration, which the rule of chains goes by: a new trim comes before
+/// the first with a larger number.
+void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
+  check_trim(trim, automaton);
+  if (contains(spec.trims, trim))
+    refuse("trim " + as_text(trim) + " on: it is on, allowed trims that are off");
+  spec.trims.insert(std::ranges::find_if(spec.trims, [trim](TrimId other) { return other > trim; }),
+                    trim);
+}
+
+void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
+  check_trim(trim, automaton);
+  if (!contains(spec.trims, trim))
+    refuse("trim " + as_text(trim) + " off: it is off, allowed trims that are on");
+  std::erase(spec.trims, trim);
+  const auto names_it = [trim](const auto& one) {
+    return one.edge.from == trim || one.edge.to == trim;
+  };
+  std::erase_if(spec.edges, names_it);
+}
+
+void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
+  check_trim(edge.from, automaton);
+  check_trim(edge.to, automaton);
+  if (std::erase_if(spec.off, [&](const EdgesOff& off) { return off.edge == edge; }) == 0) {
+    refuse("edge " + as_text(edge) + " on: the scenario's subgraph does not have it off");
+  }
+}
+
+void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
+  check_trim(edge.from, automaton);
+  check_trim(edge.to, automaton);
+  spec.off.push_back({edge, std::nullopt});
+}
+
+void limit_speed(SubgraphSpec& spec, const UniversalAutomaton& automaton, double max_speed_mps) {
+  double slowest_mps = INFINITY;
+  for (const TrimId trim : spec.trims) {
+    const double speed_mps = automaton.trims[trim.index].speed_mps;
+    if (speed_mps > 0.0) slowest_mps = std::min(slowest_mps, speed_mps);
+  }
+  if (!(max_speed_mps >= slowest_mps) || !std::isfinite(max_speed_mps)) {
+    refuse("speed limit " + shortest_text(max_speed_mps) + " m/s, allowed at least " +
+           shortest_text(slowest_mps) + ", the slowest moving trim that is on");
+  }
+  spec.max_speed_mps = max_speed_mps;
+}
+
+std::string name_of(const std::string& base, const SubgraphRequest& request) {
+  std::string name = base;
+  const auto add = [&name](const std::string& what) { name += ", " + what; };
+  if (!request.labels.empty()) {
+    add((request.labels.size() == 1 ? "label " : "labels ") + listed(request.labels));
+  }
+  if (!request.weights.empty()) add("weights " + label_of(request.weights));
+  if (request.max_speed_mps) add("at most " + shortest_text(*request.max_speed_mps) + " m/s");
+  if (!request.trims_on.empty()) add("with trims " + listed(request.trims_on));
+  if (!request.trims_off.empty()) add("without trims " + listed(request.trims_off));
+  if (!request.edges_on.empty()) add("with edges " + listed(request.edges_on));
+  if (!request.edges_off.empty()) add("without edges " + listed(request.edges_off));
+  return name;
+}
+
+}  // namespace
+
+std::string label_of(std::vector<CriterionWeight> weights) {
+  std::ranges::stable_sort(weights, {}, &CriterionWeight::criterion);
+  std::string label;
+  for (const CriterionWeight& one : weights) {
+    if (one.weight == 0.0) continue;
+    label += (label.empty() ? "" : " ") + one.criterion + " " + shortest_text(one.weight);
+  }
+  return label;
+}
+
+SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request) {
+  const UniversalAutomaton& automaton = base.automaton();
+  SubgraphSpec spec = base.spec();
+  spec.name = name_of(spec.name, request);
+  change_labels(spec, automaton, request);
+  for (const TrimId trim : request.trims_on) switch_on(spec, automaton, trim);
+  for (const TrimId trim : request.trims_off) switch_off(spec, automaton, trim);
+  for (const TrimPair& edge : request.edges_on) switch_on(spec, automaton, edge);
+  for (const TrimPair& edge : request.edges_off) switch_off(spec, automaton, edge);
+  if (request.max_speed_mps) limit_speed(spec, automaton, *request.max_speed_mps);
+  return spec;
+}
+
+std::shared_ptr<const Subgraph> requested_subgraph(
+    const Subgraph& base, const SubgraphRequest& request, std::size_t horizon_steps,
+    std::shared_ptr<const UniversalAutomaton> automaton) {
+  if (!automaton) automaton = base.shared_automaton();
+  auto subgraph =
+      std::make_shared<const Subgraph>(std::move(automaton), requested_spec(base, request));
+  check_driving(*subgraph, horizon_steps);
+  return subgraph;
+}
+
+}  // namespace hlc

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "planner/maneuver_design/solver/transcription.hpp"
+
+namespace hlc {
+
+struct NewtonResult {
+  Eigen::VectorXd z;
+  bool converged{};  ///< the last step was too small to matter
+};
+
+/// Newton's method with bounds (sequential quadratic programming with the second derivatives): what
+/// makes the last digits of a solution, and so its pose, repeat.
+///
+/// Each round minimises the quadratic model of the objective under the end conditions, the bounds
+/// of z and the bounds on states (all linear in z), see active_set_qp.hpp, and goes along that step
+/// as far as the objective falls. Second derivatives are central differences of the exact gradient.
+/// Inputs that lie at a bound and are clearly held there by their multiplier are left out of the
+/// round: for J1, nearly all accelerations.
+///
+/// @param start  meets the end conditions and the bounds
+/// @pre the duration is fixed, `told` names neither path constraints nor bounds on costs
+[[nodiscard]] NewtonResult newton(const Transcription& transcription, const Told& told,
+                                  const Eigen::VectorXd& start);
+
+}  // namespace hlc

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "planner/maneuver_design/solver/transcription.hpp"
+
+namespace hlc {
+
+struct SlsqpOptions {
+  double cost_tolerance{1e-12};  ///< relative
+  int max_evaluations{2000};
+};
+
+struct SlsqpResult {
+  Eigen::VectorXd z;
+  bool converged{};
+  std::string reason;  ///< why not, if it did not converge
+};
+
+/// One run of NLopt's SLSQP (sequential quadratic programming) on a transcribed problem, with the
+/// end conditions and the inequalities that `told` names. Variables whose element of `held` is not
+/// 0 stay where they are in `start`: NLopt takes them out of the problem, and the time of an
+/// iteration falls with the third power of the rest.
+[[nodiscard]] SlsqpResult run_slsqp(const Transcription& transcription, const Told& told,
+                                    const Eigen::VectorXd& start, const Eigen::ArrayXi& held,
+                                    const SlsqpOptions& options);
+
+}  // namespace hlc

@@ -1,0 +1,192 @@
+#include "planner/search/best_first/best_first_search.hpp"
+
+#include <ompl/datastructures/BinaryHeap.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace hlc {
+namespace {
+
+/// Expansions between two questions to the stop condition.
+constexpr std::size_t kStopInterval = 64;
+
+/// Programmer's mistakes only; see the preconditions in the header.
+[[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable,
+                                     CostToGo kind) {
+  const std::size_t n = problem.horizon_steps();
+  const bool speeds_match = problem.reference_speed_mps.size() == n ||
+                            (kind != CostToGo::k2022 && problem.reference_speed_mps.empty());
+  const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
+  return n <= reachable.max_steps() && speeds_match && obstacles_match &&
+         problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);
+}
+
+}  // namespace
+
+bool BestFirstSearch::Before::operator()(const OpenEntry& a, const OpenEntry& b) const {
+  if (a.cost_estimate != b.cost_estimate) return a.cost_estimate < b.cost_estimate;
+  if (a.depth != b.depth) return a.depth > b.depth;
+  return a.vertex < b.vertex;
+}
+
+BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable,
+                                 SearchOptions options)
+    : subgraph_(subgraph),
+      reachable_(reachable),
+      options_(options),
+      collision_(subgraph, reachable),
+      costs_(subgraph, options.criterion_weights, reachable.max_steps()),
+      steps_(subgraph.automaton().trims.size()) {
+  const UniversalAutomaton& automaton = subgraph.automaton();
+  for (const TrimId trim : subgraph.starts()) {
+    for (const Edge& edge : subgraph.successors(trim)) {
+      steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
+                                    subgraph.distance_to_standstill(edge.to),
+                                    is_at_steering_limit(automaton.trims[edge.to.index],
+                                                         automaton.vehicle, automaton.identified),
+                                    costs_.above_least(*edge.maneuver)});
+    }
+  }
+}
+
+void BestFirstSearch::search(const HorizonProblem& problem, const std::function<bool()>& stop,
+                             SearchResult& result) {
+  assert(is_well_formed(problem, reachable_, options_.cost_to_go));
+  const std::size_t n = problem.horizon_steps();
+
+  reset(result);
+  result.generated = 1;
+  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return;
+
+  collision_.prepare(problem);
+  const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
+  const bool has_incumbent = write_incumbent(problem, result);
+  const bool is_admissible = options_.cost_to_go != CostToGo::k2022;
+  const double least_cost = static_cast<double>(n) * costs_.least();
+  const auto bound_of_start = [&] {
+    return least_cost_of_problem(subgraph_, reachable_, costs_, problem);
+  };
+
+  vertices_.clear();
+  vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
+  ompl::BinaryHeap<OpenEntry, Before> open;
+  open.insert({cost_to_go(problem.start_trim, 0, vertices_.front().frame), 0, 0});
+
+  while (!open.empty()) {
+    const OpenEntry taken = open.top()->data;
+    open.pop();
+    if (!incoming_edge_is_free(vertices_[taken.vertex])) continue;
+    if (vertices_[taken.vertex].depth == n) {
+      if (!has_incumbent || cost_of(taken.vertex, n) < result.cost) {
+        write_path(taken.vertex, problem, result);
+      }
+      result.lower_bound = is_admissible ? result.cost : std::min(bound_of_start(), result.cost);
+      const bool is_proven = result.lower_bound == result.cost;
+      result.status = is_proven ? SearchStatus::kOptimal : SearchStatus::kUnproven;
+      result.reason = NoPath::kNone;
+      break;
+    }
+    const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
+    if (result.expanded == options_.max_expansions || is_told_to_stop) {
+      // Every other entry of the open list has no smaller f.
+      const double bound = is_admissible ? taken.cost_estimate + least_cost : bound_of_start();
+      give_up(has_incumbent, bound, result);
+      break;
+    }
+    expand(taken.vertex, problem, cost_to_go, open);
+    ++result.expanded;
+  }
+  result.generated = vertices_.size();
+}
+
+bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResult& result) {
+  const std::size_t n = problem.horizon_steps();
+  if (problem.incumbent.empty() || problem.incumbent.size() != n) return false;
+  Frame frame = to_frame(problem.start);
+  Pose pose = problem.start;
+  TrimId trim = problem.start_trim;
+  double cost = 0.0;
+  bool is_path = true;
+  for (std::size_t depth = 0; depth < n && is_path; ++depth) {
+    const Maneuver* const maneuver = problem.incumbent[depth];
+    const Step* const step = find_step(trim, maneuver);
+    is_path = step != nullptr && step->distance_to_standstill <= n - (depth + 1) &&
+              !(step->ends_at_limit && problem.avoids_steering_limit) &&
+              collision_.is_free(*maneuver, depth + 1, frame);
+    if (!is_path) break;
+    frame = compose(frame, step->displacement);
+    pose = {frame.origin_m.x(), frame.origin_m.y(),
+            pose.heading_rad + maneuver->displacement.heading_rad};
+    cost += (frame.origin_m - problem.reference_m[depth]).squaredNorm() + step->cost;
+    trim = step->to;
+    result.maneuvers.push_back(maneuver);
+    result.poses.push_back(pose);
+  }
+  if (!is_path) {
+    reset(result);
+    result.generated = 1;
+    return false;
+  }
+  result.cost = cost + static_cast<double>(n) * costs_.least();
+  return true;
+}
+
+const BestFirstSearch::Step* BestFirstSearch::find_step(TrimId trim,
+                                                        const Maneuver* maneuver) const {
+  for (const Step& step : steps_[trim.index]) {
+    if (step.maneuver == maneuver) return &step;
+  }
+  return nullptr;
+}
+
+template <typename OpenList>
+void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
+                             const CostToGoFunction& cost_to_go, OpenList& open) {
+  const Vertex parent = vertices_[vertex];  // a copy: `vertices_` grows below
+  const std::uint32_t depth = parent.depth + 1;
+  const std::size_t steps_left = problem.horizon_steps() - depth;
+  const Point& reference_m = problem.reference_m[depth - 1];
+
+  for (const Step& step : steps_[parent.trim.index]) {
+    if (step.distance_to_standstill > steps_left) continue;
+    if (step.ends_at_limit && problem.avoids_steering_limit) continue;
+    const Frame frame = compose(parent.frame, step.displacement);
+    const double cost_to_come =
+        parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm() + step.cost;
+    const auto child = static_cast<VertexId>(vertices_.size());
+    vertices_.push_back({frame, cost_to_come, step.maneuver, step.to, vertex, depth});
+    const double to_go = cost_to_go(step.to, depth, frame) + costs_.to_go(step.to, steps_left);
+    open.insert({cost_to_come + to_go, child, depth});
+  }
+}
+
+bool BestFirstSearch::incoming_edge_is_free(const Vertex& vertex) {
+  return vertex.depth == 0 ||
+         collision_.is_free(*vertex.maneuver, vertex.depth, vertices_[vertex.parent].frame);
+}
+
+double BestFirstSearch::cost_of(VertexId vertex, std::size_t steps) const {
+  return vertices_[vertex].cost_to_come + static_cast<double>(steps) * costs_.least();
+}
+
+void BestFirstSearch::write_path(VertexId goal, const HorizonProblem& problem,
+                                 SearchResult& result) const {
+  const std::size_t n = problem.horizon_steps();
+  result.cost = cost_of(goal, n);
+  result.maneuvers.resize(n);
+  result.poses.resize(n);
+  for (VertexId id = goal; vertices_[id].depth > 0; id = vertices_[id].parent) {
+    const Vertex& vertex = vertices_[id];
+    result.maneuvers[vertex.depth - 1] = vertex.maneuver;
+    result.poses[vertex.depth - 1] = {vertex.frame.origin_m.x(), vertex.frame.origin_m.y(), 0.0};
+  }
+  double heading_rad = problem.start.heading_rad;
+  for (std::size_t j = 0; j < n; ++j) {
+    heading_rad += result.maneuvers[j]->displacement.heading_rad;
+    result.poses[j].heading_rad = heading_rad;
+  }
+}
+
+}  // namespace hlc

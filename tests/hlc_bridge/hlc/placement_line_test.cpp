@@ -1,0 +1,54 @@
+#include "hlc_bridge/hlc/placement_line.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
+
+namespace hlc::placement_line_test {
+namespace {
+
+using testing::HasSubstr;
+
+const Scenario& three_cars() {
+  static const Scenario scenario = read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
+  return scenario;
+}
+
+std::string line_of(VehicleId id, const Pose& measured) {
+  const std::unique_ptr<Controller> controller = make_controller(three_cars(), id);
+  static_cast<void>(controller->stand_by(
+      {.step = {1}, .active = {id}, .states = {{.vehicle = id, .pose = measured}}, .present = {}}));
+  return placement_line(*controller);
+}
+
+TEST(PlacementLine, NamesRouteAndPlace) {
+  const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
+  const std::string line = line_of({3}, compose(start, {0.0, 0.030, 0.0}));
+  EXPECT_THAT(line, HasSubstr("vehicle 3 takes route green at 1.5"));
+  EXPECT_THAT(line, HasSubstr("30 mm beside its path"));
+  EXPECT_THAT(line_of({9}, start),
+              HasSubstr("vehicle 9 takes route green, which it fits best, at"));
+}
+
+TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
+  const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
+  const std::string turned = line_of({3}, compose(start, {0.0, 0.0, 2.0}));
+  EXPECT_THAT(turned, HasSubstr("vehicle 3 fits no route: nearest is green at"));
+  EXPECT_THAT(turned, HasSubstr("(allowed 150 mm)"));
+  EXPECT_THAT(turned, HasSubstr("(allowed 0.600 rad)"));
+  EXPECT_THAT(line_of({3}, {-1.0, -1.0, 0.0}), HasSubstr("is not on the map"));
+}
+
+TEST(StuckLine, NamesTheBudgetIfItWasUsedUp) {
+  const std::unique_ptr<Controller> controller = make_controller(three_cars(), {3});
+  EXPECT_THAT(stuck_line(*controller, FallbackReason::kOffRoute), HasSubstr("no plan of 8 steps"));
+  EXPECT_EQ(stuck_line(*controller, FallbackReason::kBudget),
+            "vehicle 3 has no new plan: its search used up max_expansions = " +
+                std::to_string(three_cars().search.max_expansions));
+}
+
+}  // namespace
+}  // namespace hlc::placement_line_test

@@ -1,0 +1,499 @@
+#include "hlc_bridge/process/middleware_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+#include <memory>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
+#include "tests/support/domain_reservation.hpp"
+
+namespace hlc {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr Nanoseconds kMs = 1'000'000;
+constexpr Nanoseconds kPeriod = 200 * kMs;
+
+ParticipantOptions options_of(const std::string& name, int domain, DomainRole role,
+                              Transport transport) {
+  ParticipantOptions options = on_loopback(name, domain, role);
+  options.transport = transport;
+  return options;
+}
+
+/// The lab control and vehicles 1 and 2, as far as the middleware of vehicle 1 meets them.
+class FakeLab {
+ public:
+  FakeLab(int domain, Transport transport)
+      : participant_{options_of(kLabControlName, domain, DomainRole::kLab, transport)},
+        parameter_writer_{participant_, topics::parameter()},
+        triggers{participant_, topics::system_trigger()},
+        state_1{participant_, topics::vehicle_state(1)},
+        state_2{participant_, topics::vehicle_state(2)},
+        ready{participant_, topics::ready_status()},
+        commands{participant_, topics::vehicle_command(1)},
+        commands_2{participant_, topics::vehicle_command(2)},
+        requests_{participant_, topics::parameter_request(),
+                  [this](const ParameterRequest& request) {
+                    signal_.post([&] { asked_.push_back(request.name); });
+                  }} {}
+
+  /// Answers until both parameters have been asked for.
+  void tell_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
+    ASSERT_TRUE(parameter_writer_.wait_for_matched(1, soon()));  // else an answer is lost
+    bool period_told = false;
+    bool ids_told = false;
+    while (!period_told || !ids_told) {
+      ASSERT_TRUE(signal_.wait_until(soon(), [this] { return !asked_.empty(); }));
+      for (const std::string& name : signal_.locked([this] { return std::exchange(asked_, {}); })) {
+        if (name == "middleware_period_ms") {
+          period_told = parameter_writer_.write({.name = name, .value = period_ms});
+        } else if (name == "active_vehicle_ids") {
+          ids_told = parameter_writer_.write({.name = name, .value = active_ids});
+        }
+      }
+    }
+  }
+
+ private:
+  Participant participant_;
+  Signal signal_;
+  std::vector<std::string> asked_;
+  Writer<Parameter> parameter_writer_;
+
+ public:
+  Writer<SystemTrigger> triggers;
+  Writer<VehicleState> state_1;
+  Writer<VehicleState> state_2;
+  Mailbox<ReadyStatus> ready;
+  Mailbox<TrajectoryCommand> commands;
+  Mailbox<TrajectoryCommand> commands_2;
+
+  [[nodiscard]] Participant& participant() { return participant_; }
+
+ private:
+  Reader<ParameterRequest> requests_;
+};
+
+class FakeController {
+ public:
+  FakeController(int domain, Transport transport)
+      : participant_{options_of(controller_name(1), domain, DomainRole::kLocal, transport)},
+        ready{participant_, topics::ready_status()},
+        commands{participant_, topics::command()},
+        triggers{participant_, topics::system_trigger()},
+        lists{participant_, topics::vehicle_state_list()} {}
+
+  [[nodiscard]] Participant& participant() { return participant_; }
+
+ private:
+  Participant participant_;
+
+ public:
+  Writer<ReadyStatus> ready;
+  Writer<TrajectoryCommand> commands;
+  Mailbox<SystemTrigger> triggers;
+  Mailbox<VehicleStateList> lists;
+};
+
+VehicleState state(std::uint8_t id, Nanoseconds create) {
+  VehicleState state;
+  state.vehicle_id = id;
+  state.create_stamp = create;
+  state.valid_after_stamp = create + kStateDelay;
+  return state;
+}
+
+TrajectoryCommand command(Nanoseconds t_now, std::uint8_t id = 1) {
+  TrajectoryCommand command;
+  command.vehicle_id = id;
+  command.create_stamp = command.valid_after_stamp = t_now;
+  for (Nanoseconds i = 0; i < 4; ++i) {
+    // The point before t_now is left out in the first period, where it would be before time begins.
+    command.points.push_back({t_now + i * 50 * kMs, 1.0, 2.0, 0.5, 0.0});
+  }
+  return command;
+}
+
+class MiddlewareTest : public testing::Test {
+ protected:
+  explicit MiddlewareTest(Transport transport = Transport::kLoopback) : transport_{transport} {}
+
+  void start(bool logical_time) {
+    MiddlewareOptions options;
+    options.node_id = node_id_;
+    options.vehicle_ids = vehicle_ids_;
+    options.transport = transport_;
+    options.lab_domain = domains_.first();
+    options.local_domain = domains_.first() + 1;
+    options.logical_time = logical_time;
+    options.keep_running = keep_running_;
+    options.startup_timeout = startup_timeout_;
+    process_ = std::make_unique<MiddlewareProcess>(options);
+    code_ = std::async(std::launch::async, [this] { return process_->run(); });
+  }
+
+  void start_in_logical_time() {
+    start(true);
+    lab_.tell_parameters(kPeriod / kMs, {1, 2});
+    ASSERT_EQ(lab_.ready.wait_for(1).at(0).next_start, kListOffset);
+    // The middleware has matched everybody; what is written before it is matched here, too, would
+    // be lost.
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    ASSERT_TRUE(lab_.state_1.wait_for_matched(1, deadline));
+    ASSERT_TRUE(lab_.state_2.wait_for_matched(1, deadline));
+    ASSERT_TRUE(lab_.triggers.wait_for_matched(1, deadline));
+    ASSERT_TRUE(controller_->commands.wait_for_matched(1, deadline));
+  }
+
+  /// Releases the tick, answers its list, waits for the next request.
+  void drive_through(Nanoseconds tick) {
+    lab_.triggers.write({tick});
+    ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+    controller_->commands.write(command(tick));
+    wait_for_request(tick + kPeriod);
+  }
+
+  /// Requests are repeated every second: what counts is that this one comes.
+  void wait_for_request(Nanoseconds tick) {
+    for (std::size_t count = 1; count < 200; ++count) {
+      const std::vector<ReadyStatus> requests = lab_.ready.wait_for(count);
+      ASSERT_GE(requests.size(), count);
+      if (requests.at(count - 1).next_start == tick) {
+        EXPECT_EQ(requests.at(count - 1).source_id, middleware_name(1));
+        return;
+      }
+    }
+    FAIL() << "no request for " << tick;
+  }
+
+  int end_by_stop_symbol() {
+    lab_.triggers.write({kStopSymbol});
+    return exit_code();
+  }
+
+  void TearDown() override {
+    if (process_) process_->stop();  // else a failed test would wait for its run for ever
+  }
+
+  /// -1 if it does not end.
+  [[nodiscard]] int exit_code() {
+    if (code_.wait_until(soon()) == std::future_status::ready) return code_.get();
+    process_->stop();
+    return -1;
+  }
+
+  const Transport transport_;
+  DomainReservation domains_{2};
+  std::chrono::seconds startup_timeout_{60};
+  std::string node_id_{middleware_name(1)};
+  std::vector<std::uint8_t> vehicle_ids_{1};
+  bool keep_running_{false};
+  FakeLab lab_{domains_.first(), transport_};
+  std::unique_ptr<FakeController> controller_ =
+      std::make_unique<FakeController>(domains_.first() + 1, transport_);
+  std::unique_ptr<MiddlewareProcess> process_;
+  std::future<int> code_;
+};
+
+TEST_F(MiddlewareTest, FirstListHasPlaceholdersAndTheNextTickIsAskedForAfterTheAnswer) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  const VehicleStateList list = controller_->lists.wait_for(1).at(0);
+  EXPECT_EQ(list.t_now, kListOffset);
+  EXPECT_EQ(list.period_ms, 200U);
+  EXPECT_THAT(list.active_vehicle_ids, ElementsAre(1, 2));
+  ASSERT_EQ(list.states.size(), 2U);
+  EXPECT_EQ(list.states[0].vehicle_id, 0);
+  EXPECT_EQ(list.states[1].vehicle_id, 0);
+  EXPECT_EQ(lab_.commands.wait_for(1).at(0).create_stamp, kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, ListWaitsForTheStateThatBelongsInItWheneverThatArrives) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  lab_.state_1.write(state(1, 140 * kMs));
+  lab_.state_2.write(state(2, 120 * kMs));  // valid, but not the newest one
+  lab_.triggers.write({kPeriod + kListOffset});
+  lab_.state_1.write(state(1, 160 * kMs));  // not yet valid
+  lab_.state_2.write(state(2, 140 * kMs));
+  const std::vector<VehicleStateList> lists = controller_->lists.wait_for(2);
+  ASSERT_EQ(lists.size(), 2U);
+  ASSERT_EQ(lists[1].states.size(), 2U);
+  EXPECT_EQ(lists[1].states[0].create_stamp, 140 * kMs);
+  EXPECT_EQ(lists[1].states[1].create_stamp, 140 * kMs);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, OnlyCommandsThatAVehicleCanDriveGoOn) {
+  start_in_logical_time();
+  lab_.triggers.write({kListOffset});
+  ASSERT_EQ(controller_->lists.wait_for(1).size(), 1U);
+  TrajectoryCommand repeated_times = command(kListOffset);
+  repeated_times.points[2].t = repeated_times.points[1].t;
+  controller_->commands.write(command(kListOffset, 2));
+  controller_->commands.write(repeated_times);
+  controller_->commands.write(command(kListOffset));
+  TrajectoryCommand copy = command(kListOffset);
+  copy.valid_after_stamp += 100 * kMs;
+  controller_->commands.write(copy);
+  const std::vector<TrajectoryCommand> received = lab_.commands.wait_for(2);
+  ASSERT_EQ(received.size(), 2U);
+  EXPECT_EQ(received[0].points.size(), 4U);
+  EXPECT_EQ(received[0].valid_after_stamp, kListOffset);
+  EXPECT_LT(received[0].points[1].t, received[0].points[2].t);
+  EXPECT_EQ(received[1].valid_after_stamp, kListOffset + 100 * kMs);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+  EXPECT_EQ(lab_.commands.wait_for(2).size(), 2U);
+}
+
+TEST_F(MiddlewareTest, GoesOnWithoutAControllerThatIsLost) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  controller_.reset();
+  lab_.state_1.write(state(1, 140 * kMs));
+  lab_.state_2.write(state(2, 140 * kMs));
+  lab_.triggers.write({kPeriod + kListOffset});
+  wait_for_request(2 * kPeriod + kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, StopSymbolReachesTheControllerBeforeTheMiddlewareLeaves) {
+  start_in_logical_time();
+  drive_through(kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+  process_.reset();
+  const std::vector<SystemTrigger> triggers = controller_->triggers.wait_for(2);
+  ASSERT_EQ(triggers.size(), 2U);
+  EXPECT_EQ(triggers[0].next_start, kListOffset);
+  EXPECT_EQ(triggers[1].next_start, kStopSymbol);
+}
+
+TEST_F(MiddlewareTest, StopEndsItWhileItWaitsForAnAnswer) {
+  start_in_logical_time();
+  lab_.triggers.write({kListOffset});
+  ASSERT_EQ(controller_->lists.wait_for(1).size(), 1U);
+  process_->stop();
+  EXPECT_EQ(exit_code(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, StopEndsItBeforeTheLabControlHasSaidAnything) {
+  start(true);
+  process_->stop();
+  EXPECT_EQ(exit_code(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, EndsIfTheLabControlSaysNothing) {
+  startup_timeout_ = std::chrono::seconds{1};
+  start(true);
+  EXPECT_EQ(exit_code(), kExitMissing);
+}
+
+TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
+  startup_timeout_ = std::chrono::seconds{5};
+  controller_.reset();
+  start(true);
+  lab_.tell_parameters(200, {1, 2});
+  EXPECT_EQ(exit_code(), kExitMissing);
+}
+
+TEST_F(MiddlewareTest, BearsItsVehiclesNameWhateverItsNodeId) {
+  node_id_ = "middleware";
+  const Participant lab{on_loopback("observer", domains_.first(), DomainRole::kLab)};
+  const Participant local{on_loopback("observer", domains_.first() + 1, DomainRole::kLocal)};
+  start(false);
+  EXPECT_TRUE(lab.wait_for({middleware_name(1)}, soon()));
+  EXPECT_TRUE(local.wait_for({middleware_name(1)}, soon()));
+}
+
+TEST_F(MiddlewareTest, RefusesParametersWithoutItsVehicle) {
+  start(true);
+  lab_.tell_parameters(200, {2, 3});
+  EXPECT_EQ(exit_code(), kExitBadInput);
+}
+
+TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIsReady) {
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_GE(controller_->lists.wait_for(3).size(), 3U);
+  const std::vector<VehicleStateList> lists = controller_->lists.wait_for(3);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    EXPECT_EQ(lists[i].t_now % (20 * kMs), kListOffset);
+    EXPECT_TRUE(i == 0 || lists[i].t_now > lists[i - 1].t_now);
+  }
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
+  EXPECT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+  EXPECT_EQ(lab_.ready.wait_for(1).at(0).source_id, "MW for muCars 1 ready.");
+  lab_.triggers.write({5});
+  lab_.triggers.write({6});
+  const std::vector<SystemTrigger> triggers = controller_->triggers.wait_for(2);
+  ASSERT_EQ(triggers.size(), 2U);
+  EXPECT_EQ(triggers[0].next_start, 5U);
+  EXPECT_EQ(triggers[1].next_start, 6U);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, OneOfSeveralVehiclesIsReadyWithAllItsControllersAndCommandsEachItsOwn) {
+  vehicle_ids_ = {1, 2};
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+  const std::size_t lists = controller_->lists.wait_for(1).size();
+  ASSERT_GE(controller_->lists.wait_for(lists + 3).size(), lists + 3);  // periods have passed
+  EXPECT_TRUE(lab_.ready.wait_for(0).empty());
+  ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(2)}));
+  EXPECT_EQ(lab_.ready.wait_for(1).at(0).source_id, "MW for muCars 1, 2 ready.");
+  const Nanoseconds t_now = controller_->lists.wait_for(1).back().t_now;
+  controller_->commands.write(command(t_now, 1));
+  controller_->commands.write(command(t_now, 2));
+  controller_->commands.write(command(t_now, 3));
+  EXPECT_EQ(lab_.commands.wait_for(1).at(0).vehicle_id, 1);
+  EXPECT_EQ(lab_.commands_2.wait_for(1).at(0).vehicle_id, 2);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+  EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(lab_.commands_2.wait_for(1).size(), 1U);
+}
+
+TEST_F(MiddlewareTest, InLogicalTimeATickWaitsForAllItsControllers) {
+  vehicle_ids_ = {1, 2};
+  start_in_logical_time();
+  ASSERT_TRUE(lab_.commands_2.reader().wait_for_matched(1, soon()));
+  lab_.triggers.write({kListOffset});
+  ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+  controller_->commands.write(command(kListOffset, 1));
+  EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(lab_.ready.wait_for(1).back().next_start, kListOffset);  // still
+  controller_->commands.write(command(kListOffset, 2));
+  wait_for_request(kPeriod + kListOffset);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
+  keep_running_ = true;
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
+  const auto drive = [&](std::size_t commands_before) {
+    ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
+    if (commands_before > 0) lab_.tell_parameters(20, {1, 2, 5});
+    const std::size_t told = lab_.ready.wait_for(0).size();
+    ASSERT_GE(lab_.ready.wait_for(told + 1).size(), told + 1);
+    lab_.triggers.write({5});
+    ASSERT_EQ(controller_->triggers.wait_for(2 * commands_before + 1).back().next_start, 5U);
+    controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));
+    ASSERT_EQ(lab_.commands.wait_for(commands_before + 1).size(), commands_before + 1);
+  };
+  drive(0);
+  lab_.triggers.write({kStopSymbol});
+  ASSERT_EQ(controller_->triggers.wait_for(2).back().next_start, kStopSymbol);
+  const std::size_t lists = controller_->lists.wait_for(1).size();
+  controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));  // kept back
+  ASSERT_GE(controller_->lists.wait_for(lists + 3).size(), lists + 3);                // lists go on
+  EXPECT_EQ(lab_.commands.wait_for(1).size(), 1U);
+  EXPECT_EQ(controller_->lists.wait_for(1).back().active_vehicle_ids,
+            (std::vector<std::int32_t>{1, 2}));
+  drive(1);
+  EXPECT_EQ(controller_->lists.wait_for(1).back().active_vehicle_ids,
+            (std::vector<std::int32_t>{1, 2, 5}))
+      << "the operator has added a car";
+  process_->stop();
+  EXPECT_EQ(exit_code(), kExitGood);
+}
+
+class MiddlewareBesideTheLabTest : public MiddlewareTest {
+ protected:
+  MiddlewareBesideTheLabTest() : MiddlewareTest{Transport::kLab} {}
+};
+
+TEST_F(MiddlewareBesideTheLabTest, HoldsGoalsBackUntilItsControllersAreReady) {
+  std::mt19937_64 random{1};
+  std::vector<GoalState> goals;
+  for (int i = 0; i < 3; ++i) goals.push_back(sample<GoalState>(random));
+  Writer<GoalState> centre{lab_.participant(), topics::goal_state()};
+  Mailbox<GoalState> heard{controller_->participant(), topics::goal_state()};
+  centre.write(goals[0]);  // before the middleware is there
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  centre.write(goals[1]);
+  ASSERT_GE(controller_->lists.wait_for(10).size(), 10U);
+  EXPECT_TRUE(heard.now().empty());
+
+  controller_->ready.write({.source_id = controller_ready_id(1)});
+  EXPECT_EQ(heard.wait_for(2).size(), 2U);
+  centre.write(goals[2]);
+  ASSERT_EQ(heard.wait_for(3).size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(text(heard.now()[i]), text(goals[i]));
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations) {
+  Writer<VehicleObservation> observations{lab_.participant(), topics::vehicle_observation(2)};
+  Mailbox<PathTrackingCommand> paths{lab_.participant(),
+                                     topics::vehicle_command<PathTrackingCommand>(1)};
+  Mailbox<SpeedCurvatureCommand> speeds{lab_.participant(),
+                                        topics::vehicle_command<SpeedCurvatureCommand>(1)};
+  Mailbox<DirectCommand> directs{lab_.participant(), topics::vehicle_command<DirectCommand>(1)};
+  Writer<PathTrackingCommand> path_writer{controller_->participant(),
+                                          topics::command<PathTrackingCommand>()};
+  Writer<SpeedCurvatureCommand> speed_writer{controller_->participant(),
+                                             topics::command<SpeedCurvatureCommand>()};
+  Writer<DirectCommand> direct_writer{controller_->participant(), topics::command<DirectCommand>()};
+  start(false);
+  lab_.tell_parameters(20, {1, 2});
+  ASSERT_TRUE(observations.wait_for_matched(1, soon()));
+  ASSERT_TRUE(paths.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(speeds.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(directs.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(path_writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(speed_writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(direct_writer.wait_for_matched(1, soon()));
+
+  // Best effort: said again until it is heard. The first one is for a vehicle that is not its own.
+  Signal pause;
+  const auto said_until_heard = [&](auto& writer, auto command, auto& mailbox) {
+    command.vehicle_id = 2;
+    writer.write(command);
+    command.vehicle_id = 1;
+    return pause.repeat_until(
+        soon(), std::chrono::milliseconds{20}, [&] { return !mailbox.now().empty(); },
+        [&] { writer.write(command); });
+  };
+  EXPECT_TRUE(said_until_heard(path_writer, PathTrackingCommand{.speed_mps = 0.5}, paths));
+  EXPECT_TRUE(said_until_heard(speed_writer, SpeedCurvatureCommand{.speed_mps = 0.6}, speeds));
+  EXPECT_TRUE(said_until_heard(direct_writer, DirectCommand{.motor_throttle = 0.1}, directs));
+  EXPECT_TRUE(paths.now().at(0).path.empty());  // an empty path is one, too
+  EXPECT_EQ(paths.now().at(0).vehicle_id, 1);
+  EXPECT_EQ(speeds.now().at(0).speed_mps, 0.6);
+  EXPECT_EQ(directs.now().at(0).motor_throttle, 0.1);
+
+  const auto sees_vehicle_2 = [&] {
+    const std::vector<VehicleStateList> lists = controller_->lists.now();
+    if (lists.empty()) return false;
+    const VehicleStateList& list = lists.back();
+    return list.observations.size() == 2 && list.observations[1].vehicle_id == 2 &&
+           list.observations[1].pose.x_m == 3.5;
+  };
+  EXPECT_TRUE(pause.repeat_until(soon(), std::chrono::milliseconds{20}, sees_vehicle_2, [&] {
+    observations.write({.vehicle_id = 2, .create_stamp = 7, .pose = {.x_m = 3.5}});
+  }));
+  EXPECT_EQ(controller_->lists.now().back().observations[0].vehicle_id, 0);
+  EXPECT_EQ(end_by_stop_symbol(), kExitGood);
+}
+
+}  // namespace
+}  // namespace hlc

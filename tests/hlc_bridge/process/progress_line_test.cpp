@@ -1,0 +1,58 @@
+#include "hlc_bridge/process/progress_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+
+namespace hlc {
+namespace {
+
+constexpr Nanoseconds kSecond = 1'000'000'000;
+
+class ProgressLineTest : public testing::Test {
+ protected:
+  std::string written() {
+    std::rewind(file_.get());
+    std::array<char, 4096> text{};
+    const std::size_t size = std::fread(text.data(), 1, text.size(), file_.get());
+    return {text.data(), size};
+  }
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), &std::fclose};
+};
+
+TEST_F(ProgressLineTest, LogFileGetsALineEveryFiveSeconds) {
+  ProgressLine line{file_.get(), false};
+  for (Nanoseconds t = 100 * kSecond; t < 111 * kSecond; t += kSecond / 10) {
+    line.update(t, std::to_string(t / kSecond));
+  }
+  line.end_line();
+  EXPECT_EQ(written(), "101\n106\n") << "nothing in the first second";
+}
+
+TEST_F(ProgressLineTest, TerminalHasOneLineThatIsRewritten) {
+  ProgressLine line{file_.get(), true};
+  line.update(100 * kSecond, "too soon");
+  line.update(line.next(), "step 1");
+  line.update(line.next() - 1, "not yet");
+  line.update(line.next(), "step 2");
+  line.end_line();
+  line.end_line();
+  EXPECT_EQ(written(), "\r\x1b[Kstep 1\r\x1b[Kstep 2\n");
+}
+
+TEST_F(ProgressLineTest, TerminalLineIsCutToItsWidth) {
+  ProgressLine line{file_.get(), true};
+  line.update(0, "");
+  line.update(line.next(), std::string(500, 'x'));
+  EXPECT_LE(written().size(), ProgressLine::kTerminalColumns + std::string("\r\x1b[K").size());
+}
+
+TEST_F(ProgressLineTest, NothingShownNeedsNoEnd) {
+  ProgressLine line{file_.get(), true};
+  line.end_line();
+  EXPECT_EQ(written(), "");
+}
+
+}  // namespace
+}  // namespace hlc

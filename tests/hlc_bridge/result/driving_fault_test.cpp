@@ -1,0 +1,47 @@
+#include "hlc_bridge/result/driving_fault.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/test_automaton.hpp"
+
+namespace hlc::driving_fault_test {
+namespace {
+
+RunSummary summary_of_two() {
+  RunSummary summary;
+  summary.description.automaton = std::make_shared<const Subgraph>(test::make_test_subgraph());
+  summary.vehicles.resize(2);
+  summary.vehicles[0].id = VehicleId{1};
+  summary.vehicles[1].id = VehicleId{2};
+  return summary;
+}
+
+TEST(DrivingFault, WhoKeptToHisAreasAndTouchedNobodyDroveWell) {
+  RunSummary summary = summary_of_two();
+  EXPECT_EQ(fault_of(summary), "");
+  summary.vehicles[1].deviation_max_m = 0.010;
+  summary.vehicles[1].fallback_steps = 3;
+  EXPECT_EQ(fault_of(summary), "");
+  EXPECT_EQ(danger_of(summary), "");
+}
+
+TEST(DrivingFault, WhoLeftHisPlanByMoreThanTheMarginButNotHisAreasEndangeredNobody) {
+  RunSummary summary = summary_of_two();
+  summary.vehicles[1].deviation_max_m = 0.0104;
+  EXPECT_EQ(fault_of(summary),
+            "vehicle 2 was up to 10.4 mm from its plan, farther than the safety margin of 10.0 mm");
+  EXPECT_EQ(danger_of(summary), "");
+}
+
+TEST(DrivingFault, NamesTouchesAndStepsOutsideTheAreas) {
+  RunSummary summary = summary_of_two();
+  summary.vehicles[1].astray_steps = 4;
+  EXPECT_EQ(fault_of(summary),
+            "vehicle 2 was outside the areas that it had told the others in 4 steps");
+  EXPECT_EQ(danger_of(summary), fault_of(summary));
+  summary.collisions = 2;
+  EXPECT_EQ(fault_of(summary), "vehicles touched each other 2 times");
+}
+
+}  // namespace
+}  // namespace hlc::driving_fault_test

@@ -1,0 +1,311 @@
+#include "hlc_bridge/result/run_summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "hlc_bridge/result/summary_table.hpp"
+#include "tests/support/test_automaton.hpp"
+
+namespace hlc::run_summary_test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+constexpr Nanoseconds kPeriod = 200'000'000;
+
+/// Two cars on a circle of 1 m at 0.8 m/s, planned 10 mm outside, driven 3 mm ahead of the plan,
+/// half a turn apart, for `steps` steps from k0 = 5 on.
+class RunSummaryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::vector<Point> points_m;
+    for (int i = 0; i < 3600; ++i) {
+      points_m.emplace_back(std::cos(2.0 * kPi * i / 3600.0), std::sin(2.0 * kPi * i / 3600.0));
+    }
+    const ReferencePath route{points_m, true};
+    description_ = {.scenario = "test",
+                    .profile = "default",
+                    .map = "circle",
+                    .noise_seed = 1,
+                    .subgraph = "B",
+                    .horizon_steps = 8,
+                    .step_s = 0.2,
+                    .vehicles = {{VehicleId{1}, "red", route, {0.22, 0.107}},
+                                 {VehicleId{2}, "blue", route, {0.22, 0.107}}}};
+    facts_.period = kPeriod;
+    facts_.steps = 60;
+    facts_.first_step = 5;
+    facts_.wall_s = 0.5;
+    facts_.clock_s = 13.2;
+    for (std::uint64_t k = 0; k < 66; ++k) {
+      for (std::uint8_t id = 1; id <= 2; ++id) {
+        add(id, k);
+      }
+    }
+  }
+
+  void add(std::uint8_t id, std::uint64_t k) {
+    const double angle = 0.16 * static_cast<double>(k) + kPi * id;
+    ReportRecord record;
+    record.report.vehicle = VehicleId{id};
+    record.report.step = StepIndex{k};
+    record.report.status = k < 5 ? StepStatus::kStandby : StepStatus::kPlanned;
+    record.report.planned_pose = {1.01 * std::cos(angle), 1.01 * std::sin(angle),
+                                  angle + kPi / 2.0};
+    record.report.generated = 10 * k + id;
+    record.report.expanded = k;
+    record.planning_ns = 1'000'000 * k;
+    reports_.push_back(record);
+    DrivenSample sample;
+    sample.t = k * kPeriod;
+    sample.pose = record.report.planned_pose;
+    sample.pose.x_m -= 0.003 * std::sin(angle);
+    sample.pose.y_m += 0.003 * std::cos(angle);
+    drives_[id].push_back(sample);
+  }
+
+  RunSummary summary() {
+    return summarize(description_, facts_, step_records(reports_, drives_, facts_), drives_);
+  }
+
+  ReportRecord& report(std::uint8_t id, std::uint64_t step) {
+    return reports_.at((step + 5) * 2 + id - 1U);
+  }
+
+  RunDescription description_;
+  RunFacts facts_;
+  std::vector<ReportRecord> reports_;
+  Drives drives_;
+};
+
+TEST_F(RunSummaryTest, ErrorsAndLapAreThoseOfTheMotion) {
+  const RunSummary result = summary();
+  EXPECT_EQ(result.steps, 60U);
+  ASSERT_EQ(result.vehicles.size(), 2U);
+  for (const VehicleSummary& vehicle : result.vehicles) {
+    EXPECT_EQ(vehicle.steps, 60U);
+    EXPECT_NEAR(vehicle.lap_s.value(), 2.0 * kPi / 0.8, 1e-3);
+    EXPECT_NEAR(vehicle.reference_error_m->mean, 0.010, 1e-5);
+    EXPECT_NEAR(vehicle.reference_error_m->std, 0.0, 1e-5);
+    // Driven 3 mm along the circle.
+    EXPECT_NEAR(vehicle.driven_error_m->mean, 0.010, 2e-5);
+    EXPECT_NEAR(vehicle.tracking_error_m->mean, 0.003, 1e-9);
+    EXPECT_NEAR(vehicle.tracking_error_m->max, 0.003, 1e-9);
+  }
+  EXPECT_GT(result.min_footprint_distance_m.value(), 1.7);
+  EXPECT_EQ(result.collisions, 0U);
+  EXPECT_DOUBLE_EQ(result.realtime_factor, 26.4);
+  EXPECT_EQ(result.trace_sha256.size(), 64U);
+}
+
+TEST_F(RunSummaryTest, ErrorOfDrivenPositionsIsThatOfTheDrive) {
+  for (DrivenSample& sample : drives_[1]) {
+    sample.pose.x_m *= 1.02;  // circles about the origin
+    sample.pose.y_m *= 1.02;
+  }
+  const RunSummary result = summary();
+  EXPECT_NEAR(result.vehicles[0].reference_error_m->mean, 0.010, 1e-5);
+  EXPECT_NEAR(std::abs(result.vehicles[0].driven_error_m->mean - 0.010), 0.02, 1e-3);
+  drives_.clear();
+  EXPECT_FALSE(summary().vehicles[0].driven_error_m);
+}
+
+TEST_F(RunSummaryTest, TheFirstStepInWhichAllStandIsNoPartOfTheLap) {
+  report(1, 0).report.planned_pose = report(1, 1).report.planned_pose;
+  EXPECT_NEAR(summary().vehicles[0].lap_s.value(), 2.0 * kPi / 0.8, 1e-3);
+}
+
+// One car drives straight on at 0.8 m/s and is 5 mm beside its plan at one tick between two steps.
+TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
+  reports_.clear();
+  drives_.clear();
+  description_.vehicles.pop_back();
+  description_.automaton = std::make_shared<const Subgraph>(test::make_test_subgraph());
+  const double yaw_rad = yaw_minus_heading_rad(0.0, description_.automaton->automaton().vehicle,
+                                               description_.automaton->automaton().identified);
+  for (std::uint64_t k = 5; k < 65; ++k) {
+    ReportRecord record;
+    record.report.vehicle = VehicleId{1};
+    record.report.step = StepIndex{k};
+    record.report.status = StepStatus::kPlanned;
+    record.report.planned_pose = {0.16 * static_cast<double>(k), 0.0, 0.0};
+    record.report.planned_trim = TrimId{6};
+    record.report.maneuver = kOwnStepLabel;
+    reports_.push_back(record);
+    for (std::uint64_t tick = 0; tick < 10; ++tick) {
+      DrivenSample sample;
+      sample.t = k * kPeriod + tick * kPeriod / 10;
+      sample.pose = {0.16 * (static_cast<double>(k) + 0.1 * static_cast<double>(tick)), 0.0,
+                     yaw_rad};
+      if (k == 20 && tick == 7) sample.pose.y_m = 0.005;
+      drives_[1].push_back(sample);
+    }
+  }
+  const VehicleSummary result = summary().vehicles.at(0);
+  EXPECT_NEAR(result.tracking_error_m->max, 0.005, 1e-9);
+  EXPECT_NEAR(result.tracking_error_m->mean, 0.005 / (59 * 10 + 1), 1e-9);
+  EXPECT_NEAR(result.deviation_max_m.value(), 0.005, 2e-4);
+  EXPECT_EQ(result.astray_steps, 0U);
+  reports_.front().report.maneuver = "";  // no plan yet: its pose means nothing
+  reports_.front().report.planned_pose = {};
+  EXPECT_NEAR(summary().vehicles.at(0).tracking_error_m->max, 0.005, 1e-9);
+  reports_.at(30).report.status = StepStatus::kFallback;
+  reports_.at(30).report.reason = FallbackReason::kDeviation;
+  EXPECT_EQ(summary().vehicles.at(0).astray_steps, 0U) << "not seen, but not known to be off";
+  reports_.at(30).report.deviation_m = 0.011;
+  EXPECT_EQ(summary().vehicles.at(0).astray_steps, 1U);
+}
+
+TEST_F(RunSummaryTest, StepsWhosePlanOrCommandIsNotSentAreCountedAndTold) {
+  EXPECT_EQ(summary().vehicles.at(0).undrivable_steps, 0U);
+  EXPECT_EQ(summary_table(summary()).find("commands not sent"), std::string::npos);
+  for (ReportRecord& record : reports_) {
+    if (record.report.vehicle.value == 1 && record.report.step.value % 4 == 0) {
+      record.report.status = StepStatus::kFallback;
+      record.report.reason = FallbackReason::kUndrivable;
+    }
+  }
+  const std::size_t counted = summary().vehicles.at(0).undrivable_steps;
+  EXPECT_GT(counted, 3U);
+  EXPECT_EQ(summary().vehicles.at(0).fallback_steps, counted);
+  EXPECT_NE(summary_table(summary()).find("commands not sent: beyond the lab's limits   " +
+                                          std::to_string(counted) + "\n"),
+            std::string::npos);
+}
+
+// A car that drives its plan exactly, with the two maneuvers between two trims in turn.
+TEST_F(RunSummaryTest, OfSeveralManeuversBetweenTwoTrimsTheOneThatWasPlannedIsComparedWith) {
+  reports_.clear();
+  drives_.clear();
+  description_.vehicles.pop_back();
+  const auto automaton =
+      test::make_test_automaton(test::paper_trims(), {{"slow", 0.0}, {"fast", 8.0}});
+  SubgraphSpec spec{.name = "both", .labels = {"slow", "fast"}, .trims = {{0}, {6}, {7}}};
+  description_.automaton = std::make_shared<const Subgraph>(automaton, spec);
+  Pose pose;
+  for (std::uint64_t k = 5; k < 65; ++k) {
+    const TrimId from{k % 2 == 0 ? 6U : 7U};
+    const TrimId to{k % 2 == 0 ? 7U : 6U};
+    const Maneuver& maneuver = *automaton->find(from, to, k % 3 == 0 ? "slow" : "fast");
+    ReportRecord record;
+    record.report.vehicle = VehicleId{1};
+    record.report.step = StepIndex{k};
+    record.report.status = StepStatus::kPlanned;
+    record.report.planned_pose = pose;
+    record.report.planned_trim = from;
+    record.report.maneuver = maneuver.label;
+    reports_.push_back(record);
+    for (std::uint64_t tick = 0; tick < 10; ++tick) {
+      const State state = state_at(maneuver, 0.02 * static_cast<double>(tick), automaton->vehicle);
+      DrivenSample sample;
+      sample.t = k * kPeriod + tick * kPeriod / 10;
+      sample.pose = compose(pose, state.pose);
+      drives_[1].push_back(sample);
+    }
+    pose = compose(pose, maneuver.displacement);
+  }
+  EXPECT_LT(summary().vehicles.at(0).tracking_error_m->max, 1e-9);
+}
+
+TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
+  report(2, 7).report.status = StepStatus::kFallback;
+  report(2, 9).report.status = StepStatus::kFallback;
+  report(1, 3).deadline_missed = true;
+  const RunSummary result = summary();
+  EXPECT_EQ(result.vehicles[0].generated->max, 641.0);  // k = 64 is the last step
+  EXPECT_EQ(result.vehicles[1].generated->max, 642.0);
+  EXPECT_EQ(result.vehicles[0].expanded->max, 64.0);
+  EXPECT_EQ(result.vehicles[0].expanded->min, 5.0);
+  EXPECT_DOUBLE_EQ(result.vehicles[0].planning_s->max, 0.064);
+  EXPECT_EQ(result.generated_vertices_sum_max, 641U + 642U);
+  EXPECT_EQ(result.expanded_vertices_sum_max, 2U * 64U);
+  EXPECT_EQ(result.vehicles[0].overlong_plans, 0U);
+  EXPECT_EQ(result.vehicles[0].fallback_steps, 0U);
+  EXPECT_EQ(result.vehicles[1].fallback_steps, 2U);
+  EXPECT_EQ(result.vehicles[0].deadline_misses, 1U);
+}
+
+TEST_F(RunSummaryTest, EveryStepThatAControllerSkippedIsADeadlineMissed) {
+  // Of vehicle 2: three steps on the way, and the last two of the 60 (k0 = 5).
+  std::erase_if(reports_, [](const ReportRecord& row) {
+    const std::uint64_t k = row.report.step.value;
+    return row.report.vehicle == VehicleId{2} && ((k >= 20 && k < 23) || k >= 63);
+  });
+  EXPECT_EQ(summary().vehicles[0].deadline_misses, 0U);
+  EXPECT_EQ(summary().vehicles[1].deadline_misses, 5U);
+  facts_.simulated_time = true;  // there every list is answered, or its controller is dead
+  EXPECT_EQ(summary().vehicles[1].deadline_misses, 0U);
+}
+
+TEST_F(RunSummaryTest, StepsWithoutPlanningDoNotCountForPlanning) {
+  for (std::uint64_t step = 30; step < 60; ++step) {
+    report(1, step).report.status = StepStatus::kDriveOut;
+    report(1, step).report.generated = 0;
+  }
+  const RunSummary result = summary();
+  EXPECT_EQ(result.vehicles[0].generated->count, 30U);
+  EXPECT_EQ(result.vehicles[0].generated->min, 51.0);
+  EXPECT_EQ(result.vehicles[0].planning_s->count, 30U);
+}
+
+TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
+  EXPECT_FALSE(summary().vehicles[0].budget_share);  // none was found
+  EXPECT_EQ(summary_table(summary()).find("budget"), std::string::npos);
+  for (std::uint64_t step = 30; step < 40; ++step) {
+    report(1, step).report.quality = step < 33 ? PlanQuality::kBudget : PlanQuality::kOptimal;
+  }
+  EXPECT_EQ(summary().vehicles[0].budget_share, 0.3);
+  EXPECT_FALSE(summary().vehicles[1].budget_share);
+  EXPECT_THAT(
+      summary_table(summary()),
+      HasSubstr("plans cut off by the search's budget         up to 30.0 % of a vehicle's\n"));
+}
+
+TEST_F(RunSummaryTest, WithoutRouteThereIsNeitherLapNorReferenceError) {
+  description_.vehicles[0].route.reset();
+  const RunSummary result = summary();
+  EXPECT_FALSE(result.vehicles[0].lap_s);
+  EXPECT_FALSE(result.vehicles[0].reference_error_m);
+  EXPECT_TRUE(result.vehicles[0].tracking_error_m);
+}
+
+TEST_F(RunSummaryTest, VehicleThatDiedKeepsItsStepsSoFar) {
+  std::erase_if(reports_, [](const ReportRecord& record) {
+    return record.report.vehicle.value == 2 && record.report.step.value >= 20;
+  });
+  drives_.erase(2);
+  const RunSummary result = summary();
+  EXPECT_EQ(result.vehicles[0].steps, 60U);
+  EXPECT_EQ(result.vehicles[1].steps, 15U);
+  EXPECT_FALSE(result.vehicles[1].tracking_error_m);
+  EXPECT_FALSE(result.min_footprint_distance_m);
+}
+
+TEST_F(RunSummaryTest, RunThatNeverStartedIsEmptyNotWrong) {
+  facts_.first_step.reset();
+  const RunSummary result = summary();
+  EXPECT_EQ(result.steps, 0U);
+  EXPECT_FALSE(result.vehicles[0].generated);
+  EXPECT_FALSE(result.vehicles[0].lap_s);
+  EXPECT_THAT(summary_table(result), HasSubstr("red"));
+}
+
+TEST_F(RunSummaryTest, TableShowsEveryVehicleInLinesOfAtMost110Columns) {
+  const std::string table = summary_table(summary());
+  EXPECT_THAT(table, HasSubstr("  1  red"));
+  EXPECT_THAT(table, HasSubstr("10.0 (0.0)"));
+  EXPECT_THAT(table, HasSubstr("7.85"));
+  EXPECT_THAT(table, HasSubstr("3.0 / 3.0"));
+  std::istringstream lines{table};
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 110U) << line;
+  }
+}
+
+}  // namespace
+}  // namespace hlc::run_summary_test

@@ -1,0 +1,108 @@
+#include "vehicle_sim/closed_loop/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hlc_bridge/result/run_description.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
+#include "tests/support/folders.hpp"
+#include "vehicle_sim/campaign/campaign.hpp"
+
+namespace hlc::experiment_test {
+namespace {
+
+Scenario scenario_of(const std::string& name) {
+  return read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
+}
+
+RunSummary summary_of(const Scenario& scenario, const ExperimentOptions& options) {
+  const Experiment experiment = drive_experiment(scenario, options);
+  EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
+  const std::vector<StepRecord> rows =
+      step_records(experiment.reports, experiment.drives, experiment.facts);
+  return summarize(describe(scenario, options.noise_seed), experiment.facts, rows,
+                   experiment.drives);
+}
+
+TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
+  const Scenario scenario = scenario_of("paper_three_cars");
+  const RunSummary summary = summary_of(scenario, {.steps = 150});
+  EXPECT_EQ(summary.steps, 150U);
+  EXPECT_EQ(summary.collisions, 0U);
+  ASSERT_EQ(summary.vehicles.size(), 3U);
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    EXPECT_EQ(vehicle.steps, 150U);
+    EXPECT_EQ(vehicle.fallback_steps, 0U);
+    EXPECT_EQ(vehicle.deadline_misses, 0U);
+    ASSERT_TRUE(vehicle.tracking_error_m);
+    EXPECT_LT(vehicle.tracking_error_m->max, 0.020);
+    EXPECT_GT(vehicle.tracking_error_m->max, 0.0) << "the plan is not the drive";
+  }
+}
+
+TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
+  const Scenario scenario = scenario_of("circle");
+  const std::string trace = summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256;
+  EXPECT_EQ(summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256, trace);
+  EXPECT_NE(summary_of(scenario, {.steps = 30, .noise_seed = 6}).trace_sha256, trace);
+  EXPECT_NE(summary_of(scenario, {.steps = 30}).trace_sha256, trace);
+}
+
+TEST(Experiment, ALateControllerFallsBackAndSaysNothingMore) {
+  const Scenario scenario = scenario_of("paper_red_alone");
+  std::size_t asked = 0;
+  JointStepRules rules;
+  rules.is_late = [&asked](const Controller&) { return ++asked % 4 == 0; };
+  const Experiment experiment = drive_experiment(scenario, {.steps = 20, .rules = rules});
+  const auto is_late = [](const ReportRecord& record) {
+    return record.report.reason == FallbackReason::kLate;
+  };
+  EXPECT_GE(asked, 19U);
+  EXPECT_EQ(std::ranges::count_if(experiment.reports, is_late),
+            static_cast<std::ptrdiff_t>(asked / 4));
+}
+
+TEST(Experiment, WallTimesAreThoseOfTheClockAndTheirSumIsNotMoreThanTheWhole) {
+  Nanoseconds now = 0;
+  const auto clock = [&now] { return now += 1'000; };
+  const Experiment experiment =
+      drive_experiment(scenario_of("paper_three_cars"), {.steps = 10, .clocks = {.wall = clock}});
+  const WallTimes& wall = experiment.wall;
+  EXPECT_GT(wall.planning_s, 0.0);
+  EXPECT_GT(wall.coordination_s, 0.0);
+  EXPECT_GT(wall.vehicles_s, 0.0);
+  EXPECT_LE(wall.planning_s + wall.coordination_s + wall.vehicles_s, experiment.facts.wall_s);
+  // One plan of a vehicle: two looks at the clock.
+  EXPECT_NEAR(wall.planning_s, 3.0 * 10.0 * 1e-6, 1e-6 * 6.1);
+}
+
+TEST(Experiment, PlanningTimesOfTheReportsAreProcessorTime) {
+  Nanoseconds now = 0;
+  const auto cpu = [&now] { return now += 7; };
+  const Experiment experiment =
+      drive_experiment(scenario_of("paper_red_alone"), {.steps = 10, .clocks = {.cpu = cpu}});
+  EXPECT_EQ(experiment.wall.planning_s, 0.0);
+  std::size_t planned = 0;
+  for (const ReportRecord& record : experiment.reports) {
+    if (record.report.status != StepStatus::kPlanned) continue;
+    ++planned;
+    EXPECT_EQ(record.planning_ns, 2 * 7U) << "what to plan on, and the plan";
+  }
+  EXPECT_GE(planned, 9U);
+}
+
+TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
+  const Scenario scenario = scenario_of("paper_red_alone");
+  const Experiment experiment =
+      drive_experiment(scenario, {.steps = 15, .gains = scaled(FollowerGains{}, 0.0)});
+  const Drive& drive = experiment.drives.at(scenario.vehicles.front().id.value);
+  EXPECT_EQ(drive.back().pose, drive.front().pose);
+  // So the cars are outside what their controllers tell, and that is no good drive.
+  Scenario three_cars = scenario_of("paper_three_cars");
+  three_cars.steps = 15;
+  const DrivenRun run = drive_run(three_cars, {.gains = scaled(FollowerGains{}, 0.0)});
+  EXPECT_NE(result_of(run, std::nullopt).fault, "");
+}
+
+}  // namespace
+}  // namespace hlc::experiment_test

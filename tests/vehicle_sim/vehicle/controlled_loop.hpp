@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "planner/scenario/scenario.hpp"
+
+/// How far a vehicle strays from its plan in a whole run (vehicle_sim/closed_loop/experiment.hpp).
+namespace hlc::controlled_loop {
+
+/// How far one vehicle strayed from what its controller planned and told the others.
+struct Stray {
+  double deviation_m{};          ///< largest footprint_deviation_m at any tick
+  double outside_m{};            ///< farthest that the footprint stuck out of the areas told
+  std::uint64_t outside_tick{};  ///< when that was
+  double beyond_reach_m{};  ///< farthest that a prediction stuck out of the reachable area told
+  std::size_t steps_at_limit{};  ///< steps begun or ended in a trim at the steering limit
+  std::size_t fallback_steps{};
+};
+
+/// Drives all steps of a scenario with one vehicle.
+/// @param is_late  asked once per step: the controller is not let plan
+[[nodiscard]] Stray drive(const Scenario& scenario, std::optional<std::uint64_t> noise_seed,
+                          const std::function<bool()>& is_late);
+
+}  // namespace hlc::controlled_loop

@@ -1,0 +1,259 @@
+#include "vehicle_sim/closed_loop/experiment.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "hlc_bridge/hlc/hlc_core.hpp"
+#include "hlc_bridge/hlc/observation.hpp"
+#include "hlc_bridge/lab_control/logical_run.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/middleware/command_check.hpp"
+#include "hlc_bridge/middleware/state_buffer.hpp"
+#include "planner/controller/joint_step.hpp"
+#include "planner/coordination/priority.hpp"
+#include "planner/policy/subgraph_choice.hpp"
+#include "vehicle_sim/vehicle/simulated_vehicle.hpp"
+
+namespace hlc {
+namespace {
+
+/// A vehicle with its controller.
+struct Member {
+  std::uint8_t id;
+  SimulatedVehicle vehicle;
+  HlcCore hlc;
+  SubgraphChoice choice;
+  bool was_told_to_stop{};
+  bool has_left{};
+};
+
+LabRunSettings settings_of(const Scenario& scenario, std::uint64_t steps) {
+  LabRunSettings settings;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    settings.vehicle_ids.push_back(vehicle.id.value);
+  }
+  settings.period =
+      static_cast<Nanoseconds>(std::llround(1e9 * scenario.subgraph->automaton().step_s));
+  settings.steps = steps;
+  assert(settings.period % kVehiclePeriod == 0);
+  return settings;
+}
+
+std::function<Nanoseconds()> or_zero(const std::function<Nanoseconds()>& clock) {
+  return clock ? clock : [] { return Nanoseconds{}; };
+}
+
+class Lab {
+ public:
+  Lab(const Scenario& scenario, const ExperimentOptions& options)
+      : settings_(settings_of(scenario, options.steps)),
+        run_(settings_),
+        rules_(options.rules),
+        wall_clock_(or_zero(options.clocks.wall)),
+        cpu_clock_(or_zero(options.clocks.cpu)) {
+    for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+      const std::uint8_t id = vehicle.id.value;
+      SimulatedVehicleOptions simulated{
+          .vehicle_id = id, .start = measured_start(scenario, vehicle), .gains = options.gains};
+      if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
+      HlcCore hlc(make_controller(scenario, vehicle.id));
+      SubgraphChoice choice(hlc.controller(), scenario.reconfiguration);
+      members_.push_back({.id = id,
+                          .vehicle = SimulatedVehicle(simulated),
+                          .hlc = std::move(hlc),
+                          .choice = std::move(choice)});
+    }
+    std::ranges::sort(members_, plans_before,
+                      [](const Member& member) { return VehicleId{member.id}; });
+  }
+
+  Experiment drive() {
+    const Nanoseconds from = wall_clock_();
+    appear();
+    while (!run_.finished()) {
+      for (const Nanoseconds trigger : run_.advance(kNoWallTime).triggers) {
+        if (trigger == kStopSymbol) {
+          stop();
+        } else {
+          release(trigger);
+        }
+      }
+    }
+    write_facts();
+    experiment_.facts.wall_s = seconds_since(from);
+    return std::move(experiment_);
+  }
+
+ private:
+  /// Nobody keeps anybody waiting here.
+  static constexpr Nanoseconds kNoWallTime = 0;
+
+  [[nodiscard]] double seconds_since(Nanoseconds from) const {
+    return 1e-9 * static_cast<double>(wall_clock_() - from);
+  }
+
+  /// Everybody is there, hears everybody and asks for its first tick.
+  void appear() {
+    std::set<std::string> timers;
+    for (const Member& member : members_) {
+      alive_.insert(controller_name(member.id));
+      run_.ready({.source_id = vehicle_name(member.id), .next_start = 0});
+      run_.ready({.source_id = middleware_name(member.id), .next_start = kListOffset});
+      timers.insert({vehicle_name(member.id), middleware_name(member.id)});
+    }
+    alive_.insert(timers.begin(), timers.end());
+    run_.presence(alive_, lost_);
+    run_.trigger_readers(timers);
+  }
+
+  void release(Nanoseconds t) {
+    if (t % settings_.period == kListOffset) {
+      answer_list(t);
+      for (const Member& member : members_) {
+        run_.ready({.source_id = middleware_name(member.id), .next_start = t + settings_.period});
+      }
+    } else {
+      const Nanoseconds from = wall_clock_();
+      for (Member& member : members_) tick(member, t);
+      experiment_.wall.vehicles_s += seconds_since(from);
+    }
+  }
+
+  void tick(Member& member, Nanoseconds t) {
+    if (member.has_left) return;
+    const SimulatedVehicle::Tick done = member.vehicle.tick(t);
+    states_.add(member.id, done.state);
+    experiment_.drives[member.id].push_back(done.driven);
+    if (member.was_told_to_stop && !member.vehicle.is_braking()) {
+      member.has_left = true;
+      alive_.erase(vehicle_name(member.id));
+      lost_.insert(vehicle_name(member.id));
+      run_.presence(alive_, lost_);
+    } else {
+      run_.ready({.source_id = vehicle_name(member.id), .next_start = t + kVehiclePeriod});
+    }
+  }
+
+  void answer_list(Nanoseconds t_now) {
+    const std::vector<std::int32_t> active(settings_.vehicle_ids.begin(),
+                                           settings_.vehicle_ids.end());
+    states_.forget_before(t_now);
+    const VehicleStateList list = compose_state_list(states_, t_now, settings_.period, active);
+    std::vector<ReportRecord> reports = step_controllers(list);
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      Member& member = members_[i];
+      const AnswerToList answer = member.hlc.answer(list);
+      carry(answer.command, t_now, member);
+      if (answer.copy) carry(*answer.copy, t_now, member);
+      reports[i].report = with_answer(std::move(reports[i].report), answer);
+      report(reports[i]);
+      if (reports[i].report.status == StepStatus::kStandby) continue;
+      member.choice.end_step(member.hlc.controller(), reports[i].report);
+    }
+  }
+
+  /// In the order of the members.
+  std::vector<ReportRecord> step_controllers(const VehicleStateList& list) {
+    Observation observation;
+    bool begins = true;
+    for (Member& member : members_) {
+      observation = member.hlc.observe(list).value();
+      if (!member.hlc.has_begun()) member.hlc.note(list, observation);
+      begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
+    }
+    observation.present = observation.active;
+    if (begins && !start_) start_ = observation.step;
+    std::map<const Controller*, Nanoseconds> planning_ns;
+    for (Member& member : members_) {
+      const Nanoseconds from_cpu = cpu_clock_();
+      static_cast<void>(member.choice.begin_step(member.hlc.controller(), observation.step, start_,
+                                                 battery_voltage_v(list, VehicleId{member.id})));
+      planning_ns[&member.hlc.controller()] = cpu_clock_() - from_cpu;
+    }
+    std::vector<ReportRecord> records;
+    if (!begins) {
+      for (Member& member : members_) {
+        records.push_back({.report = member.hlc.controller().stand_by(observation)});
+      }
+      return records;
+    }
+    std::vector<Controller*> controllers;
+    for (Member& member : members_) controllers.push_back(&member.hlc.controller());
+    double planning_s = 0.0;
+    JointStepRules rules = rules_;
+    rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
+      const Nanoseconds from = wall_clock_();
+      const Nanoseconds from_cpu = cpu_clock_();
+      Prediction prediction = rules_.plan ? rules_.plan(controller, heard) : controller.plan(heard);
+      planning_ns[&controller] += cpu_clock_() - from_cpu;
+      planning_s += seconds_since(from);
+      return prediction;
+    };
+    const Nanoseconds from = wall_clock_();
+    const std::vector<Report> reports = joint_step(controllers, observation, rules);
+    const double step_s = seconds_since(from);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      records.push_back({.report = reports[i], .planning_ns = planning_ns[controllers[i]]});
+    }
+    experiment_.wall.planning_s += planning_s;
+    experiment_.wall.coordination_s += step_s - planning_s;
+    return records;
+  }
+
+  void report(const ReportRecord& record) {
+    run_.report(record);
+    experiment_.reports.push_back(record);
+  }
+
+  static void carry(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
+    const std::vector<std::uint8_t> own{member.id};
+    if (check_command(command, t_now, t_now, own).forward) member.vehicle.receive(command);
+  }
+
+  void stop() {
+    for (Member& member : members_) {
+      member.vehicle.brake();
+      member.was_told_to_stop = true;
+    }
+  }
+
+  void write_facts() {
+    const LabRunResult& result = run_.result();
+    RunFacts& facts = experiment_.facts;
+    facts.simulated_time = true;
+    facts.vehicle_ids = settings_.vehicle_ids;
+    facts.period = settings_.period;
+    facts.steps = settings_.steps;
+    facts.first_step = result.first_step;
+    facts.clock_s = 1e-9 * static_cast<double>(result.clock);
+    facts.exit_code = result.exit_code;
+    facts.reason = result.reason;
+    facts.died = result.deaths;
+  }
+
+  LabRunSettings settings_;
+  LogicalRun run_;
+  JointStepRules rules_;
+  std::function<Nanoseconds()> wall_clock_;
+  std::function<Nanoseconds()> cpu_clock_;
+  std::vector<Member> members_;  ///< in the order of priorities
+  StateBuffer states_;
+  std::optional<StepIndex> start_;  ///< first step of the experiment, once it has begun
+  std::set<std::string> alive_;
+  std::set<std::string> lost_;
+  Experiment experiment_;
+};
+
+}  // namespace
+
+Experiment drive_experiment(const Scenario& scenario, const ExperimentOptions& options) {
+  return Lab(scenario, options).drive();
+}
+
+}  // namespace hlc

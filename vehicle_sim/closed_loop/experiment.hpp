@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hlc_bridge/result/run_record.hpp"
+#include "planner/controller/joint_step.hpp"
+#include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/tracking/follower.hpp"
+
+namespace hlc {
+
+/// What times are measured by; of one that is absent they are 0. Nothing else depends on them.
+struct Clocks {
+  std::function<Nanoseconds()> wall{};  ///< WallTimes, RunFacts::wall_s
+  /// Processor time of the calling thread: the reports' planning times, so that what else the
+  /// machine does is no part of them.
+  std::function<Nanoseconds()> cpu{};
+};
+
+struct ExperimentOptions {
+  std::uint64_t steps{150};
+  /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
+  std::optional<std::uint64_t> noise_seed{};
+  FollowerGains gains{};
+  Clocks clocks{};
+  /// What happens around the controllers' steps. Absent: nothing is lost, nobody is late.
+  JointStepRules rules{};
+};
+
+/// Where the wall time of a run went. The rest of RunFacts::wall_s: state lists, commands, lab
+/// control, this measuring.
+struct WallTimes {
+  double planning_s{};      ///< Controller::plan of all vehicles: poses the problem, searches
+  double coordination_s{};  ///< the other phases of the controllers' steps
+  double vehicles_s{};      ///< the simulated vehicles' ticks
+};
+
+/// What the processes of a run would have written into its folder.
+struct Experiment {
+  RunFacts facts;
+  std::vector<ReportRecord> reports;
+  Drives drives;
+  WallTimes wall;
+};
+
+/// A whole run of the scenario in logical time within this process and thread: lab control
+/// (LogicalRun), middlewares (StateBuffer, check_command), controllers (HlcCore) and vehicles
+/// (SimulatedVehicle), the very step functions that the processes run. Messages are handed over in
+/// memory instead of by DDS, all at once and none lost.
+///
+/// A run with processes in logical time gives the same poses to the last bit (equal trace_sha256).
+///
+/// All middlewares hear the same, so one buffer stands for all of theirs.
+///
+/// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
+[[nodiscard]] Experiment drive_experiment(const Scenario& scenario,
+                                          const ExperimentOptions& options);
+
+}  // namespace hlc

@@ -1,0 +1,108 @@
+#include "vehicle_sim/vehicle/simulated_vehicle.hpp"
+
+namespace hlc {
+namespace {
+
+static_assert(kVehiclePeriod == 20'000'000 && kIdentifiedStep_s == 0.020,
+              "one tick of the vehicle is one step of the model");
+
+constexpr double kGravity_mps2 = 9.81;
+
+VehicleState state_message(std::uint8_t vehicle_id, Nanoseconds t_now,
+                           const VehicleMotion& estimate, const Measurement& measured,
+                           const ActuatorInput& commanded) {
+  VehicleState state;
+  state.vehicle_id = vehicle_id;
+  state.create_stamp = t_now;
+  state.valid_after_stamp = t_now + kStateDelay;
+  state.pose = estimate.pose;
+  state.ips_update_age = 0;  // measured in this very tick
+  state.odometer_distance_m = measured.odometer_m;
+  state.imu_acceleration_forward_mps2 = measured.acceleration_forward_mps2;
+  state.imu_acceleration_left_mps2 = measured.acceleration_left_mps2;
+  state.imu_acceleration_up_mps2 = kGravity_mps2;
+  state.imu_yaw_rad = estimate.pose.heading_rad;
+  state.imu_yaw_rate_radps = measured.yaw_rate_radps;
+  state.speed_mps = measured.speed_mps;
+  state.battery_voltage_v = kBatteryVoltage_v;
+  state.motor_throttle = commanded.throttle;
+  state.steering_servo = commanded.steering;
+  return state;
+}
+
+}  // namespace
+
+SimulatedVehicle::SimulatedVehicle(const SimulatedVehicleOptions& options)
+    : vehicle_id_(options.vehicle_id),
+      plant_({.start = options.start,
+              .vehicle = options.vehicle,
+              .battery_voltage_v = kBatteryVoltage_v,
+              .noise_seed = options.noise_seed}),
+      estimator_(options.vehicle),
+      follower_(options.gains, options.vehicle) {}
+
+SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
+  const VehicleMotion truth = plant_.motion();
+  const Measurement measured = plant_.measure();
+  const VehicleMotion estimate =
+      estimator_.update(measured.pose, measured.speed_mps, follower_.acted());
+
+  const Decision decision = decide(t_now, estimate);
+  const bool follows = decision.status == FollowerStatus::kFollowing;
+  Tick result{.state = state_message(vehicle_id_, t_now, estimate, measured, decision.input),
+              .observation = {.vehicle_id = vehicle_id_,
+                              .create_stamp = t_now,
+                              .valid_after_stamp = t_now,
+                              .pose = measured.pose},
+              .driven = {.t = t_now,
+                         .pose = truth.pose,
+                         .speed_mps = truth.speed_mps,
+                         .throttle = decision.input.throttle,
+                         .steering = decision.input.steering,
+                         .command_create = follows ? decision.command_create : 0},
+              .status = decision.status};
+
+  follower_.give(decision.input);
+  plant_.step(decision.input);
+  if (is_braking() && --braking_ticks_left_ == 0) {
+    std::apply([](auto&... buffers) { (buffers.clear(), ...); }, commands_);
+  }
+  return result;
+}
+
+SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
+                                                    const VehicleMotion& estimate) {
+  // All of them are asked at every tick: a command that is not looked at while it is valid would
+  // count as new when one of higher rank has run out.
+  const auto usable = std::apply(
+      [&](auto&... buffers) { return std::tuple{buffers.usable_at(t_now)...}; }, commands_);
+  const auto& [direct, speed_curvature, trajectory, path] = usable;
+  const Follower::Output followed =
+      follower_.decide(t_now, estimate, is_braking() ? nullptr : trajectory);
+  const bool has_estimate = followed.status != FollowerStatus::kNoEstimate;
+  if (has_estimate && !is_braking()) {
+    if (direct != nullptr) {
+      speed_control_.reset();
+      return {direct_input(*direct), FollowerStatus::kFollowing, direct->create_stamp};
+    }
+    if (speed_curvature != nullptr) {
+      return {{.throttle = speed_control_.tick(speed_curvature->speed_mps, estimate.speed_mps),
+               .steering = steering_for_curvature(speed_curvature->curvature_per_m)},
+              FollowerStatus::kFollowing,
+              speed_curvature->create_stamp};
+    }
+    if (trajectory == nullptr && path != nullptr) {
+      if (const auto steering = steering_for_path(*path, estimate)) {
+        return {{.throttle = speed_control_.tick(path->speed_mps, estimate.speed_mps),
+                 .steering = *steering},
+                FollowerStatus::kFollowing,
+                path->create_stamp};
+      }
+    }
+  }
+  speed_control_.reset();
+  return {followed.input, followed.status,
+          trajectory != nullptr ? trajectory->create_stamp : Nanoseconds{}};
+}
+
+}  // namespace hlc

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/result/run_record.hpp"
+#include "vehicle_sim/plant/plant.hpp"
+#include "vehicle_sim/tracking/command_buffer.hpp"
+#include "vehicle_sim/tracking/command_laws.hpp"
+#include "vehicle_sim/tracking/follower.hpp"
+#include "vehicle_sim/tracking/pose_estimator.hpp"
+
+namespace hlc {
+
+struct SimulatedVehicleOptions {
+  std::uint8_t vehicle_id{};
+  Pose start;                               ///< finite
+  std::optional<std::uint64_t> noise_seed;  ///< none: the pose is measured exactly
+  FollowerGains gains;
+  IdentifiedVehicle vehicle;
+};
+
+/// A whole µCar without network and clock: commands in, states out, one call per tick of 20 ms. The
+/// vehicle's process and every closed loop in one process drive with this class.
+///
+/// A tick: measure, estimate, choose the command, follow it (or stop), give the input to the plant.
+/// What it returns is the vehicle at `t_now`, before the plant moves on.
+///
+/// Of usable commands of several kinds the first of this order counts, as in the lab: direct, speed
+/// and curvature, trajectory, path tracking.
+class SimulatedVehicle {
+ public:
+  /// After a stop the vehicle brakes for this many ticks (1 s).
+  static constexpr int kBrakingTicks = 50;
+
+  struct Tick {
+    VehicleState state;              ///< what the vehicle says: its estimate, valid 60 ms later
+    VehicleObservation observation;  ///< what the lab's camera system says: the measured pose
+    DrivenSample driven;  ///< what is true; command_create is 0 unless a command was followed
+    FollowerStatus status{FollowerStatus::kNoCommand};
+  };
+
+  /// @throws std::invalid_argument if the start pose is not finite
+  explicit SimulatedVehicle(const SimulatedVehicleOptions& options);
+
+  /// To be called in the order of arrival.
+  template <class Command>
+  void receive(Command command) {
+    std::get<CommandBuffer<Command>>(commands_).add(std::move(command));
+  }
+
+  /// @param t_now  multiples of 20 ms, increasing
+  Tick tick(Nanoseconds t_now);
+
+  /// The stop symbol: the stop law for `kBrakingTicks` ticks, whatever is commanded. Then all
+  /// commands received so far are forgotten, and the vehicle listens again.
+  void brake() { braking_ticks_left_ = kBrakingTicks; }
+  [[nodiscard]] bool is_braking() const { return braking_ticks_left_ > 0; }
+
+  /// True pose and speed at the next tick.
+  [[nodiscard]] const VehicleMotion& motion() const { return plant_.motion(); }
+
+ private:
+  struct Decision {
+    ActuatorInput input;
+    FollowerStatus status{FollowerStatus::kNoCommand};
+    Nanoseconds command_create{};  ///< of the command that counts
+  };
+
+  [[nodiscard]] Decision decide(Nanoseconds t_now, const VehicleMotion& estimate);
+
+  std::uint8_t vehicle_id_;
+  Plant plant_;
+  PoseEstimator estimator_;
+  std::tuple<CommandBuffer<DirectCommand>, CommandBuffer<SpeedCurvatureCommand>,
+             CommandBuffer<TrajectoryCommand>, CommandBuffer<PathTrackingCommand>>
+      commands_;
+  Follower follower_;
+  SpeedControl speed_control_;
+  int braking_ticks_left_{};
+};
+
+}  // namespace hlc
