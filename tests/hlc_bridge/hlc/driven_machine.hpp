@@ -55,19 +55,28 @@ inline VehicleStateList list_of(std::uint64_t step, const std::vector<MeasuredVe
 
 class DrivenMachine {
  public:
-  explicit DrivenMachine(const HlcRules& rules, std::uint8_t vehicle = 1, double y_m = 0.0)
-      : machine_({.rules = rules}, east_bound::controller(vehicle, y_m)) {}
+  explicit DrivenMachine(const HlcRules& rules, std::uint8_t vehicle = 1, double y_m = 0.0,
+                         ReconfigurationSettings reconfiguration = {})
+      : machine_({.rules = rules, .reconfiguration = std::move(reconfiguration)},
+                 east_bound::controller(vehicle, y_m)),
+        rules_(rules) {}
 
   [[nodiscard]] const HlcMachine& machine() const { return machine_; }
+  [[nodiscard]] const HlcRules& rules() const { return rules_; }
   [[nodiscard]] std::optional<int> exit_code() const { return machine_.exit_code(); }
   [[nodiscard]] const Instant& now() const { return now_; }
 
   /// What comes from outside, and all that is done then without time passing.
   void on(HlcEvent event) {
-    machine_.on(std::move(event));
+    feed(std::move(event));
     settle();
   }
+  /// ... while the thread is not running.
+  void feed(HlcEvent event) { machine_.on(std::move(event)); }
+  void delay(Nanoseconds duration) { move_clocks(duration); }
 
+  /// The machine is to be advanced at this instant.
+  [[nodiscard]] bool is_due() const { return time_to_wake_up() == Nanoseconds{0}; }
   /// One call of advance: what it says is to be done.
   std::vector<HlcAction> advance() {
     std::vector<HlcAction> actions = machine_.advance(now_);
@@ -79,7 +88,7 @@ class DrivenMachine {
   void settle() {
     for (int i = 0; i < 100 && !exit_code(); ++i) {
       static_cast<void>(advance());
-      if (time_to_wake_up() != Nanoseconds{0}) return;
+      if (!is_due()) return;
     }
     if (!exit_code()) ADD_FAILURE() << "the machine asks to be advanced without end";
   }
@@ -97,13 +106,15 @@ class DrivenMachine {
     move_clocks(until - now_.wall);
   }
 
-  /// Until the next step begins, and its list comes.
-  void next_list(const std::vector<MeasuredVehicle>& vehicles) {
+  /// Until the next step begins; its list.
+  VehicleStateList wait_for_list(const std::vector<MeasuredVehicle>& vehicles) {
     step_ = std::max(step_ + 1, (now_.run + kPeriod - 1) / kPeriod);
-    const VehicleStateList list = list_of(step_, vehicles);
+    VehicleStateList list = list_of(step_, vehicles);
     pass(list.t_now - now_.run);
-    on(list);
+    return list;
   }
+  /// ... and it comes.
+  void next_list(const std::vector<MeasuredVehicle>& vehicles) { on(wait_for_list(vehicles)); }
   [[nodiscard]] std::uint64_t step() const { return step_; }
 
   /// Actions of a kind since this was asked last.
@@ -140,6 +151,7 @@ class DrivenMachine {
   }
 
   HlcMachine machine_;
+  HlcRules rules_;
   Instant now_{.run = kFirstStep * kPeriod, .wall = 50 * kSecond};
   std::uint64_t step_{kFirstStep};
   std::vector<HlcAction> done_;
@@ -151,13 +163,14 @@ inline const std::vector<MeasuredVehicle>& standing() {
   return one;
 }
 
-/// Real time: until the car has stood for so long that it may be told to, and the controller is
-/// ready.
+/// Until the car has stood for so long that it may be told to (real time), or that its states may
+/// be trusted with the next list (logical time), and the controller is ready.
 inline void stand(DrivenMachine& one, const std::vector<MeasuredVehicle>& vehicles = standing()) {
-  for (int i = 0; i < 9; ++i) one.next_list(vehicles);
+  const int lists = one.rules().start == StartRule::kTogether ? 5 : 9;
+  for (int i = 0; i < lists; ++i) one.next_list(vehicles);
 }
 
-/// ... and drives.
+/// ... and drives from the next list on.
 inline void start(DrivenMachine& one, const std::vector<MeasuredVehicle>& vehicles = standing()) {
   stand(one, vehicles);
   one.pass(CommandCopies::kPause);
