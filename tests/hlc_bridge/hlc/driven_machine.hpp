@@ -127,6 +127,8 @@ class DrivenMachine {
     });
     return result;
   }
+  /// All of them, in order.
+  std::vector<HlcAction> take_all() { return std::exchange(done_, {}); }
   void forget() { done_.clear(); }
 
   [[nodiscard]] bool has_logged(const std::string& text) const {

@@ -45,7 +45,7 @@ class Peer {
 };
 
 /// The machine of one of the two, whose car drives.
-class Step : public testing::Test {
+class HlcMachineStep : public testing::Test {
  protected:
   void drive(const HlcRules& rules, std::uint8_t vehicle) {
     one_.emplace(rules, vehicle, vehicle == 1 ? 0.0 : kNear_m);
@@ -81,7 +81,7 @@ class Step : public testing::Test {
 
 constexpr double kTolerance = 0.006;  // a millisecond of 200
 
-TEST_F(Step, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwnersLook) {
+TEST_F(HlcMachineStep, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwnersLook) {
   DrivenMachine one(real_time());
   one.on(peers());
   start(one);
@@ -100,7 +100,7 @@ TEST_F(Step, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwnersLook) {
   EXPECT_THAT(kinds[3], IsEmpty()) << "policies may look ahead then";
 }
 
-TEST_F(Step, GoesOnAsSoonAsEverybodyHasAnswered) {
+TEST_F(HlcMachineStep, GoesOnAsSoonAsEverybodyHasAnswered) {
   drive(real_time(), 1);
   const Traffic traffic = begin();
   EXPECT_EQ(one_->machine().awaited(), 1U);
@@ -116,14 +116,14 @@ TEST_F(Step, GoesOnAsSoonAsEverybodyHasAnswered) {
   EXPECT_EQ(one_->machine().awaited(), machine::kOnlyUrgent);
 }
 
-TEST_F(Step, MessagesThatComeBeforeTheListCount) {
+TEST_F(HlcMachineStep, MessagesThatComeBeforeTheListCount) {
   drive(real_time(), 1);
   one_->on(other_->begin(one_->step() + 1));
   static_cast<void>(begin());
   EXPECT_THAT(one_->take<Prediction>(), SizeIs(1));
 }
 
-TEST_F(Step, InRealTimeTrafficIsAwaitedUntilItsDeadline) {
+TEST_F(HlcMachineStep, InRealTimeTrafficIsAwaitedUntilItsDeadline) {
   drive(real_time(), 1);
   static_cast<void>(begin());
   EXPECT_NEAR(share_of<Prediction>(), StepDeadlines{}.traffic, kTolerance);
@@ -132,7 +132,7 @@ TEST_F(Step, InRealTimeTrafficIsAwaitedUntilItsDeadline) {
   EXPECT_THAT(records[0].report.missing, ElementsAre(VehicleId{2}));
 }
 
-TEST_F(Step, InRealTimePredecessorsAreAwaitedUntilTheirDeadline) {
+TEST_F(HlcMachineStep, InRealTimePredecessorsAreAwaitedUntilTheirDeadline) {
   drive(real_time(), 2);
   static_cast<void>(begin());
   one_->on(other_->begin(one_->step()));
@@ -140,7 +140,7 @@ TEST_F(Step, InRealTimePredecessorsAreAwaitedUntilTheirDeadline) {
   EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.settle, kTolerance);
 }
 
-TEST_F(Step, InRealTimeTheOthersNewPlansAreAwaitedUntilTheirDeadline) {
+TEST_F(HlcMachineStep, InRealTimeTheOthersNewPlansAreAwaitedUntilTheirDeadline) {
   drive(real_time(), 1);
   static_cast<void>(begin());
   one_->on(other_->begin(one_->step()));
@@ -148,7 +148,7 @@ TEST_F(Step, InRealTimeTheOthersNewPlansAreAwaitedUntilTheirDeadline) {
   EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.settle, kTolerance);
 }
 
-TEST_F(Step, WhoIsGoneFromTheDomainIsNotAwaited) {
+TEST_F(HlcMachineStep, WhoIsGoneFromTheDomainIsNotAwaited) {
   for (const HlcRules& rules : {real_time(), logical_time()}) {
     drive(rules, 1);
     static_cast<void>(begin());
@@ -158,7 +158,7 @@ TEST_F(Step, WhoIsGoneFromTheDomainIsNotAwaited) {
   }
 }
 
-TEST_F(Step, AfterTheCommandsDeadlineThePlanInForceStaysAndTheMissIsCounted) {
+TEST_F(HlcMachineStep, AfterTheCommandsDeadlineThePlanInForceStaysAndTheMissIsCounted) {
   DrivenMachine one(real_time());
   one.on(peers());
   start(one);
@@ -174,7 +174,7 @@ TEST_F(Step, AfterTheCommandsDeadlineThePlanInForceStaysAndTheMissIsCounted) {
   EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(2)) << "of the plan in force";
 }
 
-TEST_F(Step, InLogicalTimeWhoIsSilentForTenSecondsIsNotAwaitedUntilItsTrafficComes) {
+TEST_F(HlcMachineStep, InLogicalTimeWhoIsSilentForTenSecondsIsNotAwaitedUntilItsTrafficComes) {
   drive(logical_time(), 1);
   static_cast<void>(begin());
   one_->pass(kMessageTimeout - 1);
@@ -190,7 +190,7 @@ TEST_F(Step, InLogicalTimeWhoIsSilentForTenSecondsIsNotAwaitedUntilItsTrafficCom
   EXPECT_THAT(one_->take<ReportRecord>(), IsEmpty());
 }
 
-TEST_F(Step, InRealTimeOnlyTheNewestListIsAnsweredInLogicalTimeEveryOne) {
+TEST_F(HlcMachineStep, InRealTimeOnlyTheNewestListIsAnsweredInLogicalTimeEveryOne) {
   for (const HlcRules& rules : {real_time(), logical_time()}) {
     DrivenMachine one(rules);
     one.on(peers());
@@ -207,7 +207,7 @@ AutomatonRequest slow(std::uint64_t id, std::uint8_t vehicle = 1) {
   return {.vehicle = {vehicle}, .id = id, .subgraph = {.labels = {}, .max_speed_mps = 0.6}};
 }
 
-TEST_F(Step, RequestsArePreparedOneByOneBesideTheRun) {
+TEST_F(HlcMachineStep, RequestsArePreparedOneByOneBesideTheRun) {
   DrivenMachine one(real_time());
   one.on(peers());
   start(one);
@@ -229,7 +229,7 @@ TEST_F(Step, RequestsArePreparedOneByOneBesideTheRun) {
   EXPECT_TRUE(one.has_logged("plans on subgraph"));
 }
 
-TEST_F(Step, OfTooManyRequestsTheFirstAreDropped) {
+TEST_F(HlcMachineStep, OfTooManyRequestsTheFirstAreDropped) {
   DrivenMachine one(real_time());
   for (std::uint64_t id = 1; id <= 2 + SubgraphSwitching::kMaxWaiting; ++id) one.on(slow(id));
   std::vector<std::uint64_t> prepared;
@@ -243,7 +243,7 @@ TEST_F(Step, OfTooManyRequestsTheFirstAreDropped) {
   EXPECT_EQ(prepared[1], 3U);
 }
 
-TEST_F(Step, InLogicalTimeTheStepWaitsForWhatIsBeingPreparedButNotForEver) {
+TEST_F(HlcMachineStep, InLogicalTimeTheStepWaitsForWhatIsBeingPreparedButNotForEver) {
   DrivenMachine one(logical_time());
   one.on(peers());
   start(one);
@@ -263,7 +263,7 @@ TEST_F(Step, InLogicalTimeTheStepWaitsForWhatIsBeingPreparedButNotForEver) {
   EXPECT_THAT(one.take<ReportRecord>(), SizeIs(1)) << "it is in force later";
 }
 
-TEST_F(Step, PoliciesLookAheadWhenTheCopyOfTheCommandIsOut) {
+TEST_F(HlcMachineStep, PoliciesLookAheadWhenTheCopyOfTheCommandIsOut) {
   const LookAheadSettings look_ahead{
       .candidates = {{}, {.max_speed_mps = 0.6}}, .steps = 2, .max_expansions = 100};
   DrivenMachine one(real_time_in_the_lab(), 1, 0.0, {.policies = {look_ahead}});
