@@ -8,6 +8,7 @@
 #include "planner/common/atomic_write.hpp"
 #include "planner/common/json_reader.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/search_options.hpp"
@@ -195,9 +196,9 @@ SearchOptions read_search(const JsonPlace& place, const Subgraph& subgraph) {
   SearchOptions search;
   if (const auto engine = place.find("engine")) {
     try {
-      search.engine = engine_from_name(engine->text(kEngineNames));
+      choose_engine(engine->text(kEngineChoices), search);
     } catch (const std::invalid_argument&) {
-      engine->fail(kEngineNames);
+      engine->fail(kEngineChoices);
     }
   }
   if (const auto cost_to_go = place.find("cost_to_go")) {
@@ -315,7 +316,7 @@ std::string to_text(const ProblemFile& file) {
         }));
   }
   add("search",
-      std::string("{\"engine\": \"") + to_string(file.search.engine) + "\", \"cost_to_go\": \"" +
+      std::string("{\"engine\": \"") + engine_name(file.search) + "\", \"cost_to_go\": \"" +
           to_string(file.search.cost_to_go) +
           "\", \"max_expansions\": " + std::to_string(file.search.max_expansions) +
           (file.search.criterion_weights.empty()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,16 @@ struct PlanningWeight {
   friend bool operator==(const PlanningWeight&, const PlanningWeight&) = default;
 };
 
+class SearchEngine;
+struct SearchOptions;
+struct SearchTables;
+
+/// Makes an engine; parameters as make_search_engine.
+using EngineFactory = std::unique_ptr<SearchEngine> (*)(const Subgraph& subgraph,
+                                                        const ReachableSets& reachable,
+                                                        const SearchOptions& options,
+                                                        std::shared_ptr<const SearchTables> tables);
+
 struct SearchOptions {
   /// Beyond, costs would come near what no path costs.
   static constexpr double kMostWeight_m2 = 1e9;
@@ -78,6 +89,9 @@ struct SearchOptions {
   /// The planning cost follows the maneuvers' criteria, too: see edge_costs.hpp. The paper keeps it
   /// fixed to the distance from the reference, as no weights do.
   std::vector<PlanningWeight> criterion_weights{};
+  /// Puts `engine` behind another interface, such as OMPL's (make_ompl_engine), or is a user's own
+  /// engine. nullptr: `engine` itself.
+  EngineFactory factory{nullptr};
 };
 
 enum class SearchStatus {
