@@ -29,7 +29,7 @@ struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
   double reference_speed_mps{0.8};
-  ReferenceRule reference_rule{ReferenceRule::k2022};
+  ReferenceRule reference_rule{half_speed_last};
   SettleRule settle_rule{SettleRule::kStrict};
   SearchOptions search;
   DeviationRules deviation;

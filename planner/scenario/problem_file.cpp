@@ -376,9 +376,10 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
 
 void check_can_be_searched(const ProblemFile& file) {
   check_search_options(file.search);
-  if (file.search.cost_to_go == CostToGo::k2022 && file.problem.reference_speed_mps.empty()) {
+  if (needs_reference_speeds(file.search.cost_to_go) && file.problem.reference_speed_mps.empty()) {
     throw std::invalid_argument(
-        "reference_speed is missing, allowed one per step: the cost-to-go 2022 needs them");
+        std::string("reference_speed is missing, allowed one per step: the cost-to-go ") +
+        to_string(file.search.cost_to_go) + " needs them");
   }
 }
 

@@ -7,14 +7,14 @@ namespace hlc {
 Profile profile_from_name(const std::string& name) {
   if (name == "default") {
     return {.name = name,
-            .reference_rule = ReferenceRule::k2022,
+            .reference_rule = half_speed_last,
             .engine = Engine::kBranchAndBound,
             .cost_to_go = CostToGo::kReachable,
             .settle_rule = SettleRule::kStrict};
   }
   if (name == "2022") {
     return {.name = name,
-            .reference_rule = ReferenceRule::k2022,
+            .reference_rule = half_speed_last,
             .engine = Engine::kBestFirst,
             .cost_to_go = CostToGo::k2022,
             .settle_rule = SettleRule::kAgreed};

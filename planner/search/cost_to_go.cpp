@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "planner/search/search_options.hpp"
+
 namespace hlc {
 namespace {
 
@@ -53,7 +55,7 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
     : reachable_(reachable), reference_m_(problem.reference_m), kind_(kind) {
   const std::size_t n = problem.horizon_steps();
   assert(n <= reachable.max_steps());
-  assert(kind != CostToGo::k2022 || problem.reference_speed_mps.size() == n);
+  assert(!needs_reference_speeds(kind) || problem.reference_speed_mps.size() == n);
 
   if (kind == CostToGo::kStraightLine) {
     const double longest_m = longest_displacement_m(subgraph);

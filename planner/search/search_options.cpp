@@ -65,6 +65,10 @@ const char* to_string(NoPath reason) {
   return "unknown";
 }
 
+bool is_admissible(CostToGo cost_to_go) { return cost_to_go != CostToGo::k2022; }
+
+bool needs_reference_speeds(CostToGo cost_to_go) { return cost_to_go == CostToGo::k2022; }
+
 Engine engine_from_name(const std::string& name) {
   return from_name(name, std::array{Engine::kBranchAndBound, Engine::kBestFirst}, "engine",
                    kEngineNames);

@@ -35,7 +35,7 @@ namespace hlc {
 /// whose f, a lower bound of that path's cost, is not smaller.
 ///
 /// The incumbent changes no count. It is the answer if the search gives up; the least f in the open
-/// list then bounds the cost of every path from below (with k2022, 0 does).
+/// list then bounds the cost of every path from below (with k2022: least_cost_of_problem).
 ///
 /// Counts: `generated` are all vertices made, with the root and with children never looked at
 /// again; `expanded` are those whose children were made, so neither dropped vertices nor the goal.
