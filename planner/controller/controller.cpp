@@ -453,7 +453,7 @@ bool Controller::has_rested_for_long() {
     rests_since_.reset();
     return false;
   }
-  if (options_.search.cost_to_go == CostToGo::k2022) return false;
+  if (options_.search.cost_to_go == CostToGo::kReferenceSpeed) return false;
   rests_since_ = rests_since_.value_or(next);
   const std::uint64_t rested = next.value - rests_since_->value;
   return rested > 0 && rested % options_.horizon_steps == 0;
@@ -473,7 +473,8 @@ HorizonProblem Controller::pose_problem() {
 std::vector<const Maneuver*> Controller::incumbent() const {
   std::vector<const Maneuver*> maneuvers;
   maneuvers.reserve(options_.horizon_steps);
-  if (in_force_->is_moved() || options_.search.cost_to_go == CostToGo::k2022) return maneuvers;
+  if (in_force_->is_moved() || options_.search.cost_to_go == CostToGo::kReferenceSpeed)
+    return maneuvers;
   const std::uint64_t now = step_.observation.step.value;
   for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
     maneuvers.push_back(&plan_in_force().maneuver_during({now + j}));

@@ -16,7 +16,7 @@ Profile profile_from_name(const std::string& name) {
     return {.name = name,
             .reference_rule = half_speed_last,
             .engine = Engine::kBestFirst,
-            .cost_to_go = CostToGo::k2022,
+            .cost_to_go = CostToGo::kReferenceSpeed,
             .settle_rule = SettleRule::kAgreed};
   }
   throw std::invalid_argument("--profile = " + name + ", allowed default, 2022");

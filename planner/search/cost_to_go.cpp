@@ -39,8 +39,8 @@ double straight_line_cost_to_go(const Point& position_m, std::span<const Point> 
   return h;
 }
 
-double cost_to_go_2022(const Point& position_m, std::span<const Point> reference_m,
-                       std::span<const double> reach_m) {
+double reference_speed_cost_to_go(const Point& position_m, std::span<const Point> reference_m,
+                                  std::span<const double> reach_m) {
   assert(reference_m.size() == reach_m.size());
   double h = 0.0;
   for (std::size_t i = 0; i < reach_m.size(); ++i) {
@@ -63,7 +63,7 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
       reach_m_.push_back(static_cast<double>(i) * longest_m + ReachableSets::allowance_m(i));
     }
   }
-  if (kind == CostToGo::k2022) {
+  if (kind == CostToGo::kReferenceSpeed) {
     reach_m_.resize(n * n);
     for (std::size_t depth = 0; depth < n; ++depth) {
       double marched_m = 0.0;
@@ -83,8 +83,9 @@ double CostToGoFunction::operator()(TrimId trim, std::size_t depth, const Frame&
   switch (kind_) {
     case CostToGo::kStraightLine:
       return straight_line_cost_to_go(frame.origin_m, reference_m, {&reach_m_[0], steps_left});
-    case CostToGo::k2022:
-      return cost_to_go_2022(frame.origin_m, reference_m, {&reach_m_[depth * n], steps_left});
+    case CostToGo::kReferenceSpeed:
+      return reference_speed_cost_to_go(frame.origin_m, reference_m,
+                                        {&reach_m_[depth * n], steps_left});
     case CostToGo::kReachable:
       break;
   }

@@ -6,7 +6,8 @@ namespace {
 void set_search(const SweepValue& value, Scenario& scenario) {
   scenario.search.engine =
       value.text == "branch_and_bound" ? Engine::kBranchAndBound : Engine::kBestFirst;
-  scenario.search.cost_to_go = value.text == "2022" ? CostToGo::k2022 : CostToGo::kReachable;
+  scenario.search.cost_to_go =
+      value.text == "2022" ? CostToGo::kReferenceSpeed : CostToGo::kReachable;
 }
 
 void set_drivable(const SweepValue& value, Scenario& scenario) {

@@ -185,7 +185,7 @@ TEST(ScenarioSearch, TheProfileSaysWhatSearchesUnlessTheCommandLineDoes) {
   EXPECT_EQ(engine_name(through_ompl), "ompl_best_first");
   const Scenario of_2022 = read_scenario(three_cars("2022"));
   EXPECT_EQ(of_2022.search.engine, Engine::kBestFirst);
-  EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::k2022);
+  EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::kReferenceSpeed);
 }
 
 TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {

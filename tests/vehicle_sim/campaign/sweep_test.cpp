@@ -99,7 +99,7 @@ TEST(Sweep, EverySettingReachesTheScenario) {
   EXPECT_EQ(scenario.profile.reference_rule, half_speed_last);
   EXPECT_EQ(scenario.profile.settle_rule, SettleRule::kStrict);
   EXPECT_EQ(scenario.search.engine, Engine::kBestFirst);
-  EXPECT_EQ(scenario.search.cost_to_go, CostToGo::k2022);
+  EXPECT_EQ(scenario.search.cost_to_go, CostToGo::kReferenceSpeed);
   EXPECT_TRUE(scenario.vehicles[0].corridor.pieces().empty());
   const UniversalAutomaton& automaton = scenario.subgraph->automaton();
   EXPECT_EQ(automaton.limits.acceleration_mps2, 14.0);
