@@ -108,7 +108,11 @@ const std::vector<Outside> kOutside{
     {"^planner/search/ompl/.*",
      "^planner/(search/ompl/.*|scenario/engine_choice.cpp|apps/ompl_example.cpp)",
      "the search and the controller do not know OMPL"},
-    {"^nlopt.*", "^planner/maneuver_design/.*", "only maneuver_design optimises"},
+    {"^nlopt.*", "^planner/maneuver_design/solver/.*", "only the maneuvers' solver optimises"},
+    {"^planner/maneuver_design/solver/(?!maneuver_solver\\.hpp).*",
+     "^planner/maneuver_design/solver/.*", "the solver has one entry, maneuver_solver.hpp"},
+    {"^planner/maneuver_design/(automaton_|built_|pareto_|two_criteria_|trim_choice|unit_cost).*",
+     "^(?!planner/maneuver_design/solver/).*", "the solver knows nothing of what it is used for"},
     {"^yaml-cpp/.*", "^planner/common/yaml_reader.*", "YAML is read by yaml_reader"},
     {"^openssl/.*", "^planner/common/sha256.*", "hashes are made in one place"},
     {"^tinyxml2.*", "^planner/road/.*", "XML is read in planner/road"},
@@ -198,6 +202,10 @@ TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
   EXPECT_TRUE(fault_of("planner/search/search_engine.cpp", "planner/search/ompl/ompl_engine.hpp"));
   EXPECT_FALSE(fault_of("planner/search/best_first/best_first_search.cpp",
                         "ompl/datastructures/BinaryHeap.h"));
+  EXPECT_TRUE(fault_of("planner/maneuver_design/pareto_front.cpp",
+                       "planner/maneuver_design/solver/attempt.hpp"));
+  EXPECT_TRUE(fault_of("planner/maneuver_design/solver/attempt.cpp",
+                       "planner/maneuver_design/pareto_front.hpp"));
   EXPECT_TRUE(fault_of("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
   EXPECT_FALSE(fault_of("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
 }
