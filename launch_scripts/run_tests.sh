@@ -64,30 +64,15 @@ select=()
 [[ -z $folder ]] || select+=(-L "^tests/$folder(/|\$)")
 ! $unit || select+=(-L '^unit')
 
-# run PRESET CTEST_FLAG...
-run() {
-  local preset=$1
-  shift
-  ctest --preset "$preset" -j "$(nproc)" --no-tests=error "$@" && return
-  code=1
-  local name
-  while IFS= read -r name; do
-    failed+=("$preset: ${name#*:}")
-  done < <(cat "build/$preset/Testing/Temporary/LastTestsFailed.log" 2>/dev/null)
-}
-
-setup=()
-[[ ${presets[0]} != coverage ]] || setup=(--coverage)
-./launch_scripts/setup.sh "${setup[@]}" || exit 1
-code=0
-failed=() # said again at the end: the sanitizers' output is long
-for preset in "${presets[@]}"; do
+# Sets for a preset what is built, which tests are meant, and how both are called.
+choose() {
+  preset=$1
   build=(--preset "$preset")
-  of_preset=("${select[@]}")
+  chosen=("${select[@]}")
   what=$preset
   if [[ $preset == tsan ]]; then
     # Fast DDS is not built for the thread sanitizer, and most folders have no threads (tests/README.md).
-    of_preset+=(-L '^unit_threads$')
+    chosen+=(-L '^unit_threads$')
     what+=", unit tests of what has threads"
   elif $unit; then
     what+=", unit tests"
@@ -100,20 +85,49 @@ for preset in "${presets[@]}"; do
   elif $unit; then
     build+=(--unit_tests)
   fi
+  [[ -z $filter ]] || what+=", --filter = $filter"
+}
+
+# Both with CTEST_FLAG... besides those of the choice.
+has_tests() { ctest --preset "$preset" -N "${chosen[@]}" "$@" | grep -q '^Total Tests: [1-9]'; }
+run() {
+  has_tests "$@" || return 0
+  ctest --preset "$preset" -j "$(nproc)" "${chosen[@]}" "$@" && return
+  code=1
+  local name
+  while IFS= read -r name; do
+    failed+=("$preset: ${name#*:}")
+  done < <(cat "build/$preset/Testing/Temporary/LastTestsFailed.log" 2>/dev/null)
+}
+
+setup=()
+[[ ${presets[0]} != coverage ]] || setup=(--coverage)
+./launch_scripts/setup.sh "${setup[@]}" || exit 1
+code=0
+failed=() # said again at the end: the sanitizers' output is long
+for ((i = 0; i < ${#presets[@]}; i++)); do
+  choose "${presets[i]}"
   ./launch_scripts/build.sh "${build[@]}" || exit 1
-  if ! ctest --preset "$preset" -N "${of_preset[@]}" | grep -q '^Total Tests: [1-9]'; then
-    [[ $preset != "${presets[0]}" ]] || fail "no test among: $what${filter:+, --filter = $filter}"
-    echo "No test among: $what${filter:+, --filter = $filter}"
+  if ! has_tests; then
+    ((i > 0)) || fail "no test among: $what"
+    echo "No test among: $what"
     continue
   fi
   [[ $preset != coverage ]] || find build/coverage -name '*.gcda' -delete # counts of an earlier run
   echo "Testing ($what)"
-  run "$preset" "${of_preset[@]}"
-  if $long && ! $unit && [[ $preset != tsan ]] &&
-    ctest --preset "$preset" -N "${of_preset[@]}" -L '^integration$' | grep -q '^Total Tests: [1-9]'; then
-    echo "Repeating ($what)"
-    run "$preset" "${of_preset[@]}" -L '^integration$' --repeat until-fail:5
+  run -LE '^real_time$'
+  # While cars drive in real time the machine is idle, mostly: it builds the next preset, with what they leave.
+  next=""
+  if has_tests -L '^real_time$' && ((i + 1 < ${#presets[@]})); then
+    (choose "${presets[i + 1]}" && exec nice -n 19 ./launch_scripts/build.sh "${build[@]}") >/dev/null 2>&1 &
+    next=$!
   fi
+  HLC_REAL_TIME_TOGETHER=1 run -L '^real_time$' # tests/house/discover_tests.cmake
+  if $long; then
+    echo "Repeating ($what)"
+    run -L '^integration$' --repeat until-fail:5
+  fi
+  [[ -z $next ]] || wait "$next" # whether it succeeded, its turn will say
 done
 [[ ${presets[0]} != coverage ]] || ./tests/house/coverage.sh "$folder" || exit 1
 ((${#failed[@]} == 0)) || printf 'failed: %s\n' "${failed[@]}" >&2

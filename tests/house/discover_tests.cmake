@@ -3,9 +3,11 @@
 #   program  the executable; where it is not built, <name>_NOT_BUILT stands for its tests, and fails
 #   list     where its tests' names are kept until it is built again
 #   filter   GoogleTest filter
-#   labels, timeout_s, runs_alone  properties of its tests
+#   labels, timeout_s, runs_alone, is_real_time  properties of its tests
 # Every test is a process, called as GoogleTest calls it. With HLC_TESTS_BY_SUITE in the environment every suite of unit
 # tests is one: three of four starts are saved (under asan one takes 0.1 s), and the output names the test that failed.
+# Tests that drive in real time run alone; with HLC_REAL_TIME_TOGETHER in the environment among their like, for who
+# chooses these only: a run of three cars needs an eighth of a processor.
 if(NOT EXISTS ${program})
   add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
   return()
@@ -17,6 +19,13 @@ if(NOT EXISTS ${list} OR NOT ${list} IS_NEWER_THAN ${program})
   if(NOT result EQUAL 0)
     file(REMOVE ${list})
     message(FATAL_ERROR "${program} --gtest_list_tests: ${result}")
+  endif()
+endif()
+
+if(is_real_time)
+  list(APPEND labels real_time)
+  if(NOT DEFINED ENV{HLC_REAL_TIME_TOGETHER})
+    set(runs_alone ON)
   endif()
 endif()
 
