@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# Holds the sources against .clang-format, and what changed against .clang-tidy.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: check_style.sh [--since COMMIT] [--all] [--fix_format]
+Every file is held against .clang-format. .clang-tidy is asked about the lines that differ from the last commit that
+landed, whether they are committed or not; what it finds in older lines is no failure.
+  --since COMMIT  that commit (default: where HEAD left origin/main, without that the branch main; on main itself, or
+                  without both, the first parent of HEAD: a clone has landed what it shows)
+  --all           clang-tidy looks at all lines of all files (more than an hour)
+  --fix_format    formats the files instead
+Exit codes: 0 clean, 1 a finding or setup failed, 2 bad input
+TEXT
+}
+
+fail() { echo "check_style.sh: $1" >&2; exit 2; }
+
+since="" all=false fix=false
+while (($#)); do
+  case "$1" in
+    --since)
+      (($# >= 2)) || fail "--since needs a value"
+      since=$2
+      shift
+      ;;
+    --since=*) since=${1#*=} ;;
+    --all) all=true ;;
+    --fix_format) fix=true ;;
+    -h | --help) usage; exit 0 ;;
+    *) fail "unknown flag $1 (see --help)" ;;
+  esac
+  shift
+done
+cd "$root"
+[[ -z $since ]] || git rev-parse --quiet --verify "$since^{commit}" >/dev/null || fail "--since = $since: no such commit"
+
+# Of so many files at most, those with the most changed lines: a file takes five seconds, and the check is to take less
+# than three minutes. What is left out is named.
+most_files=40
+
+./launch_scripts/setup.sh --style || exit 1
+mapfile -d '' sources < <(git ls-files -z '*.cpp' '*.hpp')
+if $fix; then
+  clang-format-14 -i "${sources[@]}"
+  exit 0
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+code=0
+
+if ! clang-format-14 --dry-run -Werror "${sources[@]}" 2>"$work/format"; then
+  grep 'error:' "$work/format" | cut -d: -f1,2 | sort -u
+  echo "check_style.sh: these lines are not formatted; check_style.sh --fix_format formats them" >&2
+  code=1
+fi
+
+# The last commit that landed, as far as this clone knows.
+last_landed() {
+  local branch
+  for branch in origin/main main; do
+    git rev-parse --quiet --verify "$branch^{commit}" >/dev/null || continue
+    [[ $(git rev-parse "$branch") != $(git rev-parse HEAD) ]] || continue
+    git merge-base "$branch" HEAD && return
+  done
+  git rev-parse --quiet --verify HEAD^1
+}
+if ! $all; then
+  [[ -n $since ]] || since=$(last_landed) || { echo "No commit before this one: clang-tidy has nothing to compare"; exit "$code"; }
+  mapfile -t changed < <(git diff --numstat --diff-filter=d "$since" -- '*.cpp' '*.hpp' | sort -rn | awk '$1 > 0' | cut -f 3)
+  if ((${#changed[@]} == 0)); then
+    echo "Style: ${#sources[@]} files are formatted as they should be or named above; nothing changed since $(git describe --always "$since")"
+    exit "$code"
+  fi
+fi
+
+# clang-tidy reads every file by itself, so it needs commands of files that are not built as one (preset tidy), and the
+# headers that the build makes.
+{ cmake --preset tidy && cmake --build build/tidy --target generated; } >"$work/cmake" 2>&1 ||
+  { cat "$work/cmake" >&2; exit 1; }
+tidy=(-quiet -p=build/tidy -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-pragma-once-outside-header)
+if $all; then
+  printf '%s\0' "${sources[@]}" | grep -z '\.cpp$' |
+    xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 "${tidy[@]}" >"$work/tidy" 2>/dev/null || true
+  what="all files"
+else
+  looked_at=("${changed[@]:0:most_files}")
+  git diff -U0 "$since" -- "${looked_at[@]}" | clang-tidy-diff-14.py -p1 -path build/tidy -j "$(nproc)" \
+    -clang-tidy-binary clang-tidy-14 "${tidy[@]:0:1}" "${tidy[@]:2}" >"$work/tidy" 2>/dev/null || true
+  what="${#looked_at[@]} files that changed since $(git describe --always "$since")"
+  ((${#changed[@]} <= most_files)) ||
+    echo "clang-tidy does not look at $((${#changed[@]} - most_files)) more files: ${changed[*]:most_files}"
+fi
+# The same finding of a header comes once for every file that includes it.
+findings=$(grep -E ': (error|warning): ' "$work/tidy" | sed "s|^$root/||" | sort -u || true)
+if [[ -n $findings ]]; then
+  echo "$findings"
+  echo "check_style.sh: clang-tidy has $(wc -l <<<"$findings") findings in $what" >&2
+  exit 1
+fi
+((code != 0)) || echo "Style: ${#sources[@]} files are formatted, clang-tidy finds nothing in $what"
+exit "$code"
