@@ -1,13 +1,13 @@
 #include "hlc_bridge/record/commonroad_file.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <iomanip>
 #include <limits>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
 
+#include "planner/common/demand.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -34,7 +34,7 @@ void write_state(std::ostream& xml, const State& state, std::size_t time, Steeri
 
 void write_motion(std::ostream& xml, int id, const Footprint& footprint,
                   const std::vector<State>& states, Steering steering) {
-  assert(states.size() >= 2);
+  HLC_DEMAND(states.size() >= 2, states.size());
   xml << "  <dynamicObstacle id=\"" << id << "\">\n    <type>car</type>\n    <shape><rectangle>"
       << "<length>" << footprint.length_m << "</length><width>" << footprint.width_m
       << "</width></rectangle></shape>\n    <initialState>";

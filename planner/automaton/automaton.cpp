@@ -1,8 +1,9 @@
 #include "planner/automaton/automaton.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
@@ -43,7 +44,8 @@ bool is_at_steering_limit(const Trim& trim, const VehicleParameters& vehicle,
 }
 
 State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters& vehicle) {
-  assert(!maneuver.inputs.empty() && maneuver.states.size() == maneuver.inputs.size() + 1);
+  HLC_DEMAND(!maneuver.inputs.empty() && maneuver.states.size() == maneuver.inputs.size() + 1,
+             maneuver.inputs.size(), maneuver.states.size());
   const double time = std::clamp(time_s, 0.0, maneuver.duration_s);
   if (maneuver.from == maneuver.to) {
     State state = maneuver.states.front();

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "planner/common/demand.hpp"
 #include "planner/geometry/footprint.hpp"
 
 namespace hlc {
@@ -187,23 +187,27 @@ void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
 }
 
 const Reach& ReachableSets::reach(TrimId trim, std::size_t steps, std::size_t steps_left) const {
-  assert(trim.index < num_trims_ && steps <= max_steps_);
+  HLC_DEMAND(trim.index < num_trims_ && steps <= max_steps_, trim.index, num_trims_, steps,
+             max_steps_);
   return reach_[reach_index(trim, steps, std::min(steps_left, max_steps_left_))];
 }
 
 std::span<const Point> ReachableSets::positions_m(TrimId trim, std::size_t steps,
                                                   std::size_t steps_left) const {
-  assert(trim.index < num_trims_ && steps <= max_steps_);
+  HLC_DEMAND(trim.index < num_trims_ && steps <= max_steps_, trim.index, num_trims_, steps,
+             max_steps_);
   return positions_m_[reach_index(trim, steps, std::min(steps_left, max_steps_left_))];
 }
 
 const ConvexPolygon& ReachableSets::swept_area_m(TrimId trim, std::size_t step) const {
-  assert(trim.index < num_trims_ && step <= max_steps_);
+  HLC_DEMAND(trim.index < num_trims_ && step <= max_steps_, trim.index, num_trims_, step,
+             max_steps_);
   return swept_area_m_[area_index(trim, step)];
 }
 
 const ConvexPolygon& ReachableSets::swept_area_until_m(TrimId trim, std::size_t steps) const {
-  assert(trim.index < num_trims_ && steps <= max_steps_);
+  HLC_DEMAND(trim.index < num_trims_ && steps <= max_steps_, trim.index, num_trims_, steps,
+             max_steps_);
   return swept_area_until_m_[area_index(trim, steps)];
 }
 

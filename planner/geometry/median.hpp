@@ -1,15 +1,16 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
 /// The value in the middle of the sorted sample; of an even number of values the mean of the two in
 /// the middle. @pre not empty, no NaN
 [[nodiscard]] inline double median(std::vector<double> sample) {
-  assert(!sample.empty());
+  HLC_DEMAND(!sample.empty());
   const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
   std::ranges::nth_element(sample, middle);
   if (sample.size() % 2 == 1) return *middle;

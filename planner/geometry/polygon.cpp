@@ -1,9 +1,10 @@
 #include "planner/geometry/polygon.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -195,13 +196,13 @@ ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame) {
 }
 
 ConvexPolygon inflated(const ConvexPolygon& polygon, double distance_m) {
-  assert(distance_m >= 0.0);
+  HLC_DEMAND(distance_m >= 0.0, distance_m);
   constexpr double kSharpestMitre = -0.5;  // cosine of the turn: inner angle of 60 degrees
   return with_edges_moved(polygon, distance_m + kRoundingAllowance_m, kSharpestMitre);
 }
 
 ConvexPolygon simplified_outwards(const ConvexPolygon& polygon, std::size_t max_vertices) {
-  assert(max_vertices >= 4);
+  HLC_DEMAND(max_vertices >= 4, max_vertices);
   if (polygon.vertices_m.size() <= max_vertices) {
     return polygon;
   }

@@ -1,12 +1,14 @@
 #include "planner/maneuver_design/dominance.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
 bool dominates(const Objectives& a, const Objectives& b, const Objectives& tolerance) {
-  assert(a.size() == b.size() && (tolerance.size() == 0 || tolerance.size() == a.size()));
+  HLC_DEMAND(a.size() == b.size() && (tolerance.size() == 0 || tolerance.size() == a.size()),
+             a.size(), b.size(), tolerance.size());
   bool is_better_somewhere = false;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
     const double slack = tolerance.size() == 0 ? 0.0 : tolerance(i);
@@ -58,7 +60,7 @@ double hypervolume(std::vector<Objectives> points, const Objectives& reference) 
 }
 
 ObjectiveRange range_of(const std::vector<Objectives>& points) {
-  assert(!points.empty());
+  HLC_DEMAND(!points.empty());
   ObjectiveRange range{points.front(), points.front()};
   for (const Objectives& point : points) {
     range.best = range.best.cwiseMin(point);

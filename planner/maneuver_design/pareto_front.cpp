@@ -1,7 +1,6 @@
 #include "planner/maneuver_design/pareto_front.hpp"
 
-#include <cassert>
-
+#include "planner/common/demand.hpp"
 #include "planner/maneuver_design/pareto_subproblems.hpp"
 #include "planner/maneuver_design/two_criteria_front.hpp"
 
@@ -93,7 +92,8 @@ using Fill = void (*)(const ParetoProblem&, SingleOptima&, const ParetoOptions&,
 
 /// The points that `fill` finds between the optima of the single criteria, which it may improve.
 ParetoFront front_by(Fill fill, const ParetoProblem& problem, const ParetoOptions& options) {
-  assert(problem.criteria.size() >= 2 && options.points >= 2);
+  HLC_DEMAND(problem.criteria.size() >= 2 && options.points >= 2, problem.criteria.size(),
+             options.points);
   ParetoFront front;
   SingleOptima optima = single_optima(problem, front);
   if (front.status != ManeuverStatus::kOptimal) {

@@ -1,7 +1,8 @@
 #include "planner/maneuver_design/shooting.hpp"
 
 #include <array>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -68,7 +69,7 @@ Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
 
 Shot shoot(const State& start, const std::vector<Input>& inputs, double duration_s,
            const RunningCost& cost, const VehicleParameters& vehicle, WithGradient with_gradient) {
-  assert(!inputs.empty() && duration_s > 0.0);
+  HLC_DEMAND(!inputs.empty() && duration_s > 0.0, inputs.size(), duration_s);
   const double h = duration_s / static_cast<double>(inputs.size());
   Shot shot;
   shot.states.reserve(inputs.size() + 1);

@@ -1,7 +1,6 @@
 #include "planner/maneuver_design/trim_choice.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
@@ -148,7 +148,7 @@ std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, do
 std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std::size_t count,
                                      const VehicleParameters& vehicle,
                                      const VehicleLimits& limits) {
-  assert(count >= 2);
+  HLC_DEMAND(count >= 2, count);
   const Point unit{limits.speed_max_mps, limits.steering_max_rad};
   const std::vector<Point> points = forward_points(drive, unit, limits);
   const auto reversing = static_cast<std::size_t>(std::ranges::count_if(drive, is_reversing));

@@ -1,8 +1,8 @@
 #include "planner/policy/subgraph_choice.hpp"
 
 #include <algorithm>
-#include <cassert>
 
+#include "planner/common/demand.hpp"
 #include "planner/policy/policy_check.hpp"
 #include "planner/policy/speed_zones.hpp"
 
@@ -45,7 +45,7 @@ void SubgraphChoice::ask(std::shared_ptr<const PreparedChoice> request) {
 const PreparedChoice& SubgraphChoice::prepared(const SubgraphRequest& request) const {
   const auto found =
       std::ranges::find(choices_, request, [](const auto& one) { return one.first; });
-  assert(found != choices_.end() && "policies name all that they may ask for");
+  HLC_DEMAND(found != choices_.end() && "policies name all that they may ask for");
   return found->second;
 }
 

@@ -1,6 +1,6 @@
 #include "planner/road/reference_points.hpp"
 
-#include <cassert>
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
@@ -21,7 +21,8 @@ std::vector<double> mean_speed_first(double current_speed_mps, double reference_
 Reference reference_points(const ReferencePath& path, double start_s_m, double current_speed_mps,
                            double reference_speed_mps, std::size_t horizon_steps, double step_s,
                            ReferenceRule rule) {
-  assert(horizon_steps >= 1 && step_s > 0.0 && reference_speed_mps >= 0.0);
+  HLC_DEMAND(horizon_steps >= 1 && step_s > 0.0 && reference_speed_mps >= 0.0, horizon_steps,
+             step_s, reference_speed_mps);
   Reference reference{.speeds_mps = rule(current_speed_mps, reference_speed_mps, horizon_steps)};
   reference.points_m.reserve(horizon_steps);
   double s_m = start_s_m;

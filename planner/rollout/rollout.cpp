@@ -1,8 +1,8 @@
 #include "planner/rollout/rollout.hpp"
 
 #include <algorithm>
-#include <cassert>
 
+#include "planner/common/demand.hpp"
 #include "planner/controller/followed_plan.hpp"
 #include "planner/coordination/priority.hpp"
 
@@ -20,7 +20,7 @@ VehicleId id(const std::unique_ptr<Controller>& controller) {
 Rollout::Rollout(std::vector<std::unique_ptr<Controller>> controllers,
                  const std::vector<Pose>& starts)
     : controllers_(std::move(controllers)) {
-  assert(controllers_.size() == starts.size());
+  HLC_DEMAND(controllers_.size() == starts.size(), controllers_.size(), starts.size());
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
     Controller& controller = *controllers_[i];
     const State standing{.pose = starts[i]};

@@ -1,12 +1,12 @@
 #include "planner/scenario/starts.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "planner/common/demand.hpp"
 #include "planner/geometry/footprint.hpp"
 
 namespace hlc {
@@ -31,7 +31,8 @@ std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(const Scen
 }
 
 Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m) {
-  assert(starts_s_m.size() == scenario.vehicles.size());
+  HLC_DEMAND(starts_s_m.size() == scenario.vehicles.size(), starts_s_m.size(),
+             scenario.vehicles.size());
   for (std::size_t i = 0; i < starts_s_m.size(); ++i) {
     ScenarioVehicle& vehicle = scenario.vehicles[i];
     const Point position_m = vehicle.path.at(starts_s_m[i]);

@@ -1,9 +1,10 @@
 #include "planner/vehicle/lab_limits.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <sstream>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -80,7 +81,7 @@ std::optional<FoundFault> curve_fault(std::span<const TimedPoint> points, const 
 
 std::optional<FoundFault> trajectory_fault(std::span<const TimedPoint> points,
                                            const std::optional<LabLimits>& limits) {
-  assert(!points.empty());
+  HLC_DEMAND(!points.empty());
   const auto is_finite = [](const TimedPoint& point) {
     return std::isfinite(point.time_s) && point.position_m.allFinite() &&
            point.velocity_mps.allFinite();

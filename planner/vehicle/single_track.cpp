@@ -1,7 +1,8 @@
 #include "planner/vehicle/single_track.hpp"
 
-#include <cassert>
 #include <cmath>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -35,7 +36,7 @@ double curvature_per_m(double steering_rad, const VehicleParameters& vehicle) {
 
 double steering_for_curvature_rad(double curvature_per_m, const VehicleParameters& vehicle) {
   const double slip_sine = curvature_per_m * vehicle.rear_axle_to_cg_m;
-  assert(std::abs(slip_sine) < 1.0);
+  HLC_DEMAND(std::abs(slip_sine) < 1.0, slip_sine);
   return std::atan(curvature_per_m * vehicle.wheelbase_m / std::sqrt(1.0 - slip_sine * slip_sine));
 }
 

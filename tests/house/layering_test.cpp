@@ -23,8 +23,8 @@ using Names = std::set<std::string>;
 /// those below it.
 const std::map<std::string, Names> kArrows{
     {"planner/common", {}},
-    {"planner/geometry", {}},
-    {"planner/vehicle", {"planner/geometry"}},
+    {"planner/geometry", {"planner/common"}},
+    {"planner/vehicle", {"planner/common", "planner/geometry"}},
     {"planner/automaton", {"planner/common", "planner/vehicle", "planner/geometry"}},
     {"planner/maneuver_design",
      {"planner/automaton", "planner/common", "planner/vehicle", "planner/geometry"}},

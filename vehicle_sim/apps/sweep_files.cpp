@@ -1,11 +1,11 @@
 #include "vehicle_sim/apps/sweep_files.hpp"
 
-#include <cassert>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/demand.hpp"
 #include "vehicle_sim/apps/figures_record.hpp"
 #include "vehicle_sim/apps/input_files.hpp"
 #include "vehicle_sim/campaign/sweep_csv.hpp"
@@ -53,7 +53,7 @@ void SweepFiles::add(std::size_t run, const SweepResult& result) {
 }
 
 std::vector<RunFigures> SweepFiles::figures() const {
-  assert(log_.size() == sweep_.runs().size());
+  HLC_DEMAND(log_.size() == sweep_.runs().size(), log_.size(), sweep_.runs().size());
   std::vector<RunFigures> result;
   for (const auto& [run, line] : log_.records()) {
     result.push_back(figures_of(sweep_, run, Json::parse(line)));

@@ -1,9 +1,9 @@
 #include "vehicle_sim/campaign/accuracy_comparison.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/geometry/median.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/lap_quality.hpp"
@@ -23,7 +23,7 @@ class Comparison {
             sweep.combinations().size(),
             std::vector<RunsBySubgraph>(sweep.plan().scenarios.size(),
                                         RunsBySubgraph(sweep.plan().subgraphs.size()))) {
-    assert(runs.size() == sweep.runs().size());
+    HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const SweepRun& what = sweep.runs()[i];
       by_combination_[what.combination][what.scenario][what.subgraph].push_back(&runs[i]);

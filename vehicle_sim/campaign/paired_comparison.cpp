@@ -1,10 +1,10 @@
 #include "vehicle_sim/campaign/paired_comparison.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_distance.hpp"
@@ -46,7 +46,7 @@ class Pairs {
  public:
   Pairs(const Sweep& sweep, const std::vector<RunFigures>& runs)
       : sweep_(sweep), runs_(runs), numbers_(runs_by_combination(sweep)) {
-    assert(runs.size() == sweep.runs().size());
+    HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
     for (std::size_t c = 0; c < sweep.combinations().size(); ++c) {
       by_values_[sweep.combinations()[c]] = c;
     }

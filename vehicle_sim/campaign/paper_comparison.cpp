@@ -1,10 +1,10 @@
 #include "vehicle_sim/campaign/paper_comparison.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <map>
 
+#include "planner/common/demand.hpp"
 #include "planner/geometry/median.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
@@ -108,7 +108,7 @@ std::string values_table(const Sweep& sweep, const std::vector<JudgedCombination
 
 std::vector<JudgedCombination> judged_combinations(const Sweep& sweep,
                                                    const std::vector<RunFigures>& runs) {
-  assert(runs.size() == sweep.runs().size());
+  HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
   const std::size_t choosing_starts = (sweep.plan().starts + 1) / 2;
   const std::vector<std::vector<std::size_t>> numbers = runs_by_combination(sweep);
   std::vector<JudgedCombination> result;

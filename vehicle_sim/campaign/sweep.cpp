@@ -1,10 +1,10 @@
 #include "vehicle_sim/campaign/sweep.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <stdexcept>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/starts.hpp"
@@ -113,7 +113,7 @@ Scenario Sweep::scenario_of(std::size_t run) const {
   const SweepRun& what = runs_.at(run);
   const SweepCombination& combination = combinations_[what.combination];
   const DesignedAutomaton& designed = automata_[automaton_of(run)];
-  assert(designed.automaton || !designed.failure.empty());
+  HLC_DEMAND(designed.automaton || !designed.failure.empty());
   if (!designed.automaton) throw std::runtime_error(designed.failure);
   Scenario scenario = scenarios_.at({what.scenario, profile_of(combination)});
   SubgraphSpec spec =

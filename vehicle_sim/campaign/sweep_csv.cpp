@@ -1,9 +1,9 @@
 #include "vehicle_sim/campaign/sweep_csv.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <optional>
 
+#include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
@@ -25,7 +25,7 @@ std::string without_commas(std::string text) {
 }  // namespace
 
 std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
-  assert(runs.size() == sweep.runs().size());
+  HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
   std::vector<std::string> distances;
   for (const std::vector<std::size_t>& numbers : runs_by_combination(sweep)) {
     std::vector<RunFigures> of_combination;

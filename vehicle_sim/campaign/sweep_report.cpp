@@ -1,8 +1,8 @@
 #include "vehicle_sim/campaign/sweep_report.hpp"
 
 #include <algorithm>
-#include <cassert>
 
+#include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/accuracy_comparison.hpp"
 #include "vehicle_sim/campaign/failure_list.hpp"
 #include "vehicle_sim/campaign/paired_comparison.hpp"
@@ -14,7 +14,7 @@ namespace hlc {
 
 std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs,
                            const EvaluationOrigin& origin) {
-  assert(runs.size() == sweep.runs().size());
+  HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
   const SweepPlan& plan = sweep.plan();
   std::string text =
       "# Sweep " + plan.file.filename().string() + "\n\n" + std::to_string(runs.size()) +

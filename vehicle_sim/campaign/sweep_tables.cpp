@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <optional>
 
+#include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
@@ -39,7 +39,7 @@ class Tables {
  public:
   Tables(const Sweep& sweep, const std::vector<RunFigures>& runs)
       : sweep_(sweep), runs_(runs), numbers_(runs_by_combination(sweep)) {
-    assert(runs.size() == sweep.runs().size());
+    HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
   }
 
   [[nodiscard]] TableRow row(const SweepGroup& group, std::size_t scenario,

@@ -1,9 +1,9 @@
 #include "vehicle_sim/campaign/trims_front.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <tuple>
 
+#include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/lap_quality.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 const std::vector<TrimId>& trims_of(const Sweep& sweep, std::size_t combination) {
   const SweepValue* trims =
       value_of(sweep.plan(), sweep.combinations()[combination], kTrimsSetting);
-  assert(trims != nullptr);
+  HLC_DEMAND(trims != nullptr);
   return trims->trims;
 }
 
@@ -79,7 +79,7 @@ std::string markdown_of(const Sweep& sweep, const std::vector<TrimsQuality>& cho
 
 std::vector<TrimsQuality> trims_that_drive(const Sweep& sweep, const std::vector<RunFigures>& runs,
                                            std::size_t scenario, std::size_t subgraph) {
-  assert(runs.size() == sweep.runs().size());
+  HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
   std::vector<std::vector<const RunFigures*>> by_combination(sweep.combinations().size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SweepRun& run = sweep.runs()[i];

@@ -1,7 +1,6 @@
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/middleware/command_check.hpp"
 #include "hlc_bridge/middleware/state_buffer.hpp"
+#include "planner/common/demand.hpp"
 #include "planner/controller/joint_step.hpp"
 #include "planner/coordination/priority.hpp"
 #include "planner/policy/subgraph_choice.hpp"
@@ -42,7 +42,7 @@ LabRunSettings settings_of(const Scenario& scenario, std::uint64_t steps) {
   settings.period =
       static_cast<Nanoseconds>(std::llround(1e9 * scenario.subgraph->automaton().step_s));
   settings.steps = steps;
-  assert(settings.period % kVehiclePeriod == 0);
+  HLC_DEMAND(settings.period % kVehiclePeriod == 0, settings.period, kVehiclePeriod);
   return settings;
 }
 

@@ -1,10 +1,10 @@
 #include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
+#include "planner/common/demand.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/effort.hpp"
 #include "planner/maneuver_design/feasibility.hpp"
@@ -67,7 +67,8 @@ std::string complaint(const ManeuverProblem& problem, const ManeuverSolution& so
 /// Solves the problem; does not ask why g_i cannot be satisfied.
 ManeuverSolution attempt(const ManeuverProblem& problem, const RunningCost& cost,
                          const SolverOptions& options) {
-  assert(problem.intervals >= 1 && problem.duration_s > 0.0);
+  HLC_DEMAND(problem.intervals >= 1 && problem.duration_s > 0.0, problem.intervals,
+             problem.duration_s);
   const Feasibility feasibility = feasibility_of(problem);
   if (!feasibility.reason.empty()) {
     ManeuverSolution none;

@@ -1,11 +1,11 @@
 #include "planner/maneuver_design/solver/newton.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "planner/common/demand.hpp"
 #include "planner/maneuver_design/solver/active_bounds.hpp"
 #include "planner/maneuver_design/solver/active_set_qp.hpp"
 
@@ -54,7 +54,7 @@ std::optional<Eigen::VectorXd> after_search(const Transcription& transcription,
 
 NewtonResult newton(const Transcription& transcription, const ConstraintSet& constraints,
                     const Eigen::VectorXd& start) {
-  assert(!transcription.variables().has_tau() && !constraints.path && !constraints.cost_bounds);
+  HLC_DEMAND(!transcription.variables().has_tau() && !constraints.path && !constraints.cost_bounds);
   constexpr int kRounds = 40;
   constexpr double kSmallStep = 1e-9;
   constexpr double kSmallGain = 1e-15;

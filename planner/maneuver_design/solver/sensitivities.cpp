@@ -1,6 +1,6 @@
 #include "planner/maneuver_design/solver/sensitivities.hpp"
 
-#include <cassert>
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -37,7 +37,7 @@ StepJacobian step_jacobian(const StateVector& x, const Input& u, double h,
 std::vector<Eigen::Matrix<double, 5, Eigen::Dynamic>> sensitivities(
     const std::vector<State>& states, const std::vector<Input>& inputs, double duration_s,
     const VehicleParameters& vehicle) {
-  assert(states.size() == inputs.size() + 1);
+  HLC_DEMAND(states.size() == inputs.size() + 1, states.size(), inputs.size());
   const auto intervals = static_cast<Eigen::Index>(inputs.size());
   const double share = 1.0 / static_cast<double>(intervals);
   using Matrix = Eigen::Matrix<double, 5, Eigen::Dynamic>;

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+/// HLC_DEMAND(condition, values...): an assertion that is also there in release. If the condition
+/// is false, one line with the place, the condition and the values goes to standard error, and the
+/// program aborts:
+///
+///     planner/geometry/polygon.cpp:198: demanded distance_m >= 0.0; distance_m = -0.5
+///
+/// It is for a programmer's mistake, a broken precondition or invariant. What comes from outside, a
+/// file, a flag or a message, is refused with an error instead. Values: numbers, bool, enumerators,
+/// strings, and what holds a number called `value` (VehicleId, StepIndex). They are evaluated only
+/// where the condition is false.
+///
+/// Plain assert stays where a check costs per vertex of a search: in the kernel, vectors,
+/// collision, preparation and data headers of planner/search/branch_and_bound.
+#define HLC_DEMAND(condition, ...)                                                       \
+  do {                                                                                   \
+    if (!(condition)) [[unlikely]] {                                                     \
+      ::hlc::demand_failed(__builtin_FILE(), __builtin_LINE(), #condition, #__VA_ARGS__, \
+                           {__VA_ARGS__});                                               \
+    }                                                                                    \
+  } while (false)
+
+namespace hlc {
+
+/// One value as text.
+class DemandedValue {
+ public:
+  DemandedValue(std::string_view text) : text_(text) {}
+  DemandedValue(const char* text) : text_(text) {}
+  DemandedValue(const std::string& text) : text_(text) {}
+  template <class T>
+  requires std::is_arithmetic_v<T> DemandedValue(T number) {
+    if constexpr (std::same_as<T, bool>) {
+      text_ = number ? "true" : "false";
+    } else if constexpr (std::floating_point<T>) {
+      write(static_cast<double>(number));
+    } else if constexpr (std::is_signed_v<T>) {
+      write(static_cast<std::int64_t>(number));
+    } else {
+      write(static_cast<std::uint64_t>(number));
+    }
+  }
+  template <class T>
+  requires std::is_enum_v<T> DemandedValue(T value)
+      : DemandedValue(static_cast<std::underlying_type_t<T>>(value)) {}
+  template <class T>
+  requires std::is_arithmetic_v<decltype(T::value)> DemandedValue(T id) : DemandedValue(id.value) {}
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void write(double number);
+  void write(std::int64_t number);
+  void write(std::uint64_t number);
+
+  std::string text_;
+};
+
+/// What HLC_DEMAND calls. `names`: the values as they are written there, with commas between them.
+[[noreturn]] void demand_failed(std::string_view file, int line, std::string_view condition,
+                                std::string_view names,
+                                std::initializer_list<DemandedValue> values);
+
+}  // namespace hlc
