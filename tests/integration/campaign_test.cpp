@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include <nlohmann/json.hpp>
 
 #include "hlc_bridge/result/run_description.hpp"
@@ -22,6 +24,10 @@ struct Same {
   std::string policy{};
   int steps{40};
 };
+void PrintTo(const Same& one, std::ostream* out) {
+  *out << one.scenario << "_" << one.profile << (one.policy.empty() ? "" : "_") << one.policy
+       << (one.noise_seed ? "_with_noise" : "");
+}
 
 class SameRun : public testing::TestWithParam<Same> {};
 
@@ -61,11 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Same{"paper_three_cars", "2022", 7}, Same{"circle", "default", 3},
                     Same{"reconfiguration", "default", 5, "", 115},
                     Same{"reconfiguration", "2022", std::nullopt, "zone_look_ahead"}),
-    [](const auto& one) {
-      return one.param.scenario + "_" + one.param.profile +
-             (one.param.policy.empty() ? "" : "_" + one.param.policy) +
-             (one.param.noise_seed ? "_with_noise" : "");
-    });
+    testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace hlc::test

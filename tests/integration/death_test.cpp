@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <ostream>
 #include <set>
 #include <sstream>
 
@@ -49,6 +50,10 @@ struct Death {
   bool simulated_time;
   int signal;
 };
+void PrintTo(const Death& one, std::ostream* out) {
+  *out << one.victim << (one.simulated_time ? "_logical" : "_real")
+       << (one.signal == SIGKILL ? "_killed" : "_stopped");
+}
 
 class ProcessDeath : public testing::TestWithParam<Death> {};
 
@@ -93,11 +98,7 @@ INSTANTIATE_TEST_SUITE_P(All, ProcessDeath,
                                          Death{"middleware_2", false, SIGKILL},
                                          Death{"vehicle_2", false, SIGKILL},
                                          Death{"high_level_controller_2", true, SIGSTOP}),
-                         [](const auto& one) {
-                           return one.param.victim +
-                                  (one.param.simulated_time ? "_logical" : "_real") +
-                                  (one.param.signal == SIGKILL ? "_killed" : "_stopped");
-                         });
+                         testing::PrintToStringParamName());
 
 class LabControlDeath : public testing::TestWithParam<bool> {};
 
@@ -132,7 +133,8 @@ TEST_P(Absence, IsNamedAfterTheStatedTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Absence,
-                         testing::Values("high_level_controller_2", "middleware_2", "vehicle_2"));
+                         testing::Values("high_level_controller_2", "middleware_2", "vehicle_2"),
+                         [](const auto& one) { return one.param; });
 
 TEST(Interruption, OfLabControlEndsEveryProcessCleanly) {
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -197,6 +198,7 @@ struct Fault {
   std::string process;
   int signal;
 };
+void PrintTo(const Fault& one, std::ostream* out) { *out << one.name << "_" << one.setting.name; }
 
 class LastingFault : public testing::TestWithParam<Fault> {};
 
@@ -228,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"controller_killed", kLab, {2}, "high_level_controller_2", SIGKILL},
                     Fault{"controller_stopped", kLab, {2}, "high_level_controller_2", SIGSTOP},
                     Fault{"middleware_killed", kLab, {2}, "middleware_2", SIGKILL}),
-    [](const auto& one) { return one.param.name + "_" + one.param.setting.name; });
+    testing::PrintToStringParamName());
 
 // Short enough for nobody to take it for dead: planning goes on when it is heard again.
 TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <random>
 
 #include "tests/integration/lab_processes.hpp"
@@ -51,6 +52,7 @@ struct Variant {
   std::string profile;
   std::string map_file;
 };
+void PrintTo(const Variant& one, std::ostream* out) { *out << one.name; }
 
 class Variants : public testing::TestWithParam<Variant> {};
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ostream>
 
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
@@ -215,6 +216,7 @@ struct Hung {
   std::string simulated_time;
   std::string named;
 };
+void PrintTo(const Hung& one, std::ostream* out) { *out << one.process; }
 
 class HungProcess : public Scripts, public testing::WithParamInterface<Hung> {};
 
@@ -261,6 +263,7 @@ struct Killed {
   std::string only;   ///< what vehicle.sh calls it
   std::string named;  ///< by lab control
 };
+void PrintTo(const Killed& one, std::ostream* out) { *out << one.process; }
 
 class KilledProcess : public Scripts, public testing::WithParamInterface<Killed> {};
 
@@ -388,6 +391,7 @@ struct BadInput {
   std::vector<std::string> flags;
   std::string named;
 };
+void PrintTo(const BadInput& one, std::ostream* out) { *out << one.name; }
 
 class BadInputs : public Scripts, public testing::WithParamInterface<BadInput> {};
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <ostream>
 
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
@@ -99,6 +100,7 @@ struct Setting {
   std::string scenario;
   std::string transport;
 };
+void PrintTo(const Setting& one, std::ostream* out) { *out << one.name; }
 
 /// A run in real time that goes on after a death, until it is interrupted.
 class ReturningRun {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <ostream>
 #include <set>
 
 #include "planner/rollout/rollout.hpp"
@@ -44,6 +45,7 @@ struct Drive {
   /// search kept clear of, and a second search follows.
   double tolerated_drift_share{DeviationRules{}.tolerated_drift_share};
 };
+void PrintTo(const Drive& one, std::ostream* out) { *out << one.name; }
 
 class ProblemDumpTest : public testing::TestWithParam<Drive> {
  protected:

@@ -1,6 +1,7 @@
 // The shipped automata beside the paper's drive, with vehicles that follow perfectly.
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "planner/automaton/maneuver_check.hpp"
@@ -20,6 +21,7 @@ struct Shipped {
   std::size_t steps;
   double path_m;  ///< that every vehicle has driven by then, at least
 };
+void PrintTo(const Shipped& one, std::ostream* out) { *out << one.scenario << "_" << one.subgraph; }
 
 class ShippedAutomaton : public testing::TestWithParam<Shipped> {};
 
@@ -56,9 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedAutomaton,
                                          Shipped{"lab_circle", "B", 20, 2.0},
                                          Shipped{"passenger_cars", "effort", 30, 65.0},
                                          Shipped{"passenger_cars", "comfort", 30, 65.0}),
-                         [](const auto& one) {
-                           return one.param.scenario + "_" + one.param.subgraph;
-                         });
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace hlc::shipped_automata_test

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <string>
 
 #include "tests/support/program.hpp"
@@ -15,6 +16,7 @@ struct BadFlags {
   std::string flags;
   std::string named;  ///< what the message must speak of
 };
+void PrintTo(const BadFlags& one, std::ostream* out) { *out << '"' << one.flags << '"'; }
 
 class VehicleSimRefuses : public testing::TestWithParam<BadFlags> {};
 

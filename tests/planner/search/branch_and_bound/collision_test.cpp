@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 
 #include "planner/search/branch_and_bound/branch_and_bound.hpp"
@@ -14,6 +15,12 @@
 #include "tests/support/test_automaton.hpp"
 
 namespace hlc {
+
+static void PrintTo(BranchAndBound::Instructions instructions, std::ostream* out) {
+  constexpr std::array kNames{"Portable", "Avx2", "Avx512"};
+  *out << kNames[static_cast<std::size_t>(instructions)];
+}
+
 namespace {
 
 using test::box;
@@ -399,15 +406,10 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
   EXPECT_GE(answers[1], 1000U);
 }
 
-std::string name_of(const testing::TestParamInfo<Instructions>& instance) {
-  constexpr std::array kNames{"Portable", "Avx2", "Avx512"};
-  return kNames[static_cast<std::size_t>(instance.param)];
-}
-
 INSTANTIATE_TEST_SUITE_P(AllKernels, BranchAndBoundCollision,
                          testing::Values(Instructions::kPortable, Instructions::kAvx2,
                                          Instructions::kAvx512),
-                         name_of);
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace hlc

@@ -2,12 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/random_problem.hpp"
 #include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
 namespace hlc {
+
+static void PrintTo(Engine engine, std::ostream* out) {
+  *out << (engine == Engine::kBranchAndBound ? "BranchAndBound" : "BestFirst");
+}
+
 namespace {
 
 constexpr std::size_t kMaxSteps = 8;
@@ -62,7 +69,8 @@ TEST_P(OmplEngineTest, StopsWhenToldToLikeTheEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, OmplEngineTest,
-                         testing::Values(Engine::kBranchAndBound, Engine::kBestFirst));
+                         testing::Values(Engine::kBranchAndBound, Engine::kBestFirst),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace hlc
