@@ -29,6 +29,7 @@ while (($#)); do
     --tests_of=*) targets=(--target "tests/${1#*=}/all") ;;
     --programs | --unit_tests | --thread_tests) targets=(--target "${1#--}") ;;
     -h | --help) usage; exit 0 ;;
+    --version) exec "$root/launch_scripts/version.sh" build.sh ;;
     *) echo "build.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
   esac
   shift

@@ -30,6 +30,7 @@ while (($#)); do
     --all) all=true ;;
     --fix_format) fix=true ;;
     -h | --help) usage; exit 0 ;;
+    --version) exec "$root/launch_scripts/version.sh" check_style.sh ;;
     *) fail "unknown flag $1 (see --help)" ;;
   esac
   shift

@@ -50,6 +50,7 @@ startup_timeout_s=20
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
+    --version) exec "$root/launch_scripts/version.sh" run_lab.sh ;;
     --no_build) build=false; shift; continue ;;
     --*=*) name=${1%%=*} value=${1#*=} ;;
     --*) name=$1 value=${2-}

@@ -48,6 +48,7 @@ while (($#)); do
       filter=$2; shift ;;
     --filter=*) filter=${1#*=} ;;
     -h | --help) usage; exit 0 ;;
+    --version) exec "$root/launch_scripts/version.sh" run_tests.sh ;;
     -*) fail "unknown flag $1 (see --help)" ;;
     *) [[ -z $folder ]] || fail "FOLDER = $1, already given as $folder"
       folder=${1#"$root"/} folder=${folder#./} folder=${folder#tests/} folder=${folder%/}

@@ -27,6 +27,7 @@ while (($#)); do
     --style) packages+=("${style[@]}") ;;
     --coverage) packages+=("${coverage[@]}") ;;
     -h | --help) usage; exit 0 ;;
+    --version) exec "$(dirname "${BASH_SOURCE[0]}")/version.sh" setup.sh ;;
     *) echo "setup.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
   esac
   shift

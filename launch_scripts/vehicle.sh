@@ -55,6 +55,7 @@ take_flags() {
   while (($#)); do
     case "$1" in
       -h | --help) usage; exit 0 ;;
+      --version) exec "$root/launch_scripts/version.sh" vehicle.sh ;;
       --*=*) name=${1%%=*} value=${1#*=} ;;
       --*) name=$1 value=${2-}
         (($# >= 2)) || fail "$1 needs a value"

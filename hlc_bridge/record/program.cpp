@@ -5,8 +5,6 @@
 #include <fstream>
 #include <thread>
 
-#include "hlc_revision.hpp"  // written at build time
-
 namespace hlc {
 namespace {
 
@@ -31,8 +29,6 @@ std::string kernel() {
 }
 
 }  // namespace
-
-std::string program_revision() { return HLC_REVISION; }
 
 Host this_host() { return {cpu_model(), std::thread::hardware_concurrency(), kernel()}; }
 

@@ -17,12 +17,13 @@
 #include <vector>
 
 #include "planner/apps/cli.hpp"
+#include "planner/common/program_version.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/scenario.hpp"
 
 /// What the command lines of all programs have in common: `--name=value` and `--name value`,
-/// unknown flags refused, one line and exit code 2 for bad ones.
+/// `--help` and `--version`, unknown flags refused, one line and exit code 2 for bad ones.
 namespace hlc {
 
 /// What a flag's text may be that its type does not take, as ", allowed ..."; empty if unknown.
@@ -53,9 +54,13 @@ inline void flush_standard_output() {
                            (reason == 0 ? "" : ": " + std::generic_category().message(reason)));
 }
 
-/// Nothing if the flags are good; else the exit code: 0 after the help, 2 after one line about the
-/// bad flag, `failed`, as exit_code_of has it, after one line about a help that is not out.
+/// Nothing if the flags are good; else the exit code: 0 after the help or the version, 2 after one
+/// line about the bad flag, `failed`, as exit_code_of has it, after one line about a help that is
+/// not out.
 inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int failed = 1) {
+  app.set_version_flag(
+      "--version", app.get_name() + " " + program_release() + ", revision " + program_revision(),
+      "Print the version and the revision of the sources, and exit");
   try {
     app.parse(argc, argv);
     return std::nullopt;

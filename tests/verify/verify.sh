@@ -27,6 +27,7 @@ runs=()
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
+    --version) exec "$root/launch_scripts/version.sh" verify.sh ;;
     --bin=*) bin=${1#*=} ;;
     --environment=*) environment=${1#*=} ;;
     --xml=*) xml=(--xml "${1#*=}") ;;

@@ -1,4 +1,4 @@
-# Writes -D output=<header> with the revision of the sources in -D source=<folder>; leaves the file alone
+# Writes -D output=<header> with -D release=<version> and the revision of the sources in -D source=<folder>; leaves the file alone
 # if nothing has changed, so that nothing is built again.
 cmake_minimum_required(VERSION 3.25)
 execute_process(
@@ -9,4 +9,4 @@ execute_process(
 if(failed OR NOT revision)
   set(revision unknown)
 endif()
-file(CONFIGURE OUTPUT ${output} CONTENT "#define HLC_REVISION \"@revision@\"\n" @ONLY)
+file(CONFIGURE OUTPUT ${output} CONTENT "#define HLC_RELEASE \"@release@\"\n#define HLC_REVISION \"@revision@\"\n" @ONLY)

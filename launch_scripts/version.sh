@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# What every script prints for --version, as the programs do for theirs.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+  echo "usage: version.sh [NAME]"
+  echo "Prints NAME (default: hlc), the project's version and the revision of the sources."
+}
+
+name=hlc
+case "${1-}" in
+  -h | --help) usage; exit 0 ;;
+  --version | "") ;;
+  -*) echo "version.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
+  *) name=$1 ;;
+esac
+release=$(sed -n 's/^project(hlc VERSION \([0-9.]*\) .*/\1/p' "$root/CMakeLists.txt")
+revision=$(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)
+echo "$name $release, revision $revision"
