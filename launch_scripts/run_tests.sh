@@ -24,7 +24,7 @@ cd "$root" || exit 1
 
 # Folders of tests/ that hold tests, and those above them, as the sources are called.
 test_folders() {
-  grep -rl --include=CMakeLists.txt add_test tests | while read -r file; do
+  grep -rl --include=CMakeLists.txt hlc_add_test tests | while read -r file; do
     folder=${file%/CMakeLists.txt}
     while [[ $folder == tests/* ]]; do
       echo "${folder#tests/}"
