@@ -27,12 +27,6 @@ MiddlewareSettings settings_of(const MiddlewareOptions& options) {
                                         : real_middleware_rules(beside_lab_programs)};
 }
 
-std::unique_ptr<Pacing> pacing_of(const MiddlewareOptions& options) {
-  if (!options.logical_time) return std::make_unique<RealPacing>();
-  return std::make_unique<LogicalPacing>(
-      LogicalPacing::patience_for(nanoseconds(options.startup_timeout)), wall_time_now());
-}
-
 ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
   const bool lab = role == DomainRole::kLab;
   return {.name = middleware_name(options.vehicle_ids.front()),
@@ -102,7 +96,9 @@ struct MiddlewareProcess::LabEndpoints {
 
 MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
     : options_(std::move(options)),
-      shell_(options_.node_id, MiddlewareMachine{settings_of(options_)}, pacing_of(options_)),
+      shell_(options_.node_id, MiddlewareMachine{settings_of(options_)},
+             make_pacing(options_.logical_time, nanoseconds(options_.startup_timeout),
+                         wall_time_now())),
       lab_(on_domain(options_, DomainRole::kLab), [this] { shell_.presence_changed(); }),
       local_(on_domain(options_, DomainRole::kLocal), [this] { shell_.presence_changed(); }),
       list_writer_(local_, topics::vehicle_state_list(), [this] { shell_.presence_changed(); }),
