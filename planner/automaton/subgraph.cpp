@@ -86,6 +86,43 @@ const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
   return nullptr;
 }
 
+/// Which maneuvers may be exit edges, from what is preferred to what is taken at last.
+struct ExitChoice {
+  bool under_speed_limit;  ///< only of a subgraph with a limit: not faster than both their trims
+  bool any_label;
+};
+constexpr ExitChoice kExitChoices[] = {{true, false}, {true, true}, {false, false}, {false, true}};
+
+bool speeds_up(const Maneuver& maneuver, const std::vector<Trim>& trims) {
+  const double faster_mps =
+      std::max(trims[maneuver.from.index].speed_mps, trims[maneuver.to.index].speed_mps);
+  return top_speed_mps(maneuver) > faster_mps + kRounding_mps;
+}
+
+bool allows(const ExitChoice& choice, const Maneuver& maneuver, const SubgraphSpec& spec,
+            const std::vector<Trim>& trims) {
+  const TrimPair pair{maneuver.from, maneuver.to};
+  if (!choice.any_label && !holds(declared_labels(spec, pair), maneuver.label)) return false;
+  if (is_off(spec, pair, maneuver.label)) return false;
+  return !choice.under_speed_limit || !speeds_up(maneuver, trims);
+}
+
+/// An equilibrium that is off can be held, too.
+void add_standing_if_off(bool is_on, const Trim& trim, TrimId id,
+                         const std::vector<const Maneuver*>& maneuvers, std::vector<Edge>& edges) {
+  if (is_on || !trim.is_equilibrium()) return;
+  if (const Maneuver* standing = find(maneuvers, id, kOwnStepLabel)) {
+    edges.push_back({id, standing});
+  }
+}
+
+/// @return true if there are any
+bool sort_by_target(std::vector<Edge>& edges) {
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const Edge& a, const Edge& b) { return a.to < b.to; });
+  return !edges.empty();
+}
+
 }  // namespace
 
 std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
@@ -249,27 +286,16 @@ void Subgraph::measure_distances() {
 /// labels and speeds that rule 2 of Subgraph prefers; none if there is no way out.
 std::vector<Edge> Subgraph::exits_among(const std::vector<const Maneuver*>& maneuvers,
                                         const std::vector<bool>& is_nearer) const {
-  const auto speeds_up = [this](const Maneuver& maneuver) {
-    const std::vector<Trim>& trims = automaton_->trims;
-    const double faster_mps =
-        std::max(trims[maneuver.from.index].speed_mps, trims[maneuver.to.index].speed_mps);
-    return top_speed_mps(maneuver) > faster_mps + kRounding_mps;
-  };
-  const auto is_exit = [&](const Maneuver& maneuver, bool any_label, bool may_speed_up) {
-    const TrimPair pair{maneuver.from, maneuver.to};
-    return is_nearer[pair.to.index] &&
-           (any_label || holds(declared_labels(spec_, pair), maneuver.label)) &&
-           !is_off(spec_, pair, maneuver.label) && (may_speed_up || !speeds_up(maneuver));
-  };
   std::vector<Edge> exits;
-  for (const bool may_speed_up : {false, true}) {
-    if (!may_speed_up && !spec_.max_speed_mps) continue;
-    for (const bool any_label : {false, true}) {
-      for (const Maneuver* maneuver : maneuvers) {
-        if (is_exit(*maneuver, any_label, may_speed_up)) exits.push_back({maneuver->to, maneuver});
+  for (const ExitChoice& choice : kExitChoices) {
+    if (choice.under_speed_limit && !spec_.max_speed_mps) continue;
+    for (const Maneuver* maneuver : maneuvers) {
+      if (!is_nearer[maneuver->to.index]) continue;
+      if (allows(choice, *maneuver, spec_, automaton_->trims)) {
+        exits.push_back({maneuver->to, maneuver});
       }
-      if (!exits.empty()) return exits;
     }
+    if (!exits.empty()) break;
   }
   return exits;
 }
@@ -288,19 +314,15 @@ void Subgraph::add_exits() {
       successors_[i] = exits_among(held[i], is_nearer);
       if (!successors_[i].empty()) ring.push_back({i});
     }
-    for (const TrimId trim : ring) is_nearer[trim.index] = true;
-    for (const TrimId trim : ring) shorten_distance(trim);
+    for (const TrimId trim : ring) {
+      is_nearer[trim.index] = true;
+      shorten_distance(trim);
+    }
   } while (!ring.empty());
 
   for (std::size_t i = 0; i < trims.size(); ++i) {
-    std::vector<Edge>& edges = successors_[i];
-    if (!is_on_[i] && trims[i].is_equilibrium()) {
-      if (const Maneuver* own = find(held[i], {i}, kOwnStepLabel)) edges.push_back({{i}, own});
-    }
-    if (edges.empty()) continue;
-    std::stable_sort(edges.begin(), edges.end(),
-                     [](const Edge& a, const Edge& b) { return a.to < b.to; });
-    starts_.push_back({i});
+    add_standing_if_off(is_on_[i], trims[i], {i}, held[i], successors_[i]);
+    if (sort_by_target(successors_[i])) starts_.push_back({i});
   }
 }
 
