@@ -109,7 +109,7 @@ void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpe
       one.fail("to", "an edge other than standing, which must be possible");
     }
     if (off.edge.from == off.edge.to && off.label) {
-      one.fail("label", "none for a trim's own step, which is the same for all labels");
+      one.fail("label", "none for a self-loop, which is the same for all labels");
     }
     if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
     if (contains(spec.off, off)) one.fail("each edge once");
@@ -123,16 +123,16 @@ std::vector<std::size_t> steps_from(const std::vector<TrimId>& starts,
                                     std::size_t num_trims) {
   std::vector<std::size_t> steps(num_trims, Subgraph::kNever);
   for (const TrimId start : starts) steps[start.index] = 0;
+  const auto shortens = [&](const TrimPair& pair) {
+    const std::size_t near = steps[(against ? pair.to : pair.from).index];
+    std::size_t& far = steps[(against ? pair.from : pair.to).index];
+    if (near == Subgraph::kNever || near + 1 >= far) return false;
+    far = near + 1;
+    return true;
+  };
   for (bool is_shorter = true; is_shorter;) {
     is_shorter = false;
-    for (const TrimPair& pair : pairs) {
-      const TrimId near = against ? pair.to : pair.from;
-      const TrimId far = against ? pair.from : pair.to;
-      if (steps[near.index] == Subgraph::kNever) continue;
-      if (steps[near.index] + 1 >= steps[far.index]) continue;
-      steps[far.index] = steps[near.index] + 1;
-      is_shorter = true;
-    }
+    for (const TrimPair& pair : pairs) is_shorter |= shortens(pair);
   }
   return steps;
 }
