@@ -358,9 +358,12 @@ std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId 
                         .horizon_steps = scenario.horizon_steps,
                         .reference_speed_mps = scenario.reference_speed_mps,
                         .reference_rule = scenario.profile.reference_rule,
-                        .settle_rule = scenario.profile.settle_rule,
+                        .strategies = scenario.profile.strategies,
                         .search = scenario.search,
-                        .lab = scenario.lab},
+                        .lab = scenario.lab,
+                        .settle_rule = scenario.profile.strategies.commit.needs_votes
+                                           ? SettleRule::kAgreed
+                                           : SettleRule::kStrict},
       scenario.subgraph, std::move(routes));
 }
 
