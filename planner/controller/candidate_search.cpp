@@ -81,7 +81,7 @@ CandidateSearch::CandidateSearch(PreparedSubgraph on, const SearchOptions& searc
 
 std::vector<const ReachableSets*> CandidateSearch::reachable() const {
   std::vector<const ReachableSets*> result{current_.on().reachable.get()};
-  if (former_) result.push_back(former_->planner.on().reachable.get());
+  if (former_) result.push_back(former_->engine.on().reachable.get());
   return result;
 }
 
@@ -89,32 +89,32 @@ double CandidateSearch::reach_m(TrimId trim) const {
   const auto reach_in = [&](const PreparedSubgraph& on) {
     return on.reachable->max_distance_m(trim, horizon_steps_, 0);
   };
-  return std::max(reach_in(current_.on()), former_ ? reach_in(former_->planner.on()) : 0.0);
+  return std::max(reach_in(current_.on()), former_ ? reach_in(former_->engine.on()) : 0.0);
 }
 
 void CandidateSearch::switch_to(const PreparedSubgraph& next, const SearchOptions& search,
                                 StepIndex now) {
   assert(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
   assert(next.reachable->max_steps() > horizon_steps_);
-  PlannerCache planner(next, search);
+  EngineCache engine(next, search);
   // Of several switches in a row: what the plan in force was found on.
   if (!former_) former_ = Former{std::move(current_), {}};
   former_->last = {now.value + horizon_steps_};
-  current_ = std::move(planner);
+  current_ = std::move(engine);
 }
 
 void CandidateSearch::set_max_expansions(std::size_t max_expansions) {
   current_.set_max_expansions(max_expansions);
-  if (former_) former_->planner.set_max_expansions(max_expansions);
+  if (former_) former_->engine.set_max_expansions(max_expansions);
 }
 
 SearchResult CandidateSearch::search(const HorizonProblem& problem) {
-  return current_.planner().plan(problem);
+  return current_.engine().search(problem);
 }
 
 std::uint64_t CandidateSearch::warm_up(const HorizonProblem& problem) {
   int looks = 0;
-  return current_.planner().plan(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
+  return current_.engine().search(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
 }
 
 PlanCandidate CandidateSearch::find(HorizonProblem problem, const CandidateInputs& inputs,
@@ -126,10 +126,10 @@ PlanCandidate CandidateSearch::find(HorizonProblem problem, const CandidateInput
   return candidate;
 }
 
-void CandidateSearch::search_on(PlannerCache& on, const CandidateInputs& inputs,
+void CandidateSearch::search_on(EngineCache& on, const CandidateInputs& inputs,
                                 PlanCandidate& candidate, Report& report) {
   const Subgraph& subgraph = *on.on().subgraph;
-  const SearchResult result = on.planner().plan(candidate.problems.back());
+  const SearchResult result = on.engine().search(candidate.problems.back());
   add_figures(result, subgraph, report);
   if (result.status == SearchStatus::kFallback) {
     candidate.obstacle =
@@ -150,7 +150,7 @@ void CandidateSearch::search_on(PlannerCache& on, const CandidateInputs& inputs,
   if (candidate.obstacle != FallbackReason::kNone) candidate.plan.reset();
 }
 
-void CandidateSearch::search_with_and_without_drift(PlannerCache& on, const CandidateInputs& inputs,
+void CandidateSearch::search_with_and_without_drift(EngineCache& on, const CandidateInputs& inputs,
                                                     PlanCandidate& candidate, Report& report) {
   search_on(on, inputs, candidate, report);
   if (candidate.obstacle != FallbackReason::kConflict) return;
@@ -171,7 +171,7 @@ void CandidateSearch::search_on_former(const CandidateInputs& inputs, PlanCandid
   if (candidate.obstacle == FallbackReason::kBudget) return;
   candidate.obstacle = FallbackReason::kNone;
   if (candidate.problems.size() > 1) candidate.problems.push_back(candidate.problems.front());
-  search_with_and_without_drift(former_->planner, inputs, candidate, report);
+  search_with_and_without_drift(former_->engine, inputs, candidate, report);
 }
 
 }  // namespace hlc

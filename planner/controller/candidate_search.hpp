@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "planner/controller/engine_cache.hpp"
 #include "planner/controller/plan_in_force.hpp"
-#include "planner/controller/planner_cache.hpp"
 #include "planner/coordination/report.hpp"
 #include "planner/search/horizon_problem.hpp"
 #include "planner/vehicle/lab_limits.hpp"
@@ -34,10 +34,10 @@ struct PlanCandidate {
 /// does not lead into anything. Where the drift does, a plan without any is searched.
 ///
 /// After a switch to another subgraph the former one is searched where nothing is found, until
-/// something is, for a horizon at most. A value (PlannerCache).
+/// something is, for a horizon at most. A value (EngineCache).
 class CandidateSearch {
  public:
-  /// @throws std::invalid_argument as PlannerCache
+  /// @throws std::invalid_argument as EngineCache
   CandidateSearch(PreparedSubgraph on, const SearchOptions& search, std::size_t horizon_steps);
 
   /// What is searched on now.
@@ -65,18 +65,18 @@ class CandidateSearch {
  private:
   /// What was searched on before a switch.
   struct Former {
-    PlannerCache planner;
+    EngineCache engine;
     StepIndex last;  ///< of the steps that may still use it
   };
 
-  static void search_on(PlannerCache& on, const CandidateInputs& inputs, PlanCandidate& candidate,
+  static void search_on(EngineCache& on, const CandidateInputs& inputs, PlanCandidate& candidate,
                         Report& report);
-  static void search_with_and_without_drift(PlannerCache& on, const CandidateInputs& inputs,
+  static void search_with_and_without_drift(EngineCache& on, const CandidateInputs& inputs,
                                             PlanCandidate& candidate, Report& report);
   void search_on_former(const CandidateInputs& inputs, PlanCandidate& candidate, Report& report);
 
   std::size_t horizon_steps_;
-  PlannerCache current_;
+  EngineCache current_;
   std::optional<Former> former_;  ///< until something was found on `current_`
 };
 

@@ -47,7 +47,7 @@ namespace hlc {
 class Controller {
  public:
   /// @param routes  those that the vehicle may take, at least one
-  /// @throws std::invalid_argument as prepare_subgraph and make_horizon_planner
+  /// @throws std::invalid_argument as prepare_subgraph and make_search_engine
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              std::vector<DrivableRoute> routes);
   /// With a single route.
@@ -110,13 +110,6 @@ class Controller {
                               std::span<const Outcome> outcomes);
   /// Instead of the phases that are left: a deadline has passed, the plan in force stays.
   [[nodiscard]] Report fall_back(FallbackReason reason);
-
-  // Names that hlc_process uses until it drives ControlLoop.
-  [[nodiscard]] Report settle(std::span<const Prediction> predictions,
-                              std::span<const Outcome> outcomes) {
-    return commit(predictions, outcomes);
-  }
-  [[nodiscard]] Report give_up(FallbackReason reason) { return fall_back(reason); }
 
   /// Valid after `couple`: whom the phases need.
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }

@@ -38,20 +38,16 @@ struct ControllerStrategies {
   friend bool operator==(const ControllerStrategies&, const ControllerStrategies&) = default;
 };
 
-/// For hlc_process, until it drives ControlLoop: the name of `strategies.commit`.
-enum class SettleRule { kStrict, kAgreed };
-
 struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
   double reference_speed_mps{0.8};
-  ReferenceRule reference_rule{ReferenceRule::k2022};
+  ReferenceRule reference_rule{half_speed_last};
   ControllerStrategies strategies{};
   SearchOptions search{};
   DeviationRules deviation{};
   /// What the vehicle can follow: a plan beyond it does not come into force. Absent: anything.
   std::optional<LabLimits> lab{};
-  SettleRule settle_rule{SettleRule::kStrict};
 };
 
 }  // namespace hlc

@@ -36,7 +36,7 @@ std::unique_ptr<Controller> controller_of(const ScenarioVehicle& vehicle, const 
           .vehicle = vehicle.id,
           .horizon_steps = scenario.horizon_steps,
           .reference_speed_mps = scenario.reference_speed_mps,
-          .reference_rule = ReferenceRule::kLater,
+          .reference_rule = mean_speed_first,
           .strategies = {.commit = scenario.profile.strategies.commit,
                          .coupled_obstacles = scenario.profile.strategies.coupled_obstacles},
           .search = {.engine = Engine::kBestFirst}},

@@ -37,7 +37,7 @@ const std::vector<SweepSetting>& sweep_settings() {
        {},
        [](const Value& value, Scenario& scenario) {
          scenario.profile.reference_rule =
-             value.text == "2022" ? ReferenceRule::k2022 : ReferenceRule::kLater;
+             value.text == "2022" ? half_speed_last : mean_speed_first;
        }},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
       {"reference_speed_mps",

@@ -168,7 +168,7 @@ class Lab {
     for (Member& member : members_) {
       observation = member.hlc.observe(list).value();
       if (!member.hlc.has_begun()) member.hlc.note(list, observation);
-      begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
+      begins = member.hlc.begins(list, observation, StartRule::kTogether, std::nullopt) && begins;
     }
     observation.present = observation.active;
     if (begins && !start_) start_ = observation.step;
