@@ -360,7 +360,7 @@ std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId 
                         .horizon_steps = scenario.horizon_steps,
                         .reference_speed_mps = scenario.reference_speed_mps,
                         .reference_rule = scenario.profile.reference_rule,
-                        .settle_rule = scenario.profile.settle_rule,
+                        .strategies = scenario.profile.strategies,
                         .search = scenario.search,
                         .lab = scenario.lab},
       scenario.subgraph, std::move(routes));

@@ -1,8 +1,7 @@
-#include "planner/policy/rehearsal.hpp"
+#include "planner/policy/look_ahead_rollout.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 
 #include "planner/controller/followed_plan.hpp"
 #include "planner/controller/joint_step.hpp"
@@ -23,7 +22,7 @@ OccupiedAreas rest_of(const OccupiedAreas& areas, StepIndex step) {
   return rest;
 }
 
-Traffic traffic_of(const Controller::ToldPlan& plan, StepIndex step) {
+Traffic traffic_of(const Controller::AnnouncedPlan& plan, StepIndex step) {
   Traffic traffic{.vehicle = plan.vehicle,
                   .step = step,
                   .next_pose = {},
@@ -38,9 +37,10 @@ Traffic traffic_of(const Controller::ToldPlan& plan, StepIndex step) {
 }
 
 /// What the others publish in that step.
-ExternalMessages published_by(const std::vector<Controller::ToldPlan>& others, StepIndex step) {
+ExternalMessages published_by(const std::vector<Controller::AnnouncedPlan>& others,
+                              StepIndex step) {
   ExternalMessages published;
-  for (const Controller::ToldPlan& other : others) {
+  for (const Controller::AnnouncedPlan& other : others) {
     published.traffic.push_back(traffic_of(other, step));
     published.predictions.push_back({.vehicle = other.vehicle,
                                      .step = step,
@@ -52,12 +52,12 @@ ExternalMessages published_by(const std::vector<Controller::ToldPlan>& others, S
 }
 
 Report step(Controller& controller, StepIndex now,
-            const std::vector<Controller::ToldPlan>& others) {
+            const std::vector<Controller::AnnouncedPlan>& others) {
   Observation observation{.step = now,
                           .active = {controller.options().vehicle},
                           .states = {on_its_plan(controller, now)},
                           .present = {}};
-  for (const Controller::ToldPlan& other : others) observation.active.push_back(other.vehicle);
+  for (const Controller::AnnouncedPlan& other : others) observation.active.push_back(other.vehicle);
   std::ranges::sort(observation.active);
   observation.present = observation.active;
   Controller* const alone[]{&controller};
@@ -76,26 +76,27 @@ double weighted(const Maneuver& maneuver, const std::vector<PlanningWeight>& wei
 
 }  // namespace
 
-std::optional<double> rehearsed_cost_m2(const Controller& controller,
-                                        const RehearsalSettings& settings,
-                                        const BeforeStep& before_step) {
+std::optional<double> rollout_cost_m2(const Controller& controller,
+                                      const LookAheadRolloutSettings& settings,
+                                      const BeforeStep& before_step) {
   if (!controller.has_plan() || !controller.path_s_m()) return std::nullopt;
-  const std::vector<Controller::ToldPlan> others = controller.told_plans();
+  const std::vector<Controller::AnnouncedPlan> others = controller.announced_plans();
   const ReferencePath& path = controller.route().path;
   const double ahead_m =
       controller.options().reference_speed_mps * controller.subgraph().automaton().step_s;
-  const std::unique_ptr<Controller> rehearsing = controller.clone(settings.max_expansions);
+  Controller ahead = controller;
+  ahead.set_max_expansions(settings.max_expansions);
   std::uint64_t expansions_left = settings.most_expansions;
   double s_m = *controller.path_s_m();
   double cost_m2 = 0.0;
   StepIndex now = controller.last_step();
   for (std::size_t i = 0; i < settings.steps; ++i) {
     ++now.value;
-    before_step(*rehearsing);
-    const Report report = step(*rehearsing, now, others);
+    before_step(ahead);
+    const Report report = step(ahead, now, others);
     if (report.expanded > expansions_left) return std::nullopt;
     expansions_left -= report.expanded;
-    const Plan& plan = rehearsing->plan_in_force();
+    const Plan& plan = ahead.plan_in_force();
     const StepIndex next{now.value + 1};
     const Point reached_m = plan.pose_at({next.value + 1}).position_m();
     s_m = path.project_within(plan.pose_at(next).position_m(), s_m - kProjection_m,

@@ -1,4 +1,4 @@
-#include "planner/controller/joining.hpp"
+#include "planner/controller/lane_entry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ double led_m(const SearchResult& found, const Pose& start) {
   return (found.poses.back().position_m() - start.position_m()).norm();
 }
 
-bool gave_up(const SearchResult& found) {
+bool used_up_budget(const SearchResult& found) {
   return found.status == SearchStatus::kBudget || found.reason == NoPath::kBudget;
 }
 
@@ -50,10 +50,10 @@ bool leads_in(const SearchResult& found, const Pose& start, double drives_off_m,
 
 }  // namespace
 
-Joining join(const DrivableRoute& route, const Placement& placement, const Pose& start,
-             double reach_m, const Footprint& footprint,
-             const std::function<HorizonProblem(const Corridor&)>& pose_problem,
-             const std::function<SearchResult(const HorizonProblem&)>& search) {
+LaneEntry find_lane_entry(const DrivableRoute& route, const Placement& placement, const Pose& start,
+                          double reach_m, const Footprint& footprint,
+                          const std::function<HorizonProblem(const Corridor&)>& pose_problem,
+                          const std::function<SearchResult(const HorizonProblem&)>& search) {
   if (route.corridor.bounds().empty()) return {};
   const HorizonProblem in_lanes = pose_problem(route.corridor);
   const double drives_off_m = kDrivesOff * std::min(length_m(in_lanes.reference_m), reach_m);
@@ -62,22 +62,22 @@ Joining join(const DrivableRoute& route, const Placement& placement, const Pose&
   if (placement.beyond_m() <= 0.0) {
     const SearchResult found = search(in_lanes);
     if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) return {};
-    is_certain = !gave_up(found);
-    may_move_in_lanes = led_m(found, start) >= kMoves_m || gave_up(found);
+    is_certain = !used_up_budget(found);
+    may_move_in_lanes = led_m(found, start) >= kMoves_m || used_up_budget(found);
   }
   for (const double extra_m : kExtra_m) {
     const auto by = [extra_m](double beyond_m) {
       return std::max(0.0, beyond_m + kReserve_m) + extra_m;
     };
-    Corridor area = widened(route, {.from_s_m = placement.s_m - kJoiningBack_m,
-                                    .to_s_m = placement.s_m + kJoiningAhead_m,
+    Corridor area = widened(route, {.from_s_m = placement.s_m - kEntryBack_m,
+                                    .to_s_m = placement.s_m + kEntryAhead_m,
                                     .left_m = by(placement.beyond_left_m),
                                     .right_m = by(placement.beyond_right_m)});
     const SearchResult found = search(pose_problem(area));
     if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) {
       return {.area = std::move(area)};
     }
-    is_certain = is_certain && !gave_up(found);
+    is_certain = is_certain && !used_up_budget(found);
   }
   return {.is_possible = may_move_in_lanes, .is_certain = is_certain, .area = std::nullopt};
 }

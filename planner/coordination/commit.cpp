@@ -1,4 +1,4 @@
-#include "planner/coordination/settle.hpp"
+#include "planner/coordination/commit.hpp"
 
 #include <algorithm>
 
@@ -27,22 +27,23 @@ bool are_free(const OccupiedAreas& a, const ConvexPolygon& area_m, StepIndex fro
       a, [&area_m](StepIndex) -> const ConvexPolygon& { return area_m; }, from, steps);
 }
 
-SettleVerdict settle_strictly(const OccupiedAreas& planned, std::span<const HeardCoupled> coupled,
-                              StepIndex from, std::size_t steps) {
-  for (const HeardCoupled& other : coupled) {
+CommitVerdict commit_strictly(const CommitInputs& inputs) {
+  for (const CoupledAreas& other : inputs.coupled) {
     if (other.predicted != nullptr) {
-      if (!are_free(planned, *other.predicted, from, steps)) return SettleVerdict::kConflict;
-    } else if (!are_free(planned, *other.reachable_area_m, from, steps)) {
-      return SettleVerdict::kUnheard;
+      if (!are_free(*inputs.planned, *other.predicted, inputs.from, inputs.steps)) {
+        return CommitVerdict::kConflict;
+      }
+    } else if (!are_free(*inputs.planned, *other.reachable_area_m, inputs.from, inputs.steps)) {
+      return CommitVerdict::kNotReceived;
     }
   }
-  return SettleVerdict::kInForce;
+  return CommitVerdict::kInForce;
 }
 
-SettleVerdict settle_by_votes(std::span<const Outcome* const> votes) {
+CommitVerdict commit_by_votes(const CommitInputs& inputs) {
   const bool all_agree = std::ranges::all_of(
-      votes, [](const Outcome* vote) { return vote != nullptr && !vote->wants_fallback; });
-  return all_agree ? SettleVerdict::kInForce : SettleVerdict::kFallback;
+      inputs.votes, [](const Outcome* vote) { return vote != nullptr && !vote->wants_fallback; });
+  return all_agree ? CommitVerdict::kInForce : CommitVerdict::kFallback;
 }
 
 }  // namespace hlc

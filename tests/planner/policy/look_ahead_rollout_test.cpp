@@ -1,10 +1,10 @@
-#include "planner/policy/rehearsal.hpp"
+#include "planner/policy/look_ahead_rollout.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/planner/policy/driven_controller.hpp"
 
-namespace hlc::rehearsal_test {
+namespace hlc::look_ahead_rollout_test {
 namespace {
 
 using test::DrivenController;
@@ -12,15 +12,15 @@ using test::DrivenController;
 constexpr double kWay_m = 0.8 * 0.2;  // in a step at reference speed
 const BeforeStep kStays = [](Controller&) {};
 
-RehearsalSettings of_steps(std::size_t steps, std::vector<PlanningWeight> weights = {}) {
+LookAheadRolloutSettings of_steps(std::size_t steps, std::vector<PlanningWeight> weights = {}) {
   return {.steps = steps,
           .criterion_weights = std::move(weights),
           .max_expansions = 400'000,
           .most_expansions = 400'000};
 }
 
-double cost_m2(const Controller& controller, const RehearsalSettings& settings) {
-  return rehearsed_cost_m2(controller, settings, kStays).value();
+double cost_m2(const Controller& controller, const LookAheadRolloutSettings& settings) {
+  return rollout_cost_m2(controller, settings, kStays).value();
 }
 
 /// c_k of a step that was really driven.
@@ -50,22 +50,22 @@ Traffic standing(StepIndex step, const ConvexPolygon& area) {
           .silent = {}};
 }
 
-TEST(Rehearsal, CostsWhatIsThenReallyDriven) {
+TEST(LookAheadRollout, CostsWhatIsThenReallyDriven) {
   DrivenController car;
   for (int k = 0; k < 20; ++k) {
     static_cast<void>(car.step());
-    const double rehearsed_m2 = cost_m2(*car, of_steps(5));
+    const double predicted_m2 = cost_m2(*car, of_steps(5));
     double driven_m2 = 0.0;
     DrivenController ahead = car.clone();
     for (int i = 0; i < 5; ++i) {
       const Report report = ahead.step();
       driven_m2 += driven_cost_m2(*ahead, report.step);
     }
-    EXPECT_NEAR(rehearsed_m2, driven_m2, 1e-15) << "step " << k;
+    EXPECT_NEAR(predicted_m2, driven_m2, 1e-15) << "step " << k;
   }
 }
 
-TEST(Rehearsal, WhoStandsPaysForTheWayNotDriven) {
+TEST(LookAheadRollout, WhoStandsPaysForTheWayNotDriven) {
   DrivenController car;
   static_cast<void>(car.step());
   DrivenController stands;
@@ -75,7 +75,7 @@ TEST(Rehearsal, WhoStandsPaysForTheWayNotDriven) {
   EXPECT_LT(cost_m2(*car, of_steps(4)), 4.0 * kWay_m * kWay_m);
 }
 
-TEST(Rehearsal, EveryManeuverCostsItsCriteria) {
+TEST(LookAheadRollout, EveryManeuverCostsItsCriteria) {
   DrivenController car;
   static_cast<void>(car.step());
   const double plain_m2 = cost_m2(*car, of_steps(6));
@@ -83,14 +83,14 @@ TEST(Rehearsal, EveryManeuverCostsItsCriteria) {
   EXPECT_DOUBLE_EQ(cost_m2(*car, of_steps(6, {{"fast", 0.25}})), plain_m2);
 }
 
-TEST(Rehearsal, ChangesNothing) {
+TEST(LookAheadRollout, ChangesNothing) {
   DrivenController car;
   DrivenController other;
   for (int k = 0; k < 10; ++k) {
     const Report report = car.step();
     EXPECT_EQ(report.planned_pose, other.step().planned_pose);
     const auto fast = prepare_subgraph(test::subgraph_of_label("fast"), 8, {});
-    static_cast<void>(rehearsed_cost_m2(*car, of_steps(8), [&](Controller& one) {
+    static_cast<void>(rollout_cost_m2(*car, of_steps(8), [&](Controller& one) {
       if (one.prepared_subgraph().subgraph != fast.subgraph) one.switch_to(fast);
     }));
     EXPECT_EQ(car->last_step(), report.step);
@@ -105,7 +105,7 @@ Prediction predicted(StepIndex step, const ConvexPolygon& area, bool is_new) {
           .areas = {.first = {step.value + 1}, .areas_m = {area}, .final_area_m = area}};
 }
 
-TEST(Rehearsal, AnotherCarStandsInTheWayWhereItTold) {
+TEST(LookAheadRollout, AnotherCarStandsInTheWayWhereItAnnounced) {
   DrivenController car;
   for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
   const double x_m = car->plan_in_force().pose_at(car.next_step()).x_m;
@@ -120,7 +120,7 @@ TEST(Rehearsal, AnotherCarStandsInTheWayWhereItTold) {
 }
 
 // Which of them have come when a step is over is a matter of chance.
-TEST(Rehearsal, APredictionThatTheControllerDidNotWaitForDoesNotCount) {
+TEST(LookAheadRollout, APredictionThatTheControllerDidNotWaitForDoesNotCount) {
   DrivenController car;
   for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
   const StepIndex now = car.next_step();
@@ -134,7 +134,7 @@ TEST(Rehearsal, APredictionThatTheControllerDidNotWaitForDoesNotCount) {
 }
 
 // Vehicle 1 goes before vehicle 2, which the car is; vehicle 3 after it.
-TEST(Rehearsal, TheNewPlanOfACoupledVehicleCounts) {
+TEST(LookAheadRollout, TheNewPlanOfACoupledVehicleCounts) {
   for (const std::uint8_t other : std::vector<std::uint8_t>{1, 3}) {
     DrivenController car;
     for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
@@ -154,14 +154,14 @@ TEST(Rehearsal, TheNewPlanOfACoupledVehicleCounts) {
   }
 }
 
-TEST(Rehearsal, EndsWithoutACostWhenItsExpansionsDoNotSuffice) {
+TEST(LookAheadRollout, EndsWithoutACostWhenItsExpansionsDoNotSuffice) {
   DrivenController car;
   static_cast<void>(car.step());
-  RehearsalSettings settings = of_steps(4);
-  EXPECT_TRUE(rehearsed_cost_m2(*car, settings, kStays));
+  LookAheadRolloutSettings settings = of_steps(4);
+  EXPECT_TRUE(rollout_cost_m2(*car, settings, kStays));
   settings.most_expansions = 3;
-  EXPECT_FALSE(rehearsed_cost_m2(*car, settings, kStays));
+  EXPECT_FALSE(rollout_cost_m2(*car, settings, kStays));
 }
 
 }  // namespace
-}  // namespace hlc::rehearsal_test
+}  // namespace hlc::look_ahead_rollout_test

@@ -1,4 +1,4 @@
-#include "planner/controller/joining.hpp"
+#include "planner/controller/lane_entry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ class Car {
     static_cast<void>(controller_.observe(seen(state.pose, state.steering_rad)));
     controller_.couple({});
     static_cast<void>(controller_.plan({}));
-    return controller_.settle({}, {});
+    return controller_.commit({}, {});
   }
 
   [[nodiscard]] const Controller& controller() const { return controller_; }
@@ -63,14 +63,14 @@ class Car {
   Controller controller_;
 };
 
-TEST(Joining, ACarBesideItsLaneHasAWiderAreaUntilItIsInIt) {
+TEST(LaneEntryTest, ACarBesideItsLaneHasAWiderAreaUntilItIsInIt) {
   Car car(lane(99.0), {1.0, 0.10, 0.2});
   EXPECT_EQ(car.step().status, StepStatus::kPlanned);
-  ASSERT_TRUE(car.controller().joining_area());
-  const Corridor area = *car.controller().joining_area();
+  ASSERT_TRUE(car.controller().entry_area());
+  const Corridor area = *car.controller().entry_area();
   EXPECT_EQ(area.pieces().size(), car.controller().route().corridor.pieces().size());
   int steps = 1;
-  for (; car.controller().joining_area() && steps < 30; ++steps) {
+  for (; car.controller().entry_area() && steps < 30; ++steps) {
     const Plan& plan = car.controller().plan_in_force();
     EXPECT_TRUE(keeps_to(plan, car.now(), area.boundary_m(0.0, 10.0)));
     EXPECT_EQ(car.step().status, StepStatus::kPlanned);
@@ -82,20 +82,20 @@ TEST(Joining, ACarBesideItsLaneHasAWiderAreaUntilItIsInIt) {
 }
 
 // It crosses no bound there, and could drive along the lane for ever without crossing one.
-TEST(Joining, ACarWhollyBesideItsLaneDrivesIntoIt) {
+TEST(LaneEntryTest, ACarWhollyBesideItsLaneDrivesIntoIt) {
   Car car(lane(99.0), {1.0, 0.17, 0.0});
   for (int i = 0; i < 25; ++i) EXPECT_EQ(car.step().status, StepStatus::kPlanned);
   EXPECT_GT(car.pose().x_m, 3.0);
   EXPECT_LT(std::abs(car.pose().y_m), 0.02);
 }
 
-TEST(Joining, ACarInItsLaneNeedsNoOtherArea) {
+TEST(LaneEntryTest, ACarInItsLaneNeedsNoOtherArea) {
   Car car(lane(99.0), {1.0, 0.01, 0.02});
   EXPECT_EQ(car.step().status, StepStatus::kPlanned);
-  EXPECT_FALSE(car.controller().joining_area());
+  EXPECT_FALSE(car.controller().entry_area());
 }
 
-TEST(Joining, ACarThatCannotGetIntoItsLanesStandsAndSaysSo) {
+TEST(LaneEntryTest, ACarThatCannotGetIntoItsLanesStandsAndSaysSo) {
   Car car(lane(1.2), {1.0, 0.05, 0.0});
   for (int i = 0; i < 5; ++i) {
     const Report report = car.step();
@@ -105,7 +105,7 @@ TEST(Joining, ACarThatCannotGetIntoItsLanesStandsAndSaysSo) {
   EXPECT_EQ(car.pose().x_m, 1.0);
 }
 
-TEST(Joining, ASearchThatUsedUpItsBudgetDoesNotSayThatThereIsNoWay) {
+TEST(LaneEntryTest, ASearchThatUsedUpItsBudgetDoesNotSayThatThereIsNoWay) {
   for (const Engine engine : {Engine::kBranchAndBound, Engine::kBestFirst}) {
     const SearchOptions search{.engine = engine, .max_expansions = 5};
     Car in_lane(lane(99.0), {1.0, 0.0, 0.0}, search);
@@ -121,17 +121,17 @@ TEST(Joining, ASearchThatUsedUpItsBudgetDoesNotSayThatThereIsNoWay) {
   }
 }
 
-TEST(Joining, TheProblemsByWhichACarSetsOutAreTold) {
+TEST(LaneEntryTest, TheProblemsByWhichACarSetsOutAreTold) {
   Car beside(lane(99.0), {1.0, 0.10, 0.2});
   beside.step();
-  EXPECT_GE(beside.controller().joining_problems().size(), 1U);
-  EXPECT_FALSE(beside.controller().joining_problems().front().boundary_m.empty());
+  EXPECT_GE(beside.controller().entry_problems().size(), 1U);
+  EXPECT_FALSE(beside.controller().entry_problems().front().boundary_m.empty());
   EXPECT_EQ(beside.controller().problems().size(), 1U);
   beside.step();
-  EXPECT_TRUE(beside.controller().joining_problems().empty());
+  EXPECT_TRUE(beside.controller().entry_problems().empty());
 }
 
-TEST(Joining, ACarWhoseLaneNarrowsBeforeItDrivesAsFarAsItIsWide) {
+TEST(LaneEntryTest, ACarWhoseLaneNarrowsBeforeItDrivesAsFarAsItIsWide) {
   Car car(lane(2.5), {1.0, 0.05, 0.1});
   for (int i = 0; i < 30; ++i) {
     EXPECT_NE(car.step().reason, FallbackReason::kOffRoute);

@@ -14,8 +14,8 @@ namespace hlc {
 /// stays in them drives off, until it is in them.
 ///
 /// No plan from beside the lanes stays in them, since not even its begin does. So the area is the
-/// route's corridor, widened (placement.hpp) from kJoiningBack_m behind the vehicle to
-/// kJoiningAhead_m before it, on each side by
+/// route's corridor, widened (placement.hpp) from kEntryBack_m behind the vehicle to
+/// kEntryAhead_m before it, on each side by
 ///
 ///     max(0, how far the footprint reaches beyond that side now) + e,
 ///
@@ -28,27 +28,27 @@ namespace hlc {
 /// can move in its lanes, or a search used up its budget before that was known, it has the plain
 /// corridor then.
 ///
-/// The area is fixed when the vehicle sets out, and is as hard a constraint as the corridor, so
+/// The area is fixed when the vehicle departs, and is as hard a constraint as the corridor, so
 /// every plan in it can be driven to its end. It is given up for the plain corridor as soon as the
 /// plan in force lies in that from the next step on. It lies on the map; other vehicles count as
 /// ever.
-struct Joining {
+struct LaneEntry {
   bool is_possible{true};
   bool is_certain{true};         ///< if it is impossible: no search used up its budget
   std::optional<Corridor> area;  ///< none: the plain corridor
 };
 
-inline constexpr double kJoiningBack_m = 0.5;
-inline constexpr double kJoiningAhead_m = 0.8;
+inline constexpr double kEntryBack_m = 0.5;
+inline constexpr double kEntryAhead_m = 0.8;
 
 /// @param start         standing; its `placement` on the route
 /// @param reach_m       the farthest that can be driven in the horizon from there
 /// @param pose_problem  the search problem from there in a corridor, without other vehicles
 /// @param search        called up to six times
-[[nodiscard]] Joining join(const DrivableRoute& route, const Placement& placement,
-                           const Pose& start, double reach_m, const Footprint& footprint,
-                           const std::function<HorizonProblem(const Corridor&)>& pose_problem,
-                           const std::function<SearchResult(const HorizonProblem&)>& search);
+[[nodiscard]] LaneEntry find_lane_entry(
+    const DrivableRoute& route, const Placement& placement, const Pose& start, double reach_m,
+    const Footprint& footprint, const std::function<HorizonProblem(const Corridor&)>& pose_problem,
+    const std::function<SearchResult(const HorizonProblem&)>& search);
 
 /// Of a footprint that crosses no bound: whether it lies in the lanes. It may stand wholly beside
 /// them, too, farther beyond than it is wide.
