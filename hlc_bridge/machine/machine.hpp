@@ -22,6 +22,12 @@ struct Participants {
   std::set<std::string> lost;  ///< were there and are not any more
 };
 
+/// With whom one endpoint of the process is matched: part of a machine's presence event.
+struct Matched {
+  std::size_t count{};          ///< endpoints of others
+  std::set<std::string> names;  ///< participants that they belong to
+};
+
 /// What Machine::awaited returns while no event but an urgent one lets advance do anything.
 inline constexpr std::size_t kOnlyUrgent = std::numeric_limits<std::size_t>::max();
 

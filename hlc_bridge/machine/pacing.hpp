@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "hlc_bridge/messages/instant.hpp"
@@ -114,5 +115,13 @@ class LogicalPacing : public Pacing {
   std::optional<Nanoseconds> released_;
   Nanoseconds next_announcement_{};  ///< wall
 };
+
+/// @param startup_timeout  wall time; @param since  wall time now
+[[nodiscard]] inline std::unique_ptr<Pacing> make_pacing(bool logical_time,
+                                                         Nanoseconds startup_timeout,
+                                                         Nanoseconds since) {
+  if (!logical_time) return std::make_unique<RealPacing>();
+  return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since);
+}
 
 }  // namespace hlc
