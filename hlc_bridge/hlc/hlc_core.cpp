@@ -59,12 +59,13 @@ bool HlcCore::may_stand_by(const Observation& observation) const {
          has_settled(controller_->options().vehicle);
 }
 
-bool HlcCore::begins(const VehicleStateList& list, const Observation& observation,
-                     bool logical_time, const std::optional<Nanoseconds>& trigger) {
+bool HlcCore::begins(const VehicleStateList& list, const Observation& observation, StartRule rule,
+                     const std::optional<Nanoseconds>& trigger) {
   if (has_begun_ || !controller_->has_plan() || !controller_->fits_route()) return has_begun_;
-  has_begun_ = logical_time ? is_complete(observation) && have_all_settled(observation)
-                            : trigger && list.t_now >= *trigger && own(observation) != nullptr &&
-                                  may_stand_by(observation);
+  has_begun_ = rule == StartRule::kTogether
+                   ? is_complete(observation) && have_all_settled(observation)
+                   : trigger && list.t_now >= *trigger && own(observation) != nullptr &&
+                         may_stand_by(observation);
   return has_begun_;
 }
 

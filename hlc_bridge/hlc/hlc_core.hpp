@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hlc_bridge/hlc/hlc_rules.hpp"
 #include "hlc_bridge/hlc/observation.hpp"
 #include "hlc_bridge/messages/messages.hpp"
 #include "hlc_bridge/messages/settled_states.hpp"
@@ -48,22 +49,22 @@ class HlcCore {
   /// was observed until the experiment begins.
   void note(const VehicleStateList& list, const Observation& observation);
 
-  /// In real time, before the experiment has begun here: whether the vehicle may be told to stand
-  /// where it is. One that moves drives what a former controller left it, or somebody moves it by
-  /// hand, and one that is not seen may do so: it is left alone (no plan, no command). So is one
-  /// that has not stood in the lists of a whole horizon, since the plan that it was left may be to
-  /// wait and then drive, and one whose states cannot be trusted yet (SettledStates). Once it has
-  /// been told to stand, it is told so as long as it is not seen moving.
+  /// Under kAtTrigger, before the experiment has begun here: whether the vehicle may be told to
+  /// stand where it is. One that moves drives what a former controller left it, or somebody moves
+  /// it by hand, and one that is not seen may do so: it is left alone (no plan, no command). So is
+  /// one that has not stood in the lists of a whole horizon, since the plan that it was left may be
+  /// to wait and then drive, and one whose states cannot be trusted yet (SettledStates). Once it
+  /// has been told to stand, it is told so as long as it is not seen moving.
   [[nodiscard]] bool may_stand_by(const Observation& observation) const;
 
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and
-  ///   * in logical time (`trigger` says nothing then) every active vehicle has a usable state in
+  ///   * under kTogether (`trigger` says nothing then) every active vehicle has a usable state in
   ///     it and has settled (SettledStates), the same for all controllers;
-  ///   * in real time the list is not before the trigger's next_start, and shows the vehicle
+  ///   * under kAtTrigger the list is not before the trigger's next_start, and shows the vehicle
   ///     standing.
   [[nodiscard]] bool begins(const VehicleStateList& list, const Observation& observation,
-                            bool logical_time, const std::optional<Nanoseconds>& trigger);
+                            StartRule rule, const std::optional<Nanoseconds>& trigger);
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
   /// The plan in force as commands, in answer to the list; without a plan a command to stand. They
