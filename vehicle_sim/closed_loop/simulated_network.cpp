@@ -308,8 +308,7 @@ void SimulatedNetwork::flush(NodeId from, NodeId to) {
 
 bool SimulatedNetwork::is_disturbed_by(const Disturbance& disturbance,
                                        const Channel& channel) const {
-  return (!disturbance.domain || *disturbance.domain == channel.rules.domain) &&
-         is_meant(nodes_[channel.from].name, disturbance.from) &&
+  return is_meant(nodes_[channel.from].name, disturbance.from) &&
          is_meant(nodes_[channel.to].name, disturbance.to);
 }
 
@@ -328,9 +327,13 @@ void SimulatedNetwork::transmit(std::uint32_t index, const SharedMessage& messag
       arrival += random.between(kLeastRepair, kMostRepair);
     }
     if (random.chance(disturbance.repeated)) {
-      second = now + random.between(options_.least_delay, options_.most_delay + disturbance.delay);
+      second = now + options_.least_delay +
+               random.below(options_.most_delay + disturbance.repeat_delay);
     }
-    if (random.chance(disturbance.overtaken)) waits_its_turn = false;
+    if (random.chance(disturbance.overtaken)) {
+      waits_its_turn = false;
+      arrival += random.below(disturbance.overtake_delay + 1);
+    }
     if (disturbance.delay > 0) arrival += random.below(disturbance.delay);
   }
   if (waits_its_turn) {

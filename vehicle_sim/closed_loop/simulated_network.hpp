@@ -29,12 +29,13 @@ struct NodeDescription {
 struct Disturbance {
   std::string from;  ///< name of the writer's process; empty: any
   std::string to;    ///< of the reader's
-  std::optional<Domain> domain;
   double lost{};       ///< on the way: a reliable topic sends again, later; others do not
   double withheld{};   ///< lost for good, whatever the topic promises
-  double repeated{};   ///< comes twice
-  double overtaken{};  ///< comes up to `delay` later, and later ones do not wait for it
+  double repeated{};   ///< comes twice, the second time up to `repeat_delay` later
+  double overtaken{};  ///< comes up to `overtake_delay` later, and others do not wait for it
   Nanoseconds delay{};  ///< every message takes up to so much longer
+  Nanoseconds repeat_delay{};
+  Nanoseconds overtake_delay{};
   friend bool operator==(const Disturbance&, const Disturbance&) = default;
 };
 

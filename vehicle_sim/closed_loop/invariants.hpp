@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/machine/log_line.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+#include "planner/coordination/messages.hpp"
+#include "planner/geometry/footprint.hpp"
+#include "planner/geometry/pose.hpp"
+
+/// What must hold in a run whatever goes wrong, each as a small judge that is told what happens.
+namespace hlc::closed_loop {
+
+/// Something that must not be.
+struct Violation {
+  Nanoseconds at{};   ///< true time since the begin of the run
+  std::string check;  ///< "footprints", "plans", "waits", "ends", "planning"
+  std::string text;   ///< one line
+};
+using Violations = std::vector<Violation>;
+
+/// Driven footprints (without margin) never touch.
+///
+/// Poses of one instant are compared: a tick is judged once every vehicle has driven it. Who has
+/// not begun stands at its start, who has ended stands where it was.
+class FootprintsCheck {
+ public:
+  FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
+
+  /// @param tick  number of the vehicles' tick
+  void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose);
+  void ended(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = true; }
+  /// Judges the ticks that all have driven by now.
+  void judge(Nanoseconds at, Violations& violations);
+  /// Smallest distance so far [m].
+  [[nodiscard]] double smallest_distance_m() const { return smallest_distance_m_; }
+
+ private:
+  struct Car {
+    Pose start;
+    std::uint64_t first{};    ///< tick of poses[0]
+    std::vector<Pose> poses;  ///< of the ticks since then
+    bool has_ended{};
+    [[nodiscard]] std::uint64_t end() const { return first + poses.size(); }
+    [[nodiscard]] const Pose& at(std::uint64_t tick) const;
+  };
+
+  Footprint footprint_;
+  double circumradius_m_;
+  std::map<std::uint8_t, Car> cars_;
+  std::optional<std::uint64_t> next_;  ///< tick to be judged
+  double smallest_distance_m_{1e9};
+};
+
+/// Plans in force (with margin) are free of each other pair by pair, from the present step until
+/// both stand, whenever one of them changes. A plan stays in force when its controller is gone,
+/// since the vehicle drives it to its end, until the next controller has one.
+class PlansCheck {
+ public:
+  explicit PlansCheck(std::size_t horizon_steps) : steps_(horizon_steps + 2) {}
+
+  void changed(VehicleId vehicle, OccupiedAreas areas, Nanoseconds at, Violations& violations);
+
+ private:
+  std::size_t steps_;
+  std::map<VehicleId, OccupiedAreas> plans_;
+  std::map<std::pair<VehicleId, VehicleId>, bool> is_told_;
+};
+
+/// Whoever ends with a code that is not good has said why: a warning or an error in its log.
+class EndsCheck {
+ public:
+  void log(const std::string& process, const machine::LogLine& line);
+  void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
+  void started(const std::string& process) { complaints_[process] = 0; }
+
+ private:
+  std::map<std::string, int> complaints_;
+};
+
+/// Within 5 s after the last fault everybody who can plan has planned something new. Who cannot:
+/// who has ended, whose search found that there is no way (kInfeasible, kBudget), whose vehicle
+/// fits no route (kOffRoute), who is told to drive out.
+class PlanningCheck {
+ public:
+  static constexpr Nanoseconds kPatience = 5 * kNanosecondsPerSecond;
+
+  /// @param calm_from  end of the last fault, true time since the begin of the run
+  explicit PlanningCheck(Nanoseconds calm_from) : calm_from_(calm_from) {}
+
+  void report(const ReportRecord& record, Nanoseconds at);
+  /// To be called at calm_from + kPatience.
+  /// @param able  vehicles whose processes are all there
+  void judge(const std::vector<std::uint8_t>& able, Nanoseconds at, Violations& violations) const;
+
+ private:
+  Nanoseconds calm_from_;
+  std::map<std::uint8_t, std::string> last_;  ///< what it reported last
+  std::map<std::uint8_t, bool> plans_;
+};
+
+}  // namespace hlc::closed_loop
