@@ -115,6 +115,9 @@ class MachineProcess final : public SimulatedProcess {
       has_presence_changed_ |= host_.take_change_of_endpoints();
     }
     exit_code_ = machine_.exit_code();
+    if constexpr (requires { host_.log_end(); }) {
+      if (exit_code_) host_.log_end();
+    }
     if (exit_code_) return;
     wake_ = machine_.wake_up();
     pacing_->want(wake_.run);
