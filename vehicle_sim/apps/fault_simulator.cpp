@@ -153,7 +153,12 @@ int campaign(const Choices& choices, const std::string& flags) {
           const FaultRunResult result = campaign.run(campaign.draw(seed));
           const std::lock_guard lock(mutex);
           totals.add(result);
-          if (!result.violations.empty()) failed.push_back(seed);
+          if (result.violations.empty()) return;
+          failed.push_back(seed);
+          std::printf("seed %llu fails: %s: %s\n", static_cast<unsigned long long>(seed),
+                      result.violations.front().check.c_str(),
+                      result.violations.front().text.c_str());
+          std::fflush(stdout);
         },
         [&](std::size_t done) {
           const std::lock_guard lock(mutex);

@@ -32,10 +32,7 @@ class ControllerHost : public Host {
                       {TopicId::kSystemTrigger},
                       {TopicId::kStateList, vehicle}}};
   }
-  void attach(const ProcessPlace& place, const HlcMachine& machine) {
-    set_place(place);
-    machine_ = &machine;
-  }
+  void attach(const ProcessPlace& place, const HlcMachine& /*machine*/) { set_place(place); }
 
   template <class Process>
   void receive(std::size_t topic, const Message& message, Process& process) {
@@ -76,7 +73,10 @@ class ControllerHost : public Host {
   }
 
   void perform(const Traffic& traffic) const { publish(kTraffic, traffic); }
-  void perform(const Prediction& prediction) const { publish(kPredictions, prediction); }
+  void perform(const Prediction& prediction) const {
+    place().observer->on_prediction(prediction);
+    publish(kPredictions, prediction);
+  }
   void perform(const Outcome& outcome) const { publish(kOutcomes, outcome); }
   void perform(const TrajectoryCommand& command) const {
     place().observer->on_command(place().node, command);
@@ -91,9 +91,7 @@ class ControllerHost : public Host {
   void perform(const AutomatonAnswer& /*answer*/) const {}
   void perform(const PrepareRequest& /*request*/) const {}
   void perform(const DrawStep& /*step*/) const {}
-  void perform(const AfterStep& /*step*/) const {
-    place().observer->on_step(machine_->controller());
-  }
+  void perform(const AfterStep& /*step*/) const {}
 
  private:
   enum Writes : std::size_t {
@@ -114,8 +112,6 @@ class ControllerHost : public Host {
     kTriggers,
     kLists
   };
-
-  const HlcMachine* machine_{};
 };
 
 }  // namespace hlc::closed_loop

@@ -16,13 +16,11 @@ namespace hlc::closed_loop {
 using NodeId = std::uint32_t;
 
 enum class Happening : std::uint8_t {
-  kArrival,     ///< of `message` on channel `detail`
-  kSight,       ///< `node` may see or miss `other` on domain `detail`
-  kWakeUp,      ///< of the process `node`, unless it has other plans by then (`detail`)
-  kFaultBegin,  ///< number `detail` of the plan
-  kFaultEnd,
-  kStart,  ///< of the process with the name number `detail`
-  kCheck,  ///< by whoever watches the run
+  kArrival,  ///< of `message` on channel `detail`
+  kSight,    ///< `node` may see or miss `other` on domain `detail`
+  kWakeUp,   ///< of the process `node`, unless it has other plans by then (`generation`)
+  kStart,    ///< of the process number `detail`
+  kAlarm,    ///< number `detail` of whoever drives the run
 };
 
 struct Event {

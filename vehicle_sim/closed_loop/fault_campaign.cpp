@@ -47,12 +47,12 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
     the_case.scenario = circle->second;
   }
   FaultRunSettings& run = the_case.run;
-  run.seed = seed;
-  run.is_logical = random.chance(0.25);
+  run.lab.seed = seed;
+  run.lab.is_logical = random.chance(0.25);
   // Logical time is for one machine.
-  run.transport = !run.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
+  run.lab.transport = !run.lab.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
   FaultPlanSettings plan{.kinds = settings_.kinds,
-                         .last = run.is_logical ? kLastLogicalFault : kLastFault};
+                         .last = run.lab.is_logical ? kLastLogicalFault : kLastFault};
   for (const ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
     plan.vehicle_ids.push_back(vehicle.id.value);
   }
@@ -89,8 +89,8 @@ Shrunk FaultCampaign::shrink(std::uint64_t seed) const {
 std::string describe(const FaultCase& the_case) {
   std::string text = "seed " + std::to_string(the_case.seed) + ": " + the_case.scenario.name +
                      ", " + std::to_string(the_case.scenario.vehicles.size()) + " cars, " +
-                     (the_case.run.is_logical ? "logical" : "real") + " time, endpoints of " +
-                     (the_case.run.transport == Transport::kLab ? "the lab" : "loopback") + "\n";
+                     (the_case.run.lab.is_logical ? "logical" : "real") + " time, endpoints of " +
+                     (the_case.run.lab.transport == Transport::kLab ? "the lab" : "loopback") + "\n";
   for (const Fault& fault : the_case.run.faults) text += "  " + to_string(fault) + "\n";
   return text;
 }

@@ -52,13 +52,12 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
         const double gap_m =
             distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
         smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
-        if (gap_m > 0.0) continue;
+        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second) continue;
         violations.push_back({.at = at,
                               .check = "footprints",
                               .text = "vehicles " + std::to_string(a->first) + " and " +
                                       std::to_string(b->first) + " touch in tick " +
                                       std::to_string(*next_)});
-        return;
       }
     }
   }
@@ -66,35 +65,60 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
 
 // --- plans --------------------------------------------------------------------------------------
 
-void PlansCheck::changed(VehicleId vehicle, OccupiedAreas areas, Nanoseconds at,
-                         Violations& violations) {
-  for (const auto& [other, others] : plans_) {
-    if (other == vehicle) continue;
+void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
+  const VehicleId vehicle = report.vehicle;
+  if (report.reason == FallbackReason::kDeviation) in_force_.erase(vehicle);
+  const auto predicted = predicted_.find(vehicle);
+  if (report.status != StepStatus::kPlanned || predicted == predicted_.end() ||
+      predicted->second.step != report.step) {
+    return;
+  }
+  OccupiedAreas& areas = in_force_[vehicle];
+  areas = std::move(predicted->second.areas);
+  predicted_.erase(predicted);
+  for (const auto& [other, others] : in_force_) {
     const StepIndex from = std::max(areas.first, others.first);
-    if (are_free(areas, others, from, steps_)) continue;
-    if (std::exchange(is_told_[std::minmax(vehicle, other)], true)) continue;
+    if (other == vehicle || are_free(areas, others, from, steps_)) continue;
+    if (!met_.insert(std::minmax(vehicle, other)).second) continue;
     violations.push_back({.at = at,
                           .check = "plans",
                           .text = "plans in force of vehicles " + std::to_string(other.value) +
                                   " and " + std::to_string(vehicle.value) + " meet from step " +
                                   std::to_string(from.value) + " on"});
   }
-  plans_[vehicle] = std::move(areas);
 }
 
-// --- ends ---------------------------------------------------------------------------------------
+// --- reasons ------------------------------------------------------------------------------------
 
-void EndsCheck::log(const std::string& process, const machine::LogLine& line) {
-  if (line.severity != machine::Severity::kInfo) ++complaints_[process];
+void ReasonsCheck::log(const std::string& process, const machine::LogLine& line, Nanoseconds at) {
+  Lines& lines = lines_[process];
+  lines.last = at;
+  if (line.severity != machine::Severity::kInfo) lines.has_complained = true;
 }
 
-void EndsCheck::ended(const std::string& process, int exit_code, Nanoseconds at,
-                      Violations& violations) {
-  if (exit_code == kExitGood || exit_code == kExitInterrupted || complaints_[process] > 0) return;
+void ReasonsCheck::driven(const std::string& vehicle, bool follows, Nanoseconds at) {
+  Lines& lines = lines_[vehicle];
+  if (lines.follows && !follows) lines.stopped = at;
+  lines.follows = follows;
+}
+
+void ReasonsCheck::ended(const std::string& process, int exit_code, Nanoseconds at,
+                         Violations& violations) {
+  const Lines& lines = lines_[process];
+  if (exit_code == kExitGood || exit_code == kExitInterrupted || lines.has_complained) return;
   violations.push_back({.at = at,
-                        .check = "ends",
+                        .check = "reasons",
                         .text = process + " ended with code " + std::to_string(exit_code) +
-                                " and did not say why"});
+                                " and did not log why"});
+}
+
+void ReasonsCheck::judge(Nanoseconds at, Violations& violations) {
+  for (auto& [process, lines] : lines_) {
+    const auto stopped = std::exchange(lines.stopped, std::nullopt);
+    if (!stopped || (lines.last && *lines.last >= *stopped)) continue;
+    violations.push_back(
+        {.at = at, .check = "reasons", .text = process + " stopped and did not log why"});
+  }
 }
 
 // --- planning -----------------------------------------------------------------------------------

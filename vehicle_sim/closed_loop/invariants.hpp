@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hlc_bridge/machine/log_line.hpp"
@@ -19,7 +21,7 @@ namespace hlc::closed_loop {
 /// Something that must not be.
 struct Violation {
   Nanoseconds at{};   ///< true time since the begin of the run
-  std::string check;  ///< "footprints", "plans", "waits", "ends", "planning"
+  std::string check;  ///< "footprints", "plans", "waits", "reasons", "planning"
   std::string text;   ///< one line
 };
 using Violations = std::vector<Violation>;
@@ -54,33 +56,54 @@ class FootprintsCheck {
   double circumradius_m_;
   std::map<std::uint8_t, Car> cars_;
   std::optional<std::uint64_t> next_;  ///< tick to be judged
+  std::set<std::pair<std::uint8_t, std::uint8_t>> touched_;
   double smallest_distance_m_{1e9};
 };
 
-/// Plans in force (with margin) are free of each other pair by pair, from the present step until
-/// both stand, whenever one of them changes. A plan stays in force when its controller is gone,
-/// since the vehicle drives it to its end, until the next controller has one.
+/// Plans in force are free of each other pair by pair, until both stand, whenever one of them
+/// changes. A plan is what its vehicle has told the others of it (Prediction::areas, with margin and
+/// predicted drift), since that is what they keep clear of: the step under way has been told before.
+/// It comes into force with a report `planned`, and stays when its controller is gone, until the
+/// next controller has one.
+///
+/// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives what
+/// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew.
 class PlansCheck {
  public:
-  explicit PlansCheck(std::size_t horizon_steps) : steps_(horizon_steps + 2) {}
+  explicit PlansCheck(std::size_t horizon_steps) : steps_(horizon_steps + 1) {}
 
-  void changed(VehicleId vehicle, OccupiedAreas areas, Nanoseconds at, Violations& violations);
+  void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
+  void reported(const Report& report, Nanoseconds at, Violations& violations);
 
  private:
+  using Pair = std::pair<VehicleId, VehicleId>;
+
   std::size_t steps_;
-  std::map<VehicleId, OccupiedAreas> plans_;
-  std::map<std::pair<VehicleId, VehicleId>, bool> is_told_;
+  std::map<VehicleId, Prediction> predicted_;
+  std::map<VehicleId, OccupiedAreas> in_force_;
+  std::set<Pair> met_;
 };
 
-/// Whoever ends with a code that is not good has said why: a warning or an error in its log.
-class EndsCheck {
+/// Whoever stops has said why: a process that ends with a code that is not good, in a warning or an
+/// error of its log; a vehicle that follows no command any more, in a line of its log.
+class ReasonsCheck {
  public:
-  void log(const std::string& process, const machine::LogLine& line);
+  void started(const std::string& process) { lines_[process] = {}; }
+  void log(const std::string& process, const machine::LogLine& line, Nanoseconds at);
+  /// One tick of a vehicle.
+  void driven(const std::string& vehicle, bool follows, Nanoseconds at);
   void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
-  void started(const std::string& process) { complaints_[process] = 0; }
+  /// To be called between two turns, so that lines of a turn are known when its ticks are judged.
+  void judge(Nanoseconds at, Violations& violations);
 
  private:
-  std::map<std::string, int> complaints_;
+  struct Lines {
+    bool has_complained{};  ///< in a warning or an error
+    std::optional<Nanoseconds> last;
+    bool follows{};
+    std::optional<Nanoseconds> stopped;  ///< and has not been judged yet
+  };
+  std::map<std::string, Lines> lines_;
 };
 
 /// Within 5 s after the last fault everybody who can plan has planned something new. Who cannot:

@@ -19,10 +19,6 @@
 #include "vehicle_sim/closed_loop/simulated_clock.hpp"
 #include "vehicle_sim/closed_loop/simulated_network.hpp"
 
-namespace hlc {
-class Controller;
-}
-
 namespace hlc::closed_loop {
 
 /// What somebody who looks on learns from the processes of a run.
@@ -32,8 +28,8 @@ class RunObserver {
   virtual void on_log(NodeId node, const machine::LogLine& line) = 0;
   /// @param time  of the sample, true in real time, of the run in logical time
   virtual void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) = 0;
-  /// The controller has ended a step of the experiment, and its command is published.
-  virtual void on_step(const Controller& controller) = 0;
+  /// A controller tells what it has planned; whether that comes into force says its report.
+  virtual void on_prediction(const Prediction& prediction) = 0;
   virtual void on_report(NodeId node, const ReportRecord& record) = 0;
   virtual void on_command(NodeId node, const TrajectoryCommand& command) = 0;
 };
