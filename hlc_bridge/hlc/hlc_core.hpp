@@ -28,7 +28,7 @@ struct AnswerToList {
 /// the experiment begins, and how a plan becomes commands. Between `begins` and `answer` the owner
 /// takes the controller through the phases of its step and exchanges the messages.
 ///
-///     problem_with → observe → note → begins ─yes─► phases of controller() ─► answer
+///     validate → observe → note → begins ─yes─► phases of controller() ─► answer
 ///                                        └────no──► controller().stand_by ─► answer
 class HlcCore {
  public:
@@ -39,7 +39,7 @@ class HlcCore {
 
   /// What is wrong with the list's period, in one line; empty if nothing is. Such a list must not
   /// be used.
-  [[nodiscard]] std::string problem_with(const VehicleStateList& list) const;
+  [[nodiscard]] std::string validate(const VehicleStateList& list) const;
 
   /// What the list tells; nothing if its step was observed before: each step is done once.
   /// @pre nothing is wrong with the list
@@ -75,7 +75,7 @@ class HlcCore {
   [[nodiscard]] AnswerToList answer(const VehicleStateList& list);
 
  private:
-  [[nodiscard]] std::string fault_of(const AnswerToList& answer) const;
+  [[nodiscard]] std::string validate(const AnswerToList& answer) const;
   [[nodiscard]] bool have_all_settled(const Observation& observation) const;
   [[nodiscard]] bool has_settled(VehicleId vehicle) const;
   [[nodiscard]] const MeasuredVehicle* own(const Observation& observation) const;

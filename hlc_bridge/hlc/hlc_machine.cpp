@@ -124,7 +124,7 @@ bool HlcMachine::take_list(const Instant& now) {
   current_ = {.list = std::move(lists_.front())};
   lists_.pop_front();
   life_.receive_list(now.wall);
-  if (const std::string problem = core_.problem_with(current_.list); !problem.empty()) {
+  if (const std::string problem = core_.validate(current_.list); !problem.empty()) {
     actions_.error(problem);
     current_.patience = now.wall + kStopRequestWait;
     phase_ = Phase::kRefusing;

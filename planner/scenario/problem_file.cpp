@@ -8,6 +8,7 @@
 #include "planner/common/atomic_write.hpp"
 #include "planner/common/json_reader.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/search_options.hpp"
@@ -195,9 +196,9 @@ SearchOptions read_search(const JsonPlace& place, const Subgraph& subgraph) {
   SearchOptions search;
   if (const auto engine = place.find("engine")) {
     try {
-      search.engine = engine_from_name(engine->text(kEngineNames));
+      choose_engine(engine->text(kEngineChoices), search);
     } catch (const std::invalid_argument&) {
-      engine->fail(kEngineNames);
+      engine->fail(kEngineChoices);
     }
   }
   if (const auto cost_to_go = place.find("cost_to_go")) {
@@ -315,7 +316,7 @@ std::string to_text(const ProblemFile& file) {
         }));
   }
   add("search",
-      std::string("{\"engine\": \"") + to_string(file.search.engine) + "\", \"cost_to_go\": \"" +
+      std::string("{\"engine\": \"") + engine_name(file.search) + "\", \"cost_to_go\": \"" +
           to_string(file.search.cost_to_go) +
           "\", \"max_expansions\": " + std::to_string(file.search.max_expansions) +
           (file.search.criterion_weights.empty()
@@ -375,9 +376,10 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
 
 void check_can_be_searched(const ProblemFile& file) {
   check_search_options(file.search);
-  if (file.search.cost_to_go == CostToGo::k2022 && file.problem.reference_speed_mps.empty()) {
+  if (needs_reference_speeds(file.search.cost_to_go) && file.problem.reference_speed_mps.empty()) {
     throw std::invalid_argument(
-        "reference_speed is missing, allowed one per step: the cost-to-go 2022 needs them");
+        std::string("reference_speed is missing, allowed one per step: the cost-to-go ") +
+        to_string(file.search.cost_to_go) + " needs them");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "planner/policy/speed_zones.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/route.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/policy_file.hpp"
@@ -196,13 +197,13 @@ SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
                                  between(1.0, static_cast<double>(SearchOptions::kMostExpansions)));
   if (const auto name = node.optional<std::string>("engine", ""); node.has("engine")) {
     try {
-      search.engine = engine_from_name(name);
+      choose_engine(name, search);
     } catch (const std::invalid_argument&) {
-      node.fail("engine", kEngineNames);
+      node.fail("engine", kEngineChoices);
     }
   }
   try {
-    if (choices.engine) search.engine = engine_from_name(*choices.engine);
+    if (choices.engine) choose_engine(*choices.engine, search);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("--") + error.what());
   }
@@ -212,7 +213,8 @@ SearchOptions read_search(const YamlNode& node, const ScenarioChoices& choices,
     if (choices.engine) {
       throw std::invalid_argument(
           "--engine = " + *choices.engine + " with profile " + profile.name +
-          ", allowed best_first: the profile's cost-to-go is " + to_string(search.cost_to_go));
+          ", allowed best_first or ompl_best_first: the profile's cost-to-go is " +
+          to_string(search.cost_to_go));
     }
     node.fail("engine", "with profile " + profile.name + ": " + error.what());
   }

@@ -128,7 +128,7 @@ TEST(Controller, WarmingUpEndsWhereASearchIsLong) {
 
 TEST(Controller, WithTheCostToGoOf2022ThereIsNoIncumbent) {
   ControllerOptions options{.vehicle = {1}};
-  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::k2022};
+  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::kReferenceSpeed};
   Controller one(options, subgraph(), ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false),
                  Corridor{});
   static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));

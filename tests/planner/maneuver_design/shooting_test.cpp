@@ -1,4 +1,4 @@
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/maneuver_design/solver/held.hpp"
+#include "planner/maneuver_design/solver/active_bounds.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kAt = 1e-9;  // closer than this to a bound is at it
 
-bool reaches_a_state_bound(const Transcription& transcription, const Channel& channel, bool told,
+bool reaches_a_state_bound(const Transcription& transcription, const Channel& channel,
                            const Eigen::VectorXd& z) {
-  return told && transcription.state_bounds(channel, z).value.maxCoeff() > -kAt * channel.scale();
+  return transcription.state_bounds(channel, z).value.maxCoeff() > -kAt * channel.scale();
 }
 
 /// Slope by which the end condition of a channel explains those of its variables: theirs between
@@ -42,32 +42,32 @@ double end_slope(const Eigen::VectorXd& values, const Eigen::VectorXd& slopes) {
 
 }  // namespace
 
-std::vector<Eigen::Index> open_variables(const Transcription& transcription, const Told& told,
-                                         const Eigen::VectorXd& z,
+std::vector<Eigen::Index> free_variables(const Transcription& transcription,
+                                         const ConstraintSet& constraints, const Eigen::VectorXd& z,
                                          const Eigen::VectorXd& gradient) {
   const DecisionVariables& variables = transcription.variables();
-  std::vector<Eigen::Index> open;
+  std::vector<Eigen::Index> free;
   for (const Channel& channel :
        {speed_channel(transcription.problem()), steering_channel(transcription.problem())}) {
     const Eigen::VectorXd values = variables.of(channel, z);
     const Eigen::VectorXd slopes = variables.of(channel, gradient);
-    const bool is_told = channel.index == 0 ? told.speed : told.steering;
-    const bool all_open = reaches_a_state_bound(transcription, channel, is_told, z);
+    const bool has_state_bounds = channel.index == 0 ? constraints.speed : constraints.steering;
+    const bool all_free = has_state_bounds && reaches_a_state_bound(transcription, channel, z);
     const double end = end_slope(values, slopes);
     const double clearly = 1e-3 * slopes.lpNorm<Eigen::Infinity>();
     for (Eigen::Index k = 0; k < values.size(); ++k) {
-      const bool is_held = (values(k) > 1.0 - kAt && slopes(k) < end - clearly) ||
-                           (values(k) < -1.0 + kAt && slopes(k) > end + clearly);
-      if (all_open || !is_held) {
-        open.push_back(2 * k + channel.index);
+      const bool is_active = (values(k) > 1.0 - kAt && slopes(k) < end - clearly) ||
+                             (values(k) < -1.0 + kAt && slopes(k) > end + clearly);
+      if (all_free || !is_active) {
+        free.push_back(2 * k + channel.index);
       }
     }
   }
-  std::sort(open.begin(), open.end());
+  std::sort(free.begin(), free.end());
   if (variables.has_tau()) {
-    open.push_back(variables.size() - 1);
+    free.push_back(variables.size() - 1);
   }
-  return open;
+  return free;
 }
 
 }  // namespace hlc
