@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/coordination/missing.hpp"
 #include "planner/coordination/report.hpp"
 #include "planner/coordination/settle.hpp"
 #include "planner/geometry/polygon.hpp"
@@ -65,21 +66,31 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
 
 // --- plans --------------------------------------------------------------------------------------
 
+bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
+  return now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
+}
+
 void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
   const VehicleId vehicle = report.vehicle;
   if (report.reason == FallbackReason::kDeviation) in_force_.erase(vehicle);
+  const auto before = in_force_.find(vehicle);
+  if (before != in_force_.end()) before->second.last_report = report.step;
   const auto predicted = predicted_.find(vehicle);
   if (report.status != StepStatus::kPlanned || predicted == predicted_.end() ||
       predicted->second.step != report.step) {
     return;
   }
-  OccupiedAreas& areas = in_force_[vehicle];
+  OccupiedAreas& areas = in_force_[vehicle].areas;
+  in_force_[vehicle].last_report = report.step;
   areas = std::move(predicted->second.areas);
   predicted_.erase(predicted);
-  for (const auto& [other, others] : in_force_) {
-    const StepIndex from = std::max(areas.first, others.first);
-    if (other == vehicle || are_free(areas, others, from, steps_)) continue;
-    if (!met_.insert(std::minmax(vehicle, other)).second) continue;
+  for (const auto& [other, plan] : in_force_) {
+    const StepIndex from = std::max(areas.first, plan.areas.first);
+    if (other == vehicle || has_run_out(plan, report.step) ||
+        are_free(areas, plan.areas, from, horizon_steps_ + 1) ||
+        !met_.insert(std::minmax(vehicle, other)).second) {
+      continue;
+    }
     violations.push_back({.at = at,
                           .check = "plans",
                           .text = "plans in force of vehicles " + std::to_string(other.value) +
@@ -129,6 +140,7 @@ void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
       std::string(to_string(report.status)) + ", " + to_string(report.reason);
   if (at < calm_from_) return;
   const bool cannot = report.reason == FallbackReason::kInfeasible ||
+                      report.reason == FallbackReason::kConflict ||
                       report.reason == FallbackReason::kBudget ||
                       report.reason == FallbackReason::kOffRoute ||
                       report.status == StepStatus::kDriveOut;

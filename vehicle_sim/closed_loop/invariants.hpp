@@ -66,11 +66,14 @@ class FootprintsCheck {
 /// It comes into force with a report `planned`, and stays when its controller is gone, until the
 /// next controller has one.
 ///
+/// Who has reported nothing for horizon + 1 + kSilentSteps steps has run out of every plan that it can
+/// have agreed to, and counts with where it stands for the others (stands_for_good in missing.hpp).
+///
 /// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives what
 /// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew.
 class PlansCheck {
  public:
-  explicit PlansCheck(std::size_t horizon_steps) : steps_(horizon_steps + 1) {}
+  explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
 
   void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
   void reported(const Report& report, Nanoseconds at, Violations& violations);
@@ -78,9 +81,15 @@ class PlansCheck {
  private:
   using Pair = std::pair<VehicleId, VehicleId>;
 
-  std::size_t steps_;
+  struct InForce {
+    OccupiedAreas areas;
+    StepIndex last_report;
+  };
+  [[nodiscard]] bool has_run_out(const InForce& plan, StepIndex now) const;
+
+  std::size_t horizon_steps_;
   std::map<VehicleId, Prediction> predicted_;
-  std::map<VehicleId, OccupiedAreas> in_force_;
+  std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;
 };
 
@@ -108,7 +117,10 @@ class ReasonsCheck {
 
 /// Within 5 s after the last fault everybody who can plan has planned something new. Who cannot:
 /// who has ended, whose search found that there is no way (kInfeasible, kBudget), whose vehicle
-/// fits no route (kOffRoute), who is told to drive out.
+/// fits no route (kOffRoute), who is told to drive out; and whose plan meets another one
+/// (kConflict): it has heard everybody and is boxed in, as cars on a circle that all want through
+/// its centre are without any fault. What is judged is that nobody is left who is missing, late,
+/// not seen, or silent.
 class PlanningCheck {
  public:
   static constexpr Nanoseconds kPatience = 5 * kNanosecondsPerSecond;
