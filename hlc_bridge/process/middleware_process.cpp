@@ -8,7 +8,7 @@
 #include "hlc_bridge/dds/topics.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/log.hpp"
-#include "hlc_bridge/process/pacing.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 
 namespace hlc {
 namespace {

@@ -88,7 +88,7 @@ const std::map<std::string, Names> kArrows{
      {"hlc_bridge/messages", "hlc_bridge/result", "vehicle_sim/closed_loop", "vehicle_sim/vehicle",
       "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
     {"vehicle_sim/apps",
-     {"vehicle_sim", "hlc_bridge/process/shell.hpp", "hlc_bridge/process/pacing.hpp",
+     {"vehicle_sim", "hlc_bridge/process/shell.hpp",
       "hlc_bridge/process/log.hpp", "hlc_bridge/dds", "hlc_bridge/machine", "hlc_bridge/time",
       "hlc_bridge/messages",
       "hlc_bridge/result", "hlc_bridge/record", "hlc_bridge/apps", "planner"}},
