@@ -1,16 +1,15 @@
-#include "hlc_bridge/process/lab_control_watch.hpp"
+#include "hlc_bridge/machine/lab_control_watch.hpp"
 
 #include <gtest/gtest.h>
 
-namespace hlc::lab_control_watch_test {
+namespace hlc::machine {
 namespace {
 
 using Change = LabControlWatch::Change;
-using std::chrono::milliseconds;
 
-constexpr LabControlWatch::Clock::time_point kStart{std::chrono::hours{1}};
+constexpr Nanoseconds kStart = 3600 * kNanosecondsPerSecond;
 constexpr auto kGap = LabControlWatch::kGap;
-constexpr std::chrono::nanoseconds kPatience{kControllerStays};
+constexpr Nanoseconds kPatience = kControllerStays;
 
 TEST(LabControlWatch, WhoWasNeverThereIsNotLost) {
   LabControlWatch watch;
@@ -26,7 +25,7 @@ TEST(LabControlWatch, IsLostWithItsName) {
   EXPECT_TRUE(watch.is_lost());
   EXPECT_EQ(watch.look(true, 0, kStart + kPatience), Change::kNone);
   EXPECT_FALSE(watch.is_lost_for_good(kStart + kPatience));
-  EXPECT_TRUE(watch.is_lost_for_good(kStart + kPatience + milliseconds{1}));
+  EXPECT_TRUE(watch.is_lost_for_good(kStart + kPatience + kNanosecondsPerMillisecond));
 }
 
 TEST(LabControlWatch, IsLostWithTheLastReaderOfStopRequests) {
@@ -35,7 +34,7 @@ TEST(LabControlWatch, IsLostWithTheLastReaderOfStopRequests) {
   EXPECT_EQ(watch.look(false, 1, kStart + kPatience), Change::kNone);
   const auto gone = kStart + 2 * kPatience;
   EXPECT_EQ(watch.look(false, 0, gone), Change::kNone);
-  EXPECT_EQ(watch.look(false, 0, gone + kGap - milliseconds{1}), Change::kNone);
+  EXPECT_EQ(watch.look(false, 0, gone + kGap - kNanosecondsPerMillisecond), Change::kNone);
   EXPECT_EQ(watch.look(false, 0, gone + kGap), Change::kLost);
 }
 
@@ -60,5 +59,30 @@ TEST(LabControlWatch, WhoIsBackIsWaitedForAnewTheNextTime) {
   EXPECT_FALSE(watch.is_lost_for_good(again + kPatience));
 }
 
+TEST(LabControlWatch, WakesUpWhenTimeAloneChangesIt) {
+  LabControlWatch watch;
+  EXPECT_EQ(watch.wake_up(), std::nullopt);
+  static_cast<void>(watch.look(false, 1, kStart));
+  static_cast<void>(watch.look(false, 0, kStart));
+  ASSERT_EQ(watch.wake_up(), kStart + kGap);
+  EXPECT_EQ(watch.look(false, 0, *watch.wake_up()), Change::kLost);
+  EXPECT_TRUE(watch.is_lost_for_good(watch.wake_up().value()));
+}
+
+TEST(LabControlGrace, IsOverOnceTheLabControlIsLostForAllOfIt) {
+  LabControlGrace grace(100);
+  EXPECT_FALSE(grace.is_over(true, 1000));
+  EXPECT_FALSE(grace.is_over(false, 1050));
+  EXPECT_FALSE(grace.is_over(true, 1060));
+  EXPECT_FALSE(grace.is_over(true, 1159));
+  EXPECT_TRUE(grace.is_over(true, 1160));
+}
+
+TEST(LabControlGrace, OfNothingIsOverAtOnce) {
+  LabControlGrace grace(0);
+  EXPECT_FALSE(grace.is_over(false, 5));
+  EXPECT_TRUE(grace.is_over(true, 5));
+}
+
 }  // namespace
-}  // namespace hlc::lab_control_watch_test
+}  // namespace hlc::machine
