@@ -7,7 +7,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "planner/coordination/missing.hpp"
 #include "planner/coordination/report.hpp"
-#include "planner/coordination/settle.hpp"
+#include "planner/coordination/commit.hpp"
 #include "planner/geometry/polygon.hpp"
 
 namespace hlc::closed_loop {
