@@ -1,3 +1,4 @@
+#include "hlc_bridge/messages/time_grid.hpp"
 #include "vehicle_sim/closed_loop/simulated_clock.hpp"
 
 #include <gtest/gtest.h>
@@ -8,23 +9,21 @@
 namespace hlc::closed_loop {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 TEST(SimulatedClock, ShowsTheTimeThatHasPassedAtItsOwnRate) {
-  const SimulatedClock clock(10 * kSecond, 500, 20'000);  // 20 us gained in a second
-  EXPECT_EQ(clock.at(10 * kSecond), 500U);
-  EXPECT_EQ(clock.at(11 * kSecond), 500U + kSecond + 20'000U);
-  const SimulatedClock slow(10 * kSecond, 500, -20'000);
-  EXPECT_EQ(slow.at(12 * kSecond), 500U + 2 * kSecond - 40'000U);
+  const SimulatedClock clock(10 * kNanosecondsPerSecond, 500, 20'000);  // 20 us gained in a second
+  EXPECT_EQ(clock.at(10 * kNanosecondsPerSecond), 500U);
+  EXPECT_EQ(clock.at(11 * kNanosecondsPerSecond), 500U + kNanosecondsPerSecond + 20'000U);
+  const SimulatedClock slow(10 * kNanosecondsPerSecond, 500, -20'000);
+  EXPECT_EQ(slow.at(12 * kNanosecondsPerSecond), 500U + 2 * kNanosecondsPerSecond - 40'000U);
 }
 
 TEST(SimulatedClock, SaysTheFirstTrueTimeAtWhichItShowsSomething) {
   SeededRandom random(1);
   for (int i = 0; i < 1000; ++i) {
-    const Nanoseconds now = random.between(kSecond, 100 * kSecond);
+    const Nanoseconds now = random.between(kNanosecondsPerSecond, 100 * kNanosecondsPerSecond);
     const auto drift = static_cast<std::int64_t>(random.below(4'000'000)) - 2'000'000;
-    const SimulatedClock clock(now, random.between(0, 100 * kSecond), drift);
-    const Nanoseconds local = clock.at(now) + random.below(10 * kSecond);
+    const SimulatedClock clock(now, random.between(0, 100 * kNanosecondsPerSecond), drift);
+    const Nanoseconds local = clock.at(now) + random.below(10 * kNanosecondsPerSecond);
     const Nanoseconds then = clock.when(local, now);
     EXPECT_GE(clock.at(then), local);
     if (then > now) {
@@ -34,16 +33,17 @@ TEST(SimulatedClock, SaysTheFirstTrueTimeAtWhichItShowsSomething) {
 }
 
 TEST(SimulatedClock, WhatItShowsAlreadyIsNow) {
-  const SimulatedClock clock(kSecond, kSecond, 0);
-  EXPECT_EQ(clock.when(kSecond / 2, 3 * kSecond), 3 * kSecond);
+  const SimulatedClock clock(kNanosecondsPerSecond, kNanosecondsPerSecond, 0);
+  EXPECT_EQ(clock.when(kNanosecondsPerSecond / 2, 3 * kNanosecondsPerSecond),
+            3 * kNanosecondsPerSecond);
 }
 
 TEST(SimulatedClock, CanBeSetBackAndGoesOnFromThere) {
-  SimulatedClock clock(kSecond, 5 * kSecond, 0);
-  clock.step(2 * kSecond, -1'000);
-  EXPECT_EQ(clock.at(2 * kSecond), 6 * kSecond - 1'000);
-  clock.set_drift(3 * kSecond, 1'000'000);
-  EXPECT_EQ(clock.at(4 * kSecond), 8 * kSecond - 1'000 + 1'000'000);
+  SimulatedClock clock(kNanosecondsPerSecond, 5 * kNanosecondsPerSecond, 0);
+  clock.step(2 * kNanosecondsPerSecond, -1'000);
+  EXPECT_EQ(clock.at(2 * kNanosecondsPerSecond), 6 * kNanosecondsPerSecond - 1'000);
+  clock.set_drift(3 * kNanosecondsPerSecond, 1'000'000);
+  EXPECT_EQ(clock.at(4 * kNanosecondsPerSecond), 8 * kNanosecondsPerSecond - 1'000 + 1'000'000);
 }
 
 TEST(EventQueue, OfOneTimeWhatWasPlannedFirstComesFirst) {

@@ -9,7 +9,6 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr Nanoseconds kMilli = kNanosecondsPerMillisecond;
-constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
 
 /// Two processes: one writes vehicle states, triggers and run states, the other one reads them.
 class Network : public testing::Test {
@@ -20,18 +19,16 @@ class Network : public testing::Test {
     network_ = SimulatedNetwork(queue_, {.seed = 3, .transport = transport});
   }
   NodeId join_writer(const std::string& name = "writer") {
-    return network_.join({.name = name,
-                          .writes = {{TopicId::kVehicleState, 1},
-                                     {TopicId::kSystemTrigger},
-                                     {TopicId::kRunState}},
-                          .reads = {}});
+    return network_.join(
+        {.name = name,
+         .writes = {{TopicId::kVehicleState, 1}, {TopicId::kSystemTrigger}, {TopicId::kRunState}},
+         .reads = {}});
   }
   NodeId join_reader() {
-    return network_.join({.name = "reader",
-                          .writes = {},
-                          .reads = {{TopicId::kVehicleState, 1},
-                                    {TopicId::kSystemTrigger},
-                                    {TopicId::kRunState}}});
+    return network_.join(
+        {.name = "reader",
+         .writes = {},
+         .reads = {{TopicId::kVehicleState, 1}, {TopicId::kSystemTrigger}, {TopicId::kRunState}}});
   }
   /// Lets time pass; what arrives is kept by topic of the reader.
   void pass(Nanoseconds time) {
@@ -56,7 +53,7 @@ class Network : public testing::Test {
     return network_.participants(node, Domain::kLab).alive.contains(name);
   }
 
-  EventQueue queue_{kSecond};
+  EventQueue queue_{kNanosecondsPerSecond};
   SimulatedNetwork network_{queue_, {.seed = 3}};
   std::vector<std::size_t> arrived_;
   std::vector<Nanoseconds> triggers_;
@@ -67,7 +64,7 @@ TEST_F(Network, OnlyWhoSeesEachOtherHearsEachOther) {
   const NodeId reader = join_reader();
   network_.publish(writer, kStates, VehicleState{});
   EXPECT_TRUE(network_.readers(writer, kStates).empty());
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   EXPECT_EQ(num_arrived(kStates), 0);
   EXPECT_TRUE(network_.readers(writer, kStates).contains("reader"));
   EXPECT_TRUE(network_.writers(reader, kStates).contains("writer"));
@@ -81,7 +78,7 @@ TEST_F(Network, ALateReaderGetsWhatIsKeptForIt) {
   network_.publish(writer, kRunStates, RunState{});
   network_.publish(writer, kTriggers, SystemTrigger{.next_start = 1});
   join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   EXPECT_EQ(num_arrived(kRunStates), 1);
   EXPECT_EQ(num_arrived(kTriggers), 0);
 }
@@ -90,26 +87,26 @@ TEST_F(Network, WhoIsKilledIsMissedWhenItsLeaseHasRunOutAndWhoLeavesAtOnce) {
   const NodeId killed = join_writer("killed");
   const NodeId leaving = join_writer("leaving");
   const NodeId reader = join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   network_.vanish(killed);
   network_.leave(leaving);
   pass(10 * kMilli);
   EXPECT_TRUE(sees(reader, "killed"));
   EXPECT_FALSE(sees(reader, "leaving"));
   EXPECT_TRUE(network_.participants(reader, Domain::kLab).lost.contains("leaving"));
-  pass(2 * kSecond);
+  pass(2 * kNanosecondsPerSecond);
   EXPECT_FALSE(sees(reader, "killed"));
 }
 
 TEST_F(Network, ANameIsThereAsLongAsOneOfThoseThatBearItIs) {
   const NodeId first = join_writer("name");
   const NodeId reader = join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   network_.vanish(first);
   join_writer("name");
-  pass(kSecond / 2);
+  pass(kNanosecondsPerSecond / 2);
   EXPECT_TRUE(sees(reader, "name"));
-  pass(3 * kSecond);
+  pass(3 * kNanosecondsPerSecond);
   EXPECT_TRUE(sees(reader, "name"));
 }
 
@@ -117,13 +114,13 @@ TEST_F(Network, AShortCutDelaysWhatIsReliableAndLosesTheRest) {
   use(Transport::kLab);
   const NodeId writer = join_writer();
   const NodeId reader = join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   const Cut cut{.from = "writer", .to = "reader"};
   network_.add(cut);
   network_.publish(writer, kStates, VehicleState{});
   network_.publish(writer, kTriggers, SystemTrigger{.next_start = 1});
   network_.publish(writer, kTriggers, SystemTrigger{.next_start = 2});
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   EXPECT_EQ(num_arrived(kTriggers), 0);
   EXPECT_TRUE(sees(reader, "writer"));
   network_.remove(cut);
@@ -135,15 +132,15 @@ TEST_F(Network, AShortCutDelaysWhatIsReliableAndLosesTheRest) {
 TEST_F(Network, ACutThatLastsLongerThanTheLeaseLosesThemAndThenTheyFindEachOtherAgain) {
   const NodeId writer = join_writer();
   const NodeId reader = join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   const Cut cut{.from = "writer", .to = ""};
   network_.add(cut);
-  pass(2 * kSecond + 10 * kMilli);
+  pass(2 * kNanosecondsPerSecond + 10 * kMilli);
   EXPECT_FALSE(sees(reader, "writer"));
   EXPECT_TRUE(sees(writer, "reader"));  // one way only
   network_.publish(writer, kTriggers, SystemTrigger{.next_start = 1});
   network_.remove(cut);
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   EXPECT_TRUE(sees(reader, "writer"));
   EXPECT_EQ(triggers_, std::vector<Nanoseconds>{1});  // its writer saw the reader all the time
 }
@@ -151,18 +148,18 @@ TEST_F(Network, ACutThatLastsLongerThanTheLeaseLosesThemAndThenTheyFindEachOther
 TEST_F(Network, ReliableTopicsKeepTheirOrderUnlessItIsDisturbed) {
   const NodeId writer = join_writer();
   join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   const Disturbance delay{.lost = 0.5, .delay = 100 * kMilli};
   network_.add(delay);
   for (Nanoseconds i = 0; i < 100; ++i) network_.publish(writer, kTriggers, SystemTrigger{i});
-  pass(2 * kSecond);
+  pass(2 * kNanosecondsPerSecond);
   EXPECT_EQ(triggers_.size(), 100U);
   EXPECT_TRUE(std::ranges::is_sorted(triggers_));
   network_.remove(delay);
   network_.add(Disturbance{.overtaken = 0.5, .overtake_delay = 100 * kMilli});
   triggers_.clear();
   for (Nanoseconds i = 0; i < 100; ++i) network_.publish(writer, kTriggers, SystemTrigger{i});
-  pass(2 * kSecond);
+  pass(2 * kNanosecondsPerSecond);
   EXPECT_EQ(triggers_.size(), 100U);
   EXPECT_FALSE(std::ranges::is_sorted(triggers_));
 }
@@ -171,7 +168,7 @@ TEST_F(Network, WhatIsLostOrRepeatedIsAShareOfAll) {
   use(Transport::kLab);
   const NodeId writer = join_writer();
   join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   const auto share = [&](const Disturbance& disturbance, Topics topic) {
     arrived_.clear();
     network_.add(disturbance);
@@ -180,7 +177,7 @@ TEST_F(Network, WhatIsLostOrRepeatedIsAShareOfAll) {
       if (topic == kTriggers) network_.publish(writer, topic, SystemTrigger{});
     }
     network_.remove(disturbance);
-    pass(kSecond);
+    pass(kNanosecondsPerSecond);
     return static_cast<double>(num_arrived(topic)) / 1000.0;
   };
   EXPECT_NEAR(share({.lost = 0.3}, kStates), 0.7, 0.05);
@@ -193,12 +190,12 @@ TEST_F(Network, WhatIsLostOrRepeatedIsAShareOfAll) {
 TEST_F(Network, WhoStandsStillShowsNoSignOfLifeAndMissesSomeWhenItGoesOn) {
   const NodeId writer = join_writer();
   const NodeId reader = join_reader();
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   network_.freeze(writer);
-  pass(3 * kSecond);
+  pass(3 * kNanosecondsPerSecond);
   EXPECT_FALSE(sees(reader, "writer"));
   network_.thaw(writer);
-  pass(kSecond);
+  pass(kNanosecondsPerSecond);
   EXPECT_TRUE(sees(reader, "writer"));
   EXPECT_TRUE(sees(writer, "reader"));
 }
