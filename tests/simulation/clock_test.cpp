@@ -8,23 +8,23 @@
 namespace hlc::closed_loop {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
+constexpr Nanoseconds kTestSecond = 1'000'000'000;
 
 TEST(SimulatedClock, ShowsTheTimeThatHasPassedAtItsOwnRate) {
-  const SimulatedClock clock(10 * kSecond, 500, 20'000);  // 20 us gained in a second
-  EXPECT_EQ(clock.at(10 * kSecond), 500U);
-  EXPECT_EQ(clock.at(11 * kSecond), 500U + kSecond + 20'000U);
-  const SimulatedClock slow(10 * kSecond, 500, -20'000);
-  EXPECT_EQ(slow.at(12 * kSecond), 500U + 2 * kSecond - 40'000U);
+  const SimulatedClock clock(10 * kTestSecond, 500, 20'000);  // 20 us gained in a second
+  EXPECT_EQ(clock.at(10 * kTestSecond), 500U);
+  EXPECT_EQ(clock.at(11 * kTestSecond), 500U + kTestSecond + 20'000U);
+  const SimulatedClock slow(10 * kTestSecond, 500, -20'000);
+  EXPECT_EQ(slow.at(12 * kTestSecond), 500U + 2 * kTestSecond - 40'000U);
 }
 
 TEST(SimulatedClock, SaysTheFirstTrueTimeAtWhichItShowsSomething) {
   SeededRandom random(1);
   for (int i = 0; i < 1000; ++i) {
-    const Nanoseconds now = random.between(kSecond, 100 * kSecond);
+    const Nanoseconds now = random.between(kTestSecond, 100 * kTestSecond);
     const auto drift = static_cast<std::int64_t>(random.below(4'000'000)) - 2'000'000;
-    const SimulatedClock clock(now, random.between(0, 100 * kSecond), drift);
-    const Nanoseconds local = clock.at(now) + random.below(10 * kSecond);
+    const SimulatedClock clock(now, random.between(0, 100 * kTestSecond), drift);
+    const Nanoseconds local = clock.at(now) + random.below(10 * kTestSecond);
     const Nanoseconds then = clock.when(local, now);
     EXPECT_GE(clock.at(then), local);
     if (then > now) {
@@ -34,16 +34,16 @@ TEST(SimulatedClock, SaysTheFirstTrueTimeAtWhichItShowsSomething) {
 }
 
 TEST(SimulatedClock, WhatItShowsAlreadyIsNow) {
-  const SimulatedClock clock(kSecond, kSecond, 0);
-  EXPECT_EQ(clock.when(kSecond / 2, 3 * kSecond), 3 * kSecond);
+  const SimulatedClock clock(kTestSecond, kTestSecond, 0);
+  EXPECT_EQ(clock.when(kTestSecond / 2, 3 * kTestSecond), 3 * kTestSecond);
 }
 
 TEST(SimulatedClock, CanBeSetBackAndGoesOnFromThere) {
-  SimulatedClock clock(kSecond, 5 * kSecond, 0);
-  clock.step(2 * kSecond, -1'000);
-  EXPECT_EQ(clock.at(2 * kSecond), 6 * kSecond - 1'000);
-  clock.set_drift(3 * kSecond, 1'000'000);
-  EXPECT_EQ(clock.at(4 * kSecond), 8 * kSecond - 1'000 + 1'000'000);
+  SimulatedClock clock(kTestSecond, 5 * kTestSecond, 0);
+  clock.step(2 * kTestSecond, -1'000);
+  EXPECT_EQ(clock.at(2 * kTestSecond), 6 * kTestSecond - 1'000);
+  clock.set_drift(3 * kTestSecond, 1'000'000);
+  EXPECT_EQ(clock.at(4 * kTestSecond), 8 * kTestSecond - 1'000 + 1'000'000);
 }
 
 TEST(EventQueue, OfOneTimeWhatWasPlannedFirstComesFirst) {

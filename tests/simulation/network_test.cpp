@@ -20,18 +20,16 @@ class Network : public testing::Test {
     network_ = SimulatedNetwork(queue_, {.seed = 3, .transport = transport});
   }
   NodeId join_writer(const std::string& name = "writer") {
-    return network_.join({.name = name,
-                          .writes = {{TopicId::kVehicleState, 1},
-                                     {TopicId::kSystemTrigger},
-                                     {TopicId::kRunState}},
-                          .reads = {}});
+    return network_.join(
+        {.name = name,
+         .writes = {{TopicId::kVehicleState, 1}, {TopicId::kSystemTrigger}, {TopicId::kRunState}},
+         .reads = {}});
   }
   NodeId join_reader() {
-    return network_.join({.name = "reader",
-                          .writes = {},
-                          .reads = {{TopicId::kVehicleState, 1},
-                                    {TopicId::kSystemTrigger},
-                                    {TopicId::kRunState}}});
+    return network_.join(
+        {.name = "reader",
+         .writes = {},
+         .reads = {{TopicId::kVehicleState, 1}, {TopicId::kSystemTrigger}, {TopicId::kRunState}}});
   }
   /// Lets time pass; what arrives is kept by topic of the reader.
   void pass(Nanoseconds time) {

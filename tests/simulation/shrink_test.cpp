@@ -22,8 +22,7 @@ TEST(Shrink, KeepsWhatIsNeededAndNothingElse) {
     const auto fails = [&](const std::vector<int>& items) {
       return holds(items, 1) && holds(items, count - 1);
     };
-    const std::vector<int> expected =
-        count == 2 ? std::vector{1} : std::vector{1, count - 1};
+    const std::vector<int> expected = count == 2 ? std::vector{1} : std::vector{1, count - 1};
     EXPECT_EQ(shrunk<int>(numbers(count), fails), expected);
   }
 }
