@@ -1,4 +1,3 @@
-#include "hlc_bridge/messages/time_grid.hpp"
 #include "vehicle_sim/closed_loop/simulated_clock.hpp"
 
 #include <gtest/gtest.h>
@@ -9,21 +8,23 @@
 namespace hlc::closed_loop {
 namespace {
 
+constexpr Nanoseconds kTestSecond = 1'000'000'000;
+
 TEST(SimulatedClock, ShowsTheTimeThatHasPassedAtItsOwnRate) {
-  const SimulatedClock clock(10 * kNanosecondsPerSecond, 500, 20'000);  // 20 us gained in a second
-  EXPECT_EQ(clock.at(10 * kNanosecondsPerSecond), 500U);
-  EXPECT_EQ(clock.at(11 * kNanosecondsPerSecond), 500U + kNanosecondsPerSecond + 20'000U);
-  const SimulatedClock slow(10 * kNanosecondsPerSecond, 500, -20'000);
-  EXPECT_EQ(slow.at(12 * kNanosecondsPerSecond), 500U + 2 * kNanosecondsPerSecond - 40'000U);
+  const SimulatedClock clock(10 * kTestSecond, 500, 20'000);  // 20 us gained in a second
+  EXPECT_EQ(clock.at(10 * kTestSecond), 500U);
+  EXPECT_EQ(clock.at(11 * kTestSecond), 500U + kTestSecond + 20'000U);
+  const SimulatedClock slow(10 * kTestSecond, 500, -20'000);
+  EXPECT_EQ(slow.at(12 * kTestSecond), 500U + 2 * kTestSecond - 40'000U);
 }
 
 TEST(SimulatedClock, SaysTheFirstTrueTimeAtWhichItShowsSomething) {
   SeededRandom random(1);
   for (int i = 0; i < 1000; ++i) {
-    const Nanoseconds now = random.between(kNanosecondsPerSecond, 100 * kNanosecondsPerSecond);
+    const Nanoseconds now = random.between(kTestSecond, 100 * kTestSecond);
     const auto drift = static_cast<std::int64_t>(random.below(4'000'000)) - 2'000'000;
-    const SimulatedClock clock(now, random.between(0, 100 * kNanosecondsPerSecond), drift);
-    const Nanoseconds local = clock.at(now) + random.below(10 * kNanosecondsPerSecond);
+    const SimulatedClock clock(now, random.between(0, 100 * kTestSecond), drift);
+    const Nanoseconds local = clock.at(now) + random.below(10 * kTestSecond);
     const Nanoseconds then = clock.when(local, now);
     EXPECT_GE(clock.at(then), local);
     if (then > now) {
@@ -33,17 +34,16 @@ TEST(SimulatedClock, SaysTheFirstTrueTimeAtWhichItShowsSomething) {
 }
 
 TEST(SimulatedClock, WhatItShowsAlreadyIsNow) {
-  const SimulatedClock clock(kNanosecondsPerSecond, kNanosecondsPerSecond, 0);
-  EXPECT_EQ(clock.when(kNanosecondsPerSecond / 2, 3 * kNanosecondsPerSecond),
-            3 * kNanosecondsPerSecond);
+  const SimulatedClock clock(kTestSecond, kTestSecond, 0);
+  EXPECT_EQ(clock.when(kTestSecond / 2, 3 * kTestSecond), 3 * kTestSecond);
 }
 
 TEST(SimulatedClock, CanBeSetBackAndGoesOnFromThere) {
-  SimulatedClock clock(kNanosecondsPerSecond, 5 * kNanosecondsPerSecond, 0);
-  clock.step(2 * kNanosecondsPerSecond, -1'000);
-  EXPECT_EQ(clock.at(2 * kNanosecondsPerSecond), 6 * kNanosecondsPerSecond - 1'000);
-  clock.set_drift(3 * kNanosecondsPerSecond, 1'000'000);
-  EXPECT_EQ(clock.at(4 * kNanosecondsPerSecond), 8 * kNanosecondsPerSecond - 1'000 + 1'000'000);
+  SimulatedClock clock(kTestSecond, 5 * kTestSecond, 0);
+  clock.step(2 * kTestSecond, -1'000);
+  EXPECT_EQ(clock.at(2 * kTestSecond), 6 * kTestSecond - 1'000);
+  clock.set_drift(3 * kTestSecond, 1'000'000);
+  EXPECT_EQ(clock.at(4 * kTestSecond), 8 * kTestSecond - 1'000 + 1'000'000);
 }
 
 TEST(EventQueue, OfOneTimeWhatWasPlannedFirstComesFirst) {

@@ -32,6 +32,8 @@ class Footprints : public testing::Test {
 };
 
 TEST_F(Footprints, AreComparedAtTheSameTickHoweverLateItIsTold) {
+  check_.driven(2, 99, {.x_m = 1.0});
+  check_.driven(1, 99, {.x_m = 0.0});
   check_.driven(1, 100, {.x_m = 0.0});
   check_.driven(1, 101, {.x_m = 0.9});
   check_.driven(1, 102, {.x_m = 0.0});
@@ -57,6 +59,7 @@ TEST_F(Footprints, ThatTouchAreToldOnce) {
 TEST_F(Footprints, OfWhoHasNotBegunOrHasEndedStand) {
   check_.driven(1, 5, {.x_m = 0.5});
   check_.judge(0, violations_);
+  EXPECT_TRUE(violations_.empty());
   EXPECT_NEAR(check_.smallest_distance_m(), 0.3, 1e-9);
   check_.driven(2, 6, {.x_m = 1.0});
   check_.ended(2);

@@ -26,6 +26,7 @@ using hlc::closed_loop::FaultKind;
 using hlc::closed_loop::FaultRunResult;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::uint64_t kTwice = 50;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 
 struct Choices {
@@ -74,8 +75,7 @@ class Progress {
   void show(std::uint64_t done, std::uint64_t failed) const {
     if (!is_shown_) return;
     const double passed_s = std::chrono::duration<double>(Clock::now() - begin_).count();
-    const double left_s =
-        passed_s / static_cast<double>(done) * static_cast<double>(runs_ - done);
+    const double left_s = passed_s / static_cast<double>(done) * static_cast<double>(runs_ - done);
     std::fprintf(stderr, "\r\033[Krun %llu of %llu, %llu failed, %s left",
                  static_cast<unsigned long long>(done), static_cast<unsigned long long>(runs_),
                  static_cast<unsigned long long>(failed), duration_text(left_s).c_str());
@@ -96,7 +96,8 @@ void print_violations(const FaultRunResult& result) {
 
 int replay(const Choices& choices) {
   const FaultCampaign campaign(choices.campaign);
-  const hlc::closed_loop::FaultCase the_case = choices.keep ? campaign.draw(*choices.replay, *choices.keep) : campaign.draw(*choices.replay);
+  const hlc::closed_loop::FaultCase the_case =
+      choices.keep ? campaign.draw(*choices.replay, *choices.keep) : campaign.draw(*choices.replay);
   std::ofstream file;
   if (!choices.trace.empty()) {
     file.open(choices.trace);
@@ -123,11 +124,10 @@ int replay(const Choices& choices) {
   return result.violations.empty() ? 0 : 1;
 }
 
-void print_failure(const FaultCampaign& campaign, std::uint64_t seed,
-                   const std::string& flags) {
+void print_failure(const FaultCampaign& campaign, std::uint64_t seed, const std::string& flags) {
   const hlc::closed_loop::Shrunk shrunk = campaign.shrink(seed);
-  std::printf("seed %llu fails; with the fewest faults:\n%s",
-              static_cast<unsigned long long>(seed), describe(shrunk.the_case).c_str());
+  std::printf("seed %llu fails; with the fewest faults:\n%s", static_cast<unsigned long long>(seed),
+              describe(shrunk.the_case).c_str());
   print_violations(shrunk.result);
   std::string keep;
   for (const std::size_t index : shrunk.kept) {
@@ -150,7 +150,11 @@ int campaign(const Choices& choices, const std::string& flags) {
         choices.runs, choices.jobs,
         [&](std::size_t i) {
           const std::uint64_t seed = choices.seed + i;
-          const FaultRunResult result = campaign.run(campaign.draw(seed));
+          FaultRunResult result = campaign.run(campaign.draw(seed));
+          // Now and then twice: the same seed must give the same hash.
+          if (i % kTwice == 0 && campaign.run(campaign.draw(seed)).hash != result.hash) {
+            result.violations.push_back({.check = "hash", .text = "another hash in another run"});
+          }
           const std::lock_guard lock(mutex);
           totals.add(result);
           if (result.violations.empty()) return;
@@ -199,6 +203,7 @@ std::string flags_of(const Choices& choices) {
 int main(int argc, char** argv) {
   CLI::App app("Runs in memory with faults that a seed draws, judged in every tick.",
                "fault_simulator");
+  app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
   Choices choices;
   std::vector<std::string> keep;
   choices.campaign.scenario_folder = "launch_scripts/scenarios";

@@ -50,7 +50,8 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   run.lab.seed = seed;
   run.lab.is_logical = random.chance(0.25);
   // Logical time is for one machine.
-  run.lab.transport = !run.lab.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
+  run.lab.transport =
+      !run.lab.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
   FaultPlanSettings plan{.kinds = settings_.kinds,
                          .last = run.lab.is_logical ? kLastLogicalFault : kLastFault};
   for (const ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
@@ -90,7 +91,8 @@ std::string describe(const FaultCase& the_case) {
   std::string text = "seed " + std::to_string(the_case.seed) + ": " + the_case.scenario.name +
                      ", " + std::to_string(the_case.scenario.vehicles.size()) + " cars, " +
                      (the_case.run.lab.is_logical ? "logical" : "real") + " time, endpoints of " +
-                     (the_case.run.lab.transport == Transport::kLab ? "the lab" : "loopback") + "\n";
+                     (the_case.run.lab.transport == Transport::kLab ? "the lab" : "loopback") +
+                     "\n";
   for (const Fault& fault : the_case.run.faults) text += "  " + to_string(fault) + "\n";
   return text;
 }
@@ -105,12 +107,12 @@ void FaultTotals::add(const FaultRunResult& result) {
 
 std::string describe(const FaultTotals& totals) {
   std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "%llu runs, %llu failed, %llu car-steps, %llu with a new plan, cars came as close as %.3f m",
-                static_cast<unsigned long long>(totals.runs),
-                static_cast<unsigned long long>(totals.failed),
-                static_cast<unsigned long long>(totals.car_steps),
-                static_cast<unsigned long long>(totals.planned), totals.smallest_distance_m);
+  std::snprintf(
+      text.data(), text.size(),
+      "%llu runs, %llu failed, %llu car-steps, %llu with a new plan, cars came as close as %.3f m",
+      static_cast<unsigned long long>(totals.runs), static_cast<unsigned long long>(totals.failed),
+      static_cast<unsigned long long>(totals.car_steps),
+      static_cast<unsigned long long>(totals.planned), totals.smallest_distance_m);
   return text.data();
 }
 

@@ -13,9 +13,9 @@ namespace {
 
 constexpr Nanoseconds kMs = kNanosecondsPerMillisecond;
 
-constexpr std::array kKinds{FaultKind::kLose,    FaultKind::kWithhold, FaultKind::kDelay,
-                            FaultKind::kRepeat,  FaultKind::kReorder,  FaultKind::kCut,
-                            FaultKind::kKill,    FaultKind::kFreeze,   FaultKind::kStep,
+constexpr std::array kKinds{FaultKind::kLose,   FaultKind::kWithhold, FaultKind::kDelay,
+                            FaultKind::kRepeat, FaultKind::kReorder,  FaultKind::kCut,
+                            FaultKind::kKill,   FaultKind::kFreeze,   FaultKind::kStep,
                             FaultKind::kDrift};
 
 bool is_of_process(FaultKind kind) { return kind >= FaultKind::kKill; }
@@ -63,8 +63,8 @@ class Draw {
   void set_time(Fault& fault) {
     const bool is_process = is_of_process(fault.kind);
     const Nanoseconds span = settings_.last - settings_.first;
-    const Nanoseconds lasts =
-        std::min(is_process ? duration(10 * kMs, 8000 * kMs) : duration(50 * kMs, 6000 * kMs), span);
+    const Nanoseconds lasts = std::min(
+        is_process ? duration(10 * kMs, 8000 * kMs) : duration(50 * kMs, 6000 * kMs), span);
     fault.begin = settings_.first + random_.below(span - lasts + 1);
     fault.end = fault.begin + lasts;
   }
@@ -88,7 +88,8 @@ class Draw {
   }
 
   void set_way(Fault& fault) {
-    if (fault.kind == FaultKind::kCut || random_.chance(0.6)) fault.process = any_process(true, true);
+    if (fault.kind == FaultKind::kCut || random_.chance(0.6))
+      fault.process = any_process(true, true);
     if (fault.kind == FaultKind::kCut || random_.chance(0.4)) {
       do {
         fault.peer = any_process(true, true);

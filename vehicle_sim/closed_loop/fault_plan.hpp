@@ -44,8 +44,8 @@ struct Fault {
 
 struct FaultPlanSettings {
   std::vector<std::uint8_t> vehicle_ids;
-  std::vector<FaultKind> kinds;  ///< of which faults are drawn; empty: none are
-  Nanoseconds first{};           ///< no fault begins earlier
+  std::vector<FaultKind> kinds;                  ///< of which faults are drawn; empty: none are
+  Nanoseconds first{};                           ///< no fault begins earlier
   Nanoseconds last{20 * kNanosecondsPerSecond};  ///< all are over by then
   std::size_t most_faults{6};
 };
@@ -54,7 +54,7 @@ struct FaultPlanSettings {
 /// other (killed while frozen) are left out.
 ///
 /// What is drawn: processes are killed or stand still for 10 ms ... 8 s, networks are bad for 50 ms
-/// ... 6 s, cuts separate two processes one way or both, or all processes of two vehicles. Clocks of
+/// ... 6 s, cuts separate two processes, or one from all, one way or both. Clocks of
 /// controllers and middlewares are set by up to 300 ms, which is more than a step; those of the
 /// vehicles by up to 2 ms only: a vehicle that drives at another time than all others believe is
 /// not where its plan says, and nothing but the safety margin (10 mm) covers that.

@@ -170,6 +170,9 @@ class Judges final : public RunObserver {
     planning_.judge(able, lab_->now(), result_.violations);
   }
 
+  /// Somebody has planned.
+  [[nodiscard]] bool has_begun() const { return result_.planned > 0; }
+
   template <class Line>
   void tell(Line line) const {
     if (trace_) trace_(lab_->now(), line());
@@ -185,9 +188,7 @@ class Judges final : public RunObserver {
   }
 
  private:
-  void add_to_hash(std::uint64_t value) {
-    result_.hash = mixed(result_.hash ^ value, lab_->now());
-  }
+  void add_to_hash(std::uint64_t value) { result_.hash = mixed(result_.hash ^ value, lab_->now()); }
 
   FootprintsCheck footprints_;
   PlansCheck plans_;
@@ -269,10 +270,13 @@ class FaultRun {
     }
   }
 
-  /// All of whose processes are there; without the lab control everybody drives out.
+  /// All of whose processes are there. Without the lab control everybody drives out, and an
+  /// experiment that has not begun does not begin while somebody is missing.
   [[nodiscard]] std::vector<std::uint8_t> able_vehicles() {
     std::vector<std::uint8_t> able;
-    if (!lab_.seats().front().process) return able;
+    const bool is_complete_lab =
+        std::ranges::all_of(lab_.seats(), [](const Seat& seat) { return seat.process != nullptr; });
+    if (!lab_.seats().front().process || !(is_complete_lab || judges_.has_begun())) return able;
     for (const Seat& seat : lab_.seats()) {
       const std::uint8_t id = seat.key.vehicle;
       const bool is_complete = std::ranges::all_of(

@@ -22,9 +22,9 @@ struct FaultRunSettings {
 
 struct FaultRunResult {
   Violations violations;
-  std::uint64_t hash{};       ///< of all that was reported, driven and logged, and when
-  std::uint64_t car_steps{};  ///< control steps that were reported
-  std::uint64_t planned{};    ///< of them with a new plan
+  std::uint64_t hash{};          ///< of all that was reported, driven and logged, and when
+  std::uint64_t car_steps{};     ///< control steps that were reported
+  std::uint64_t planned{};       ///< of them with a new plan
   double smallest_distance_m{};  ///< between driven footprints
 };
 
@@ -34,9 +34,9 @@ using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 /// A whole run of the scenario with faults, in memory: the machines of all its processes, each with
 /// clocks of its own, connected by a simulated network.
 ///
-/// Real time: faults happen, from before the start on; the calm; then the lab control is interrupted,
-/// and everybody must leave. A death does not end the run (OnDeath::kContinue). Logical time: a run
-/// of some steps, or less if somebody dies.
+/// Real time: faults happen, from before the start on; the calm; then the lab control is
+/// interrupted, and everybody must leave. A death does not end the run (OnDeath::kContinue).
+/// Logical time: a run of some steps, or less if somebody dies.
 ///
 /// A process that is killed is started again by whoever killed it, a vehicle where it stands.
 /// @throws std::invalid_argument where the machines do

@@ -12,9 +12,7 @@ namespace hlc::closed_loop {
 /// What the endpoints of all machines have in common (MachineProcess says what else a host has).
 class Host {
  public:
-  void perform(const machine::LogLine& line) const {
-    place_.observer->on_log(place_.node, line);
-  }
+  void perform(const machine::LogLine& line) const { place_.observer->on_log(place_.node, line); }
   [[nodiscard]] const std::string& name() const { return place_.network->name(place_.node); }
 
  protected:

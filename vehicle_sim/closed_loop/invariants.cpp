@@ -72,7 +72,9 @@ bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
 
 void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
   const VehicleId vehicle = report.vehicle;
-  if (report.reason == FallbackReason::kDeviation) in_force_.erase(vehicle);
+  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
+    in_force_.erase(vehicle);
+  }
   const auto before = in_force_.find(vehicle);
   if (before != in_force_.end()) before->second.last_report = report.step;
   const auto predicted = predicted_.find(vehicle);
@@ -87,7 +89,7 @@ void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& viol
   for (const auto& [other, plan] : in_force_) {
     const StepIndex from = std::max(areas.first, plan.areas.first);
     if (other == vehicle || has_run_out(plan, report.step) ||
-        are_free(areas, plan.areas, from, horizon_steps_ + 1) ||
+        are_free(areas, plan.areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }
@@ -117,10 +119,10 @@ void ReasonsCheck::ended(const std::string& process, int exit_code, Nanoseconds 
                          Violations& violations) {
   const Lines& lines = lines_[process];
   if (exit_code == kExitGood || exit_code == kExitInterrupted || lines.has_complained) return;
-  violations.push_back({.at = at,
-                        .check = "reasons",
-                        .text = process + " ended with code " + std::to_string(exit_code) +
-                                " and did not log why"});
+  violations.push_back(
+      {.at = at,
+       .check = "reasons",
+       .text = process + " ended with code " + std::to_string(exit_code) + " and did not log why"});
 }
 
 void ReasonsCheck::judge(Nanoseconds at, Violations& violations) {
@@ -139,11 +141,10 @@ void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
   last_[report.vehicle.value] =
       std::string(to_string(report.status)) + ", " + to_string(report.reason);
   if (at < calm_from_) return;
-  const bool cannot = report.reason == FallbackReason::kInfeasible ||
-                      report.reason == FallbackReason::kConflict ||
-                      report.reason == FallbackReason::kBudget ||
-                      report.reason == FallbackReason::kOffRoute ||
-                      report.status == StepStatus::kDriveOut;
+  const bool cannot =
+      report.reason == FallbackReason::kInfeasible || report.reason == FallbackReason::kConflict ||
+      report.reason == FallbackReason::kBudget || report.reason == FallbackReason::kOffRoute ||
+      report.status == StepStatus::kDriveOut;
   if (cannot || report.status == StepStatus::kPlanned) plans_[report.vehicle.value] = true;
 }
 

@@ -61,13 +61,16 @@ class FootprintsCheck {
 };
 
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
-/// changes. A plan is what its vehicle has told the others of it (Prediction::areas, with margin and
-/// predicted drift), since that is what they keep clear of: the step under way has been told before.
-/// It comes into force with a report `planned`, and stays when its controller is gone, until the
-/// next controller has one.
+/// changes. A plan is what its vehicle has told the others of it (Prediction::areas, with margin
+/// and predicted drift), since that is what they keep clear of: the step under way has been told
+/// before. Final areas are not compared: the last area of a horizon holds the final one but for 2
+/// um (Plan::areas_from), which nobody keeps clear of. It comes into force with a report `planned`,
+/// and stays when its controller is gone, until the next controller stands by: its vehicle has been
+/// seen standing for a horizon.
 ///
-/// Who has reported nothing for horizon + 1 + kSilentSteps steps has run out of every plan that it can
-/// have agreed to, and counts with where it stands for the others (stands_for_good in missing.hpp).
+/// Who has reported nothing for horizon + 1 + kSilentSteps steps has run out of every plan that it
+/// can have agreed to, and counts with where it stands for the others (stands_for_good in
+/// missing.hpp).
 ///
 /// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives what
 /// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew.

@@ -35,9 +35,7 @@ class MiddlewareHost : public Host {
     for (const std::uint8_t id : all) description.reads.push_back({TopicId::kVehicleState, id});
     return description;
   }
-  void attach(const ProcessPlace& place, const MiddlewareMachine& /*machine*/) {
-    set_place(place);
-  }
+  void attach(const ProcessPlace& place, const MiddlewareMachine& /*machine*/) { set_place(place); }
 
   template <class Process>
   void receive(std::size_t topic, const Message& message, Process& process) {

@@ -40,12 +40,10 @@ LabControlMachine lab_control(const Scenario& scenario, const LabSettings& setti
 }
 
 VehicleMachine vehicle(std::uint8_t id, const Pose& start, const LabSettings& settings) {
-  return VehicleMachine({.vehicle = {.vehicle_id = id,
-                                     .start = start,
-                                     .noise_seed = mixed(settings.seed, id)},
-                         .rules = settings.is_logical ? machine::logical_rules()
-                                                      : machine::real_rules(kVehicleStays),
-                         .startup_timeout = kStartupTimeout});
+  return VehicleMachine(
+      {.vehicle = {.vehicle_id = id, .start = start, .noise_seed = mixed(settings.seed, id)},
+       .rules = settings.is_logical ? machine::logical_rules() : machine::real_rules(kVehicleStays),
+       .startup_timeout = kStartupTimeout});
 }
 
 MiddlewareMachine middleware(std::uint8_t id, const LabSettings& settings) {
@@ -57,9 +55,9 @@ MiddlewareMachine middleware(std::uint8_t id, const LabSettings& settings) {
 
 HlcMachine controller(const Scenario& scenario, std::uint8_t id, const LabSettings& settings) {
   const bool keeps_commands = settings.transport == Transport::kLoopback;
-  const HlcRules rules =
-      settings.is_logical ? rules_in_logical_time(keeps_commands)
-                          : rules_in_real_time(keeps_commands, StepDeadlines{}, kStartupTimeout);
+  const HlcRules rules = settings.is_logical
+                             ? rules_in_logical_time(keeps_commands)
+                             : rules_in_real_time(keeps_commands, StepDeadlines{}, kStartupTimeout);
   return {{.rules = rules,
            .startup_timeout = kStartupTimeout,
            .reconfiguration = scenario.reconfiguration},
@@ -121,8 +119,7 @@ std::unique_ptr<SimulatedProcess> ProcessFactory::make(const ProcessKey& key,
       return wrapped(place, VehicleHost(key.vehicle),
                      vehicle(key.vehicle, start.value_or(first_pose(key.vehicle)), settings_));
     case Role::kMiddleware:
-      return wrapped(place, MiddlewareHost(key.vehicle, ids_),
-                     middleware(key.vehicle, settings_));
+      return wrapped(place, MiddlewareHost(key.vehicle, ids_), middleware(key.vehicle, settings_));
     case Role::kController:
       return wrapped(place, ControllerHost(), controller(*scenario_, key.vehicle, settings_));
   }

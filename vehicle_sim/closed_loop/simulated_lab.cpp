@@ -119,8 +119,7 @@ void SimulatedLab::plan_turn(Seat& seat) {
   const Nanoseconds at = std::max(next, now_) + reaction;
   if (at >= seat.planned_turn) return;
   seat.planned_turn = at;
-  queue_.add(at,
-             {.what = Happening::kWakeUp, .node = seat.node, .generation = ++seat.generation});
+  queue_.add(at, {.what = Happening::kWakeUp, .node = seat.node, .generation = ++seat.generation});
 }
 
 void SimulatedLab::turn(Seat& seat) {

@@ -27,8 +27,8 @@ struct Seat {
   std::unique_ptr<SimulatedProcess> process;  ///< none: not started, killed, or ended
   NodeId node{};
   bool is_frozen{};
-  bool is_killed{};              ///< and not started again yet
-  std::optional<int> exit_code;  ///< it has ended by itself
+  bool is_killed{};                                          ///< and not started again yet
+  std::optional<int> exit_code;                              ///< it has ended by itself
   std::deque<std::pair<std::size_t, SharedMessage>> unread;  ///< while frozen
   Nanoseconds planned_turn{kNoTurn};
   std::uint32_t generation{};  ///< of that plan

@@ -31,7 +31,8 @@ NodeId SimulatedNetwork::join(const NodeDescription& description) {
   node.outlets.resize(node.writes.size());
   node.kept.resize(node.writes.size());
   for (const auto* topics : {&node.writes, &node.reads}) {
-    for (const Topic& topic : *topics) node.domains.insert(rules_of(topic.id, options_.transport).domain);
+    for (const Topic& topic : *topics)
+      node.domains.insert(rules_of(topic.id, options_.transport).domain);
   }
   nodes_.push_back(std::move(node));
   for (NodeId other = 0; other < id; ++other) {
@@ -188,9 +189,9 @@ void SimulatedNetwork::update_sight(NodeId observer, NodeId other, Domain domain
   SeededRandom random(mixed(options_.seed, ++num_sights_ + (1ULL << 32U)));
   const Nanoseconds period = options_.lease / kAnnouncementsPerLease;
   const bool is_new = sight.generation == 1;
-  const Nanoseconds pause =
-      !is_open ? options_.lease - random.below(period)
-               : random.between(kLeastDiscovery, kMostDiscovery) + (is_new ? 0 : random.below(period));
+  const Nanoseconds pause = !is_open ? options_.lease - random.below(period)
+                                     : random.between(kLeastDiscovery, kMostDiscovery) +
+                                           (is_new ? 0 : random.below(period));
   queue_->add(queue_->now() + pause, {.what = Happening::kSight,
                                       .node = observer,
                                       .other = other,
@@ -327,8 +328,8 @@ void SimulatedNetwork::transmit(std::uint32_t index, const SharedMessage& messag
       arrival += random.between(kLeastRepair, kMostRepair);
     }
     if (random.chance(disturbance.repeated)) {
-      second = now + options_.least_delay +
-               random.below(options_.most_delay + disturbance.repeat_delay);
+      second =
+          now + options_.least_delay + random.below(options_.most_delay + disturbance.repeat_delay);
     }
     if (random.chance(disturbance.overtaken)) {
       waits_its_turn = false;

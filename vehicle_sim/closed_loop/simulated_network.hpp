@@ -27,12 +27,12 @@ struct NodeDescription {
 
 /// What may happen to messages on their way while it lasts. Shares are probabilities of a message.
 struct Disturbance {
-  std::string from;  ///< name of the writer's process; empty: any
-  std::string to;    ///< of the reader's
-  double lost{};       ///< on the way: a reliable topic sends again, later; others do not
-  double withheld{};   ///< lost for good, whatever the topic promises
-  double repeated{};   ///< comes twice, the second time up to `repeat_delay` later
-  double overtaken{};  ///< comes up to `overtake_delay` later, and others do not wait for it
+  std::string from;     ///< name of the writer's process; empty: any
+  std::string to;       ///< of the reader's
+  double lost{};        ///< on the way: a reliable topic sends again, later; others do not
+  double withheld{};    ///< lost for good, whatever the topic promises
+  double repeated{};    ///< comes twice, the second time up to `repeat_delay` later
+  double overtaken{};   ///< comes up to `overtake_delay` later, and others do not wait for it
   Nanoseconds delay{};  ///< every message takes up to so much longer
   Nanoseconds repeat_delay{};
   Nanoseconds overtake_delay{};
@@ -57,7 +57,8 @@ struct NetworkOptions {
 
 /// The network of all processes of a run, with the properties of DDS that the machines rely on:
 ///
-/// * A process *sees* another one of its domains from the announcement on that reaches it, until the
+/// * A process *sees* another one of its domains from the announcement on that reaches it, until
+/// the
 ///   other one leaves, or until nothing has come from it for the lease. Announcements come eight
 ///   times in a lease. Who is seen once and not any more is lost. Names may be borne by several.
 /// * A writer reaches a reader while each sees the other. What is written before is lost to it, but
@@ -70,8 +71,7 @@ struct NetworkOptions {
 /// place changes no delay at another.
 class SimulatedNetwork {
  public:
-  SimulatedNetwork(EventQueue& queue, NetworkOptions options)
-      : queue_(&queue), options_(options) {}
+  SimulatedNetwork(EventQueue& queue, NetworkOptions options) : queue_(&queue), options_(options) {}
 
   // Processes. A node is never used again.
   NodeId join(const NodeDescription& description);

@@ -16,13 +16,13 @@ class VehicleHost : public Host {
   explicit VehicleHost(std::uint8_t vehicle) : vehicle_(vehicle) {}
 
   [[nodiscard]] static NodeDescription description(std::uint8_t vehicle) {
-    return {.name = vehicle_name(vehicle),
-            .writes = {{TopicId::kVehicleState, vehicle},
-                       {TopicId::kReadyStatus},
-                       {TopicId::kParameterRequest}},
-            .reads = {{TopicId::kVehicleCommand, vehicle},
-                      {TopicId::kParameter},
-                      {TopicId::kSystemTrigger}}};
+    return {
+        .name = vehicle_name(vehicle),
+        .writes = {{TopicId::kVehicleState, vehicle},
+                   {TopicId::kReadyStatus},
+                   {TopicId::kParameterRequest}},
+        .reads = {
+            {TopicId::kVehicleCommand, vehicle}, {TopicId::kParameter}, {TopicId::kSystemTrigger}}};
   }
   void attach(const ProcessPlace& place, const VehicleMachine& /*machine*/) { set_place(place); }
 
