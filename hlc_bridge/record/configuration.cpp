@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "hlc_bridge/record/text_file.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -24,7 +24,7 @@ std::string text_of(const std::optional<std::string>& value) {
   return value ? quoted_yaml(*value) : "null";
 }
 
-std::optional<std::string> text_or_null(const YamlNode& flags, const std::string& key) {
+std::optional<std::string> text_or_null(const Node& flags, const std::string& key) {
   return flags.is_value(key) ? std::optional(flags.required<std::string>(key)) : std::nullopt;
 }
 
@@ -58,7 +58,7 @@ ScenarioChoices kept_choices(const fs::path& run_folder) {
   if (!fs::exists(file)) {
     throw std::invalid_argument(file.string() + ": is not there, so the scenario must be given");
   }
-  const YamlNode flags = YamlNode::read_file(file);
+  const Node flags = Node::read_yaml(file);
   ScenarioChoices choices;
   choices.file = copy_of(run_folder, flags.required<std::string>("scenario"));
   choices.profile = flags.required<std::string>("profile");

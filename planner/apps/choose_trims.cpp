@@ -17,7 +17,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/trim_choice.hpp"
 
@@ -120,8 +120,8 @@ struct Car {
 };
 
 Car read_car(const std::filesystem::path& configuration) {
-  const hlc::YamlNode file = hlc::YamlNode::read_file(configuration);
-  const hlc::YamlNode vehicle = file.map("vehicle");
+  const hlc::Node file = hlc::Node::read_yaml(configuration);
+  const hlc::Node vehicle = file.map("vehicle");
   Car car;
   car.name = configuration.filename().string();
   car.vehicle = hlc::read_vehicle(vehicle);

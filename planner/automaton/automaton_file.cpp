@@ -12,8 +12,8 @@
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
 #include "planner/common/atomic_write.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/sha256.hpp"
-#include "planner/common/yaml_reader.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -122,7 +122,7 @@ std::string hash_of_rest(const std::string& text) {
 }
 
 /// Rows of `columns` finite numbers.
-std::vector<std::vector<double>> read_table(const YamlNode& entry, const std::string& key,
+std::vector<std::vector<double>> read_table(const Node& entry, const std::string& key,
                                             std::size_t columns) {
   const auto text = entry.required<std::string>(key);
   std::vector<std::vector<double>> rows;
@@ -150,20 +150,20 @@ std::vector<std::vector<double>> read_table(const YamlNode& entry, const std::st
   return rows;
 }
 
-ConvexPolygon read_area(const YamlNode& entry, const std::string& key) {
+ConvexPolygon read_area(const Node& entry, const std::string& key) {
   ConvexPolygon area;
   for (const auto& r : read_table(entry, key, 2)) area.vertices_m.emplace_back(r[0], r[1]);
   return area;
 }
 
-std::vector<CriterionValue> read_values(const YamlNode& entry, const std::string& key) {
-  const YamlNode map = entry.map(key);
+std::vector<CriterionValue> read_values(const Node& entry, const std::string& key) {
+  const Node map = entry.map(key);
   std::vector<CriterionValue> values;
   for (const std::string& name : map.keys()) values.push_back({name, map.required<double>(name)});
   return values;
 }
 
-Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automaton,
+Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
                        const std::vector<std::string>& labels) {
   const Allowed trims = between(1.0, static_cast<double>(automaton.trims.size()));
   Maneuver m;
@@ -173,7 +173,7 @@ Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automato
                                         m.from == m.to ? one_of({kOwnStepLabel}) : one_of(labels));
   m.duration_s = automaton.step_s;
   std::vector<double> end;
-  for (const YamlNode& number : entry.list("displacement")) end.push_back(number.as<double>());
+  for (const Node& number : entry.list("displacement")) end.push_back(number.as<double>());
   if (end.size() != 3) entry.fail("displacement", "x, y and heading");
   m.displacement = {end[0], end[1], end[2]};
   m.criteria = read_values(entry, "criteria");
@@ -193,15 +193,15 @@ Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automato
   return m;
 }
 
-void read_trims(const YamlNode& node, UniversalAutomaton& automaton) {
-  for (const YamlNode& entry : node.list("trims")) {
+void read_trims(const Node& node, UniversalAutomaton& automaton) {
+  for (const Node& entry : node.list("trims")) {
     automaton.trims.push_back(read_trim(entry, automaton.vehicle, automaton.limits));
     automaton.unit_costs.push_back(read_values(entry, "unit_costs"));
     entry.check_no_unknown_keys();
   }
 }
 
-void check_subgraphs(const YamlNode& node, const AutomatonFile& file) {
+void check_subgraphs(const Node& node, const AutomatonFile& file) {
   for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
     if (file.automaton->find({i}, {i}, kOwnStepLabel) == nullptr) {
       node.fail("maneuvers", "the own step of every trim; that of trim " + std::to_string(i + 1) +
@@ -230,7 +230,7 @@ std::string shell_word(const std::filesystem::path& path) {
 }
 
 /// Before anything else is read: another version may have other keys.
-void check_version(const YamlNode& node, const std::filesystem::path& path) {
+void check_version(const Node& node, const std::filesystem::path& path) {
   if (!node.has("automaton_schema")) {
     throw std::invalid_argument(path.string() +
                                 ":1: no built automaton, allowed a file of build_automaton");
@@ -241,7 +241,7 @@ void check_version(const YamlNode& node, const std::filesystem::path& path) {
                                     "build_automaton CONFIG.yaml --out " + shell_word(path));
 }
 
-void check_hash(const YamlNode& node, const std::string& text, const std::string& command) {
+void check_hash(const Node& node, const std::string& text, const std::string& command) {
   if (node.required<std::string>("sha256") == hash_of_rest(text)) return;
   node.fail(
       "sha256",
@@ -271,10 +271,10 @@ bool is_automaton_file(const std::filesystem::path& path) {
 
 AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   const std::string text = read_text(path);
-  const YamlNode node = YamlNode::parse(text, path.string());
+  const Node node = Node::parse_yaml(text, path.string());
   check_version(node, path);
   AutomatonFile file;
-  const YamlNode configuration = node.map("configuration");
+  const Node configuration = node.map("configuration");
   file.configuration_file = configuration.required<std::string>("file");
   file.configuration_sha256 = configuration.required<std::string>("sha256");
   if (configuration.has("intervals")) {
@@ -285,17 +285,17 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   check_hash(node, text, rebuild_command(file, path, path.parent_path() / file.configuration_file));
 
   auto automaton = std::make_shared<UniversalAutomaton>();
-  const YamlNode vehicle = node.map("vehicle");
+  const Node vehicle = node.map("vehicle");
   automaton->vehicle = read_vehicle(vehicle);
   automaton->limits = read_limits(node.map("limits"));
   automaton->identified = read_identified(vehicle, automaton->vehicle, automaton->limits);
   vehicle.check_no_unknown_keys();
   automaton->step_s = node.required<double>("step_s", above(0.0));
-  for (const YamlNode& label : node.list("labels")) {
+  for (const Node& label : node.list("labels")) {
     file.labels.push_back(label.as<std::string>());
   }
   read_trims(node, *automaton);
-  for (const YamlNode& entry : node.list("maneuvers")) {
+  for (const Node& entry : node.list("maneuvers")) {
     automaton->maneuvers.push_back(read_maneuver(entry, *automaton, file.labels));
   }
   file.subgraphs = read_subgraphs(node, {automaton->trims, automaton->vehicle, automaton->limits,

@@ -19,14 +19,14 @@ Allowed trim_numbers(const SubgraphContext& context) {
   return between(1.0, static_cast<double>(context.trims.size()));
 }
 
-std::vector<TrimId> read_trims(const YamlNode& entry, const SubgraphContext& context) {
+std::vector<TrimId> read_trims(const Node& entry, const SubgraphContext& context) {
   std::vector<TrimId> result;
   if (entry.is_value("trims")) {
     (void)entry.required<std::string>("trims", one_of({"all"}));
     for (std::size_t i = 0; i < context.trims.size(); ++i) result.push_back(TrimId{i});
     return result;
   }
-  for (const YamlNode& one : entry.list("trims")) {
+  for (const Node& one : entry.list("trims")) {
     const TrimId trim = as_trim(one.as<std::size_t>(trim_numbers(context)));
     if (contains(result, trim)) one.fail("each trim once");
     result.push_back(trim);
@@ -38,9 +38,9 @@ std::vector<TrimId> read_trims(const YamlNode& entry, const SubgraphContext& con
   return result;
 }
 
-std::vector<std::string> read_label_list(const YamlNode& entry, const SubgraphContext& context) {
+std::vector<std::string> read_label_list(const Node& entry, const SubgraphContext& context) {
   std::vector<std::string> labels;
-  for (const YamlNode& one : entry.list("labels")) {
+  for (const Node& one : entry.list("labels")) {
     labels.push_back(one.as<std::string>(one_of(context.labels)));
     if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("each label once");
   }
@@ -48,7 +48,7 @@ std::vector<std::string> read_label_list(const YamlNode& entry, const SubgraphCo
   return labels;
 }
 
-std::vector<std::string> read_labels(const YamlNode& entry, const SubgraphContext& context) {
+std::vector<std::string> read_labels(const Node& entry, const SubgraphContext& context) {
   if (!entry.has("labels")) {
     return {entry.required<std::string>("label", one_of(context.labels))};
   }
@@ -56,7 +56,7 @@ std::vector<std::string> read_labels(const YamlNode& entry, const SubgraphContex
   return read_label_list(entry, context);
 }
 
-TrimPair read_pair(const YamlNode& entry, const SubgraphContext& context) {
+TrimPair read_pair(const Node& entry, const SubgraphContext& context) {
   const auto from = entry.required<std::size_t>("from", trim_numbers(context));
   const auto to = entry.required<std::size_t>("to", trim_numbers(context));
   return {as_trim(from), as_trim(to)};
@@ -68,9 +68,9 @@ std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& 
                     context.step_s);
 }
 
-void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+void read_edge_labels(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
-  for (const YamlNode& one : entry.optional_list("edges")) {
+  for (const Node& one : entry.optional_list("edges")) {
     const TrimPair pair = read_pair(one, context);
     if (pair.from == pair.to || !contains(pairs, pair)) {
       one.fail("to", "a trim that the rule connects with `from`");
@@ -86,7 +86,7 @@ void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, Sub
 
 /// Checks an entry of `off` between other trims. Edges out of trims that are on are those of the
 /// subgraph; any other edge of the automaton may lead out of a trim that is off (see Subgraph).
-void check_off(const YamlNode& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
+void check_off(const Node& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
                const SubgraphContext& context, const SubgraphSpec& spec) {
   const bool is_left_from =
       !contains(spec.trims, off.edge.from) ||
@@ -99,9 +99,9 @@ void check_off(const YamlNode& one, const EdgesOff& off, const std::vector<TrimP
   static_cast<void>(one.required<std::string>("label", one_of(labels)));
 }
 
-void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+void read_off(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
-  for (const YamlNode& one : entry.optional_list("off")) {
+  for (const Node& one : entry.optional_list("off")) {
     EdgesOff off{read_pair(one, context), std::nullopt};
     if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
     one.check_no_unknown_keys();
@@ -137,8 +137,7 @@ std::vector<std::size_t> steps_from(const std::vector<TrimId>& starts,
   return steps;
 }
 
-void check_connected(const YamlNode& entry, const SubgraphContext& context,
-                     const SubgraphSpec& spec) {
+void check_connected(const Node& entry, const SubgraphContext& context, const SubgraphSpec& spec) {
   const auto is_too_fast = [&](TrimId trim) {
     return spec.max_speed_mps && context.trims[trim.index].speed_mps > *spec.max_speed_mps;
   };
@@ -170,7 +169,7 @@ void check_connected(const YamlNode& entry, const SubgraphContext& context,
   }
 }
 
-SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context) {
+SubgraphSpec read_subgraph(const Node& entry, const SubgraphContext& context) {
   SubgraphSpec spec;
   spec.name = entry.required<std::string>("name");
   if (spec.name.empty() || has_control_characters(spec.name)) {
@@ -205,9 +204,9 @@ std::string ends(const TrimPair& edge) {
 
 }  // namespace
 
-std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const SubgraphContext& context) {
+std::vector<SubgraphSpec> read_subgraphs(const Node& file, const SubgraphContext& context) {
   std::vector<SubgraphSpec> subgraphs;
-  for (const YamlNode& entry : file.list("subgraphs")) {
+  for (const Node& entry : file.list("subgraphs")) {
     SubgraphSpec spec = read_subgraph(entry, context);
     if (std::any_of(subgraphs.begin(), subgraphs.end(),
                     [&spec](const SubgraphSpec& other) { return other.name == spec.name; })) {

@@ -104,7 +104,7 @@ const std::vector<Outside> kOutside{
     {"^(ompl)/.*", "^planner/(search/(ompl|best_first)/.*|apps/.*)",
      "OMPL stays in its adapter and the best-first engine"},
     {"^nlopt.*", "^planner/maneuver_design/.*", "only maneuver_design optimises"},
-    {"^yaml-cpp/.*", "^planner/common/yaml_reader.*", "YAML is read by yaml_reader"},
+    {"^yaml-cpp/.*", "^planner/common/parse_yaml.*", "YAML is parsed in one place"},
     {"^openssl/.*", "^planner/common/sha256.*", "hashes are made in one place"},
     {"^tinyxml2.*", "^planner/road/.*", "XML is read in planner/road"},
     {"^spdlog/.*", "^(hlc_bridge/(process|apps)|vehicle_sim/apps)/.*", "only processes log"},
