@@ -14,9 +14,9 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
-#include "hlc_bridge/record/text_file.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "hlc_bridge/time/real_timer.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 namespace {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "hlc_bridge/record/text_file.hpp"
 #include "planner/common/node.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {

@@ -1,6 +1,6 @@
 #include "hlc_bridge/record/drive_file.hpp"
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/csv.hpp"
 
 namespace hlc {
 

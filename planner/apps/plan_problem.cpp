@@ -11,7 +11,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/plot/problem_plot.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/planner.hpp"
@@ -175,7 +175,7 @@ int run(const Flags& flags) {
     print(file, solved);
   }
   if (flags.plot.file) {
-    hlc::write_atomically(hlc::problem_plot(file, solved.result), *flags.plot.file);
+    hlc::write_file(*flags.plot.file, hlc::problem_plot(file, solved.result));
   }
   return solved.result.status == hlc::SearchStatus::kFallback ? kExitFallback : 0;
 }

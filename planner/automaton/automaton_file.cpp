@@ -11,9 +11,9 @@
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/common/atomic_write.hpp"
 #include "planner/common/node.hpp"
 #include "planner/common/sha256.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -99,17 +99,6 @@ std::string text_without_hash(const AutomatonFile& file) {
 }
 
 // --- reading ------------------------------------------------------------------------------------
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream stream;
-  if (std::filesystem::is_regular_file(path, error)) stream.open(path, std::ios::binary);
-  std::stringstream text;
-  if (!stream.is_open() || !(text << stream.rdbuf())) {
-    throw std::invalid_argument(path.string() + ": cannot be read, allowed an automaton file");
-  }
-  return text.str();
-}
 
 /// The hash of the text without its second line.
 std::string hash_of_rest(const std::string& text) {
@@ -257,7 +246,7 @@ std::string to_text(const AutomatonFile& file) {
 }
 
 void write_automaton_file(const AutomatonFile& file, const std::filesystem::path& path) {
-  write_atomically(to_text(file), path);
+  write_file(path, to_text(file));
 }
 
 bool is_automaton_file(const std::filesystem::path& path) {
@@ -270,7 +259,7 @@ bool is_automaton_file(const std::filesystem::path& path) {
 }
 
 AutomatonFile read_automaton_file(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_regular_file(path, "an automaton file");
   const Node node = Node::parse_yaml(text, path.string());
   check_version(node, path);
   AutomatonFile file;

@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -145,16 +145,7 @@ Node Node::root_of(Value root, const std::string& name, FileFormat format) {
 }
 
 Node Node::read_yaml(const std::filesystem::path& path) {
-  // A device may have no end.
-  std::error_code error;
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, error)) file.open(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file.is_open() || file.bad()) {
-    throw std::invalid_argument(path.string() + ": cannot be read, allowed a YAML file");
-  }
-  return parse_yaml(text.str(), path.string());
+  return parse_yaml(read_regular_file(path, "a YAML file"), path.string());
 }
 
 Node Node::parse_yaml(const std::string& text, const std::string& name) {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/common/atomic_write.hpp"
 #include "planner/common/node.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/search_values.hpp"
@@ -279,7 +279,7 @@ std::string to_text(const ProblemFile& file) {
 }
 
 void write_problem_file(const ProblemFile& file, const std::filesystem::path& path) {
-  write_atomically(to_text(file), path);
+  write_file(path, to_text(file));
 }
 
 ProblemFile read_problem_file(const std::filesystem::path& path,

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 namespace {
