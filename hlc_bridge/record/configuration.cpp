@@ -1,5 +1,7 @@
 #include "hlc_bridge/record/configuration.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -46,11 +48,15 @@ void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>&
 std::string flags_yaml(const ScenarioChoices& choices) {
   const auto path = [](const fs::path& file) { return fs::absolute(file).string(); };
   const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
-  return "scenario: " + text_of(path(choices.file)) + "\nprofile: " + text_of(choices.profile) +
-         "\nengine: " + text_of(choices.engine) + "\nsubgraph: " + text_of(choices.subgraph) +
-         "\npolicy: " + text_of(choices.policy) + "\nmap: " + text_of(map) +
-         "\ncars: " + (choices.cars ? std::to_string(*choices.cars) : "null") +
-         "\nsteps: " + (choices.steps ? std::to_string(*choices.steps) : "null") + "\n";
+  const auto number = [](const std::optional<std::size_t>& value) {
+    return value ? fmt::to_string(*value) : "null";
+  };
+  return fmt::format(
+      "scenario: {}\nprofile: {}\nengine: {}\nsubgraph: {}\npolicy: {}\nmap: {}\ncars: {}\n"
+      "steps: {}\n",
+      text_of(path(choices.file)), text_of(choices.profile), text_of(choices.engine),
+      text_of(choices.subgraph), text_of(choices.policy), text_of(map), number(choices.cars),
+      number(choices.steps));
 }
 
 ScenarioChoices kept_choices(const fs::path& run_folder) {

@@ -1,5 +1,7 @@
 // Solves one planning problem from a file alone: what a controller decided in one step, or a
 // problem written by hand.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -121,11 +123,7 @@ Json to_json(const Solved& solved) {
   return json;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+std::string number(double value) { return fmt::format("{:.9g}", value); }
 
 void print(const hlc::ProblemFile& file, const Solved& solved) {
   const hlc::SearchResult& result = solved.result;

@@ -1,5 +1,7 @@
 #include "planner/automaton/automaton_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -38,10 +40,8 @@ std::string row(const Point& p) { return row({p.x(), p.y()}); }
 /// A literal block: one row per line.
 template <class Rows>
 void append_table(std::string& text, const char* key, const Rows& rows) {
-  text += "    ";
-  text += key;
-  text += ": |\n";
-  for (const auto& one : rows) text += "      " + row(one) + "\n";
+  text += fmt::format("    {}: |\n", key);
+  for (const auto& one : rows) text += fmt::format("      {}\n", row(one));
 }
 
 std::string map_of(const std::vector<CriterionValue>& values) {
@@ -53,13 +53,11 @@ std::string map_of(const std::vector<CriterionValue>& values) {
 }
 
 void append_maneuver(std::string& text, const Maneuver& m) {
-  text += "  - from: " + std::to_string(m.from.index + 1) + "\n";
-  text += "    to: " + std::to_string(m.to.index + 1) + "\n";
-  text += "    label: " + quoted_yaml(m.label) + "\n";
-  text += "    displacement: [" + shortest_text(m.displacement.x_m) + ", " +
-          shortest_text(m.displacement.y_m) + ", " + shortest_text(m.displacement.heading_rad) +
-          "]\n";
-  text += "    criteria: " + map_of(m.criteria) + "\n";
+  text += fmt::format("  - from: {}\n    to: {}\n    label: {}\n", m.from.index + 1, m.to.index + 1,
+                      quoted_yaml(m.label));
+  text += fmt::format("    displacement: [{}, {}, {}]\n    criteria: {}\n",
+                      shortest_text(m.displacement.x_m), shortest_text(m.displacement.y_m),
+                      shortest_text(m.displacement.heading_rad), map_of(m.criteria));
   append_table(text, "inputs", m.inputs);
   append_table(text, "states", m.states);
   append_table(text, "swept_area_m", m.swept_area_m.vertices_m);
@@ -69,27 +67,27 @@ void append_maneuver(std::string& text, const Maneuver& m) {
 /// Everything but the line with the hash, which comes second.
 std::string text_without_hash(const AutomatonFile& file) {
   const UniversalAutomaton& automaton = *file.automaton;
-  std::string text = "automaton_schema: " + std::to_string(kAutomatonSchema) + "\n";
+  std::string text = fmt::format("automaton_schema: {}\n", kAutomatonSchema);
   text +=
       "# Built by build_automaton. Not to be edited: change the configuration and build again.\n";
   text +=
       "# Rows of inputs: u_v [m/s^2], u_delta [rad/s]; of states: x, y [m], psi [rad], v [m/s],\n";
   text += "# delta [rad]; of areas: x, y [m]. In the frame of the start pose.\n";
-  text += "configuration: {file: " + quoted_yaml(file.configuration_file) +
-          ", sha256: " + file.configuration_sha256 +
-          (file.chosen_intervals ? ", intervals: " + std::to_string(*file.chosen_intervals) : "") +
-          ", horizon_steps: " + std::to_string(file.horizon_steps) + "}\n";
-  text += "vehicle: " + to_yaml(automaton.vehicle, automaton.identified) + "\n";
-  text += "limits: " + to_yaml(automaton.limits) + "\n";
-  text += "step_s: " + shortest_text(automaton.step_s) + "\n";
-  text += "labels:";
-  for (const std::string& label : file.labels) text += "\n  - " + quoted_yaml(label);
+  text += fmt::format(
+      "configuration: {{file: {}, sha256: {}{}, horizon_steps: {}}}\n",
+      quoted_yaml(file.configuration_file), file.configuration_sha256,
+      file.chosen_intervals ? fmt::format(", intervals: {}", *file.chosen_intervals) : "",
+      file.horizon_steps);
+  text += fmt::format("vehicle: {}\nlimits: {}\nstep_s: {}\nlabels:",
+                      to_yaml(automaton.vehicle, automaton.identified), to_yaml(automaton.limits),
+                      shortest_text(automaton.step_s));
+  for (const std::string& label : file.labels) text += fmt::format("\n  - {}", quoted_yaml(label));
   text += "\ntrims:\n";
   for (std::size_t i = 0; i < automaton.trims.size(); ++i) {
     const Trim& trim = automaton.trims[i];
-    text += "  - {speed_mps: " + shortest_text(trim.speed_mps) +
-            ", steering_rad: " + shortest_text(trim.steering_rad) +
-            ", unit_costs: " + map_of(automaton.unit_costs[i]) + "}\n";
+    text += fmt::format("  - {{speed_mps: {}, steering_rad: {}, unit_costs: {}}}\n",
+                        shortest_text(trim.speed_mps), shortest_text(trim.steering_rad),
+                        map_of(automaton.unit_costs[i]));
   }
   text += "subgraphs:\n";
   for (const SubgraphSpec& subgraph : file.subgraphs) text += "  - " + to_yaml(subgraph) + "\n";
@@ -132,7 +130,7 @@ std::vector<std::vector<double>> read_table(const Node& entry, const std::string
     }
     if (at != end) ++at;
     if (numbers.size() != columns) {
-      entry.fail(key, "a table of " + std::to_string(columns) + " columns");
+      entry.fail(key, fmt::format("a table of {} columns", columns));
     }
     rows.push_back(std::move(numbers));
   }
@@ -161,10 +159,8 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   m.label = entry.required<std::string>("label",
                                         m.from == m.to ? one_of({kOwnStepLabel}) : one_of(labels));
   m.duration_s = automaton.step_s;
-  std::vector<double> end;
-  for (const Node& number : entry.list("displacement")) end.push_back(number.as<double>());
-  if (end.size() != 3) entry.fail("displacement", "x, y and heading");
-  m.displacement = {end[0], end[1], end[2]};
+  const auto end = entry.list("displacement", 3, "x, y and heading");
+  m.displacement = {end[0].as<double>(), end[1].as<double>(), end[2].as<double>()};
   m.criteria = read_values(entry, "criteria");
   for (const auto& r : read_table(entry, "inputs", 2)) m.inputs.push_back({r[0], r[1]});
   for (const auto& r : read_table(entry, "states", 5)) {
@@ -175,9 +171,8 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   entry.check_no_unknown_keys();
   const std::string fault = fault_of(m, automaton);
   if (!fault.empty()) {
-    entry.fail("label",
-               "a maneuver that its vehicle can drive: " + std::to_string(m.from.index + 1) +
-                   " -> " + std::to_string(m.to.index + 1) + ": " + fault);
+    entry.fail("label", fmt::format("a maneuver that its vehicle can drive: {} -> {}: {}",
+                                    m.from.index + 1, m.to.index + 1, fault));
   }
   return m;
 }
@@ -193,8 +188,8 @@ void read_trims(const Node& node, UniversalAutomaton& automaton) {
 void check_subgraphs(const Node& node, const AutomatonFile& file) {
   for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
     if (file.automaton->find({i}, {i}, kOwnStepLabel) == nullptr) {
-      node.fail("maneuvers", "the own step of every trim; that of trim " + std::to_string(i + 1) +
-                                 " is missing");
+      node.fail("maneuvers",
+                fmt::format("the own step of every trim; that of trim {} is missing", i + 1));
     }
   }
   for (const SubgraphSpec& spec : file.subgraphs) {
@@ -225,9 +220,10 @@ void check_version(const Node& node, const std::filesystem::path& path) {
                                 ":1: no built automaton, allowed a file of build_automaton");
   }
   if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
-  node.fail("automaton_schema", std::to_string(kAutomatonSchema) +
-                                    "; build the file anew from its configuration: " +
-                                    "build_automaton CONFIG.yaml --out " + shell_word(path));
+  node.fail("automaton_schema",
+            fmt::format("{}; build the file anew from its configuration: build_automaton "
+                        "CONFIG.yaml --out {}",
+                        kAutomatonSchema, shell_word(path)));
 }
 
 void check_hash(const Node& node, const std::string& text, const std::string& command) {
@@ -297,8 +293,9 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
 
 std::string rebuild_command(const AutomatonFile& file, const std::filesystem::path& path,
                             const std::filesystem::path& configuration_path) {
-  return "build_automaton " + shell_word(configuration_path) + " --out " + shell_word(path) +
-         (file.chosen_intervals ? " --intervals " + std::to_string(*file.chosen_intervals) : "");
+  return fmt::format(
+      "build_automaton {} --out {}{}", shell_word(configuration_path), shell_word(path),
+      file.chosen_intervals ? fmt::format(" --intervals {}", *file.chosen_intervals) : "");
 }
 
 }  // namespace hlc

@@ -1,5 +1,7 @@
 #include "planner/automaton/subgraph_yaml.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -153,18 +155,18 @@ void check_connected(const Node& entry, const SubgraphContext& context, const Su
   const auto to_stand = steps_from(standing, pairs, true, context.trims.size());
   for (const TrimId trim : spec.trims) {
     if (is_too_fast(trim)) continue;
-    const std::string number = std::to_string(trim.index + 1);
     if (from_start[trim.index] == Subgraph::kNever) {
-      entry.fail("trims", "trims that hang together: no edges lead from trim " +
-                              std::to_string(standing.front().index + 1) + " to trim " + number);
+      entry.fail("trims",
+                 fmt::format("trims that hang together: no edges lead from trim {} to trim {}",
+                             standing.front().index + 1, trim.index + 1));
     }
     if (to_stand[trim.index] > context.horizon_steps) {
       const std::string needed = to_stand[trim.index] == Subgraph::kNever
                                      ? "never reaches it"
-                                     : "needs " + std::to_string(to_stand[trim.index]) + " steps";
-      entry.fail("trims", "trims that reach a trim of speed 0 within the horizon of " +
-                              std::to_string(context.horizon_steps) + " steps; trim " + number +
-                              " " + needed);
+                                     : fmt::format("needs {} steps", to_stand[trim.index]);
+      entry.fail("trims", fmt::format("trims that reach a trim of speed 0 within the horizon of {} "
+                                      "steps; trim {} {}",
+                                      context.horizon_steps, trim.index + 1, needed));
     }
   }
 }
@@ -191,15 +193,15 @@ SubgraphSpec read_subgraph(const Node& entry, const SubgraphContext& context) {
 
 template <class T, class Print>
 std::string list_of(const std::vector<T>& values, Print print) {
-  std::string text;
-  for (const T& value : values) text += (text.empty() ? "" : ", ") + print(value);
-  return "[" + text + "]";
+  std::vector<std::string> texts;
+  for (const T& value : values) texts.push_back(print(value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 std::string number(TrimId trim) { return std::to_string(trim.index + 1); }
 
 std::string ends(const TrimPair& edge) {
-  return "from: " + number(edge.from) + ", to: " + number(edge.to);
+  return fmt::format("from: {}, to: {}", number(edge.from), number(edge.to));
 }
 
 }  // namespace
@@ -219,20 +221,20 @@ std::vector<SubgraphSpec> read_subgraphs(const Node& file, const SubgraphContext
 }
 
 std::string to_yaml(const SubgraphSpec& spec) {
-  std::string text = "{name: " + quoted_yaml(spec.name) +
-                     ", labels: " + list_of(spec.labels, quoted_yaml) +
-                     ", trims: " + list_of(spec.trims, number);
+  std::string text = fmt::format("{{name: {}, labels: {}, trims: {}", quoted_yaml(spec.name),
+                                 list_of(spec.labels, quoted_yaml), list_of(spec.trims, number));
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {
     text += ", off: " + list_of(spec.off, [](const EdgesOff& off) {
-              return "{" + ends(off.edge) +
-                     (off.label ? ", label: " + quoted_yaml(*off.label) : "") + "}";
+              return fmt::format("{{{}{}}}", ends(off.edge),
+                                 off.label ? ", label: " + quoted_yaml(*off.label) : "");
             });
   }
   if (!spec.edges.empty()) {
     text += ", edges: " + list_of(spec.edges, [](const EdgeLabels& one) {
-              return "{" + ends(one.edge) + ", labels: " + list_of(one.labels, quoted_yaml) + "}";
+              return fmt::format("{{{}, labels: {}}}", ends(one.edge),
+                                 list_of(one.labels, quoted_yaml));
             });
   }
   return text + "}";

@@ -1,5 +1,7 @@
 #include "planner/automaton/vehicle_yaml.hpp"
 
+#include <fmt/format.h>
+
 #include <initializer_list>
 #include <utility>
 
@@ -20,7 +22,7 @@ constexpr double kStrongest = 1e4;  // m/s^2, rad/s, 1/m
 std::string fields(std::initializer_list<Field> list) {
   std::string text;
   for (const auto& [key, value] : list) {
-    text += (text.empty() ? "" : ", ") + std::string(key) + ": " + shortest_text(value);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, shortest_text(value));
   }
   return text;
 }

@@ -16,11 +16,9 @@ namespace hlc {
 namespace {
 
 std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + one_line(word);
-  }
-  return text;
+  std::vector<std::string> shown;
+  for (const std::string& word : words) shown.push_back(one_line(word));
+  return fmt::format("{}", fmt::join(shown, ", "));
 }
 
 template <typename T>

@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/automaton_configuration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "planner/automaton/subgraph_yaml.hpp"
@@ -101,8 +103,9 @@ LabelledCriterion read_criterion(const Node& entry) {
   if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
       has_control_characters(criterion.label) ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
-    entry.fail("name", "one line of text, a name of its own: neither empty, nor '" + kOwnStepLabel +
-                           "', nor a criterion's");
+    entry.fail("name", fmt::format("one line of text, a name of its own: neither empty, nor '{}', "
+                                   "nor a criterion's",
+                                   kOwnStepLabel));
   }
   if (entry.has("minimise")) {
     read_front_point(entry, criterion);
@@ -150,9 +153,8 @@ std::vector<std::string> labels_of(const std::vector<LabelledCriterion>& criteri
 
 ConfigurationPlaces places_of(const Node& file, const AutomatonConfiguration& configuration) {
   ConfigurationPlaces places;
-  places.intervals = file.has("intervals") ? file.place("intervals")
-                                           : file.place("intervals") + " = " +
-                                                 std::to_string(configuration.intervals);
+  places.intervals = file.place("intervals");
+  if (!file.has("intervals")) places.intervals += fmt::format(" = {}", configuration.intervals);
   for (const Node& entry : file.list("subgraphs")) {
     places.subgraphs.push_back(
         {entry.place("trims"), entry.has("max_speed_mps") ? entry.place("max_speed_mps") : ""});

@@ -36,12 +36,10 @@ std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
 const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
   const auto found = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (found != scenario.vehicles.end()) return *found;
-  std::string known;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
-    known += (known.empty() ? "" : ", ") + std::to_string(vehicle.id.value);
-  }
-  throw std::invalid_argument(
-      fmt::format("{}: vehicle id = {}, allowed {}", scenario.file.string(), id.value, known));
+  std::vector<unsigned> known;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) known.push_back(vehicle.id.value);
+  throw std::invalid_argument(fmt::format("{}: vehicle id = {}, allowed {}", scenario.file.string(),
+                                          id.value, fmt::join(known, ", ")));
 }
 
 std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id) {

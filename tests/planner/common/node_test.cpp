@@ -1,9 +1,12 @@
 #include "planner/common/node.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <stdexcept>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -124,6 +127,29 @@ TEST(Node, RefusesWhatIsNotAReadableMap) {
     EXPECT_EQ(message([&device] { (void)Node::read_yaml(device); }),
               device + ": cannot be read, allowed a YAML file");
   }
+}
+
+TEST(Node, ReadsAliasesButNoValueThatHoldsItself) {
+  const Node node = Node::parse_yaml("a: &a [1, 2]\nb: *a\n", "f.yaml");
+  EXPECT_EQ(node.list("b")[1].as<int>(), 2);
+  EXPECT_THAT(message([] { (void)Node::parse_yaml("a: &a [*a, *a]\n", "f.yaml"); }),
+              testing::HasSubstr("lists or objects within each other, allowed 100 at most"));
+}
+
+TEST(Node, ReadsJsonLikeYamlButWithItsTypes) {
+  const TemporaryFolder folder;
+  put(folder / "car.json", R"({"name": "car", "length_m": 0.22, "open": true, "doors": [4, "5"]})");
+  const Node node = Node::read_json(folder / "car.json");
+  EXPECT_EQ(node.required<std::string>("name"), "car");
+  EXPECT_EQ(node.required<double>("length_m", above(0.0)), 0.22);
+  EXPECT_TRUE(node.required<bool>("open"));
+  EXPECT_EQ(node.list("doors")[0].as<std::size_t>(), 4U);
+  EXPECT_THAT(message([&] { (void)node.list("doors")[1].as<int>(); }),
+              testing::EndsWith("car.json: doors[1] = \"5\", allowed a whole number"));
+  EXPECT_THAT(message([&] { (void)node.required<std::string>("length_m"); }),
+              testing::EndsWith("car.json: length_m = 0.22, allowed text"));
+  EXPECT_THAT(message([&] { (void)node.list("doors", 3, "three"); }),
+              testing::EndsWith("car.json: doors has 2 entries, allowed three"));
 }
 
 TEST(Node, PrintsEveryValueAndKeyInOneShortLine) {

@@ -182,7 +182,8 @@ TEST_F(ProblemFileTest, ErrorsNamePlaceValueAndWhatIsAllowed) {
   EXPECT_THAT(error_with(R"("y": 2)", R"("z": 2)"),
               HasSubstr("problem.json: start.z = 2, unknown key, allowed keys x, y, psi, trim"));
   EXPECT_THAT(error_with(R"(, "psi": 0)", ""), HasSubstr("start.psi is missing"));
-  EXPECT_THAT(error_with(R"("corridor")", R"("corridors")"), HasSubstr("corridors = [[[0,1],[9,1]]], unknown key"));
+  EXPECT_THAT(error_with(R"("corridor")", R"("corridors")"),
+              HasSubstr("corridors = [[[0,1],[9,1]]], unknown key"));
   EXPECT_THAT(error_with(R"("trim": 7)", R"("trim": 0)"),
               HasSubstr("start.trim = 0, allowed a whole number >= 1 and <= 12"));
   EXPECT_THAT(error_with(R"("trim": 7)", R"("trim": 13)"), HasSubstr("start.trim = 13"));
@@ -353,7 +354,8 @@ TEST_F(ProblemFileTest, ASubgraphThatItsAutomatonDoesNotCarryIsNamedWithTheFile)
 
 TEST_F(ProblemFileTest, AHeadingIsLimitedLikeTheProblemsOwn) {
   EXPECT_EQ(error_with("\"psi\": 0", "\"psi\": -1e6"), "");
-  EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1000000.1"), EndsWith("a number >= -1e+06 and <= 1e+06"));
+  EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1000000.1"),
+              EndsWith("a number >= -1e+06 and <= 1e+06"));
   EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1e17"),
               HasSubstr("start.psi = 1e+17, allowed a number >= -1e+06 and <= 1e+06"));
 }
