@@ -12,7 +12,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
                           (default paper_three_cars; also paper_red_alone, circle)
   --profile NAME          default: every plan optimal, safe whatever message is lost
                           2022: the rules under which the paper's numbers arose
-  --engine NAME           what searches: branch_and_bound (default profile) or best_first (profile 2022)
+  --engine NAME           what plans: branch_and_bound (default profile) or best_first (profile 2022); the same called
+                          through OMPL's planner interface: ompl_branch_and_bound, ompl_best_first
   --subgraph NAME         of the automaton, instead of the scenario's
   --policy NAME           by which the cars change the subgraph themselves, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map

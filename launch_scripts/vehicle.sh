@@ -10,7 +10,8 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --id N                  vehicle, 1 ... 30
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
   --profile NAME          default or 2022 (default: default)
-  --engine NAME           branch_and_bound or best_first (default: the scenario's, else the profile's)
+  --engine NAME           branch_and_bound, best_first, ompl_branch_and_bound or ompl_best_first (default: the
+                          scenario's, else the profile's)
   --subgraph NAME         instead of the scenario's
   --policy NAME           by which the car changes the subgraph itself, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map

@@ -19,7 +19,7 @@
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "planner/common/yaml_text.hpp"
 

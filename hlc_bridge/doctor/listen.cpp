@@ -10,7 +10,7 @@
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/messages/run_parameters.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/signal.hpp"
 
 namespace hlc {

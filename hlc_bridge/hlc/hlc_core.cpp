@@ -12,7 +12,7 @@ namespace hlc {
 
 HlcCore::HlcCore(std::unique_ptr<Controller> controller) : controller_(std::move(controller)) {}
 
-std::string HlcCore::problem_with(const VehicleStateList& list) const {
+std::string HlcCore::validate(const VehicleStateList& list) const {
   const double step_s = controller_->subgraph().automaton().step_s;
   const bool fits =
       list.period_ms > 0 && std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) <= 1e-9;
@@ -59,12 +59,13 @@ bool HlcCore::may_stand_by(const Observation& observation) const {
          has_settled(controller_->options().vehicle);
 }
 
-bool HlcCore::begins(const VehicleStateList& list, const Observation& observation,
-                     bool logical_time, const std::optional<Nanoseconds>& trigger) {
+bool HlcCore::begins(const VehicleStateList& list, const Observation& observation, StartRule rule,
+                     const std::optional<Nanoseconds>& trigger) {
   if (has_begun_ || !controller_->has_plan() || !controller_->fits_route()) return has_begun_;
-  has_begun_ = logical_time ? is_complete(observation) && have_all_settled(observation)
-                            : trigger && list.t_now >= *trigger && own(observation) != nullptr &&
-                                  may_stand_by(observation);
+  has_begun_ = rule == StartRule::kTogether
+                   ? is_complete(observation) && have_all_settled(observation)
+                   : trigger && list.t_now >= *trigger && own(observation) != nullptr &&
+                         may_stand_by(observation);
   return has_begun_;
 }
 
@@ -80,21 +81,21 @@ AnswerToList HlcCore::answer(const VehicleStateList& list) {
       with_copy(command_of(options.vehicle, plan, step_of(list), list.t_now, period_of(list),
                            controller_->subgraph().automaton().vehicle,
                            options.lab ? options.lab->point_interval_s : kPointInterval_s));
-  std::string fault = fault_of(result);
+  std::string fault = validate(result);
   if (fault.empty()) {
     last_good_ = result.command;
     return result;
   }
-  result = with_copy(said_again(
+  result = with_copy(republished(
       last_good_.value_or(TrajectoryCommand{.vehicle_id = options.vehicle.value}), list.t_now));
   result.fault = std::move(fault);
   return result;
 }
 
-std::string HlcCore::fault_of(const AnswerToList& answer) const {
+std::string HlcCore::validate(const AnswerToList& answer) const {
   const std::optional<LabLimits>& lab = controller_->options().lab;
-  const std::string fault = fault_of_own(answer.command, lab);
-  return fault.empty() && answer.copy ? fault_of_own(*answer.copy, lab) : fault;
+  const std::string fault = validate_own_command(answer.command, lab);
+  return fault.empty() && answer.copy ? validate_own_command(*answer.copy, lab) : fault;
 }
 
 Report with_answer(Report report, const AnswerToList& answer) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hlc_bridge/hlc/hlc_rules.hpp"
 #include "hlc_bridge/hlc/observation.hpp"
 #include "hlc_bridge/messages/messages.hpp"
 #include "hlc_bridge/messages/settled_states.hpp"
@@ -27,7 +28,7 @@ struct AnswerToList {
 /// the experiment begins, and how a plan becomes commands. Between `begins` and `answer` the owner
 /// takes the controller through the phases of its step and exchanges the messages.
 ///
-///     problem_with → observe → note → begins ─yes─► phases of controller() ─► answer
+///     validate → observe → note → begins ─yes─► phases of controller() ─► answer
 ///                                        └────no──► controller().stand_by ─► answer
 class HlcCore {
  public:
@@ -38,7 +39,7 @@ class HlcCore {
 
   /// What is wrong with the list's period, in one line; empty if nothing is. Such a list must not
   /// be used.
-  [[nodiscard]] std::string problem_with(const VehicleStateList& list) const;
+  [[nodiscard]] std::string validate(const VehicleStateList& list) const;
 
   /// What the list tells; nothing if its step was observed before: each step is done once.
   /// @pre nothing is wrong with the list
@@ -48,22 +49,22 @@ class HlcCore {
   /// was observed until the experiment begins.
   void note(const VehicleStateList& list, const Observation& observation);
 
-  /// In real time, before the experiment has begun here: whether the vehicle may be told to stand
-  /// where it is. One that moves drives what a former controller left it, or somebody moves it by
-  /// hand, and one that is not seen may do so: it is left alone (no plan, no command). So is one
-  /// that has not stood in the lists of a whole horizon, since the plan that it was left may be to
-  /// wait and then drive, and one whose states cannot be trusted yet (SettledStates). Once it has
-  /// been told to stand, it is told so as long as it is not seen moving.
+  /// Under kAtTrigger, before the experiment has begun here: whether the vehicle may be told to
+  /// stand where it is. One that moves drives what a former controller left it, or somebody moves
+  /// it by hand, and one that is not seen may do so: it is left alone (no plan, no command). So is
+  /// one that has not stood in the lists of a whole horizon, since the plan that it was left may be
+  /// to wait and then drive, and one whose states cannot be trusted yet (SettledStates). Once it
+  /// has been told to stand, it is told so as long as it is not seen moving.
   [[nodiscard]] bool may_stand_by(const Observation& observation) const;
 
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and
-  ///   * in logical time (`trigger` says nothing then) every active vehicle has a usable state in
+  ///   * under kTogether (`trigger` says nothing then) every active vehicle has a usable state in
   ///     it and has settled (SettledStates), the same for all controllers;
-  ///   * in real time the list is not before the trigger's next_start, and shows the vehicle
+  ///   * under kAtTrigger the list is not before the trigger's next_start, and shows the vehicle
   ///     standing.
   [[nodiscard]] bool begins(const VehicleStateList& list, const Observation& observation,
-                            bool logical_time, const std::optional<Nanoseconds>& trigger);
+                            StartRule rule, const std::optional<Nanoseconds>& trigger);
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
   /// The plan in force as commands, in answer to the list; without a plan a command to stand. They
@@ -74,7 +75,7 @@ class HlcCore {
   [[nodiscard]] AnswerToList answer(const VehicleStateList& list);
 
  private:
-  [[nodiscard]] std::string fault_of(const AnswerToList& answer) const;
+  [[nodiscard]] std::string validate(const AnswerToList& answer) const;
   [[nodiscard]] bool have_all_settled(const Observation& observation) const;
   [[nodiscard]] bool has_settled(VehicleId vehicle) const;
   [[nodiscard]] const MeasuredVehicle* own(const Observation& observation) const;

@@ -21,7 +21,8 @@ std::vector<TimedPoint> timed_points(const TrajectoryCommand& command) {
 
 }  // namespace
 
-std::string fault_of_own(const TrajectoryCommand& command, const std::optional<LabLimits>& limits) {
+std::string validate_own_command(const TrajectoryCommand& command,
+                                 const std::optional<LabLimits>& limits) {
   if (command.points.empty()) return "";
   if (const auto found = trajectory_fault(timed_points(command), limits)) {
     return to_text(*found, limits.value_or(LabLimits{})) + ", " + shortest_text(found->time_s) +
@@ -44,7 +45,7 @@ std::string fault_of_own(const TrajectoryCommand& command, const std::optional<L
   return "";
 }
 
-TrajectoryCommand said_again(TrajectoryCommand command, Nanoseconds t_now) {
+TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now) {
   command.create_stamp = t_now;
   command.valid_after_stamp = t_now;
   if (command.points.empty()) return command;

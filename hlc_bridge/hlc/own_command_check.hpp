@@ -20,11 +20,11 @@ namespace hlc {
 /// curvature.
 ///
 /// A command without points tells the vehicle to stand, and is good.
-[[nodiscard]] std::string fault_of_own(const TrajectoryCommand& command,
-                                       const std::optional<LabLimits>& limits);
+[[nodiscard]] std::string validate_own_command(const TrajectoryCommand& command,
+                                               const std::optional<LabLimits>& limits);
 
 /// A command that was good, as the answer to the list of `t_now`: created and valid then; standing
 /// on at its end as long as it takes to be good again.
-[[nodiscard]] TrajectoryCommand said_again(TrajectoryCommand command, Nanoseconds t_now);
+[[nodiscard]] TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now);
 
 }  // namespace hlc

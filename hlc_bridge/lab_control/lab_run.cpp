@@ -102,8 +102,8 @@ LabRunActions LabRun::advance(Nanoseconds now) {
   if (phase_ == Phase::kGathering || finished()) {
     return actions;
   }
-  notice_returns(actions);
-  notice_deaths(actions);
+  update_returns(actions);
+  update_deaths(actions);
   leave_running_phases(actions);
   if (phase_ == Phase::kBraking && clock() >= phase_end()) {
     phase_ = Phase::kFinished;
@@ -156,7 +156,7 @@ bool LabRun::is_back(const std::string& process) const {
   return true;
 }
 
-void LabRun::notice_returns(LabRunActions& actions) {
+void LabRun::update_returns(LabRunActions& actions) {
   if (settings_.on_death != OnDeath::kContinue || phase_ != Phase::kRunning) {
     return;
   }
@@ -164,31 +164,32 @@ void LabRun::notice_returns(LabRunActions& actions) {
   for (const std::string& process : gone) {
     if (is_back(process)) {
       dropped_.erase(process);
-      welcome(process);
+      on_return(process);
       actions.returns.push_back(process);
     }
   }
 }
 
-void LabRun::notice_deaths(LabRunActions& actions) {
+void LabRun::update_deaths(LabRunActions& actions) {
   for (const std::string& process : processes_) {
     if (lost_.count(process) != 0) {
-      bury(process, "its participant has left or fallen silent", actions);
+      mark_dead(process, "its participant has left or fallen silent", actions);
     }
   }
   for (const Death& death : overdue()) {
-    bury(death.process, death.sign, actions);
+    mark_dead(death.process, death.sign, actions);
   }
-  const std::vector<std::string> debtors = owing();
-  if (!debtors.empty() && now_ - last_progress_ >= kAnswerTimeout) {
-    for (const std::string& process : debtors) {
-      bury(process, "it owes an answer for too long", actions);
+  const std::vector<std::string> pending = pending_replies();
+  if (!pending.empty() && now_ - last_progress_ >= kAnswerTimeout) {
+    for (const std::string& process : pending) {
+      mark_dead(process, "it owes an answer for too long", actions);
     }
     last_progress_ = now_;
   }
 }
 
-void LabRun::bury(const std::string& process, const std::string& sign, LabRunActions& actions) {
+void LabRun::mark_dead(const std::string& process, const std::string& sign,
+                       LabRunActions& actions) {
   if (!dropped_.insert(process).second) {
     return;
   }
@@ -282,7 +283,7 @@ Nanoseconds LabRun::wake_up() const {
     return gathering_since_ + settings_.startup_timeout;
   }
   Nanoseconds time = wall_time_of(phase_end());
-  if (!owing().empty()) {
+  if (!pending_replies().empty()) {
     time = std::min(time, last_progress_ + kAnswerTimeout);
   }
   time = std::min(time, next_overdue());

@@ -9,6 +9,7 @@
 
 #include "hlc_bridge/messages/death.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/instant.hpp"
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
@@ -61,8 +62,8 @@ struct LabRunResult {
 };
 
 /// The course of one run as a state machine without clock, thread or network: the lab control's
-/// process feeds what arrives, calls advance() after it and at wake_up(), and does what advance()
-/// returns.
+/// machine (LabControlMachine) feeds what arrives, calls advance() after it and at wake_up(), and
+/// does what advance() returns.
 ///
 ///     gathering ──all ready──► running ──(k0 + steps + 1) periods──► braking ──1 s──► finished (0)
 ///         │                       ├──somebody died──► drive out ──3 s──► braking ──► finished (4)
@@ -100,12 +101,17 @@ class LabRun {
   /// @param now  wall time. Real time: since the epoch. Logical time: any. If the clock is set
   ///     back, time stands still until it has caught up.
   [[nodiscard]] LabRunActions advance(Nanoseconds now);
-  /// Wall time at which advance() must be called even if nothing arrives.
+  /// Wall time at which advance() must be called even if nothing arrives; kNever: none.
   [[nodiscard]] Nanoseconds wake_up() const;
+  /// The same by the clocks of a machine: the wall time that counts here, and back.
+  [[nodiscard]] virtual Nanoseconds time_of(const Instant& now) const { return now.wall; }
+  [[nodiscard]] virtual WakeUp wake_up_at(Nanoseconds time) const { return {.wall = time}; }
+  /// Real time: next_start of the start trigger; 0: there is none.
+  [[nodiscard]] virtual Nanoseconds start() const { return 0; }
   /// Answers without which advance() has nothing to do, once the run has begun; 0 if anything that
   /// arrives may count.
   [[nodiscard]] std::size_t answers_owed() const {
-    return phase_ == Phase::kGathering ? 0 : owing().size();
+    return phase_ == Phase::kGathering ? 0 : pending_replies().size();
   }
 
   [[nodiscard]] Phase phase() const { return phase_; }
@@ -116,10 +122,11 @@ class LabRun {
   [[nodiscard]] std::string waiting_for() const;
   /// Complete once finished.
   [[nodiscard]] const LabRunResult& result() const { return result_; }
+  [[nodiscard]] const LabRunSettings& settings() const { return settings_; }
 
- protected:
   static constexpr Nanoseconds kNever = ~Nanoseconds{0};
 
+ protected:
   /// Processes that have not yet said that they are ready; empty: the run can begin.
   [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
   /// Triggers that are due. Called at every advance from the beginning on.
@@ -133,17 +140,16 @@ class LabRun {
   [[nodiscard]] virtual Nanoseconds next_overdue() const { return kNever; }
   /// Processes that owe an answer now. All of them are dead when nobody has answered for
   /// kAnswerTimeout.
-  [[nodiscard]] virtual std::vector<std::string> owing() const { return {}; }
+  [[nodiscard]] virtual std::vector<std::string> pending_replies() const { return {}; }
   /// The process is gone. Before the beginning it may come back and starts anew then.
   virtual void drop(const std::string& /*process*/) {}
   /// The process, dropped before, is back.
-  virtual void welcome(const std::string& /*process*/) {}
+  virtual void on_return(const std::string& /*process*/) {}
   /// Wall time at which clock() itself reaches `t`; kNever if that takes an answer.
   [[nodiscard]] virtual Nanoseconds wall_time_of(Nanoseconds /*t*/) const { return kNever; }
 
   /// To be called for every answer that brings the run forward.
   void note_progress() { progress_ = true; }
-  [[nodiscard]] const LabRunSettings& settings() const { return settings_; }
   [[nodiscard]] Nanoseconds now() const { return now_; }
   /// Step up to which the controller has reported; nothing before its first report.
   [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
@@ -157,10 +163,10 @@ class LabRun {
  private:
   void gather(LabRunActions& actions);
   [[nodiscard]] std::vector<std::string> unreached_timers() const;
-  void notice_deaths(LabRunActions& actions);
-  void notice_returns(LabRunActions& actions);
+  void update_deaths(LabRunActions& actions);
+  void update_returns(LabRunActions& actions);
   [[nodiscard]] bool is_back(const std::string& process) const;
-  void bury(const std::string& process, const std::string& sign, LabRunActions& actions);
+  void mark_dead(const std::string& process, const std::string& sign, LabRunActions& actions);
   void record_death(const Death& death);
   void leave_running_phases(LabRunActions& actions);
   void stop(LabRunActions& actions);

@@ -71,7 +71,7 @@ Nanoseconds LogicalRun::clock() const {
   return tick == 0 ? 0 : tick - 1;
 }
 
-std::vector<std::string> LogicalRun::owing() const {
+std::vector<std::string> LogicalRun::pending_replies() const {
   std::vector<std::string> names = ticks_.unanswered();
   if (const std::optional<Nanoseconds> tick = ticks_.releasable()) {
     names = unreported_before(*tick);

@@ -26,7 +26,7 @@ class LogicalRun : public LabRun {
   [[nodiscard]] std::vector<std::string> not_ready() const override;
   void go_on(LabRunActions& actions) override;
   [[nodiscard]] Nanoseconds clock() const override;
-  [[nodiscard]] std::vector<std::string> owing() const override;
+  [[nodiscard]] std::vector<std::string> pending_replies() const override;
   void drop(const std::string& process) override;
 
  private:

@@ -54,7 +54,7 @@ void RealTimeRun::drop(const std::string& process) {
   }
 }
 
-void RealTimeRun::welcome(const std::string& process) {
+void RealTimeRun::on_return(const std::string& process) {
   for (const std::uint8_t id : settings().vehicle_ids) {
     if (process == controller_name(id)) {
       silenced_.erase(id);

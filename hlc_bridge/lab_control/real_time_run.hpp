@@ -28,13 +28,16 @@ class RealTimeRun : public LabRun {
 
   void ready(const ReadyStatus& status) override;
   void state(const VehicleState& state) override;
+  [[nodiscard]] Nanoseconds time_of(const Instant& now) const override { return now.run; }
+  [[nodiscard]] WakeUp wake_up_at(Nanoseconds time) const override { return {.run = time}; }
+  [[nodiscard]] Nanoseconds start() const override { return start_.value_or(0); }
 
  protected:
   [[nodiscard]] std::vector<std::string> not_ready() const override;
   void go_on(LabRunActions& actions) override;
   [[nodiscard]] Nanoseconds clock() const override { return now(); }
   void drop(const std::string& process) override;
-  void welcome(const std::string& process) override;
+  void on_return(const std::string& process) override;
   [[nodiscard]] std::vector<Death> overdue() const override;
   [[nodiscard]] Nanoseconds next_overdue() const override;
   [[nodiscard]] Nanoseconds wall_time_of(Nanoseconds t) const override { return t; }

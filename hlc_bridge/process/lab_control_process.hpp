@@ -1,19 +1,20 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
-#include <variant>
+#include <string>
 #include <vector>
 
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
-#include "hlc_bridge/lab_control/lab_run.hpp"
+#include "hlc_bridge/lab_control/lab_control_machine.hpp"
+#include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/progress_line.hpp"
+#include "hlc_bridge/process/shell.hpp"
 #include "hlc_bridge/record/report_file.hpp"
-#include "hlc_bridge/time/signal.hpp"
 
 namespace hlc {
 
@@ -31,12 +32,8 @@ struct LabControlOptions {
   bool is_terminal{};         ///< standard error is one
 };
 
-/// The part of the lab control centre that a run needs: answers the parameter requests, starts the
-/// run, is the master of logical time, notices who dies, stops, and records the controllers'
-/// reports.
-///
-/// One thread does everything: DDS callbacks only queue. What happens when is said by LabRun; this
-/// class feeds it and does what it says.
+/// The lab control as a process: the endpoints, the run folder and the operator's terminal of a
+/// LabControlMachine. It is the master of logical time and records the controllers' reports.
 class LabControlProcess {
  public:
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
@@ -46,39 +43,28 @@ class LabControlProcess {
   [[nodiscard]] int run();
 
   /// Ends the run soon, with the stop symbol. From any thread.
-  void interrupt();
+  void interrupt() { shell_.stop(); }
 
  private:
-  using Mail = std::variant<ReadyStatus, ReportRecord, VehicleState, StopRequest, ParameterRequest>;
+  friend class Shell<LabControlMachine>;
 
   void listen_to_vehicles();
-  [[nodiscard]] Nanoseconds now() const;
-  void wait_for_mail();
-  void read_mail();
-  void read(const ReadyStatus& status) { run_->ready(status); }
-  void read(const ReportRecord& record);
-  void read(const VehicleState& state) { run_->state(state); }
-  void read(const StopRequest& request) { run_->stop_requested(request.vehicle_id); }
-  void read(const ParameterRequest& request);
-  void look_who_is_there();
-  void perform(const LabRunActions& actions);
-  void show_progress();
-  void let_everybody_leave() const;
-  void tell_result();
+  [[nodiscard]] LabControlPresence presence() const;
+  void perform(const Parameter& parameter) { parameter_writer_.write(parameter); }
+  void perform(const ReportRecord& record);
+  void perform(Log log);
+  void perform(const RunState& state);
+  void perform(const SystemTrigger& trigger) { trigger_writer_.write(trigger); }
+  void perform(const ProgressText& progress) { progress_.show(progress.text); }
+  void perform(const machine::LogLine& line);
+  void log_result();
   void record_facts() const;
 
   LabControlOptions options_;
-  std::unique_ptr<LabRun> run_;
   std::optional<ReportFile> reports_;
   ProgressLine progress_;
-  Nanoseconds began_{};  ///< wall time of the first trigger
-  Nanoseconds start_{};  ///< real time: next_start of that trigger
-
-  Signal signal_;  // guards what follows, down to the next blank line
-  std::vector<Mail> mail_;
-  bool presence_changed_{true};
-  bool is_gathering_{true};
-  bool interrupted_{};
+  std::atomic<bool> is_gathering_{true};
+  Shell<LabControlMachine> shell_;
 
   // Destroyed first: no callback comes afterwards.
   Participant lab_;

@@ -10,7 +10,7 @@
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/topics.hpp"
 #include "hlc_bridge/dds/writer.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 
 namespace hlc {
 namespace {

@@ -2,13 +2,7 @@
 
 namespace hlc {
 
-void ProgressLine::update(Nanoseconds now, const std::string& text) {
-  if (!next_) {
-    next_ = now + kQuietTime;
-  }
-  if (now < *next_) {
-    return;
-  }
+void ProgressLine::show(const std::string& text) {
   if (is_terminal_) {
     const std::string line =
         text.size() <= kTerminalColumns ? text : text.substr(0, kTerminalColumns - 3) + "...";
@@ -18,7 +12,6 @@ void ProgressLine::update(Nanoseconds now, const std::string& text) {
   }
   std::fflush(stream_);
   is_open_ = is_terminal_;
-  next_ = now + (is_terminal_ ? kTerminalInterval : kLogInterval);
 }
 
 void ProgressLine::end_line() {

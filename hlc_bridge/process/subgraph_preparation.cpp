@@ -14,8 +14,12 @@ constexpr std::chrono::hours kLong{1};
 
 }  // namespace
 
-SubgraphPreparation::SubgraphPreparation(RequestBase base, WeightDesign weights)
-    : base_(std::move(base)), weights_(std::move(weights)), thread_([this] { run(); }) {}
+SubgraphPreparation::SubgraphPreparation(RequestBase base, WeightDesign weights,
+                                         std::function<void(PreparedRequest)> on_prepared)
+    : base_(std::move(base)),
+      weights_(std::move(weights)),
+      on_prepared_(std::move(on_prepared)),
+      thread_([this] { run(); }) {}
 
 SubgraphPreparation::~SubgraphPreparation() {
   stop_.request_stop();
@@ -24,19 +28,7 @@ SubgraphPreparation::~SubgraphPreparation() {
 }
 
 void SubgraphPreparation::ask(const AutomatonRequest& request) {
-  signal_.post([&] {
-    asked_.push_back(request);
-    if (asked_.size() > kMaxWaiting) asked_.pop_front();
-  });
-}
-
-std::vector<PreparedRequest> SubgraphPreparation::take() {
-  return signal_.locked([this] { return std::exchange(done_, {}); });
-}
-
-void SubgraphPreparation::wait() const {
-  static_cast<void>(signal_.wait_until(std::chrono::steady_clock::now() + kLongestWait,
-                                       [this] { return asked_.empty() && !is_working_; }));
+  signal_.post([&] { asked_.push_back(request); });
 }
 
 void SubgraphPreparation::run() {
@@ -47,20 +39,15 @@ void SubgraphPreparation::run() {
     const std::optional<AutomatonRequest> request =
         signal_.locked([this]() -> std::optional<AutomatonRequest> {
           if (ends_ || asked_.empty()) return std::nullopt;
-          is_working_ = true;
           const AutomatonRequest first = std::move(asked_.front());
           asked_.pop_front();
           return first;
         });
-    if (!request) {
-      if (signal_.locked([this] { return ends_; })) return;
-      continue;
+    if (request) {
+      on_prepared_(prepare(base_, *request, &weights_, stop_.get_token()));
+    } else if (signal_.locked([this] { return ends_; })) {
+      return;
     }
-    PreparedRequest prepared = prepare(base_, *request, &weights_, stop_.get_token());
-    signal_.post([&] {
-      done_.push_back(std::move(prepared));
-      is_working_ = false;
-    });
   }
 }
 

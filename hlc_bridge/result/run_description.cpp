@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "planner/common/yaml_text.hpp"
-#include "planner/search/search_options.hpp"
+#include "planner/scenario/engine_choice.hpp"
 
 namespace hlc {
 
@@ -14,7 +14,7 @@ RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> n
   RunDescription description;
   description.scenario = scenario.name;
   description.profile = scenario.profile.name;
-  description.engine = to_string(scenario.search.engine);
+  description.engine = engine_name(scenario.search);
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
   description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;

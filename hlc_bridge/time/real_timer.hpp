@@ -1,19 +1,13 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
 
+#include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/timer.hpp"
 
 namespace hlc {
-
-/// Now, nanoseconds since the Unix epoch (CLOCK_REALTIME): the time of runs in real time.
-[[nodiscard]] Nanoseconds real_time_now();
-
-/// The same instant as a deadline for Signal::wait_until.
-[[nodiscard]] std::chrono::system_clock::time_point real_time_point(Nanoseconds time);
 
 /// The tick that a real timer gives at time `now` after the tick `previous`.
 struct RealTick {

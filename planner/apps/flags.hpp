@@ -20,6 +20,7 @@
 
 #include "planner/apps/cli.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/scenario.hpp"
 
 /// What the command lines of all programs have in common: `--name=value` and `--name value`,
@@ -182,8 +183,8 @@ inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
   app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
   app.add_option("--engine", choices.engine,
-                 "what searches: branch_and_bound or best_first (default: the scenario's, else the "
-                 "profile's)");
+                 std::string("what plans: ") + kEngineChoices +
+                     " (default: the scenario's, else the profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--policy", choices.policy,
                  "by which the controllers change the subgraph themselves, or none (default: the "

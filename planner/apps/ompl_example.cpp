@@ -145,7 +145,7 @@ const char* kind_of_plans(const ot::Benchmark::PlannerExperiment& experiment,
     return !run.contains(kCost) || run.at(kIsOptimal) == "1";
   };
   if (const auto* ours = dynamic_cast<const hlc::RecedingHorizonPlanner*>(&planner)) {
-    if (ours->options().cost_to_go == hlc::CostToGo::k2022) return "first found";
+    if (!hlc::is_admissible(ours->options().cost_to_go)) return "first found";
     return std::ranges::all_of(experiment.runs, is_optimal) ? "optimal" : "best so far";
   }
   return dynamic_cast<const oc::SST*>(&planner) != nullptr ? "best so far" : "first found";
@@ -296,7 +296,7 @@ int run(const Flags& flags) {
       "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
       "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
       "Times are Benchmark's, with the threads in which it runs and watches a planner.\n",
-      file.search.cost_to_go == hlc::CostToGo::k2022 ? ", and so does best_first with 2022" : "");
+      hlc::is_admissible(file.search.cost_to_go) ? "" : ", and so does best_first with 2022");
   std::fflush(stdout);
   for (const ob::PlannerPtr& planner : planners) {
     if (dynamic_cast<const hlc::RecedingHorizonPlanner*>(planner.get()) == nullptr) continue;

@@ -15,8 +15,9 @@
 #include "planner/apps/output_files.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/problem_plot.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/problem_file.hpp"
-#include "planner/search/planner.hpp"
+#include "planner/search/search_engine.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace {
@@ -50,8 +51,9 @@ void declare(CLI::App& app, Flags& flags) {
                  "planning problem (JSON), as high_level_controller --dump-problems writes it")
       ->required();
   app.add_option("--automaton", flags.automaton, "instead of the file that the problem names");
-  app.add_option("--engine", flags.engine,
-                 "branch_and_bound or best_first (default: the file's, else as the planner's)");
+  app.add_option(
+      "--engine", flags.engine,
+      std::string(hlc::kEngineChoices) + " (default: the file's, else branch_and_bound)");
   app.add_option("--cost_to_go", flags.cost_to_go,
                  "reachable, straight_line or 2022; the last two with best_first");
   app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1")
@@ -71,7 +73,7 @@ void declare(CLI::App& app, Flags& flags) {
 hlc::ProblemFile read(const Flags& flags) {
   hlc::ProblemFile file = hlc::read_problem_file(flags.file, flags.automaton);
   try {
-    if (flags.engine) file.search.engine = hlc::engine_from_name(*flags.engine);
+    if (flags.engine) hlc::choose_engine(*flags.engine, file.search);
     if (flags.cost_to_go) file.search.cost_to_go = hlc::cost_to_go_from_name(*flags.cost_to_go);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("--") + error.what());
@@ -87,12 +89,12 @@ hlc::ProblemFile read(const Flags& flags) {
 
 Solved solve(const hlc::ProblemFile& file) {
   const hlc::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
-  const auto planner = hlc::make_horizon_planner(*file.subgraph, reachable, file.search);
+  const auto engine = hlc::make_search_engine(*file.subgraph, reachable, file.search);
   Solved solved;
   double sum_us = 0.0;
   for (int call = 0; call < kMaxCalls && sum_us < kEnough_us; ++call) {
     const auto begin = Clock::now();
-    solved.result = planner->plan(file.problem);
+    solved.result = engine->search(file.problem);
     const double us = std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
     solved.planning_us = call == 0 ? us : std::min(solved.planning_us, us);
     sum_us += us;
@@ -129,7 +131,7 @@ void print(const hlc::ProblemFile& file, const Solved& solved) {
   const hlc::SearchResult& result = solved.result;
   const hlc::HorizonProblem& problem = file.problem;
   std::printf("engine           %s, cost-to-go %s, at most %zu expansions\n",
-              hlc::to_string(file.search.engine), hlc::to_string(file.search.cost_to_go),
+              hlc::engine_name(file.search).c_str(), hlc::to_string(file.search.cost_to_go),
               file.search.max_expansions);
   const bool has_plan = result.status != hlc::SearchStatus::kFallback;
   std::printf("status           %s%s\n", hlc::to_string(result.status),

@@ -13,7 +13,8 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/rollout/rollout.hpp"
-#include "planner/search/planner.hpp"
+#include "planner/scenario/engine_choice.hpp"
+#include "planner/search/search_engine.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace {
@@ -89,12 +90,12 @@ hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
 }
 
 /// The shortest time of some calls: what else the machine does is not the search's.
-double time_s(hlc::HorizonPlanner& planner, const hlc::HorizonProblem& problem,
+double time_s(hlc::SearchEngine& engine, const hlc::HorizonProblem& problem,
               std::size_t& expanded) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (int call = 0; call < kCalls; ++call) {
     const auto begin = Clock::now();
-    expanded = planner.plan(problem).expanded;
+    expanded = engine.search(problem).expanded;
     shortest_s = std::min(shortest_s, std::chrono::duration<double>(Clock::now() - begin).count());
   }
   return shortest_s;
@@ -108,10 +109,9 @@ struct Measurements {
   }
 };
 
-Measured measured(hlc::HorizonPlanner& planner, const hlc::HorizonProblem& problem,
-                  std::string what) {
+Measured measured(hlc::SearchEngine& engine, const hlc::HorizonProblem& problem, std::string what) {
   Measured one{.what = std::move(what), .problems = 1};
-  one.time_s = time_s(planner, problem, one.expansions);
+  one.time_s = time_s(engine, problem, one.expansions);
   return one;
 }
 
@@ -120,12 +120,12 @@ Measurements measure(const hlc::Scenario& scenario,
   const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   hlc::SearchOptions options = scenario.search;
   options.max_expansions = kMeasured;
-  const auto planner = hlc::make_horizon_planner(*scenario.subgraph, reachable, options);
+  const auto engine = hlc::make_search_engine(*scenario.subgraph, reachable, options);
   Measurements result;
   std::optional<Measured> ordinary;
   std::size_t telling = 0;
   for (const hlc::HorizonProblem& problem : problems) {
-    const Measured one = measured(*planner, problem, "slowest of the scenario's");
+    const Measured one = measured(*engine, problem, "slowest of the scenario's");
     if (one.expansions < kTelling) {
       result.preparation_s = std::max(result.preparation_s, one.time_s);
       continue;
@@ -152,11 +152,11 @@ Measurements measure(const hlc::Scenario& scenario,
   for (const hlc::HorizonProblem* problem : by_size) {
     hlc::HorizonProblem hardest = with_blocked_ends(*problem);
     hardest.incumbent.clear();
-    const Measured within_lanes = measured(*planner, hardest, "all ends blocked");
+    const Measured within_lanes = measured(*engine, hardest, "all ends blocked");
     if (within_lanes.expansions < kTelling) continue;
     result.slowest.push_back(within_lanes);
     hardest.boundary_m.clear();  // far more of the tree is free
-    result.slowest.push_back(measured(*planner, hardest, "the same without lanes"));
+    result.slowest.push_back(measured(*engine, hardest, "the same without lanes"));
     break;
   }
   return result;
@@ -188,7 +188,7 @@ int run(const Flags& flags) {
   }
   std::printf(
       "%s: engine %s, cost-to-go %s, horizon %zu, subgraph %s; %zu problems of %zu steps\n\n",
-      scenario.name.c_str(), hlc::to_string(scenario.search.engine),
+      scenario.name.c_str(), hlc::engine_name(scenario.search).c_str(),
       hlc::to_string(scenario.search.cost_to_go), scenario.horizon_steps,
       scenario.subgraph->spec().name.c_str(), problems.size(), scenario.steps);
   std::printf("%-26s %8s %12s %12s %18s\n", "measured", "problems", "expansions", "time [ms]",

@@ -13,6 +13,7 @@
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "planner/search/search_engine.hpp"
 
 namespace {
 
@@ -54,12 +55,12 @@ void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_
 }
 
 /// True if the plan of this step would have been another one without the other vehicles.
-bool others_changed_the_plan(const hlc::Controller& controller, hlc::HorizonPlanner& alone,
+bool others_changed_the_plan(const hlc::Controller& controller, hlc::SearchEngine& alone,
                              const hlc::Report& report) {
   if (controller.problems().empty() || report.status != hlc::StepStatus::kPlanned) return false;
   hlc::HorizonProblem problem = controller.problems().back();
   problem.obstacles_m.clear();
-  return alone.plan(problem).cost < report.cost_m2 - 1e-9;
+  return alone.search(problem).cost < report.cost_m2 - 1e-9;
 }
 
 int run(const hlc::ScenarioChoices& choices) {
@@ -68,7 +69,7 @@ int run(const hlc::ScenarioChoices& choices) {
   std::map<hlc::VehicleId, Tally> tallies;
   hlc::Rollout rollout = hlc::make_rollout(scenario);
   const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = hlc::make_horizon_planner(*scenario.subgraph, reachable, scenario.search);
+  const auto alone = hlc::make_search_engine(*scenario.subgraph, reachable, scenario.search);
   std::chrono::steady_clock::duration wall{};
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();

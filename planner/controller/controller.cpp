@@ -89,9 +89,8 @@ FallbackReason reason_of(SettleVerdict verdict) {
   return FallbackReason::kNone;
 }
 
-std::unique_ptr<HorizonPlanner> planner_on(const PreparedSubgraph& on,
-                                           const SearchOptions& search) {
-  return make_horizon_planner(*on.subgraph, *on.reachable, search, on.tables);
+std::unique_ptr<SearchEngine> engine_on(const PreparedSubgraph& on, const SearchOptions& search) {
+  return make_search_engine(*on.subgraph, *on.reachable, search, on.tables);
 }
 
 bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
@@ -116,7 +115,7 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
     : options_(std::move(options)),
       on_(std::move(on)),
       routes_(std::move(routes)),
-      planner_(planner_on(on_, options_.search)),
+      engine_(engine_on(on_, options_.search)),
       standstill_(own_step(subgraph().automaton(), subgraph().standstill())),
       missing_rules_(rules_for_missing(subgraph().automaton())) {
   assert(!routes_->empty());
@@ -141,7 +140,7 @@ std::unique_ptr<Controller> Controller::clone(std::optional<std::size_t> max_exp
   result->missing_rules_ = missing_rules_;
   if (former_) {
     result->former_ = Former{.on = former_->on,
-                             .planner = planner_on(former_->on, result->options_.search),
+                             .engine = engine_on(former_->on, result->options_.search),
                              .last = former_->last};
   }
   return result;
@@ -151,9 +150,9 @@ void Controller::switch_to(const PreparedSubgraph& next) {
   assert(next.subgraph->automaton().trims == subgraph().automaton().trims);
   assert(next.reachable->max_steps() > options_.horizon_steps);
   // Of several switches in a row: what the plan in force was found on.
-  if (!former_) former_ = Former{on_, std::move(planner_), {}};
+  if (!former_) former_ = Former{on_, std::move(engine_), {}};
   former_->last = {last_step().value + options_.horizon_steps};
-  planner_ = planner_on(next, options_.search);
+  engine_ = engine_on(next, options_.search);
   on_ = next;
   standstill_ = own_step(subgraph().automaton(), subgraph().standstill());
   sets_out_ = sets_out_ || !joining_.is_possible;
@@ -170,7 +169,7 @@ std::uint64_t Controller::warm_up() {
                                                  : problem_alone(route().corridor);
   former_problem_.reset();
   int looks = 0;
-  return planner_->plan(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
+  return engine_->search(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
 }
 
 const MeasuredVehicle* Controller::measured(VehicleId vehicle) const {
@@ -424,7 +423,7 @@ void Controller::look_at_lanes() {
         [this](const Corridor& corridor) { return problem_alone(corridor); },
         [this](const HorizonProblem& problem) {
           step_.joining_problems.push_back(problem);
-          return planner_->plan(problem);
+          return engine_->search(problem);
         });
   };
   const bool has_rested = has_rested_for_long();
@@ -454,7 +453,7 @@ bool Controller::has_rested_for_long() {
     rests_since_.reset();
     return false;
   }
-  if (options_.search.cost_to_go == CostToGo::k2022) return false;
+  if (options_.search.cost_to_go == CostToGo::kReferenceSpeed) return false;
   rests_since_ = rests_since_.value_or(next);
   const std::uint64_t rested = next.value - rests_since_->value;
   return rested > 0 && rested % options_.horizon_steps == 0;
@@ -474,7 +473,8 @@ HorizonProblem Controller::pose_problem() {
 std::vector<const Maneuver*> Controller::incumbent() const {
   std::vector<const Maneuver*> maneuvers;
   maneuvers.reserve(options_.horizon_steps);
-  if (in_force_->is_moved() || options_.search.cost_to_go == CostToGo::k2022) return maneuvers;
+  if (in_force_->is_moved() || options_.search.cost_to_go == CostToGo::kReferenceSpeed)
+    return maneuvers;
   const std::uint64_t now = step_.observation.step.value;
   for (std::size_t j = 1; j <= options_.horizon_steps; ++j) {
     maneuvers.push_back(&plan_in_force().maneuver_during({now + j}));
@@ -497,8 +497,8 @@ PlanQuality Controller::quality_of(SearchStatus found) {
 }
 
 /// What is found on a subgraph is the candidate, unless its drift leads into something.
-void Controller::search_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on) {
-  const SearchResult result = planner.plan(step_.problems.back());
+void Controller::search_candidate(StepIndex next, SearchEngine& engine, const Subgraph& on) {
+  const SearchResult result = engine.search(step_.problems.back());
   step_.report.generated += result.generated;
   step_.report.expanded += result.expanded;
   if (result.status == SearchStatus::kFallback) {
@@ -524,14 +524,14 @@ void Controller::search_candidate(StepIndex next, HorizonPlanner& planner, const
   }
 }
 
-void Controller::find_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on) {
-  search_candidate(next, planner, on);
+void Controller::find_candidate(StepIndex next, SearchEngine& engine, const Subgraph& on) {
+  search_candidate(next, engine, on);
   if (step_.obstacle != FallbackReason::kConflict) return;
   HorizonProblem without_drift = step_.problems.back();  // only for its drift: try without any
   without_drift.avoids_steering_limit = true;
   step_.problems.push_back(std::move(without_drift));
   step_.obstacle = FallbackReason::kNone;
-  search_candidate(next, planner, on);
+  search_candidate(next, engine, on);
 }
 
 /// After a switch, if there is no candidate on what is planned on now.
@@ -544,7 +544,7 @@ void Controller::plan_on_former(StepIndex next) {
   if (step_.obstacle == FallbackReason::kBudget) return;
   step_.obstacle = FallbackReason::kNone;
   if (step_.problems.size() > 1) step_.problems.push_back(step_.problems.front());
-  find_candidate(next, *former_->planner, *former_->on.subgraph);
+  find_candidate(next, *former_->engine, *former_->on.subgraph);
 }
 
 /// The command that the plan would become is looked at before anybody is told of it.
@@ -579,7 +579,7 @@ Prediction Controller::plan(std::span<const Prediction> heard) {
   }
   if (!drives_out_ && step_.obstacle == FallbackReason::kNone) {
     step_.problems.push_back(pose_problem());
-    find_candidate(next, *planner_, subgraph());
+    find_candidate(next, *engine_, subgraph());
     if (former_) plan_on_former(next);
   }
   step_.prediction.vehicle = options_.vehicle;

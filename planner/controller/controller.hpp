@@ -20,7 +20,7 @@
 #include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
 #include "planner/road/reference_points.hpp"
-#include "planner/search/planner.hpp"
+#include "planner/search/search_engine.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc {
@@ -29,7 +29,7 @@ struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
   double reference_speed_mps{0.8};
-  ReferenceRule reference_rule{ReferenceRule::k2022};
+  ReferenceRule reference_rule{half_speed_last};
   SettleRule settle_rule{SettleRule::kStrict};
   SearchOptions search;
   DeviationRules deviation;
@@ -202,7 +202,7 @@ class Controller {
   /// What was planned on before a switch.
   struct Former {
     PreparedSubgraph on;
-    std::unique_ptr<HorizonPlanner> planner;
+    std::unique_ptr<SearchEngine> engine;
     StepIndex last;  ///< of the steps that may still use it
   };
 
@@ -216,8 +216,8 @@ class Controller {
   [[nodiscard]] double project(const Point& position_m) const;
   [[nodiscard]] double reach_m() const;
   [[nodiscard]] static PlanQuality quality_of(SearchStatus found);
-  void search_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on);
-  void find_candidate(StepIndex next, HorizonPlanner& planner, const Subgraph& on);
+  void search_candidate(StepIndex next, SearchEngine& engine, const Subgraph& on);
+  void find_candidate(StepIndex next, SearchEngine& engine, const Subgraph& on);
   void plan_on_former(StepIndex next);
   [[nodiscard]] bool is_candidate_free() const;
   [[nodiscard]] bool is_candidate_drivable() const;
@@ -238,7 +238,7 @@ class Controller {
   ControllerOptions options_;
   PreparedSubgraph on_;
   std::shared_ptr<const std::vector<DrivableRoute>> routes_;
-  std::unique_ptr<HorizonPlanner> planner_;
+  std::unique_ptr<SearchEngine> engine_;
   std::optional<Former> former_;  ///< until something was found on what is planned on now
   const Maneuver* standstill_;
   MissingVehicleRules missing_rules_;

@@ -1,71 +1,88 @@
 #include "planner/controller/joint_step.hpp"
 
-#include <set>
+#include <utility>
 
 namespace hlc {
 namespace {
 
-/// What one controller hears. It ignores its own message, which may be there.
-template <class Message>
-struct Heard {
-  std::vector<Message> copy;  ///< without the lost ones; not used if none can be lost
-  std::span<const Message> messages;
+/// Hands messages over to all but their sender, unless they are lost.
+class Exchange {
+ public:
+  Exchange(std::span<ControlLoop* const> loops, StepIndex step, const JointStepRules& rules)
+      : loops_(loops), step_(step), rules_(&rules) {}
+
+  template <class Message>
+  void deliver(MessageKind kind, const Message& message) const {
+    for (ControlLoop* receiver : loops_) {
+      const VehicleId to = receiver->controller().options().vehicle;
+      if (to == message.vehicle) continue;
+      if (rules_->is_lost && rules_->is_lost({kind, step_, message.vehicle, to})) continue;
+      receiver->receive(message);
+    }
+  }
+
+  void deliver(const ExternalMessages& messages) const {
+    for (const Traffic& one : messages.traffic) deliver(MessageKind::kTraffic, one);
+    for (const Prediction& one : messages.predictions) deliver(MessageKind::kPrediction, one);
+    for (const Outcome& one : messages.outcomes) deliver(MessageKind::kOutcome, one);
+  }
+
+ private:
+  std::span<ControlLoop* const> loops_;
+  StepIndex step_;
+  const JointStepRules* rules_;
 };
+
+StepOutput plan(ControlLoop& loop, const JointStepRules& rules) {
+  StepOutput output;
+  const auto proceed = [&] { output = loop.proceed(); };
+  if (rules.around_planning) {
+    rules.around_planning(proceed);
+  } else {
+    proceed();
+  }
+  if (rules.on_prediction) rules.on_prediction(loop.controller(), *output.prediction);
+  return output;
+}
 
 }  // namespace
 
-std::vector<Report> joint_step(std::span<Controller* const> controllers,
-                               const Observation& observation, const JointStepRules& rules) {
-  const auto heard = [&]<class Message>(MessageKind kind, const std::vector<Message>& messages,
-                                        const Controller& receiver) {
-    Heard<Message> result{.copy = {}, .messages = messages};
-    if (!rules.is_lost) return result;
-    const VehicleId to = receiver.options().vehicle;
-    result.copy = messages;
-    std::erase_if(result.copy, [&](const Message& message) {
-      return message.vehicle != to && rules.is_lost({kind, observation.step, message.vehicle, to});
-    });
-    result.messages = result.copy;
-    return result;
-  };
+std::vector<Report> joint_step(std::span<ControlLoop* const> loops, const Observation& observation,
+                               const JointStepRules& rules) {
+  const Exchange exchange(loops, observation.step, rules);
+  std::vector<Traffic> traffic;
+  traffic.reserve(loops.size());
+  for (ControlLoop* one : loops) {
+    traffic.push_back(*one->begin(observation).traffic);
+    if (rules.on_traffic) rules.on_traffic(one->controller(), traffic.back());
+  }
+  exchange.deliver(rules.external);
+  for (const Traffic& one : traffic) exchange.deliver(MessageKind::kTraffic, one);
+  for (ControlLoop* one : loops) static_cast<void>(one->proceed());
 
-  std::vector<Traffic> traffic = rules.outside.traffic;
-  std::vector<Prediction> predictions = rules.outside.predictions;
-  std::vector<Outcome> outcomes = rules.outside.outcomes;
-  std::vector<Report> reports;
-  traffic.reserve(traffic.size() + controllers.size());
-  predictions.reserve(predictions.size() + controllers.size());
-  outcomes.reserve(outcomes.size() + controllers.size());
-  reports.reserve(controllers.size());
-  for (Controller* one : controllers) {
-    traffic.push_back(one->observe(observation));
-    if (rules.told) rules.told(*one, traffic.back());
-  }
-  for (Controller* one : controllers) {
-    one->couple(heard(MessageKind::kTraffic, traffic, *one).messages);
-  }
-  std::set<const Controller*> late;
-  for (Controller* one : controllers) {
-    if (rules.is_late && rules.is_late(*one)) {
-      late.insert(one);
+  std::vector<Report> reports(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (rules.is_late && rules.is_late(loops[i]->controller())) {
+      reports[i] = *loops[i]->fall_back(FallbackReason::kLate).report;
       continue;
     }
-    const Heard<Prediction> so_far = heard(MessageKind::kPrediction, predictions, *one);
-    predictions.push_back(rules.plan ? rules.plan(*one, so_far.messages)
-                                     : one->plan(so_far.messages));
+    const StepOutput output = plan(*loops[i], rules);
+    exchange.deliver(MessageKind::kPrediction, *output.prediction);
+    if (output.outcome) exchange.deliver(MessageKind::kOutcome, *output.outcome);
   }
-  for (Controller* one : controllers) {
-    if (!late.contains(one)) outcomes.push_back(one->vote());
-  }
-  for (Controller* one : controllers) {
-    if (late.contains(one)) {
-      reports.push_back(one->give_up(FallbackReason::kLate));
-      continue;
-    }
-    reports.push_back(one->settle(heard(MessageKind::kPrediction, predictions, *one).messages,
-                                  heard(MessageKind::kOutcome, outcomes, *one).messages));
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i]->is_in_step()) reports[i] = *loops[i]->proceed().report;
   }
   return reports;
+}
+
+std::vector<Report> joint_step(std::span<Controller* const> controllers,
+                               const Observation& observation, const JointStepRules& rules) {
+  std::vector<ControlLoop> loops;
+  std::vector<ControlLoop*> pointers;
+  loops.reserve(controllers.size());
+  for (Controller* one : controllers) pointers.push_back(&loops.emplace_back(*one));
+  return joint_step(pointers, observation, rules);
 }
 
 }  // namespace hlc

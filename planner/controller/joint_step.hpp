@@ -1,15 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "planner/controller/controller.hpp"
+#include "planner/controller/control_loop.hpp"
 
 namespace hlc {
-
-enum class MessageKind { kTraffic, kPrediction, kOutcome };
 
 /// One message on its way, for whoever loses some.
 struct Delivery {
@@ -19,8 +16,8 @@ struct Delivery {
   VehicleId to;
 };
 
-/// What vehicles say that are not stepped.
-struct SaidOutside {
+/// What vehicles publish that are not stepped.
+struct ExternalMessages {
   std::vector<Traffic> traffic{};
   std::vector<Prediction> predictions{};  ///< there before anybody plans
   std::vector<Outcome> outcomes{};
@@ -28,24 +25,33 @@ struct SaidOutside {
 
 /// What happens around a joint step.
 struct JointStepRules {
-  /// Messages for which this says true do not arrive. Absent: none.
+  /// Messages for which this is true do not arrive. Absent: none. Asked once for each receiver.
   std::function<bool(const Delivery&)> is_lost{};
-  /// Controllers for which this says true miss the step's deadline: they neither plan nor say
+  /// Controllers for which this is true miss the step's deadline: they neither plan nor publish
   /// anything more in this step, and their plan in force stays. Absent: none. Asked once per step.
   std::function<bool(const Controller&)> is_late{};
-  /// Sees what a controller tells of itself, before anybody plans: its plan in force is still the
-  /// one that the step began with. Absent: nobody looks.
-  std::function<void(const Controller&, const Traffic&)> told{};
-  /// Calls Controller::plan, for an owner who wants to measure. Absent: just calls it.
-  std::function<Prediction(Controller&, std::span<const Prediction>)> plan{};
-  SaidOutside outside{};
+  /// Sees what a controller publishes of itself, before anybody plans: its plan in force is still
+  /// the one that the step began with. Absent: nobody looks.
+  std::function<void(const Controller&, const Traffic&)> on_traffic{};
+  /// Sees what a controller predicts, before anybody decides whether it comes into force. Absent:
+  /// nobody looks.
+  std::function<void(const Controller&, const Prediction&)> on_prediction{};
+  /// Calls what it is given, by which a controller plans; for an owner who measures. Absent: just
+  /// calls it.
+  std::function<void(const std::function<void()>&)> around_planning{};
+  ExternalMessages external{};
 };
 
-/// One control step of controllers that hear each other in memory, each with the same observation.
-/// Vehicles plan in the order of their priorities, so that nobody waits.
+/// One control step of controllers that receive each other's messages in memory, each with the same
+/// observation. Vehicles plan in the order of their priorities, so that nobody waits.
 ///
-/// @param controllers  in the order of priorities (plans_before); each with a plan in force
+/// @param loops  in the order of priorities (plans_before); each controller with a plan in force,
+/// none in a step
 /// @return their reports, in the same order
+std::vector<Report> joint_step(std::span<ControlLoop* const> loops, const Observation& observation,
+                               const JointStepRules& rules = {});
+
+/// The same for controllers whose owner keeps no loops.
 std::vector<Report> joint_step(std::span<Controller* const> controllers,
                                const Observation& observation, const JointStepRules& rules = {});
 

@@ -5,8 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "planner/maneuver_design/solver/decision_variables.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 
 namespace hlc {
 namespace {

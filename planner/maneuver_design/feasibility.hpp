@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/maneuver_design/solver/maneuver_solver.hpp"
+#include "planner/maneuver_design/maneuver_problem.hpp"
 
 namespace hlc {
 
@@ -15,6 +15,18 @@ struct Feasibility {
 };
 
 [[nodiscard]] Feasibility feasibility_of(const ManeuverProblem& problem);
+
+/// How far a motion violates each kind of constraint, 0 if it holds.
+struct ConstraintResiduals {
+  double end_speed_mps{};
+  double end_steering_rad{};
+  double acceleration_mps2{};
+  double steering_rate_radps{};
+  double speed_mps{};
+  double steering_rad{};
+  double path{};        ///< the largest g_i; g has no unit
+  double cost_bound{};  ///< of J_i <= max_i, relative to CostBound::scale
+};
 
 /// How far a motion violates the constraints of a problem.
 [[nodiscard]] ConstraintResiduals residuals_of(const ManeuverProblem& problem,

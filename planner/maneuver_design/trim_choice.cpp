@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
@@ -51,59 +53,44 @@ double rounded(double value) {
   return std::trunc(value * 1000.0 + std::copysign(1e-6, value)) / 1000.0 + 0.0;
 }
 
-}  // namespace
-
-bool is_reversing(const DriveSample& sample) { return sample.speed_mps <= -kSlowestDrive_mps; }
-
-std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, double window_s,
-                                       const VehicleParameters& vehicle) {
-  std::vector<DriveSample> samples;
-  std::size_t end = 0;
-  for (const DrivePoint& begin : points) {
-    while (end < points.size() && points[end].time_s < begin.time_s + window_s) ++end;
-    if (end == points.size()) break;
-    const double turn_rad = wrap_angle(points[end].pose.heading_rad - begin.pose.heading_rad);
-    const Point chord = points[end].pose.position_m() - begin.pose.position_m();
-    const double chord_m = chord.norm();
-    if (std::abs(turn_rad) > 0.5 * std::numbers::pi) continue;
-    const double half = 0.5 * std::abs(turn_rad);
-    const double arc_m = half > 0.0 ? chord_m * half / std::sin(half) : chord_m;
-    const double speed_mps = arc_m / (points[end].time_s - begin.time_s);
-    if (speed_mps < kSlowestDrive_mps) {
-      samples.push_back({});
-      continue;
-    }
-    if (std::abs(turn_rad / arc_m) * vehicle.rear_axle_to_cg_m >= 1.0) continue;
-    const double middle_rad = begin.pose.heading_rad + 0.5 * turn_rad;
-    const double ahead_m = chord.dot(Point(std::cos(middle_rad), std::sin(middle_rad)));
-    const double sign = ahead_m < 0.0 ? -1.0 : 1.0;
-    samples.push_back(
-        {sign * speed_mps, steering_for_curvature_rad(sign * turn_rad / arc_m, vehicle)});
-  }
-  return samples;
+/// The motion between two points of a drive; nothing if it turns more than a quarter or tighter
+/// than the vehicle can.
+std::optional<DriveSample> sample_between(const DrivePoint& begin, const DrivePoint& end,
+                                          const VehicleParameters& vehicle) {
+  const double turn_rad = wrap_angle(end.pose.heading_rad - begin.pose.heading_rad);
+  const Point chord = end.pose.position_m() - begin.pose.position_m();
+  const double chord_m = chord.norm();
+  if (std::abs(turn_rad) > 0.5 * std::numbers::pi) return std::nullopt;
+  const double half = 0.5 * std::abs(turn_rad);
+  const double arc_m = half > 0.0 ? chord_m * half / std::sin(half) : chord_m;
+  const double speed_mps = arc_m / (end.time_s - begin.time_s);
+  if (speed_mps < kSlowestDrive_mps) return DriveSample{};
+  if (std::abs(turn_rad / arc_m) * vehicle.rear_axle_to_cg_m >= 1.0) return std::nullopt;
+  const double middle_rad = begin.pose.heading_rad + 0.5 * turn_rad;
+  const double ahead_m = chord.dot(Point(std::cos(middle_rad), std::sin(middle_rad)));
+  const double sign = ahead_m < 0.0 ? -1.0 : 1.0;
+  return DriveSample{sign * speed_mps,
+                     steering_for_curvature_rad(sign * turn_rad / arc_m, vehicle)};
 }
 
-std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std::size_t count,
-                                     const VehicleParameters& vehicle,
-                                     const VehicleLimits& limits) {
-  assert(count >= 2);
-  const Point unit{limits.speed_max_mps, limits.steering_max_rad};
+/// Speed and steering of the samples that drive forwards, within the limits and divided by `unit`.
+std::vector<Point> forward_points(const std::vector<DriveSample>& drive, const Point& unit,
+                                  const VehicleLimits& limits) {
   std::vector<Point> points;
-  std::size_t reversing = 0;
   for (const DriveSample& sample : drive) {
-    if (is_reversing(sample)) ++reversing;
     if (sample.speed_mps < kSlowestDrive_mps) continue;
     points.emplace_back(
         std::clamp(sample.speed_mps, limits.speed_min_mps, limits.speed_max_mps) / unit.x(),
         std::clamp(sample.steering_rad, -limits.steering_max_rad, limits.steering_max_rad) /
             unit.y());
   }
-  if (points.empty()) {
-    throw std::invalid_argument(reversing > 0 ? "the vehicle never drove forwards"
-                                              : "the vehicle stood for the whole drive");
-  }
+  return points;
+}
 
-  std::vector<Point> centres = scattered(points, count - 1);
+/// Each centre to the mean of the points nearest to it, again and again until none moves.
+/// @return how many points are nearest to each centre
+std::vector<std::size_t> settle_centres(const std::vector<Point>& points,
+                                        std::vector<Point>& centres) {
   std::vector<std::size_t> sizes;
   for (int i = 0; i < kMaxIterations; ++i) {
     std::vector<Point> sums(centres.size(), Point::Zero());
@@ -120,19 +107,12 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
     }
     if (centres == before) break;
   }
+  return sizes;
+}
 
-  std::vector<ChosenTrim> moving;
-  const std::size_t counted = drive.size() - reversing;
-  const auto total = static_cast<double>(counted);
-  for (std::size_t cluster = 0; cluster < centres.size(); ++cluster) {
-    const Point& centre = centres[cluster];
-    moving.push_back({{rounded(centre.x() * unit.x()), rounded(centre.y() * unit.y())},
-                      static_cast<double>(sizes[cluster]) / total});
-  }
-  std::ranges::sort(moving, [](const ChosenTrim& a, const ChosenTrim& b) {
-    return std::pair(a.trim.steering_rad, a.trim.speed_mps) <
-           std::pair(b.trim.steering_rad, b.trim.speed_mps);
-  });
+/// @param moving  neighbours in their order may be the same
+void check_chosen(const std::vector<ChosenTrim>& moving, const VehicleParameters& vehicle,
+                  const VehicleLimits& limits) {
   for (const ChosenTrim& one : moving) {
     if (!is_within_friction({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle, limits)) {
       throw std::invalid_argument(
@@ -147,6 +127,51 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   if (same != moving.end()) {
     throw std::invalid_argument("two of the chosen trims are the same to 0.001; choose fewer");
   }
+}
+
+}  // namespace
+
+bool is_reversing(const DriveSample& sample) { return sample.speed_mps <= -kSlowestDrive_mps; }
+
+std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, double window_s,
+                                       const VehicleParameters& vehicle) {
+  std::vector<DriveSample> samples;
+  std::size_t end = 0;
+  for (const DrivePoint& begin : points) {
+    while (end < points.size() && points[end].time_s < begin.time_s + window_s) ++end;
+    if (end == points.size()) break;
+    if (const auto sample = sample_between(begin, points[end], vehicle)) samples.push_back(*sample);
+  }
+  return samples;
+}
+
+std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std::size_t count,
+                                     const VehicleParameters& vehicle,
+                                     const VehicleLimits& limits) {
+  assert(count >= 2);
+  const Point unit{limits.speed_max_mps, limits.steering_max_rad};
+  const std::vector<Point> points = forward_points(drive, unit, limits);
+  const auto reversing = static_cast<std::size_t>(std::ranges::count_if(drive, is_reversing));
+  if (points.empty()) {
+    throw std::invalid_argument(reversing > 0 ? "the vehicle never drove forwards"
+                                              : "the vehicle stood for the whole drive");
+  }
+
+  std::vector<Point> centres = scattered(points, count - 1);
+  const std::vector<std::size_t> sizes = settle_centres(points, centres);
+  std::vector<ChosenTrim> moving;
+  const std::size_t counted = drive.size() - reversing;
+  const auto total = static_cast<double>(counted);
+  for (std::size_t cluster = 0; cluster < centres.size(); ++cluster) {
+    const Point& centre = centres[cluster];
+    moving.push_back({{rounded(centre.x() * unit.x()), rounded(centre.y() * unit.y())},
+                      static_cast<double>(sizes[cluster]) / total});
+  }
+  std::ranges::sort(moving, [](const ChosenTrim& a, const ChosenTrim& b) {
+    return std::pair(a.trim.steering_rad, a.trim.speed_mps) <
+           std::pair(b.trim.steering_rad, b.trim.speed_mps);
+  });
+  check_chosen(moving, vehicle, limits);
   std::vector<ChosenTrim> chosen{{{}, static_cast<double>(counted - points.size()) / total}};
   chosen.insert(chosen.end(), moving.begin(), moving.end());
   return chosen;

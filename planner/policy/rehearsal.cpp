@@ -37,18 +37,18 @@ Traffic traffic_of(const Controller::ToldPlan& plan, StepIndex step) {
   return traffic;
 }
 
-/// What the others say in that step.
-SaidOutside said_by(const std::vector<Controller::ToldPlan>& others, StepIndex step) {
-  SaidOutside said;
+/// What the others publish in that step.
+ExternalMessages published_by(const std::vector<Controller::ToldPlan>& others, StepIndex step) {
+  ExternalMessages published;
   for (const Controller::ToldPlan& other : others) {
-    said.traffic.push_back(traffic_of(other, step));
-    said.predictions.push_back({.vehicle = other.vehicle,
-                                .step = step,
-                                .is_new = false,
-                                .areas = rest_of(other.areas, {step.value + 1})});
-    said.outcomes.push_back({.vehicle = other.vehicle, .step = step, .wants_fallback = false});
+    published.traffic.push_back(traffic_of(other, step));
+    published.predictions.push_back({.vehicle = other.vehicle,
+                                     .step = step,
+                                     .is_new = false,
+                                     .areas = rest_of(other.areas, {step.value + 1})});
+    published.outcomes.push_back({.vehicle = other.vehicle, .step = step, .wants_fallback = false});
   }
-  return said;
+  return published;
 }
 
 Report step(Controller& controller, StepIndex now,
@@ -61,7 +61,7 @@ Report step(Controller& controller, StepIndex now,
   std::ranges::sort(observation.active);
   observation.present = observation.active;
   Controller* const alone[]{&controller};
-  return joint_step(alone, observation, {.outside = said_by(others, now)}).front();
+  return joint_step(alone, observation, {.external = published_by(others, now)}).front();
 }
 
 double weighted(const Maneuver& maneuver, const std::vector<PlanningWeight>& weights) {

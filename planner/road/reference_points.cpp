@@ -4,17 +4,25 @@
 
 namespace hlc {
 
+std::vector<double> half_speed_last(double /*current_speed_mps*/, double reference_speed_mps,
+                                    std::size_t horizon_steps) {
+  std::vector<double> speeds_mps(horizon_steps, reference_speed_mps);
+  speeds_mps.back() = reference_speed_mps / 2.0;
+  return speeds_mps;
+}
+
+std::vector<double> mean_speed_first(double current_speed_mps, double reference_speed_mps,
+                                     std::size_t horizon_steps) {
+  std::vector<double> speeds_mps(horizon_steps, reference_speed_mps);
+  speeds_mps.front() = (current_speed_mps + reference_speed_mps) / 2.0;
+  return speeds_mps;
+}
+
 Reference reference_points(const ReferencePath& path, double start_s_m, double current_speed_mps,
                            double reference_speed_mps, std::size_t horizon_steps, double step_s,
                            ReferenceRule rule) {
   assert(horizon_steps >= 1 && step_s > 0.0 && reference_speed_mps >= 0.0);
-  Reference reference;
-  reference.speeds_mps.assign(horizon_steps, reference_speed_mps);
-  if (rule == ReferenceRule::k2022) {
-    reference.speeds_mps.back() = reference_speed_mps / 2.0;
-  } else {
-    reference.speeds_mps.front() = (current_speed_mps + reference_speed_mps) / 2.0;
-  }
+  Reference reference{.speeds_mps = rule(current_speed_mps, reference_speed_mps, horizon_steps)};
   reference.points_m.reserve(horizon_steps);
   double s_m = start_s_m;
   for (const double speed_mps : reference.speeds_mps) {

@@ -7,12 +7,22 @@
 
 namespace hlc {
 
-/// How the reference points of a plan are spaced: by the rule under which the paper's numbers
-/// arose, or by its authors' later one.
-enum class ReferenceRule {
-  kLater,  ///< first step with the mean of current and reference speed, then the reference speed
-  k2022,   ///< reference speed for all steps but the last, which is halved; current speed ignored
-};
+/// How the reference points of a plan are spaced: the speed of each of the `horizon_steps` steps
+/// [m/s]. A rule is one function; the profile chooses it.
+/// @pre horizon_steps >= 1
+using ReferenceRule = std::vector<double> (*)(double current_speed_mps, double reference_speed_mps,
+                                              std::size_t horizon_steps);
+
+/// The reference speed, and half of it in the last step, whatever the current speed is. The rule
+/// that produced the paper's numbers.
+[[nodiscard]] std::vector<double> half_speed_last(double current_speed_mps,
+                                                  double reference_speed_mps,
+                                                  std::size_t horizon_steps);
+
+/// The mean of current and reference speed in the first step, then the reference speed.
+[[nodiscard]] std::vector<double> mean_speed_first(double current_speed_mps,
+                                                   double reference_speed_mps,
+                                                   std::size_t horizon_steps);
 
 /// Reference of one plan: r_1 ... r_n and the speed that belongs to each step.
 struct Reference {

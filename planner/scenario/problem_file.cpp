@@ -11,6 +11,7 @@
 #include "planner/common/node.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/search_values.hpp"
 #include "planner/search/search_options.hpp"
@@ -172,8 +173,7 @@ std::string weights_text(const std::vector<PlanningWeight>& weights) {
 SearchOptions read_search(const Node& node, const Subgraph& subgraph) {
   node.check_keys({"engine", "cost_to_go", "max_expansions", "criterion_weights"});
   SearchOptions search;
-  if (node.has("engine"))
-    search.engine = read_named(node, "engine", engine_from_name, kEngineNames);
+  if (const auto engine = read_engine(node)) choose_engine(*engine, search);
   if (node.has("cost_to_go")) {
     search.cost_to_go = read_named(node, "cost_to_go", cost_to_go_from_name, kCostToGoNames);
   }
@@ -273,7 +273,7 @@ std::string to_text(const ProblemFile& file) {
           ? ""
           : ", \"criterion_weights\": " + weights_text(file.search.criterion_weights);
   add("search", fmt::format(R"({{"engine": "{}", "cost_to_go": "{}", "max_expansions": {}{}}})",
-                            to_string(file.search.engine), to_string(file.search.cost_to_go),
+                            engine_name(file.search), to_string(file.search.cost_to_go),
                             file.search.max_expansions, weights));
   return text + "\n}\n";
 }
@@ -320,9 +320,10 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
 
 void check_can_be_searched(const ProblemFile& file) {
   check_search_options(file.search);
-  if (file.search.cost_to_go == CostToGo::k2022 && file.problem.reference_speed_mps.empty()) {
+  if (needs_reference_speeds(file.search.cost_to_go) && file.problem.reference_speed_mps.empty()) {
     throw std::invalid_argument(
-        "reference_speed is missing, allowed one per step: the cost-to-go 2022 needs them");
+        std::string("reference_speed is missing, allowed one per step: the cost-to-go ") +
+        to_string(file.search.cost_to_go) + " needs them");
   }
 }
 

@@ -7,16 +7,16 @@ namespace hlc {
 Profile profile_from_name(const std::string& name) {
   if (name == "default") {
     return {.name = name,
-            .reference_rule = ReferenceRule::k2022,
+            .reference_rule = half_speed_last,
             .engine = Engine::kBranchAndBound,
             .cost_to_go = CostToGo::kReachable,
             .settle_rule = SettleRule::kStrict};
   }
   if (name == "2022") {
     return {.name = name,
-            .reference_rule = ReferenceRule::k2022,
+            .reference_rule = half_speed_last,
             .engine = Engine::kBestFirst,
-            .cost_to_go = CostToGo::k2022,
+            .cost_to_go = CostToGo::kReferenceSpeed,
             .settle_rule = SettleRule::kAgreed};
   }
   throw std::invalid_argument("--profile = " + name + ", allowed default, 2022");

@@ -11,7 +11,7 @@ namespace hlc {
 /// A named set of rules for planning and agreeing. A profile is data: no code asks for its name.
 struct Profile {
   std::string name;
-  ReferenceRule reference_rule{};
+  ReferenceRule reference_rule{half_speed_last};
   Engine engine{};
   CostToGo cost_to_go{};
   SettleRule settle_rule{};
@@ -19,8 +19,7 @@ struct Profile {
 
 /// |                           | `default`                       | `2022`                       |
 /// |---------------------------|---------------------------------|------------------------------|
-/// | reference points          | at reference speed, last step   | the same                     |
-/// |                           | halved, as in 2022              |                              |
+/// | reference points          | half_speed_last                 | half_speed_last              |
 /// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
 /// | new plans come into force | strict: safe whatever is lost   | agreed: as the authors did   |

@@ -12,6 +12,7 @@
 #include "planner/common/yaml_text.hpp"
 #include "planner/policy/speed_zones.hpp"
 #include "planner/road/route.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/policy_file.hpp"
 #include "planner/scenario/search_values.hpp"
 #include "planner/scenario/starts.hpp"
@@ -23,12 +24,12 @@ namespace {
 /// The command line's engine, else the file's, else the profile's.
 SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices& choices,
                             const Profile& profile) {
-  SearchOptions search{.engine = values.engine.value_or(profile.engine),
-                       .cost_to_go = profile.cost_to_go};
+  SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
   search.max_expansions = values.max_expansions;
   search.criterion_weights = values.criterion_weights;
+  if (values.engine) choose_engine(*values.engine, search);
   try {
-    if (choices.engine) search.engine = engine_from_name(*choices.engine);
+    if (choices.engine) choose_engine(*choices.engine, search);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("--") + error.what());
   }
@@ -37,7 +38,8 @@ SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices&
   } catch (const std::invalid_argument& error) {
     if (choices.engine) {
       throw std::invalid_argument(fmt::format(
-          "--engine = {} with profile {}, allowed best_first: the profile's cost-to-go is {}",
+          "--engine = {} with profile {}, allowed best_first or ompl_best_first: the profile's "
+          "cost-to-go is {}",
           *choices.engine, profile.name, to_string(search.cost_to_go)));
     }
     values.node.fail("engine", fmt::format("with profile {}: {}", profile.name, error.what()));

@@ -84,14 +84,13 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .steps = node.required<std::size_t>("steps", between(1.0, 100000.0)),
       .horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0)),
       .reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0)),
+      .engine = read_engine(node),
       .max_expansions = read_max_expansions(node),
       .criterion_weights = read_criterion_weights(node),
       .is_reconfigurable = node.optional<bool>("reconfigurable", false),
       .policies = read_policies(node),
       .policy = node.optional<std::string>("policy", kNoPolicy),
       .node = node};
-  if (node.has("engine"))
-    values.engine = read_named(node, "engine", engine_from_name, kEngineNames);
   if (node.has("lab")) values.lab_file = beside(path, node.required<std::string>("lab"));
   if (node.has("circle")) {
     values.circle = parse_circle(node.map("circle"));

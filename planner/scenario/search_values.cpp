@@ -4,9 +4,20 @@
 
 #include <algorithm>
 
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/search/edge_costs.hpp"
 
 namespace hlc {
+
+std::optional<std::string> read_engine(const Node& node) {
+  if (!node.has("engine")) return std::nullopt;
+  const auto known = [](const std::string& name) {
+    SearchOptions search;
+    choose_engine(name, search);
+    return name;
+  };
+  return read_named(node, "engine", known, kEngineChoices);
+}
 
 std::size_t read_max_expansions(const Node& node) {
   return node.optional<std::size_t>(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ template <class FromName>
     node.fail(key, allowed);
   }
 }
+
+/// Key `engine`, a name that choose_engine takes; may be absent.
+[[nodiscard]] std::optional<std::string> read_engine(const Node& node);
 
 /// Key `max_expansions`, which may be absent.
 [[nodiscard]] std::size_t read_max_expansions(const Node& node);

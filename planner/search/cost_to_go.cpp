@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "planner/search/search_options.hpp"
+
 namespace hlc {
 namespace {
 
@@ -37,8 +39,8 @@ double straight_line_cost_to_go(const Point& position_m, std::span<const Point> 
   return h;
 }
 
-double cost_to_go_2022(const Point& position_m, std::span<const Point> reference_m,
-                       std::span<const double> reach_m) {
+double reference_speed_cost_to_go(const Point& position_m, std::span<const Point> reference_m,
+                                  std::span<const double> reach_m) {
   assert(reference_m.size() == reach_m.size());
   double h = 0.0;
   for (std::size_t i = 0; i < reach_m.size(); ++i) {
@@ -53,7 +55,7 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
     : reachable_(reachable), reference_m_(problem.reference_m), kind_(kind) {
   const std::size_t n = problem.horizon_steps();
   assert(n <= reachable.max_steps());
-  assert(kind != CostToGo::k2022 || problem.reference_speed_mps.size() == n);
+  assert(!needs_reference_speeds(kind) || problem.reference_speed_mps.size() == n);
 
   if (kind == CostToGo::kStraightLine) {
     const double longest_m = longest_displacement_m(subgraph);
@@ -61,7 +63,7 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
       reach_m_.push_back(static_cast<double>(i) * longest_m + ReachableSets::allowance_m(i));
     }
   }
-  if (kind == CostToGo::k2022) {
+  if (kind == CostToGo::kReferenceSpeed) {
     reach_m_.resize(n * n);
     for (std::size_t depth = 0; depth < n; ++depth) {
       double marched_m = 0.0;
@@ -81,8 +83,9 @@ double CostToGoFunction::operator()(TrimId trim, std::size_t depth, const Frame&
   switch (kind_) {
     case CostToGo::kStraightLine:
       return straight_line_cost_to_go(frame.origin_m, reference_m, {&reach_m_[0], steps_left});
-    case CostToGo::k2022:
-      return cost_to_go_2022(frame.origin_m, reference_m, {&reach_m_[depth * n], steps_left});
+    case CostToGo::kReferenceSpeed:
+      return reference_speed_cost_to_go(frame.origin_m, reference_m,
+                                        {&reach_m_[depth * n], steps_left});
     case CostToGo::kReachable:
       break;
   }

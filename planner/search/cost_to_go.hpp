@@ -45,8 +45,9 @@ namespace hlc {
 ///
 /// with d_i = sum of reference speed times step length. Inadmissible: a reference point that is
 /// nearer than d_i costs as much as one that is farther. For the comparison with the paper only.
-[[nodiscard]] double cost_to_go_2022(const Point& position_m, std::span<const Point> reference_m,
-                                     std::span<const double> reach_m);
+[[nodiscard]] double reference_speed_cost_to_go(const Point& position_m,
+                                                std::span<const Point> reference_m,
+                                                std::span<const double> reach_m);
 
 /// The cost-to-go of one horizon problem of n steps, for every vertex of its search tree.
 ///
@@ -67,13 +68,13 @@ namespace hlc {
 /// `kStraightLine` takes d_i = i times the longest displacement of any edge of the subgraph (exit
 /// edges too): admissible for the same automata, and much less tight.
 ///
-/// `k2022` takes d_i from the reference speeds of the steps after `depth`: their sum over the next
-/// i steps times the step length.
+/// `kReferenceSpeed` takes d_i from the reference speeds of the steps after `depth`: their sum over
+/// the next i steps times the step length.
 class CostToGoFunction {
  public:
   /// @param reachable, problem  must outlive this object
   /// @pre problem.horizon_steps() <= reachable.max_steps()
-  /// @pre with k2022: one reference speed per step
+  /// @pre with kReferenceSpeed: one reference speed per step
   CostToGoFunction(const Subgraph& subgraph, const ReachableSets& reachable,
                    const HorizonProblem& problem, CostToGo kind);
 
@@ -85,7 +86,8 @@ class CostToGoFunction {
   const ReachableSets& reachable_;
   std::span<const Point> reference_m_;
   CostToGo kind_;
-  /// With kStraightLine d_1 ... d_n; with k2022 one row of n per depth, n - depth of it in use.
+  /// With kStraightLine d_1 ... d_n; with kReferenceSpeed one row of n per depth, n - depth of it
+  /// in use.
   std::vector<double> reach_m_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct HorizonProblem {
   Pose start;
   TrimId start_trim;
   std::vector<Point> reference_m;  ///< r_1 ... r_n; its size is the horizon n
-  /// Of each step; only the cost-to-go `k2022` needs it, else it may be empty.
+  /// Of each step; only the cost-to-go `kReferenceSpeed` needs it, else it may be empty.
   std::vector<double> reference_speed_mps;
   /// Areas that are occupied during step j (index j - 1), any number per step; empty: none at all.
   std::vector<std::vector<ConvexPolygon>> obstacles_m;
@@ -47,9 +48,9 @@ enum class CostToGo {
   kReachable,
   /// Admissible and textbook: every step leads at most as far as the longest maneuver.
   kStraightLine,
-  /// The authors' of 2022: sum (|| p - r_j || - v_ref step_s m)^2 without a floor at 0.
+  /// `2022`, the authors' of 2022: sum (|| p - r_j || - v_ref step_s m)^2 without a floor at 0.
   /// Inadmissible; for the comparison with the paper only.
-  k2022,
+  kReferenceSpeed,
 };
 
 enum class Engine {
@@ -64,13 +65,23 @@ struct PlanningWeight {
   friend bool operator==(const PlanningWeight&, const PlanningWeight&) = default;
 };
 
+class SearchEngine;
+struct SearchOptions;
+struct SearchTables;
+
+/// Makes an engine; parameters as make_search_engine.
+using EngineFactory = std::unique_ptr<SearchEngine> (*)(const Subgraph& subgraph,
+                                                        const ReachableSets& reachable,
+                                                        const SearchOptions& options,
+                                                        std::shared_ptr<const SearchTables> tables);
+
 struct SearchOptions {
   /// Beyond, costs would come near what no path costs.
   static constexpr double kMostWeight_m2 = 1e9;
   static constexpr std::size_t kMostExpansions = 1'000'000'000'000;
 
   Engine engine{Engine::kBranchAndBound};
-  /// kStraightLine and k2022: with kBestFirst only.
+  /// kStraightLine and kReferenceSpeed: with kBestFirst only.
   CostToGo cost_to_go{CostToGo::kReachable};
   /// Expansions after which the search gives up; a number, never a time, so that two runs agree.
   /// The default holds every tree of the paper's automaton at horizon 8 (at most 309 029).
@@ -78,13 +89,17 @@ struct SearchOptions {
   /// The planning cost follows the maneuvers' criteria, too: see edge_costs.hpp. The paper keeps it
   /// fixed to the distance from the reference, as no weights do.
   std::vector<PlanningWeight> criterion_weights{};
+  /// Puts `engine` behind another interface, such as OMPL's (make_ompl_engine), or is a user's own
+  /// engine. nullptr: `engine` itself.
+  EngineFactory factory{nullptr};
 };
 
 enum class SearchStatus {
   kOptimal,   ///< a path of least cost
   kBudget,    ///< gave up (max_expansions reached, or told to stop) with the best path so far
   kFallback,  ///< no path, see `reason`: the plan in force is to be driven on
-  kUnproven,  ///< a path found with CostToGo::k2022, which is inadmissible: a better one may exist
+  kUnproven,  ///< a path found with CostToGo::kReferenceSpeed, which is inadmissible: a better one
+              ///< may exist
 };
 
 /// Why there is no path.

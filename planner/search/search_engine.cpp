@@ -36,6 +36,9 @@ std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
                                                  const ReachableSets& reachable,
                                                  const SearchOptions& options,
                                                  std::shared_ptr<const SearchTables> tables) {
+  if (options.factory != nullptr) {
+    return options.factory(subgraph, reachable, options, std::move(tables));
+  }
   if (options.engine == Engine::kBestFirst) {
     return std::make_unique<BestFirstSearch>(subgraph, reachable, options);
   }

@@ -11,7 +11,10 @@ namespace hlc {
 
 struct SearchTables;
 
-/// What searches behind the planner: one call per problem. Not safe for two threads at once.
+/// For `SearchEngine::search`: only the problem and the engine's own budget end the search.
+[[nodiscard]] inline bool never_stop() { return false; }
+
+/// What a controller plans with: one call per problem. Not safe for two threads at once.
 class SearchEngine {
  public:
   virtual ~SearchEngine() = default;
@@ -28,10 +31,10 @@ class SearchEngine {
     search(problem, stop, result);
     return result;
   }
+  [[nodiscard]] SearchResult search(const HorizonProblem& problem) {
+    return search(problem, never_stop);
+  }
 };
-
-/// For `SearchEngine::search`: only the problem and the engine's own budget end the search.
-[[nodiscard]] inline bool never_stop() { return false; }
 
 /// Empties a result, its vectors keep their capacity: no path, infeasible, nothing counted.
 void reset(SearchResult& result);
@@ -41,7 +44,7 @@ void reset(SearchResult& result);
 /// @param lower_bound  no path that is still open costs less [m^2]
 void give_up(bool has_path, double lower_bound, SearchResult& result);
 
-/// The engine that `options` name.
+/// The engine that `options` name, from `options.factory` if that is given.
 /// @param subgraph, reachable  must outlive the engine; `reachable` belongs to `subgraph`
 /// @param tables  of make_search_tables for all three; none: the engine makes what it needs
 /// @throws std::invalid_argument if the engine cannot search with that cost-to-go: kBranchAndBound

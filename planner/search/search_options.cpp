@@ -33,7 +33,7 @@ const char* to_string(CostToGo cost_to_go) {
       return "reachable";
     case CostToGo::kStraightLine:
       return "straight_line";
-    case CostToGo::k2022:
+    case CostToGo::kReferenceSpeed:
       return "2022";
   }
   return "unknown";
@@ -65,14 +65,19 @@ const char* to_string(NoPath reason) {
   return "unknown";
 }
 
+bool is_admissible(CostToGo cost_to_go) { return cost_to_go != CostToGo::kReferenceSpeed; }
+
+bool needs_reference_speeds(CostToGo cost_to_go) { return cost_to_go == CostToGo::kReferenceSpeed; }
+
 Engine engine_from_name(const std::string& name) {
   return from_name(name, std::array{Engine::kBranchAndBound, Engine::kBestFirst}, "engine",
                    kEngineNames);
 }
 
 CostToGo cost_to_go_from_name(const std::string& name) {
-  return from_name(name, std::array{CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::k2022},
-                   "cost_to_go", kCostToGoNames);
+  return from_name(
+      name, std::array{CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::kReferenceSpeed},
+      "cost_to_go", kCostToGoNames);
 }
 
 void check_search_options(const SearchOptions& options) {

@@ -18,6 +18,12 @@ namespace hlc {
 [[nodiscard]] const char* to_string(SearchStatus status);
 [[nodiscard]] const char* to_string(NoPath reason);
 
+/// True if it is a lower bound of what remains to be paid, so that a plan found with it costs
+/// least.
+[[nodiscard]] bool is_admissible(CostToGo cost_to_go);
+/// True if it needs HorizonProblem::reference_speed_mps.
+[[nodiscard]] bool needs_reference_speeds(CostToGo cost_to_go);
+
 /// All names, separated by ", ".
 inline constexpr char kEngineNames[] = "branch_and_bound, best_first";
 inline constexpr char kCostToGoNames[] = "reachable, straight_line, 2022";

@@ -1,10 +1,11 @@
 #include "tests/benchmarks/contestants.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <functional>
 #include <utility>
 
-#include "planner/search/planner.hpp"
+#include "planner/search/ompl/ompl_engine.hpp"
 #include "planner/search/search_engine.hpp"
 #include "tests/benchmarks/plain_search.hpp"
 
@@ -18,11 +19,11 @@ const std::vector<std::pair<std::string, SearchOptions>>& engines() {
       {"best_first_straight_line", {Engine::kBestFirst, CostToGo::kStraightLine, kNoBudget}},
       {"best_first", {Engine::kBestFirst, CostToGo::kReachable, kNoBudget}},
       {"branch_and_bound", {Engine::kBranchAndBound, CostToGo::kReachable, kNoBudget}},
+      {"ompl_branch_and_bound",
+       {Engine::kBranchAndBound, CostToGo::kReachable, kNoBudget, {}, make_ompl_engine}},
   };
   return all;
 }
-
-constexpr char kThroughOmpl[] = "branch_and_bound_ompl";
 
 Solved solved_by(const SearchResult& result) {
   return {.has_plan = result.status == SearchStatus::kOptimal,
@@ -60,25 +61,12 @@ class EngineContestant final : public Contestant {
   SearchResult result_;
 };
 
-class PlannerContestant final : public Contestant {
- public:
-  explicit PlannerContestant(std::unique_ptr<HorizonPlanner> planner)
-      : planner_(std::move(planner)) {}
-  void solve(const HorizonProblem& problem) override { result_ = planner_->plan(problem); }
-  [[nodiscard]] Solved solved() const override { return solved_by(result_); }
-
- private:
-  std::unique_ptr<HorizonPlanner> planner_;
-  SearchResult result_;
-};
-
 }  // namespace
 
 const std::vector<std::string>& contestant_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result{kPlain};
     for (const auto& [name, options] : engines()) result.push_back(name);
-    result.emplace_back(kThroughOmpl);
     return result;
   }();
   return names;
@@ -87,13 +75,10 @@ const std::vector<std::string>& contestant_names() {
 std::unique_ptr<Contestant> make_contestant(const std::string& name, const Subgraph& subgraph,
                                             const ReachableSets& reachable) {
   if (name == kPlain) return std::make_unique<PlainContestant>(subgraph);
-  for (const auto& [engine, options] : engines()) {
-    if (name != engine) continue;
-    return std::make_unique<EngineContestant>(make_search_engine(subgraph, reachable, options));
-  }
-  assert(name == kThroughOmpl);
-  return std::make_unique<PlannerContestant>(make_horizon_planner(
-      subgraph, reachable, {.engine = Engine::kBranchAndBound, .max_expansions = kNoBudget}));
+  const auto found =
+      std::ranges::find(engines(), name, &std::pair<std::string, SearchOptions>::first);
+  assert(found != engines().end());
+  return std::make_unique<EngineContestant>(make_search_engine(subgraph, reachable, found->second));
 }
 
 }  // namespace hlc::test

@@ -29,8 +29,8 @@ inline constexpr char kPlain[] = "plain";
 /// | `plain` | PlainSearch, the reference |
 /// | `best_first_straight_line` | best-first engine with the reference's kind of cost-to-go |
 /// | `best_first` | the same with the one from reachable sets |
-/// | `branch_and_bound` | the fast engine |
-/// | `branch_and_bound_ompl` | the same as the controller has it, through an ompl::base::Planner |
+/// | `branch_and_bound` | the fast engine, as the controller has it |
+/// | `ompl_branch_and_bound` | the same, called through an ompl::base::Planner |
 [[nodiscard]] const std::vector<std::string>& contestant_names();
 
 /// An engine's budget is beyond every tree of the problem sets: nothing may end before the optimum.

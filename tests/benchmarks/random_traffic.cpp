@@ -87,7 +87,7 @@ HorizonProblem problem_without_obstacles(const Subgraph& subgraph, TrimId trim,
   Reference reference = reference_points(
       route, route.project_within(position_m, s_m - 2.0 * kBeside_m, s_m + 2.0 * kBeside_m).s_m,
       automaton.trims[trim.index].speed_mps, traffic.reference_speed_mps, traffic.horizon_steps,
-      automaton.step_s, ReferenceRule::kLater);
+      automaton.step_s, mean_speed_first);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
   problem.obstacles_m.resize(traffic.horizon_steps);

@@ -35,7 +35,7 @@ std::unique_ptr<Controller> controller_of(const ScenarioVehicle& vehicle, const 
       ControllerOptions{.vehicle = vehicle.id,
                         .horizon_steps = scenario.horizon_steps,
                         .reference_speed_mps = scenario.reference_speed_mps,
-                        .reference_rule = ReferenceRule::kLater,
+                        .reference_rule = mean_speed_first,
                         .settle_rule = scenario.profile.settle_rule,
                         .search = {.engine = Engine::kBestFirst}},
       subgraph, vehicle.path, lanes == Lanes::kNone ? Corridor{} : vehicle.corridor);

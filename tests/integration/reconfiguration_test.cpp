@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hlc_bridge/messages/time_grid.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"
 #include "tests/integration/run_reports.hpp"

@@ -10,7 +10,7 @@
 
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "planner/coordination/missing.hpp"
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"

@@ -9,7 +9,7 @@
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
 #include "planner/common/text_file.hpp"
-#include "planner/search/search_options.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
 
 namespace hlc {
@@ -23,7 +23,7 @@ void write_configuration(const std::filesystem::path& folder, const Scenario& sc
   keep_configuration(folder, files_of(scenario));
   const ScenarioChoices choices{.file = scenario.file,
                                 .profile = scenario.profile.name,
-                                .engine = to_string(scenario.search.engine),
+                                .engine = engine_name(scenario.search),
                                 .subgraph = scenario.subgraph->spec().name,
                                 .policy = scenario.policy,
                                 .map_file = scenario.map_file,

@@ -6,7 +6,8 @@ namespace {
 void set_search(const SweepValue& value, Scenario& scenario) {
   scenario.search.engine =
       value.text == "branch_and_bound" ? Engine::kBranchAndBound : Engine::kBestFirst;
-  scenario.search.cost_to_go = value.text == "2022" ? CostToGo::k2022 : CostToGo::kReachable;
+  scenario.search.cost_to_go =
+      value.text == "2022" ? CostToGo::kReferenceSpeed : CostToGo::kReachable;
 }
 
 void set_drivable(const SweepValue& value, Scenario& scenario) {
@@ -33,7 +34,7 @@ const std::vector<SweepSetting>& sweep_settings() {
        {},
        [](const Value& value, Scenario& scenario) {
          scenario.profile.reference_rule =
-             value.text == "2022" ? ReferenceRule::k2022 : ReferenceRule::kLater;
+             value.text == "2022" ? half_speed_last : mean_speed_first;
        }},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
       {"reference_speed_mps",

@@ -28,6 +28,7 @@ struct Member {
   std::uint8_t id;
   SimulatedVehicle vehicle;
   HlcCore hlc;
+  ControlLoop loop;  ///< over the controller of `hlc`
   SubgraphChoice choice;
   bool was_told_to_stop{};
   bool has_left{};
@@ -63,10 +64,12 @@ class Lab {
           .vehicle_id = id, .start = measured_start(scenario, vehicle), .gains = options.gains};
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
       HlcCore hlc(make_controller(scenario, vehicle.id));
+      ControlLoop loop(hlc.controller(), cpu_clock_);
       SubgraphChoice choice(hlc.controller(), scenario.reconfiguration);
       members_.push_back({.id = id,
                           .vehicle = SimulatedVehicle(simulated),
                           .hlc = std::move(hlc),
+                          .loop = std::move(loop),
                           .choice = std::move(choice)});
     }
     std::ranges::sort(members_, plans_before,
@@ -165,45 +168,47 @@ class Lab {
     for (Member& member : members_) {
       observation = member.hlc.observe(list).value();
       if (!member.hlc.has_begun()) member.hlc.note(list, observation);
-      begins = member.hlc.begins(list, observation, true, std::nullopt) && begins;
+      begins = member.hlc.begins(list, observation, StartRule::kTogether, std::nullopt) && begins;
     }
     observation.present = observation.active;
     if (begins && !start_) start_ = observation.step;
-    std::map<const Controller*, Nanoseconds> planning_ns;
-    for (Member& member : members_) {
+    std::vector<ReportRecord> records(members_.size());
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      Member& member = members_[i];
       const Nanoseconds from_cpu = cpu_clock_();
       static_cast<void>(member.choice.begin_step(member.hlc.controller(), observation.step, start_,
                                                  battery_voltage_v(list, VehicleId{member.id})));
-      planning_ns[&member.hlc.controller()] = cpu_clock_() - from_cpu;
+      records[i].planning_ns = cpu_clock_() - from_cpu;
     }
-    std::vector<ReportRecord> records;
-    if (!begins) {
-      for (Member& member : members_) {
-        records.push_back({.report = member.hlc.controller().stand_by(observation)});
+    if (begins) {
+      run_step(observation, records);
+    } else {
+      for (std::size_t i = 0; i < members_.size(); ++i) {
+        records[i] = {.report = members_[i].loop.stand_by(observation)};
       }
-      return records;
     }
-    std::vector<Controller*> controllers;
-    for (Member& member : members_) controllers.push_back(&member.hlc.controller());
+    return records;
+  }
+
+  void run_step(const Observation& observation, std::vector<ReportRecord>& records) {
+    std::vector<ControlLoop*> loops;
+    for (Member& member : members_) loops.push_back(&member.loop);
     double planning_s = 0.0;
     JointStepRules rules = rules_;
-    rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
+    rules.around_planning = [&](const std::function<void()>& plan) {
       const Nanoseconds from = wall_clock_();
-      const Nanoseconds from_cpu = cpu_clock_();
-      Prediction prediction = rules_.plan ? rules_.plan(controller, heard) : controller.plan(heard);
-      planning_ns[&controller] += cpu_clock_() - from_cpu;
+      plan();
       planning_s += seconds_since(from);
-      return prediction;
     };
     const Nanoseconds from = wall_clock_();
-    const std::vector<Report> reports = joint_step(controllers, observation, rules);
+    std::vector<Report> reports = joint_step(loops, observation, rules);
     const double step_s = seconds_since(from);
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      records.push_back({.report = reports[i], .planning_ns = planning_ns[controllers[i]]});
+      records[i].report = std::move(reports[i]);
+      records[i].planning_ns += members_[i].loop.planning_ns();
     }
     experiment_.wall.planning_s += planning_s;
     experiment_.wall.coordination_s += step_s - planning_s;
-    return records;
   }
 
   void report(const ReportRecord& record) {

@@ -114,24 +114,8 @@ class ActiveSet {
   /// active.
   void advance(const Eigen::VectorXd& direction, double longest) {
     double step = longest;
-    Eigen::Index bound = -1;
-    Eigen::Index row = -1;
-    for (const Eigen::Index i : free_) {
-      const double limit = direction(i) > 0.0 ? q_.upper(i) : q_.lower(i);
-      if (direction(i) != 0.0 && (limit - p_(i)) / direction(i) < step) {
-        step = std::max((limit - p_(i)) / direction(i), 0.0);
-        bound = i;
-      }
-    }
-    const Eigen::VectorXd along = q_.rows * direction;
-    const Eigen::VectorXd used = q_.rows * p_;
-    for (Eigen::Index i = 0; i < along.size(); ++i) {
-      if (!is_active(i) && along(i) > 1e-14 && (q_.room(i) - used(i)) / along(i) < step) {
-        step = std::max((q_.room(i) - used(i)) / along(i), 0.0);
-        row = i;
-        bound = -1;
-      }
-    }
+    const Eigen::Index bound = first_bound(direction, step);
+    const Eigen::Index row = first_row(direction, step);
     if (!std::isfinite(step)) {
       return;  // no bound in the way of a direction of 0
     }
@@ -142,6 +126,34 @@ class ActiveSet {
       side(bound) = direction(bound) > 0.0 ? 1 : -1;
       p_(bound) = direction(bound) > 0.0 ? q_.upper(bound) : q_.lower(bound);
     }
+  }
+
+  /// The free variable whose bound is reached first, before `step`, which then ends there; -1:
+  /// none.
+  [[nodiscard]] Eigen::Index first_bound(const Eigen::VectorXd& direction, double& step) const {
+    Eigen::Index bound = -1;
+    for (const Eigen::Index i : free_) {
+      const double limit = direction(i) > 0.0 ? q_.upper(i) : q_.lower(i);
+      if (direction(i) != 0.0 && (limit - p_(i)) / direction(i) < step) {
+        step = std::max((limit - p_(i)) / direction(i), 0.0);
+        bound = i;
+      }
+    }
+    return bound;
+  }
+
+  /// The same among the rows that are not active.
+  [[nodiscard]] Eigen::Index first_row(const Eigen::VectorXd& direction, double& step) {
+    Eigen::Index row = -1;
+    const Eigen::VectorXd along = q_.rows * direction;
+    const Eigen::VectorXd used = q_.rows * p_;
+    for (Eigen::Index i = 0; i < along.size(); ++i) {
+      if (!is_active(i) && along(i) > 1e-14 && (q_.room(i) - used(i)) / along(i) < step) {
+        step = std::max((q_.room(i) - used(i)) / along(i), 0.0);
+        row = i;
+      }
+    }
+    return row;
   }
 
   /// Lets go of the constraint whose multiplier has the wrong sign most; false if none has.

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "planner/maneuver_design/feasibility.hpp"
-#include "planner/maneuver_design/solver/held.hpp"
+#include "planner/maneuver_design/shooting.hpp"
+#include "planner/maneuver_design/solver/active_bounds.hpp"
 #include "planner/maneuver_design/solver/newton.hpp"
 #include "planner/maneuver_design/solver/optimality.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
 #include "planner/maneuver_design/solver/slsqp.hpp"
 #include "planner/maneuver_design/solver/starting_point.hpp"
 
@@ -31,7 +31,7 @@ Attempt::Attempt(const ManeuverProblem& problem, const RunningCost& cost,
       cost_(cost),
       options_(options),
       transcription_(problem, cost, unit_s, options.tie_break) {
-  told_.cost_bounds = !problem.cost_bounds.empty();
+  constraints_.cost_bounds = !problem.cost_bounds.empty();
 }
 
 Candidate Attempt::solved() {
@@ -79,10 +79,10 @@ Candidate Attempt::after_few_rounds(const Candidate& start) {
   constexpr int kFew = 12;
   for (;;) {
     const SlsqpResult result =
-        run_slsqp(transcription_, told_, start.z, held_at(start.z),
+        run_slsqp(transcription_, constraints_, start.z, active_bounds_at(start.z),
                   {options_.cost_tolerance, std::min(kFew, options_.max_evaluations)});
     Candidate point = examined(result.z);
-    if (!tell_violated(point.z)) {
+    if (!add_violated(point.z)) {
       return point;
     }
   }
@@ -90,8 +90,8 @@ Candidate Attempt::after_few_rounds(const Candidate& start) {
 
 Candidate Attempt::refined(const Candidate& point) {
   for (;;) {
-    Candidate better = examined(newton(transcription_, told_, point.z).z);
-    if (!tell_violated(better.z)) {
+    Candidate better = examined(newton(transcription_, constraints_, point.z).z);
+    if (!add_violated(better.z)) {
       constexpr double kRounding = 1e-12;
       const bool is_better =
           better.within_bounds && better.objective <= point.objective + kRounding;
@@ -108,10 +108,10 @@ Eigen::VectorXd Attempt::from_coarse() {
   coarse.intervals = kCoarse;
   const DecisionVariables& variables = transcription_.variables();
   Attempt attempt(coarse, cost_, options_, variables.unit_s());
-  attempt.told_ = told_;
+  attempt.constraints_ = constraints_;
   const Candidate point = attempt.solved();
   coarse_evaluations_ += attempt.evaluations();
-  told_ = attempt.told_;
+  constraints_ = attempt.constraints_;
   const std::vector<Input> inputs = attempt.transcription_.variables().inputs(point.z);
   return variables.variables(resampled(inputs, problem_.intervals), variables.unit_s());
 }
@@ -124,10 +124,10 @@ Candidate Attempt::after_long_way(const Eigen::VectorXd& start, const Candidate&
     const Eigen::VectorXd& from = best.within_bounds ? best.z : start;
     transcription_.scale_at(from);
     const SlsqpResult result =
-        run_slsqp(transcription_, told_, from, Eigen::ArrayXi::Zero(from.size()),
+        run_slsqp(transcription_, constraints_, from, Eigen::ArrayXi::Zero(from.size()),
                   {options_.cost_tolerance, options_.max_evaluations});
     Candidate point = examined(result.z);
-    if (tell_violated(point.z)) {
+    if (add_violated(point.z)) {
       continue;
     }
     best.objective = transcription_.objective(best.z, nullptr);
@@ -166,33 +166,34 @@ ConstraintResiduals Attempt::residuals_at(const Eigen::VectorXd& z) const {
   return residuals_of(problem_, inputs, shot.states, duration_s);
 }
 
-/// 1 for the variables that a bound clearly holds where they are.
-Eigen::ArrayXi Attempt::held_at(const Eigen::VectorXd& z) const {
-  Eigen::ArrayXi held = Eigen::ArrayXi::Zero(z.size());
+/// 1 for the variables whose bound is clearly active.
+Eigen::ArrayXi Attempt::active_bounds_at(const Eigen::VectorXd& z) const {
+  Eigen::ArrayXi active_bounds = Eigen::ArrayXi::Zero(z.size());
   if (newton_applies()) {
     Eigen::VectorXd gradient;
     (void)transcription_.objective(z, &gradient);
-    held.setOnes();
-    for (const Eigen::Index i : open_variables(transcription_, told_, z, gradient)) {
-      held(i) = 0;
+    active_bounds.setOnes();
+    for (const Eigen::Index i : free_variables(transcription_, constraints_, z, gradient)) {
+      active_bounds(i) = 0;
     }
   }
-  return held;
+  return active_bounds;
 }
 
-/// Told what it violates, a solver avoids it. True if there is something new to tell.
-bool Attempt::tell_violated(const Eigen::VectorXd& z) {
+/// Adds the kinds of inequality that z violates to those that a solver takes into account. True if
+/// that is a new one.
+bool Attempt::add_violated(const Eigen::VectorXd& z) {
   const ConstraintResiduals residuals = residuals_at(z);
-  const Told before = told_;
+  const ConstraintSet before = constraints_;
   const VehicleLimits& limits = problem_.limits;
-  told_.speed |= residuals.speed_mps > kFeasibilityTolerance * limits.speed_max_mps;
-  told_.steering |= residuals.steering_rad > kFeasibilityTolerance * limits.steering_max_rad;
-  told_.path |= residuals.path > kPathTolerance;
-  return told_ != before;
+  constraints_.speed |= residuals.speed_mps > kFeasibilityTolerance * limits.speed_max_mps;
+  constraints_.steering |= residuals.steering_rad > kFeasibilityTolerance * limits.steering_max_rad;
+  constraints_.path |= residuals.path > kPathTolerance;
+  return constraints_ != before;
 }
 
 bool Attempt::newton_applies() const {
-  return !problem_.free_duration && !told_.path && !told_.cost_bounds;
+  return !problem_.free_duration && !constraints_.path && !constraints_.cost_bounds;
 }
 
 bool Attempt::starts_coarse() const {

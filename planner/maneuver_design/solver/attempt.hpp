@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 #include "planner/maneuver_design/solver/transcription.hpp"
 
 namespace hlc {
@@ -24,7 +25,7 @@ struct Candidate {
 ///     costs, which Newton's method does not know: SLSQP in all variables, again from where it
 ///     stopped if need be.
 ///
-/// Bounds on states and g_i are told to the solvers only once a result violates them.
+/// Bounds on states and g_i are added to the solvers' constraints only once a result violates them.
 class Attempt {
  public:
   /// @param unit_s  duration at which the search starts
@@ -50,8 +51,8 @@ class Attempt {
   [[nodiscard]] Eigen::VectorXd from_coarse();
   [[nodiscard]] Candidate examined(Eigen::VectorXd z) const;
   [[nodiscard]] ConstraintResiduals residuals_at(const Eigen::VectorXd& z) const;
-  [[nodiscard]] Eigen::ArrayXi held_at(const Eigen::VectorXd& z) const;
-  [[nodiscard]] bool tell_violated(const Eigen::VectorXd& z);
+  [[nodiscard]] Eigen::ArrayXi active_bounds_at(const Eigen::VectorXd& z) const;
+  [[nodiscard]] bool add_violated(const Eigen::VectorXd& z);
   [[nodiscard]] bool newton_applies() const;
   [[nodiscard]] bool starts_coarse() const;
 
@@ -59,7 +60,7 @@ class Attempt {
   const RunningCost& cost_;
   const SolverOptions& options_;
   Transcription transcription_;
-  Told told_;
+  ConstraintSet constraints_;
   int coarse_evaluations_{};
 };
 

@@ -4,24 +4,30 @@
 #include <cmath>
 
 namespace hlc {
+namespace {
 
-Channel speed_channel(const ManeuverProblem& p) {
-  return {0,
-          p.from.speed_mps,
-          p.to.speed_mps,
-          p.limits.acceleration_mps2,
-          p.limits.speed_min_mps,
-          p.limits.speed_max_mps};
+/// Shifts the values that can go that way, evenly and not beyond -1 ... 1, so that their mean grows
+/// by `shift`, but for what the bounds take away; false if none can.
+template <class Values>
+bool shift_within_bounds(Values& values, double shift) {
+  const auto room = [&](double value) { return shift > 0.0 ? 1.0 - value : value + 1.0; };
+  double open = 0.0;
+  for (const double value : values) {
+    open += room(value) > 0.0 ? 1.0 : 0.0;
+  }
+  if (open == 0.0) {
+    return false;
+  }
+  const double share = shift * static_cast<double>(values.size()) / open;
+  for (double& value : values) {
+    if (room(value) > 0.0) {
+      value = std::clamp(value + share, -1.0, 1.0);
+    }
+  }
+  return true;
 }
 
-Channel steering_channel(const ManeuverProblem& p) {
-  return {1,
-          p.from.steering_rad,
-          p.to.steering_rad,
-          p.limits.steering_rate_radps,
-          -p.limits.steering_max_rad,
-          p.limits.steering_max_rad};
-}
+}  // namespace
 
 DecisionVariables::DecisionVariables(const ManeuverProblem& problem, double unit_s)
     : intervals_(static_cast<Eigen::Index>(problem.intervals)),
@@ -67,27 +73,13 @@ Eigen::VectorXd DecisionVariables::by_variables(const Eigen::VectorXd& by_input,
 
 void meet_end_condition(const Channel& channel, const DecisionVariables& variables,
                         Eigen::VectorXd& z) {
-  auto values = variables.of(channel, z);
   // Clamping takes away from the shift where a value is at its bound: shift what is left again.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
+    auto values = variables.of(channel, z);
     const double shift = variables.wanted_mean(channel, variables.duration_s(z)) - values.mean();
-    if (shift == 0.0) {
+    if (shift == 0.0 || !shift_within_bounds(values, shift)) {
       return;
-    }
-    const auto room = [&](double value) { return shift > 0.0 ? 1.0 - value : value + 1.0; };
-    double open = 0.0;
-    for (const double value : values) {
-      open += room(value) > 0.0 ? 1.0 : 0.0;
-    }
-    if (open == 0.0) {
-      return;
-    }
-    const double share = shift * static_cast<double>(values.size()) / open;
-    for (double& value : values) {
-      if (room(value) > 0.0) {
-        value = std::clamp(value + share, -1.0, 1.0);
-      }
     }
   }
 }

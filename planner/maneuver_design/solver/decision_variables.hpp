@@ -3,26 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "planner/maneuver_design/solver/maneuver_solver.hpp"
+#include "planner/maneuver_design/maneuver_problem.hpp"
 
 namespace hlc {
-
-/// One of the two inputs with the state that it drives: u_v and v, or u_delta and delta.
-struct Channel {
-  Eigen::Index index;  ///< of the input in u
-  double from;
-  double to;
-  double input_max;
-  double state_min;
-  double state_max;
-
-  [[nodiscard]] double change() const { return to - from; }
-  /// Of the states, for tolerances.
-  [[nodiscard]] double scale() const { return state_max; }
-};
-
-[[nodiscard]] Channel speed_channel(const ManeuverProblem& problem);
-[[nodiscard]] Channel steering_channel(const ManeuverProblem& problem);
 
 /// The variables z of the finite-dimensional problem: the inputs of all intervals, each divided by
 /// its bound, z = (u_v0 / a, u_delta0 / r, u_v1 / a, ...); then, if the duration is free, tau = T /

@@ -1,6 +1,7 @@
 #include "planner/maneuver_design/solver/first_order.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <vector>
 
 namespace hlc {
@@ -19,6 +20,48 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& columns, const std::vector<Eigen::
     all(passive[i]) = values(static_cast<Eigen::Index>(i));
   }
   return all;
+}
+
+/// The steepest of the columns from `num_free` on that have no multiplier yet; -1 if none is steep.
+Eigen::Index entering_column(const Eigen::VectorXd& slope, const Eigen::VectorXd& multipliers,
+                             Eigen::Index num_free) {
+  Eigen::Index entering = -1;
+  double steepest = 1e-12;
+  for (Eigen::Index i = num_free; i < slope.size(); ++i) {
+    if (multipliers(i) == 0.0 && slope(i) > steepest) {
+      steepest = slope(i);
+      entering = i;
+    }
+  }
+  return entering;
+}
+
+/// Moves the multipliers to the least squares of the passive set. Where one that has a sign would
+/// lose it, it becomes 0 and leaves the set.
+void solve_passive_set(const Eigen::MatrixXd& columns, const Eigen::VectorXd& wanted,
+                       Eigen::Index num_free, std::vector<Eigen::Index>& passive,
+                       Eigen::VectorXd& multipliers) {
+  for (;;) {
+    const Eigen::VectorXd target = solved(columns, passive, wanted);
+    double step = 1.0;
+    for (const Eigen::Index i : passive) {
+      if (i >= num_free && target(i) <= 0.0) {
+        step = std::min(step, multipliers(i) / (multipliers(i) - target(i)));
+      }
+    }
+    if (step >= 1.0) {
+      multipliers = target;
+      return;
+    }
+    multipliers += step * (target - multipliers);
+    std::erase_if(passive, [&](Eigen::Index i) {
+      const bool leaves = i >= num_free && multipliers(i) <= 1e-14;
+      if (leaves) {
+        multipliers(i) = 0.0;
+      }
+      return leaves;
+    });
+  }
 }
 
 }  // namespace
@@ -46,39 +89,12 @@ double first_order_residual(const Eigen::VectorXd& gradient, const Eigen::Matrix
   const Eigen::Index max_rounds = 3 * columns.cols();
   for (Eigen::Index round = 0; round < max_rounds; ++round) {
     const Eigen::VectorXd slope = columns.transpose() * (wanted - columns * multipliers);
-    Eigen::Index entering = -1;
-    double steepest = 1e-12;
-    for (Eigen::Index i = free; i < columns.cols(); ++i) {
-      if (multipliers(i) == 0.0 && slope(i) > steepest) {
-        steepest = slope(i);
-        entering = i;
-      }
-    }
+    const Eigen::Index entering = entering_column(slope, multipliers, free);
     if (entering < 0) {
       break;
     }
     passive.push_back(entering);
-    for (;;) {
-      const Eigen::VectorXd target = solved(columns, passive, wanted);
-      double step = 1.0;
-      for (const Eigen::Index i : passive) {
-        if (i >= free && target(i) <= 0.0) {
-          step = std::min(step, multipliers(i) / (multipliers(i) - target(i)));
-        }
-      }
-      if (step >= 1.0) {
-        multipliers = target;
-        break;
-      }
-      multipliers += step * (target - multipliers);
-      std::erase_if(passive, [&](Eigen::Index i) {
-        const bool leaves = i >= free && multipliers(i) <= 1e-14;
-        if (leaves) {
-          multipliers(i) = 0.0;
-        }
-        return leaves;
-      });
-    }
+    solve_passive_set(columns, wanted, free, passive, multipliers);
   }
   return (wanted - columns * multipliers).norm();
 }

@@ -8,9 +8,9 @@
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/effort.hpp"
 #include "planner/maneuver_design/feasibility.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/solver/attempt.hpp"
 #include "planner/maneuver_design/solver/optimality.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
 #include "planner/maneuver_design/solver/starting_point.hpp"
 #include "planner/maneuver_design/travel_time.hpp"
 

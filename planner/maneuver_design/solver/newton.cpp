@@ -6,28 +6,28 @@
 #include <limits>
 #include <optional>
 
+#include "planner/maneuver_design/solver/active_bounds.hpp"
 #include "planner/maneuver_design/solver/active_set_qp.hpp"
-#include "planner/maneuver_design/solver/held.hpp"
 
 namespace hlc {
 namespace {
 
-QuadraticProblem model_at(const Transcription& transcription, const Told& told,
+QuadraticProblem model_at(const Transcription& transcription, const ConstraintSet& constraints,
                           const Eigen::VectorXd& z, const Eigen::VectorXd& gradient,
-                          const std::vector<Eigen::Index>& open) {
+                          const std::vector<Eigen::Index>& free) {
   const DecisionVariables& variables = transcription.variables();
-  const ConstraintValues bounds = transcription.inequalities(told, z);
+  const ConstraintValues bounds = transcription.inequalities(constraints, z);
   QuadraticProblem model;
-  model.hessian = transcription.hessian(z, open);
-  model.gradient = gradient(open);
-  model.equalities = transcription.end_conditions(z).jacobian(Eigen::all, open);
-  model.rows = bounds.jacobian(Eigen::all, open);
+  model.hessian = transcription.hessian(z, free);
+  model.gradient = gradient(free);
+  model.equalities = transcription.end_conditions(z).jacobian(Eigen::all, free);
+  model.rows = bounds.jacobian(Eigen::all, free);
   // Closer than this to a constraint is at it.
   constexpr double kNoRoom = 1e-12;
   const auto settled = [](double room) { return room < kNoRoom ? 0.0 : room; };
   model.room = (-bounds.value).unaryExpr(settled);
-  model.upper = (variables.upper() - z)(open).unaryExpr(settled);
-  model.lower = -(z - variables.lower())(open).unaryExpr(settled);
+  model.upper = (variables.upper() - z)(free).unaryExpr(settled);
+  model.lower = -(z - variables.lower())(free).unaryExpr(settled);
   return model;
 }
 
@@ -52,9 +52,9 @@ std::optional<Eigen::VectorXd> after_search(const Transcription& transcription,
 
 }  // namespace
 
-NewtonResult newton(const Transcription& transcription, const Told& told,
+NewtonResult newton(const Transcription& transcription, const ConstraintSet& constraints,
                     const Eigen::VectorXd& start) {
-  assert(!transcription.variables().has_tau() && !told.path && !told.cost_bounds);
+  assert(!transcription.variables().has_tau() && !constraints.path && !constraints.cost_bounds);
   constexpr int kRounds = 40;
   constexpr double kSmallStep = 1e-9;
   constexpr double kSmallGain = 1e-15;
@@ -62,8 +62,9 @@ NewtonResult newton(const Transcription& transcription, const Told& told,
   Eigen::VectorXd gradient;
   for (int round = 0; round < kRounds; ++round) {
     const double value = transcription.objective(result.z, &gradient);
-    const std::vector<Eigen::Index> open = open_variables(transcription, told, result.z, gradient);
-    const QuadraticProblem model = model_at(transcription, told, result.z, gradient, open);
+    const std::vector<Eigen::Index> free =
+        free_variables(transcription, constraints, result.z, gradient);
+    const QuadraticProblem model = model_at(transcription, constraints, result.z, gradient, free);
     const Eigen::VectorXd part = local_minimum(model);
     const double promised = -model.gradient.dot(part) - 0.5 * part.dot(model.hessian * part);
     if (part.size() == 0 || part.lpNorm<Eigen::Infinity>() < kSmallStep || promised < kSmallGain) {
@@ -71,7 +72,7 @@ NewtonResult newton(const Transcription& transcription, const Told& told,
       // The last step is worth taking where it is one: it costs nothing and doubles the digits.
       if (part.size() > 0 && part.lpNorm<Eigen::Infinity>() < 1e-4) {
         Eigen::VectorXd step = Eigen::VectorXd::Zero(result.z.size());
-        step(open) = part;
+        step(free) = part;
         result.z = (result.z + step)
                        .cwiseMax(transcription.variables().lower())
                        .cwiseMin(transcription.variables().upper());
@@ -79,7 +80,7 @@ NewtonResult newton(const Transcription& transcription, const Told& told,
       return result;
     }
     Eigen::VectorXd step = Eigen::VectorXd::Zero(result.z.size());
-    step(open) = part;
+    step(free) = part;
     const std::optional<Eigen::VectorXd> next =
         after_search(transcription, result.z, value, step, promised);
     if (!next) {

@@ -15,12 +15,12 @@ struct NewtonResult {
 /// Each round minimises the quadratic model of the objective under the end conditions, the bounds
 /// of z and the bounds on states (all linear in z), see active_set_qp.hpp, and goes along that step
 /// as far as the objective falls. Second derivatives are central differences of the exact gradient.
-/// Inputs that lie at a bound and are clearly held there by their multiplier are left out of the
+/// Inputs whose bound is clearly active (active_bounds.hpp) are left out of the
 /// round: for J1, nearly all accelerations.
 ///
 /// @param start  meets the end conditions and the bounds
-/// @pre the duration is fixed, `told` names neither path constraints nor bounds on costs
-[[nodiscard]] NewtonResult newton(const Transcription& transcription, const Told& told,
-                                  const Eigen::VectorXd& start);
+/// @pre the duration is fixed, `constraints` names neither path constraints nor bounds on costs
+[[nodiscard]] NewtonResult newton(const Transcription& transcription,
+                                  const ConstraintSet& constraints, const Eigen::VectorXd& start);
 
 }  // namespace hlc

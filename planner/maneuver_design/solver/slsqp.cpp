@@ -12,7 +12,7 @@ constexpr double kInequalityTolerance = 1e-10;
 
 struct Context {
   const Transcription& transcription;
-  Told told;
+  ConstraintSet constraints;
   Eigen::Index end{};  ///< which end condition
 };
 
@@ -50,33 +50,34 @@ double end_condition(unsigned n, const double* z, double* gradient, void* data) 
 void inequalities(unsigned m, double* result, unsigned n, const double* z, double* gradient,
                   void* data) {
   const Context& context = *static_cast<const Context*>(data);
-  copy(context.transcription.inequalities(context.told, vector_of(n, z)), m, result, n, gradient);
+  copy(context.transcription.inequalities(context.constraints, vector_of(n, z)), m, result, n,
+       gradient);
 }
 
 std::vector<double> list_of(const Eigen::VectorXd& z) { return {z.data(), z.data() + z.size()}; }
 
 }  // namespace
 
-SlsqpResult run_slsqp(const Transcription& transcription, const Told& told,
-                      const Eigen::VectorXd& start, const Eigen::ArrayXi& held,
+SlsqpResult run_slsqp(const Transcription& transcription, const ConstraintSet& constraints,
+                      const Eigen::VectorXd& start, const Eigen::ArrayXi& active_bounds,
                       const SlsqpOptions& options) {
   const DecisionVariables& variables = transcription.variables();
   const Eigen::VectorXd first = start.cwiseMax(variables.lower()).cwiseMin(variables.upper());
-  Context context{transcription, told, 0};
-  Context speed_end{transcription, told, 0};
-  Context steering_end{transcription, told, 1};
+  Context context{transcription, constraints, 0};
+  Context speed_end{transcription, constraints, 0};
+  Context steering_end{transcription, constraints, 1};
   nlopt::opt slsqp(nlopt::LD_SLSQP, static_cast<unsigned>(first.size()));
-  slsqp.set_lower_bounds(list_of((held != 0).select(first, variables.lower())));
-  slsqp.set_upper_bounds(list_of((held != 0).select(first, variables.upper())));
+  slsqp.set_lower_bounds(list_of((active_bounds != 0).select(first, variables.lower())));
+  slsqp.set_upper_bounds(list_of((active_bounds != 0).select(first, variables.upper())));
   slsqp.set_min_objective(objective, &context);
   const ConstraintValues ends = transcription.end_conditions(first);
   for (Context* const end : {&speed_end, &steering_end}) {
     // Without a variable to meet it, it holds already, and would only make the matrix singular.
-    if ((ends.jacobian.row(end->end).transpose().array() != 0.0 && held == 0).any()) {
+    if ((ends.jacobian.row(end->end).transpose().array() != 0.0 && active_bounds == 0).any()) {
       slsqp.add_equality_constraint(end_condition, end, kEndTolerance);
     }
   }
-  const Eigen::Index rows = transcription.inequalities(told, first).value.size();
+  const Eigen::Index rows = transcription.inequalities(constraints, first).value.size();
   if (rows > 0) {
     slsqp.add_inequality_mconstraint(
         inequalities, &context,

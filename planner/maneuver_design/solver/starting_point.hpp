@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/maneuver_design/solver/maneuver_solver.hpp"
 #include "planner/maneuver_design/solver/transcription.hpp"
 
 namespace hlc {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/solver/sensitivities.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
 
 namespace hlc {
 namespace {
@@ -24,10 +24,6 @@ double value_of(const RunningCost& cost, const ManeuverProblem& problem,
 }
 
 }  // namespace
-
-State start_state(const ManeuverProblem& problem) {
-  return {Pose{}, problem.from.speed_mps, problem.from.steering_rad};
-}
 
 Transcription::Transcription(const ManeuverProblem& problem, const RunningCost& cost, double unit_s,
                              double tie_break)
@@ -173,18 +169,19 @@ ConstraintValues Transcription::cost_bounds(const Eigen::VectorXd& z) const {
   return bounds;
 }
 
-ConstraintValues Transcription::inequalities(const Told& told, const Eigen::VectorXd& z) const {
+ConstraintValues Transcription::inequalities(const ConstraintSet& constraints,
+                                             const Eigen::VectorXd& z) const {
   std::vector<ConstraintValues> kinds;
-  if (told.speed) {
+  if (constraints.speed) {
     kinds.push_back(state_bounds(speed_channel(problem_), z));
   }
-  if (told.steering) {
+  if (constraints.steering) {
     kinds.push_back(state_bounds(steering_channel(problem_), z));
   }
-  if (told.path) {
+  if (constraints.path) {
     kinds.push_back(path_constraints(z));
   }
-  if (told.cost_bounds) {
+  if (constraints.cost_bounds) {
     kinds.push_back(cost_bounds(z));
   }
   Eigen::Index rows = 0;

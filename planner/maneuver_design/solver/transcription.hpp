@@ -14,14 +14,14 @@ struct ConstraintValues {
   Jacobian jacobian;  ///< (number of constraints) x (size of z)
 };
 
-/// Which kinds of inequality a solver is told of. Most maneuvers need none of them.
-struct Told {
+/// Which kinds of inequality a solver takes into account. Most maneuvers need none of them.
+struct ConstraintSet {
   bool speed{};        ///< bounds on the speed at the inner interval bounds
   bool steering{};     ///< the same for the steering
   bool path{};         ///< g_i(x, u) <= 0
   bool cost_bounds{};  ///< J_i <= max
 
-  friend bool operator==(const Told&, const Told&) = default;
+  friend bool operator==(const ConstraintSet&, const ConstraintSet&) = default;
 };
 
 /// A maneuver's problem as one of finite dimension (direct single shooting):
@@ -65,8 +65,9 @@ class Transcription {
   [[nodiscard]] ConstraintValues path_constraints(const Eigen::VectorXd& z) const;
   /// (J_i - max_i) / scale of each bound on another cost.
   [[nodiscard]] ConstraintValues cost_bounds(const Eigen::VectorXd& z) const;
-  /// All inequalities of the kinds that `told` names, one below the other.
-  [[nodiscard]] ConstraintValues inequalities(const Told& told, const Eigen::VectorXd& z) const;
+  /// All inequalities of the kinds that `constraints` names, one below the other.
+  [[nodiscard]] ConstraintValues inequalities(const ConstraintSet& constraints,
+                                              const Eigen::VectorXd& z) const;
 
  private:
   const ManeuverProblem& problem_;
@@ -76,8 +77,5 @@ class Transcription {
   double unit_{1.0};
   mutable int evaluations_{};
 };
-
-/// The state in which every maneuver starts.
-[[nodiscard]] State start_state(const ManeuverProblem& problem);
 
 }  // namespace hlc

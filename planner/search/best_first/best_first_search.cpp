@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "planner/search/search_options.hpp"
+
 namespace hlc {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr std::size_t kStopInterval = 64;
                                      CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
-                            (kind != CostToGo::k2022 && problem.reference_speed_mps.empty());
+                            (!needs_reference_speeds(kind) && problem.reference_speed_mps.empty());
   const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
   return n <= reachable.max_steps() && speeds_match && obstacles_match &&
          problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);
@@ -63,7 +65,7 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
   collision_.prepare(problem);
   const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
   const bool has_incumbent = write_incumbent(problem, result);
-  const bool is_admissible = options_.cost_to_go != CostToGo::k2022;
+  const bool is_bound = is_admissible(options_.cost_to_go);
   const double least_cost = static_cast<double>(n) * costs_.least();
   const auto bound_of_start = [&] {
     return least_cost_of_problem(subgraph_, reachable_, costs_, problem);
@@ -82,7 +84,7 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       if (!has_incumbent || cost_of(taken.vertex, n) < result.cost) {
         write_path(taken.vertex, problem, result);
       }
-      result.lower_bound = is_admissible ? result.cost : std::min(bound_of_start(), result.cost);
+      result.lower_bound = is_bound ? result.cost : std::min(bound_of_start(), result.cost);
       const bool is_proven = result.lower_bound == result.cost;
       result.status = is_proven ? SearchStatus::kOptimal : SearchStatus::kUnproven;
       result.reason = NoPath::kNone;
@@ -91,7 +93,7 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
     const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
       // Every other entry of the open list has no smaller f.
-      const double bound = is_admissible ? taken.cost_estimate + least_cost : bound_of_start();
+      const double bound = is_bound ? taken.cost_estimate + least_cost : bound_of_start();
       give_up(has_incumbent, bound, result);
       break;
     }

@@ -31,11 +31,12 @@ namespace hlc {
 /// not checked: where the vehicle is, it is.
 ///
 /// The first vertex of depth n that is taken and free ends the search. Its path costs least if h is
-/// admissible (all but `CostToGo::k2022`): every other path still has a vertex in the open list
-/// whose f, a lower bound of that path's cost, is not smaller.
+/// admissible (all but `CostToGo::kReferenceSpeed`): every other path still has a vertex in the
+/// open list whose f, a lower bound of that path's cost, is not smaller.
 ///
 /// The incumbent changes no count. It is the answer if the search gives up; the least f in the open
-/// list then bounds the cost of every path from below (with k2022, 0 does).
+/// list then bounds the cost of every path from below (with kReferenceSpeed:
+/// least_cost_of_problem).
 ///
 /// Counts: `generated` are all vertices made, with the root and with children never looked at
 /// again; `expanded` are those whose children were made, so neither dropped vertices nor the goal.
@@ -47,7 +48,8 @@ class BestFirstSearch final : public SearchEngine {
 
   /// A trim that is off may start with its exit edges (Subgraph); without any there is no path.
   /// @pre the start is finite, horizon_steps() <= reachable.max_steps(),
-  ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (unless `k2022`: or 0)
+  ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (unless `kReferenceSpeed`:
+  ///      or 0)
   void search(const HorizonProblem& problem, const std::function<bool()>& stop,
               SearchResult& result) override;
 

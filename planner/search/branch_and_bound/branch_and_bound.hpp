@@ -53,7 +53,7 @@ struct SearchTables;
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
 /// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,
-/// no virtual call and no allocation. The inner loop (branch_and_bound_kernel.hpp) exists for any
+/// no virtual call and no allocation. The inner loop (kernel.hpp) exists for any
 /// processor, for AVX2 and for AVX-512; the processor chooses, and all give the same bits.
 ///
 /// Children whose f differ in the last bits only, of which a child's number takes as many as it

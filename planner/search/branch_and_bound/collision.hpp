@@ -1,6 +1,6 @@
 // The collision test of BranchAndBound's inner loop: separating axes in single precision, eight
 // obstacles, edges or boundary segments at a time. Long-winded for speed; compiled as often as
-// branch_and_bound_kernel.hpp, and for the same reason self-contained.
+// kernel.hpp, and for the same reason self-contained.
 //
 // Obstacles and boundary are prepared relative to the plan's start, where coordinates are small.
 // Obstacles are compared in the frame of the vertex, where the largest coordinate is at most twice

@@ -1,9 +1,9 @@
 // The inner loop of BranchAndBound. It is long-winded for speed: four children at a time, their
 // bounds for four steps at a time, branches where they are foreseeable. Like its preparation,
 // collision test and vectors (files of their own) it shares nothing with other files but the plain
-// data of branch_and_bound_data.hpp. It is compiled three times, for any processor
-// (branch_and_bound_portable.cpp), with AVX2 (branch_and_bound_avx2.cpp) and with AVX-512
-// (branch_and_bound_avx512.cpp); only these include it. The same operations in the same order, no
+// data of data.hpp. It is compiled three times, for any processor
+// (portable.cpp), with AVX2 (branch_and_bound_avx2.cpp) and with AVX-512
+// (avx512.cpp); only these include it. The same operations in the same order, no
 // contraction: all give the same bits. No function here may be visible outside, and none from
 // elsewhere be used, or the linker could mix them.
 //

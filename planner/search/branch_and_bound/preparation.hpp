@@ -1,6 +1,6 @@
 // What BranchAndBound's inner loop prepares once per plan, in single precision, relative to the
 // plan's start: obstacles and boundary segments that can be met, with what encloses them. Compiled
-// as often as branch_and_bound_kernel.hpp, and for the same reason self-contained.
+// as often as kernel.hpp, and for the same reason self-contained.
 #pragma once
 
 #include "planner/search/branch_and_bound/data.hpp"

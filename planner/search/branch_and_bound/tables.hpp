@@ -20,7 +20,7 @@ namespace hlc::branch_and_bound {
 }
 
 /// Everything the kernel needs of a subgraph, computed once: edges with their areas, bounds, and
-/// what is permitted (see BranchAndBound and branch_and_bound_data.hpp).
+/// what is permitted (see BranchAndBound and data.hpp).
 class TableStore {
  public:
   /// @pre reachable.max_steps() <= kMostSteps

@@ -7,7 +7,6 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include <charconv>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -20,37 +19,6 @@ namespace og = ompl::geometric;
 
 namespace hlc {
 namespace {
-
-class OmplHorizonPlanner final : public HorizonPlanner {
- public:
-  OmplHorizonPlanner(const Subgraph& subgraph, const ReachableSets& reachable,
-                     const SearchOptions& options, std::shared_ptr<const SearchTables> tables)
-      : subgraph_(subgraph),
-        si_(make_space_information(subgraph, reachable.max_steps())),
-        planner_(si_, subgraph, reachable, options, std::move(tables)) {
-    planner_.setup();
-  }
-
-  using HorizonPlanner::plan;
-  SearchResult plan(const HorizonProblem& problem, const std::function<bool()>& stop) override {
-    if (definition_) {
-      definition_->pose(problem);
-      planner_.clear();
-    } else {
-      definition_ = std::make_shared<HorizonProblemDefinition>(si_, subgraph_, problem);
-      planner_.setProblemDefinition(definition_);
-    }
-    planner_.solve(ob::PlannerTerminationCondition(stop));
-    // The definition still refers to `problem`: nobody may ask it before it poses the next one.
-    return planner_.take_result();
-  }
-
- private:
-  const Subgraph& subgraph_;
-  ob::SpaceInformationPtr si_;
-  RecedingHorizonPlanner planner_;
-  std::shared_ptr<HorizonProblemDefinition> definition_;
-};
 
 /// @throws std::invalid_argument, which ParamSet turns into a refusal
 std::size_t expansions_from_text(const std::string& text) {
@@ -97,6 +65,7 @@ RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si
       options_(options),
       tables_(std::move(tables)),
       state_(si) {
+  options_.factory = nullptr;
   specs_.optimizingPaths = true;
   specs_.approximateSolutions = true;
   specs_.directed = true;
@@ -233,18 +202,5 @@ void RecedingHorizonPlanner::getPlannerData(ob::PlannerData& data) const {
 }
 
 SearchResult RecedingHorizonPlanner::take_result() { return std::exchange(result_, {}); }
-
-std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(
-    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
-    std::shared_ptr<const SearchTables> tables) {
-  return std::make_unique<OmplHorizonPlanner>(subgraph, reachable, options, std::move(tables));
-}
-
-std::unique_ptr<HorizonPlanner> make_horizon_planner(const Subgraph& subgraph,
-                                                     const ReachableSets& reachable,
-                                                     const SearchOptions& options,
-                                                     std::shared_ptr<const SearchTables> tables) {
-  return make_ompl_horizon_planner(subgraph, reachable, options, std::move(tables));
-}
 
 }  // namespace hlc

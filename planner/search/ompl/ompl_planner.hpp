@@ -9,7 +9,6 @@
 
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/ompl/ompl_problem.hpp"
-#include "planner/search/planner.hpp"
 #include "planner/search/search_engine.hpp"
 
 namespace hlc {
@@ -55,6 +54,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
  public:
   /// @param si  of make_space_information or make_control_space_information for this subgraph
   /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon
+  /// @param options  `factory` is ignored: the engine behind this planner is one of `engine`
   /// @param tables  as make_search_engine; used until a parameter changes
   RecedingHorizonPlanner(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                          const ReachableSets& reachable, const SearchOptions& options,
@@ -98,13 +98,5 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   ompl::base::PathPtr path_;
   ompl::base::PathPtr former_path_;  ///< to be written anew, if nobody else has it
 };
-
-/// A HorizonPlanner that plans through a RecedingHorizonPlanner; never timed.
-/// @param subgraph, reachable  must outlive the planner
-/// @param tables  as make_search_engine
-/// @throws std::invalid_argument as make_search_engine
-[[nodiscard]] std::unique_ptr<HorizonPlanner> make_ompl_horizon_planner(
-    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
-    std::shared_ptr<const SearchTables> tables = nullptr);
 
 }  // namespace hlc

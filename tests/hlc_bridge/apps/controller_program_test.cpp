@@ -11,7 +11,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/child_process.hpp"

@@ -7,7 +7,7 @@
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/run_parameters.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
 

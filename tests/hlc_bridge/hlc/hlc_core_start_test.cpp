@@ -42,7 +42,7 @@ class RealTime : public testing::Test {
     if (!seen.is_seen) list_.states.clear();
     const Observation observation = core_.observe(list_).value();
     core_.note(list_, observation);
-    const bool begins = core_.begins(list_, observation, false, trigger);
+    const bool begins = core_.begins(list_, observation, StartRule::kAtTrigger, trigger);
     if (!begins && core_.may_stand_by(observation)) {
       static_cast<void>(core_.controller().stand_by(observation));
     }

@@ -42,7 +42,7 @@ TEST(HlcCore, SendsThePlanInForceWithPointsAsTheLabAsks) {
   EXPECT_EQ(answer.fault, "");
   ASSERT_TRUE(answer.copy);
   EXPECT_EQ(answer.command.points[1].t - answer.command.points[0].t, 25'000'000U);
-  EXPECT_EQ(fault_of_own(answer.command, lab_scenario().lab), "");
+  EXPECT_EQ(validate_own_command(answer.command, lab_scenario().lab), "");
 }
 
 TEST(HlcCore, AVehicleOutsideTheLabIsToldToStandAndTheReportSaysSo) {
@@ -72,9 +72,9 @@ TEST(HlcCore, WhatFailsIsNotSentButTheLastGoodCommandAgain) {
     EXPECT_THAT(answer.fault, HasSubstr("coordinate = 7 m"));
     ASSERT_FALSE(answer.command.points.empty());
     EXPECT_EQ(answer.command.points.front().y_m, good.command.points.front().y_m);
-    EXPECT_EQ(fault_of_own(answer.command, lab_scenario().lab), "");
+    EXPECT_EQ(validate_own_command(answer.command, lab_scenario().lab), "");
     ASSERT_TRUE(answer.copy);
-    EXPECT_EQ(fault_of_own(*answer.copy, lab_scenario().lab), "");
+    EXPECT_EQ(validate_own_command(*answer.copy, lab_scenario().lab), "");
     EXPECT_EQ(answer.command.create_stamp, list_at(step).t_now);
   }
 }

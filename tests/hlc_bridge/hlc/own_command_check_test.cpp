@@ -33,40 +33,41 @@ TrajectoryCommand good_command() {
 }
 
 TEST(OwnCommandCheck, AGoodCommandAndItsCopyHaveNoFault) {
-  EXPECT_EQ(fault_of_own(good_command(), kCpmLab), "");
-  EXPECT_EQ(fault_of_own(copy_for_later(good_command()), kCpmLab), "");
+  EXPECT_EQ(validate_own_command(good_command(), kCpmLab), "");
+  EXPECT_EQ(validate_own_command(copy_for_later(good_command()), kCpmLab), "");
 }
 
 TEST(OwnCommandCheck, ACommandWithoutPointsTellsToStandAndIsGood) {
-  EXPECT_EQ(
-      fault_of_own({.vehicle_id = 3, .create_stamp = kList, .valid_after_stamp = kList}, kCpmLab),
-      "");
+  EXPECT_EQ(validate_own_command(
+                {.vehicle_id = 3, .create_stamp = kList, .valid_after_stamp = kList}, kCpmLab),
+            "");
 }
 
 TEST(OwnCommandCheck, NumbersThatAreNoneAreFoundWithoutALabToo) {
   TrajectoryCommand command = good_command();
   command.points[9].vy_mps = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(fault_of_own(command, std::nullopt), HasSubstr("not a finite number"));
+  EXPECT_THAT(validate_own_command(command, std::nullopt), HasSubstr("not a finite number"));
 }
 
 TEST(OwnCommandCheck, TimesThatDoNotIncreaseAreFound) {
   TrajectoryCommand command = good_command();
   command.points[9].t = command.points[8].t;
-  EXPECT_THAT(fault_of_own(command, std::nullopt), StartsWith("times of the points"));
+  EXPECT_THAT(validate_own_command(command, std::nullopt), StartsWith("times of the points"));
   command.points[9].t = command.points[0].t - 1;
-  EXPECT_THAT(fault_of_own(command, std::nullopt), StartsWith("times of the points"));
+  EXPECT_THAT(validate_own_command(command, std::nullopt), StartsWith("times of the points"));
 }
 
 TEST(OwnCommandCheck, AnEndThatDrivesOnIsFound) {
   TrajectoryCommand command = good_command();
   command.points.back().vx_mps = 0.1;
-  EXPECT_THAT(fault_of_own(command, std::nullopt), StartsWith("speed at the end = 0.1 m/s"));
+  EXPECT_THAT(validate_own_command(command, std::nullopt),
+              StartsWith("speed at the end = 0.1 m/s"));
 }
 
 TEST(OwnCommandCheck, AFirstPointThatIsNotBeforeValidAfterIsFound) {
   TrajectoryCommand command = good_command();
   command.valid_after_stamp = command.points.front().t;
-  EXPECT_EQ(fault_of_own(command, kCpmLab),
+  EXPECT_EQ(validate_own_command(command, kCpmLab),
             "the first point is 0 s after valid_after, allowed before it");
 }
 
@@ -74,32 +75,32 @@ TEST(OwnCommandCheck, AFirstPointThatIsNotBeforeValidAfterIsFound) {
 TEST(OwnCommandCheck, ACommandThatEndsBeforeItExpiresIsFound) {
   TrajectoryCommand command = good_command();
   while (command.points.back().t >= kList + 1'360 * kMs) command.points.pop_back();
-  EXPECT_THAT(fault_of_own(command, kCpmLab), HasSubstr("allowed from 1.36 s on"));
+  EXPECT_THAT(validate_own_command(command, kCpmLab), HasSubstr("allowed from 1.36 s on"));
   TrajectoryCommand later = good_command();
   later.valid_after_stamp += 900 * kMs;
-  EXPECT_THAT(fault_of_own(later, kCpmLab), HasSubstr("allowed from 1.36 s on"));
+  EXPECT_THAT(validate_own_command(later, kCpmLab), HasSubstr("allowed from 1.36 s on"));
 }
 
 TEST(OwnCommandCheck, WhatTheLabsVehicleCannotFollowIsFoundWithAPlace) {
   TrajectoryCommand outside = good_command();
   for (TrajectoryPoint& point : outside.points) point.x_m += 3.45;
-  EXPECT_THAT(fault_of_own(outside, kCpmLab), StartsWith("coordinate = 4.5"));
-  EXPECT_EQ(fault_of_own(outside, std::nullopt), "") << "nobody has said what is outside";
+  EXPECT_THAT(validate_own_command(outside, kCpmLab), StartsWith("coordinate = 4.5"));
+  EXPECT_EQ(validate_own_command(outside, std::nullopt), "") << "nobody has said what is outside";
 
   TrajectoryCommand aside = good_command();
   aside.points[2].y_m += 0.003;
-  EXPECT_THAT(fault_of_own(aside, kCpmLab), HasSubstr(" s after the first point"));
+  EXPECT_THAT(validate_own_command(aside, kCpmLab), HasSubstr(" s after the first point"));
 }
 
 TEST(OwnCommandCheck, WhatWasGoodStaysGoodHoweverOftenItIsSaidAgain) {
   TrajectoryCommand command = good_command();
   for (Nanoseconds k = 1; k < 20; ++k) {
     const Nanoseconds t_now = kList + k * 200 * kMs;
-    command = said_again(command, t_now);
+    command = republished(command, t_now);
     EXPECT_EQ(command.create_stamp, t_now);
     EXPECT_EQ(command.valid_after_stamp, t_now);
-    EXPECT_EQ(fault_of_own(command, kCpmLab), "") << k;
-    EXPECT_EQ(fault_of_own(copy_for_later(command), kCpmLab), "") << k;
+    EXPECT_EQ(validate_own_command(command, kCpmLab), "") << k;
+    EXPECT_EQ(validate_own_command(copy_for_later(command), kCpmLab), "") << k;
     EXPECT_EQ(command.points.back().x_m, good_command().points.back().x_m);
   }
 }

@@ -10,7 +10,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/process/hlc_process.hpp"
-#include "hlc_bridge/time/real_timer.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"

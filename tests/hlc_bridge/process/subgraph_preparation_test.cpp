@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/time/signal.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/test_automaton.hpp"
@@ -24,19 +29,39 @@ RequestBase on(const std::shared_ptr<const Subgraph>& subgraph) {
           .search = {}};
 }
 
+/// What comes back, on the test's thread.
+class Prepared {
+ public:
+  void put(PreparedRequest prepared) {
+    signal_.post([&] { all_.push_back(std::move(prepared)); });
+  }
+  /// Waits until there are so many.
+  [[nodiscard]] std::vector<PreparedRequest> wait_for(std::size_t count) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
+    EXPECT_TRUE(signal_.wait_until(deadline, [&] { return all_.size() >= count; }));
+    return signal_.locked([this] { return all_; });
+  }
+
+ private:
+  Signal signal_;
+  std::vector<PreparedRequest> all_;
+};
+
 class SubgraphPreparationTest : public testing::Test {
  protected:
   std::shared_ptr<const Subgraph> base_ =
       std::make_shared<const Subgraph>(test::make_test_subgraph());
-  SubgraphPreparation preparation_{on(base_), {base_->shared_automaton(), {}}};
+  Prepared prepared_;
+  SubgraphPreparation preparation_{on(base_),
+                                   {base_->shared_automaton(), {}},
+                                   [this](PreparedRequest one) { prepared_.put(std::move(one)); }};
 };
 
 TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHorizon) {
   preparation_.ask(slow(1, 0.6));
   preparation_.ask(slow(2, 0.1));
   preparation_.ask(slow(3, 0.5));
-  preparation_.wait();
-  const std::vector<PreparedRequest> prepared = preparation_.take();
+  const std::vector<PreparedRequest> prepared = prepared_.wait_for(3);
   ASSERT_EQ(prepared.size(), 3U);
   EXPECT_EQ(prepared[0].request.id, 1U);
   ASSERT_TRUE(prepared[0].choice);
@@ -45,7 +70,6 @@ TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHo
   EXPECT_FALSE(prepared[1].choice);
   EXPECT_FALSE(prepared[1].refusal.empty());
   EXPECT_EQ(prepared[2].choice->under({}).subgraph->spec().max_speed_mps, 0.5);
-  EXPECT_TRUE(preparation_.take().empty());
 }
 
 TEST_F(SubgraphPreparationTest, EndsWhateverIsStillAsked) {
@@ -69,16 +93,16 @@ class WeightPreparationTest : public testing::Test {
 
   std::shared_ptr<const Subgraph> base_ = std::make_shared<const Subgraph>(
       build_shared_automaton(configuration()), configuration().subgraphs.front());
+  Prepared prepared_;
   SubgraphPreparation preparation_{on(base_),
-                                   {base_->shared_automaton(), [] { return configuration(); }}};
+                                   {base_->shared_automaton(), [] { return configuration(); }},
+                                   [this](PreparedRequest one) { prepared_.put(std::move(one)); }};
 };
 
 TEST_F(WeightPreparationTest, WaitsForTheSolutionAndKeepsIt) {
   preparation_.ask(weighted(1, 0.7));
-  preparation_.wait();
   preparation_.ask(weighted(2, 0.7));
-  preparation_.wait();
-  const std::vector<PreparedRequest> prepared = preparation_.take();
+  const std::vector<PreparedRequest> prepared = prepared_.wait_for(2);
   ASSERT_EQ(prepared.size(), 2U);
   ASSERT_TRUE(prepared[0].choice) << prepared[0].refusal;
   const Subgraph& first = *prepared[0].choice->under({}).subgraph;

@@ -94,10 +94,5 @@ TEST(RealTimer, RefusesAnOffsetOfAPeriod) {
   EXPECT_THROW(RealTimer(0, 0), std::invalid_argument);
 }
 
-TEST(RealTime, PointAndNumberAreTheSameInstant) {
-  const Nanoseconds now = 1'700'000'000'123'456'789;
-  EXPECT_EQ(static_cast<Nanoseconds>(real_time_point(now).time_since_epoch().count()), now);
-}
-
 }  // namespace
 }  // namespace hlc

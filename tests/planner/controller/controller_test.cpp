@@ -8,32 +8,15 @@
 
 #include "planner/automaton/requested_subgraph.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/planner/controller/east_bound.hpp"
 
 namespace hlc {
 namespace {
 
+using namespace east_bound;
+
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-std::shared_ptr<const Subgraph> subgraph() {
-  static const auto result =
-      std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
-  return result;
-}
-
-/// A controller whose car shall drive east along y = `y_m`, standing at x = 0 at step 100.
-std::unique_ptr<Controller> controller(std::uint8_t vehicle, double y_m = 0.0,
-                                       SettleRule rule = SettleRule::kStrict) {
-  return std::make_unique<Controller>(
-      ControllerOptions{.vehicle = {vehicle}, .settle_rule = rule}, subgraph(),
-      ReferencePath({Point(0.0, y_m), Point(10.0, y_m)}, false), Corridor{});
-}
-
-MeasuredVehicle seen(std::uint8_t vehicle, double x_m, double y_m, double speed_mps = 0.0) {
-  const double yaw =
-      yaw_minus_heading_rad(0.0, paper_automaton()->vehicle, paper_automaton()->identified);
-  return {.vehicle = {vehicle}, .pose = {x_m, y_m, yaw}, .speed_mps = speed_mps, .age_s = 0.0};
-}
 
 /// One step of a controller that is alone or hears what is given; returns its report.
 Report step(Controller& one, const Observation& observation,
@@ -44,21 +27,6 @@ Report step(Controller& one, const Observation& observation,
   one.couple(traffic);
   static_cast<void>(one.plan(predictions));
   return one.settle(predictions, outcomes);
-}
-
-Observation at(std::uint64_t k, std::vector<MeasuredVehicle> states) {
-  Observation observation{.step = {k}, .states = std::move(states)};
-  for (const MeasuredVehicle& state : observation.states)
-    observation.active.push_back(state.vehicle);
-  return observation;
-}
-
-/// What the planned car's vehicle shows if it follows perfectly.
-MeasuredVehicle following(const Controller& one, std::uint64_t k) {
-  const State state = one.plan_in_force().state_at({k}, 0.0, paper_automaton()->vehicle);
-  MeasuredVehicle result = seen(one.options().vehicle.value, state.pose.x_m, state.pose.y_m);
-  result.speed_mps = state.speed_mps;
-  return result;
 }
 
 TEST(Controller, BeforeTheStartItStandsWhereItIsSeen) {
@@ -160,7 +128,7 @@ TEST(Controller, WarmingUpEndsWhereASearchIsLong) {
 
 TEST(Controller, WithTheCostToGoOf2022ThereIsNoIncumbent) {
   ControllerOptions options{.vehicle = {1}};
-  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::k2022};
+  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::kReferenceSpeed};
   Controller one(options, subgraph(), ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false),
                  Corridor{});
   static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));

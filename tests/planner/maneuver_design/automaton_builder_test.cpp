@@ -7,7 +7,7 @@
 
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/maneuver_design/criteria.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/folders.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
 namespace hlc {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
 namespace hlc {

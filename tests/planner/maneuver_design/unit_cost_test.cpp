@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/maneuver_design/criteria.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 
 namespace hlc {
 namespace {

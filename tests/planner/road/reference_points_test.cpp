@@ -8,9 +8,8 @@ namespace {
 const ReferencePath kStraight({{0.0, 0.0}, {10.0, 0.0}}, false);
 const ReferencePath kSquarePath({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, true);
 
-TEST(ReferencePoints, TheLaterRuleStartsWithTheMeanOfCurrentAndReferenceSpeed) {
-  const Reference reference =
-      reference_points(kStraight, 1.0, 0.4, 0.8, 3, 0.2, ReferenceRule::kLater);
+TEST(ReferencePoints, MeanSpeedFirstStartsWithTheMeanOfCurrentAndReferenceSpeed) {
+  const Reference reference = reference_points(kStraight, 1.0, 0.4, 0.8, 3, 0.2, mean_speed_first);
   ASSERT_EQ(reference.points_m.size(), 3U);
   EXPECT_NEAR(reference.points_m[0].x(), 1.0 + 0.12, 1e-12);
   EXPECT_NEAR(reference.points_m[1].x(), 1.0 + 0.28, 1e-12);
@@ -21,9 +20,8 @@ TEST(ReferencePoints, TheLaterRuleStartsWithTheMeanOfCurrentAndReferenceSpeed) {
   EXPECT_DOUBLE_EQ(reference.speeds_mps[2], 0.8);
 }
 
-TEST(ReferencePoints, Rule2022HalvesTheLastStepAndIgnoresTheCurrentSpeed) {
-  const Reference reference =
-      reference_points(kStraight, 0.0, 0.1, 0.8, 8, 0.2, ReferenceRule::k2022);
+TEST(ReferencePoints, HalfSpeedLastHalvesTheLastStepAndIgnoresTheCurrentSpeed) {
+  const Reference reference = reference_points(kStraight, 0.0, 0.1, 0.8, 8, 0.2, half_speed_last);
   ASSERT_EQ(reference.points_m.size(), 8U);
   EXPECT_NEAR(reference.points_m[0].x(), 0.16, 1e-12);
   EXPECT_NEAR(reference.points_m[6].x(), 7 * 0.16, 1e-12);
@@ -34,14 +32,13 @@ TEST(ReferencePoints, Rule2022HalvesTheLastStepAndIgnoresTheCurrentSpeed) {
 
 TEST(ReferencePoints, GoRoundACircuit) {
   const Reference reference =
-      reference_points(kSquarePath, 3.9, 1.0, 1.0, 2, 0.2, ReferenceRule::kLater);
+      reference_points(kSquarePath, 3.9, 1.0, 1.0, 2, 0.2, mean_speed_first);
   EXPECT_NEAR((reference.points_m[0] - Point(0.1, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((reference.points_m[1] - Point(0.3, 0.0)).norm(), 0.0, 1e-12);
 }
 
 TEST(ReferencePoints, WaitAtTheEndOfAnOpenPath) {
-  const Reference reference =
-      reference_points(kStraight, 9.9, 1.0, 1.0, 3, 0.2, ReferenceRule::kLater);
+  const Reference reference = reference_points(kStraight, 9.9, 1.0, 1.0, 3, 0.2, mean_speed_first);
   EXPECT_EQ(reference.points_m[0], Point(10.0, 0.0));
   EXPECT_EQ(reference.points_m[2], Point(10.0, 0.0));
 }

@@ -73,7 +73,7 @@ void place_at_random(Scenario& scenario, std::mt19937& random) {
 Course drive(const Scenario& scenario) {
   Rollout rollout = make_rollout(scenario);
   const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = make_horizon_planner(*scenario.subgraph, reachable, scenario.search);
+  const auto alone = make_search_engine(*scenario.subgraph, reachable, scenario.search);
   std::vector<Point> positions_m;
   std::vector<double> times_s;
   Course course;
@@ -88,7 +88,7 @@ Course drive(const Scenario& scenario) {
       if (reports[i].coupled.empty()) continue;
       HorizonProblem problem = rollout.controllers()[i]->problems().back();
       problem.obstacles_m.clear();
-      is_changed |= i > 0 && alone->plan(problem).cost < reports[i].cost_m2 - 1e-9;
+      is_changed |= i > 0 && alone->search(problem).cost < reports[i].cost_m2 - 1e-9;
     }
     if (is_changed) ++course.steps_changed;
     positions_m.push_back(reports.front().planned_pose.position_m());
@@ -193,16 +193,16 @@ TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
   const Scenario c = read_scenario({.file = kFolder + "paper_red_alone.yaml", .subgraph = "C"});
   const ReachableSets reachable_b(*b.subgraph, b.horizon_steps);
   const ReachableSets reachable_c(*c.subgraph, c.horizon_steps);
-  const auto planner_b = make_horizon_planner(*b.subgraph, reachable_b, {});
-  const auto planner_c = make_horizon_planner(*c.subgraph, reachable_c, {});
+  const auto engine_b = make_search_engine(*b.subgraph, reachable_b, {});
+  const auto engine_c = make_search_engine(*c.subgraph, reachable_c, {});
   constexpr double kApart_m = 2e-4;  // a sum of squares of distances moves by 2 sum d_j * this
   Rollout rollout = make_rollout(b);
   std::size_t same = 0;
   for (std::size_t step = 0; step < b.steps; ++step) {
     static_cast<void>(rollout.step());
     const HorizonProblem& problem = rollout.controllers().front()->problems().back();
-    const SearchResult of_b = planner_b->plan(problem);
-    const SearchResult of_c = planner_c->plan(problem);
+    const SearchResult of_b = engine_b->search(problem);
+    const SearchResult of_c = engine_c->search(problem);
     ASSERT_EQ(of_b.status, SearchStatus::kOptimal);
     ASSERT_EQ(of_c.status, SearchStatus::kOptimal);
     const double n = static_cast<double>(b.horizon_steps);

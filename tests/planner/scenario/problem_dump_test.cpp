@@ -28,7 +28,7 @@ struct Decision {
 SearchResult solved(const ProblemFile& file, const ReachableSets& reachable, Engine engine) {
   SearchOptions options = file.search;
   options.engine = engine;
-  return make_horizon_planner(*file.subgraph, reachable, options)->plan(file.problem);
+  return make_search_engine(*file.subgraph, reachable, options)->search(file.problem);
 }
 
 std::vector<TrimId> trims_of(const SearchResult& result) {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "planner/scenario/named_subgraph.hpp"
+#include "planner/search/ompl/ompl_engine.hpp"
 #include "planner/search/search_engine.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
@@ -124,6 +125,7 @@ TEST_F(ProblemFileTest, WrittenProblemsReadBackToTheSameBits) {
     file.problem.avoids_steering_limit = test::pick(random, 2) == 0;
     file.problem.start.x_m = std::array{-0.0, 5e-324, 1e9, 0.1, -7.0}.at(test::pick(random, 5));
     file.search.engine = test::pick(random, 2) == 0 ? Engine::kBestFirst : Engine::kBranchAndBound;
+    file.search.factory = test::pick(random, 2) == 0 ? make_ompl_engine : nullptr;
     file.search.max_expansions = 1 + test::pick(random, 1'000'000);
     if (seed % 2 == 0) file.search.criterion_weights = {{"J1", 0.1 / 3.0}, {"J2", 5e-324}};
     write_problem_file(file, file_);
@@ -131,6 +133,7 @@ TEST_F(ProblemFileTest, WrittenProblemsReadBackToTheSameBits) {
     expect_same(read.problem, file.problem);
     EXPECT_EQ(read.automaton_file, file.automaton_file);
     EXPECT_EQ(read.search.engine, file.search.engine);
+    EXPECT_EQ(read.search.factory, file.search.factory);
     EXPECT_EQ(read.search.criterion_weights, file.search.criterion_weights);
     EXPECT_EQ(read.search.cost_to_go, file.search.cost_to_go);
     EXPECT_EQ(read.search.max_expansions, file.search.max_expansions);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "planner/geometry/footprint.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -180,9 +181,11 @@ ScenarioChoices three_cars(const std::string& profile, std::optional<std::string
 TEST(ScenarioSearch, TheProfileSaysWhatSearchesUnlessTheCommandLineDoes) {
   EXPECT_EQ(read_scenario(three_cars("default")).search.engine, Engine::kBranchAndBound);
   EXPECT_EQ(read_scenario(three_cars("default", "best_first")).search.engine, Engine::kBestFirst);
+  const SearchOptions through_ompl = read_scenario(three_cars("2022", "ompl_best_first")).search;
+  EXPECT_EQ(engine_name(through_ompl), "ompl_best_first");
   const Scenario of_2022 = read_scenario(three_cars("2022"));
   EXPECT_EQ(of_2022.search.engine, Engine::kBestFirst);
-  EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::k2022);
+  EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::kReferenceSpeed);
 }
 
 TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
@@ -193,9 +196,10 @@ TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
   EXPECT_THAT(read(three_cars("2022", "branch_and_bound")),
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("--engine = branch_and_bound with profile 2022, allowed best_first")));
-  EXPECT_THAT(read(three_cars("default", "fast")),
-              ThrowsMessage<std::invalid_argument>(
-                  "--engine = fast, allowed branch_and_bound, best_first"));
+  EXPECT_THAT(
+      read(three_cars("default", "fast")),
+      ThrowsMessage<std::invalid_argument>("--engine = fast, allowed branch_and_bound, best_first, "
+                                           "ompl_branch_and_bound, ompl_best_first"));
 }
 
 }  // namespace

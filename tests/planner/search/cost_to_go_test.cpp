@@ -272,7 +272,8 @@ TEST(CostToGo, IsZeroAtTheEndOfTheHorizon) {
   HorizonProblem problem;
   problem.reference_m = {{1.0, 0.0}, {9.0, 9.0}};
   problem.reference_speed_mps = {0.8, 0.4};
-  for (const CostToGo kind : {CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::k2022}) {
+  for (const CostToGo kind :
+       {CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::kReferenceSpeed}) {
     const CostToGoFunction function(subgraph, reachable, problem, kind);
     EXPECT_EQ(function(subgraph.standstill(), 2, Frame{}), 0.0);
   }
@@ -284,7 +285,7 @@ TEST(CostToGo2022, MarchesAtTheReferenceSpeedOfEachRemainingStep) {
   HorizonProblem problem;
   problem.reference_m = {{5.0, 5.0}, {1.0, 0.0}, {0.0, 2.0}};
   problem.reference_speed_mps = {7.0, 0.8, 0.4};
-  const CostToGoFunction function(subgraph, reachable, problem, CostToGo::k2022);
+  const CostToGoFunction function(subgraph, reachable, problem, CostToGo::kReferenceSpeed);
   // Steps 2 and 3 remain: reach 0.16 m and 0.16 m + 0.08 m.
   EXPECT_NEAR(function({6}, 1, Frame{}), std::pow(1.0 - 0.16, 2) + std::pow(2.0 - 0.24, 2), 1e-12);
 }
@@ -297,7 +298,7 @@ TEST(CostToGo2022, IsInadmissibleWhereTheReferenceIsNear) {
   standing.problem.reference_m.assign(3, Point::Zero());
   standing.problem.reference_speed_mps.assign(3, 0.8);
   EXPECT_EQ(true_cost_to_go(subgraph, standing), 0.0);
-  EXPECT_GT(cost_to_go(subgraph, reachable, standing, CostToGo::k2022), 0.1);
+  EXPECT_GT(cost_to_go(subgraph, reachable, standing, CostToGo::kReferenceSpeed), 0.1);
   EXPECT_EQ(cost_to_go(subgraph, reachable, standing, CostToGo::kReachable), 0.0);
 }
 

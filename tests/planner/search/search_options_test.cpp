@@ -16,7 +16,8 @@ TEST(SearchOptions, EveryNameLeadsBackToWhatItNames) {
     EXPECT_EQ(engine_from_name(to_string(engine)), engine);
     EXPECT_THAT(kEngineNames, HasSubstr(to_string(engine)));
   }
-  for (const CostToGo one : {CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::k2022}) {
+  for (const CostToGo one :
+       {CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::kReferenceSpeed}) {
     EXPECT_EQ(cost_to_go_from_name(to_string(one)), one);
     EXPECT_THAT(kCostToGoNames, HasSubstr(to_string(one)));
   }
@@ -32,11 +33,12 @@ TEST(SearchOptions, AnUnknownNameIsRefusedWithThoseThereAre) {
 }
 
 TEST(SearchOptions, BranchAndBoundSearchesWithTheReachableCostToGoOnly) {
-  for (const CostToGo one : {CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::k2022}) {
+  for (const CostToGo one :
+       {CostToGo::kReachable, CostToGo::kStraightLine, CostToGo::kReferenceSpeed}) {
     EXPECT_NO_THROW(check_search_options({.engine = Engine::kBestFirst, .cost_to_go = one}));
   }
   EXPECT_NO_THROW(check_search_options({.engine = Engine::kBranchAndBound}));
-  for (const CostToGo one : {CostToGo::kStraightLine, CostToGo::k2022}) {
+  for (const CostToGo one : {CostToGo::kStraightLine, CostToGo::kReferenceSpeed}) {
     EXPECT_THROW(check_search_options({.engine = Engine::kBranchAndBound, .cost_to_go = one}),
                  std::invalid_argument);
   }

@@ -100,7 +100,7 @@ std::map<VehicleId, Joined> drive(const Scenario& scenario, RunSummary& summary,
   std::map<std::pair<VehicleId, std::uint64_t>, DrivableRoute> areas;
   std::map<VehicleId, Joined> result;
   JointStepRules rules;
-  rules.told = [&](const Controller& controller, const Traffic& traffic) {
+  rules.on_traffic = [&](const Controller& controller, const Traffic& traffic) {
     DrivableRoute route = controller.route();
     if (const auto& area = controller.joining_area()) {
       route.corridor = *area;

@@ -96,10 +96,10 @@ TEST(Sweep, EverySettingReachesTheScenario) {
   const Scenario scenario = sweep.scenario_of(0);
   EXPECT_EQ(scenario.steps, 30U);
   EXPECT_EQ(scenario.reference_speed_mps, 0.7);
-  EXPECT_EQ(scenario.profile.reference_rule, ReferenceRule::k2022);
+  EXPECT_EQ(scenario.profile.reference_rule, half_speed_last);
   EXPECT_EQ(scenario.profile.settle_rule, SettleRule::kStrict);
   EXPECT_EQ(scenario.search.engine, Engine::kBestFirst);
-  EXPECT_EQ(scenario.search.cost_to_go, CostToGo::k2022);
+  EXPECT_EQ(scenario.search.cost_to_go, CostToGo::kReferenceSpeed);
   EXPECT_TRUE(scenario.vehicles[0].corridor.pieces().empty());
   const UniversalAutomaton& automaton = scenario.subgraph->automaton();
   EXPECT_EQ(automaton.limits.acceleration_mps2, 14.0);

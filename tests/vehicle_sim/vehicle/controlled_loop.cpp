@@ -70,19 +70,17 @@ Stray drive(const Scenario& scenario, std::optional<std::uint64_t> noise_seed,
   std::map<std::uint64_t, Told> told;
   ConvexPolygon reachable_m;
   JointStepRules rules;
-  rules.told = [&](const Controller& controller, const Traffic& traffic) {
+  rules.on_traffic = [&](const Controller& controller, const Traffic& traffic) {
     told.emplace(traffic.step.value,
                  Told{controller.plan_in_force(), traffic.running.during(traffic.step)});
     reachable_m = traffic.reachable_area_m;
   };
   rules.is_late = [&](const Controller&) { return is_late(); };
-  rules.plan = [&](Controller& controller, std::span<const Prediction> heard) {
-    Prediction prediction = controller.plan(heard);
+  rules.on_prediction = [&](const Controller&, const Prediction& prediction) {
     for (std::uint64_t k = prediction.step.value + 1; k < prediction.step.value + 10; ++k) {
       stray.beyond_reach_m = std::max(
           stray.beyond_reach_m, outside_m(reachable_m, prediction.areas.during({k}).vertices_m));
     }
-    return prediction;
   };
   const Experiment experiment = drive_experiment(
       scenario, {.steps = scenario.steps, .noise_seed = noise_seed, .rules = rules});

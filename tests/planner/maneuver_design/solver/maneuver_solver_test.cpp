@@ -7,7 +7,7 @@
 
 #include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/effort.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 
 namespace hlc {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "planner/maneuver_design/effort.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 
 namespace hlc {
 namespace {

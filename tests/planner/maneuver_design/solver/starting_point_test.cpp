@@ -6,7 +6,7 @@
 
 #include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/feasibility.hpp"
-#include "planner/maneuver_design/solver/shooting.hpp"
+#include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/stopping_distance.hpp"
 
 namespace hlc {

@@ -64,7 +64,7 @@ TEST(Transcription, AllDerivativesAreThoseOfCentralDifferences) {
       });
       expect_jacobian(t.end_conditions(z).jacobian, z,
                       [&](const Eigen::VectorXd& at) { return t.end_conditions(at).value; });
-      const Told all{true, true, true, true};
+      const ConstraintSet all{true, true, true, true};
       expect_jacobian(t.inequalities(all, z).jacobian, z,
                       [&](const Eigen::VectorXd& at) { return t.inequalities(all, at).value; });
     }

@@ -340,7 +340,7 @@ TEST(BestFirstSearch, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
 TEST(BestFirstSearch, The2022CostToGoFindsAValidPathThatMayCostMore) {
   const Subgraph subgraph = test::make_test_subgraph();
   Searcher exact(subgraph);
-  Searcher authors(subgraph, {.cost_to_go = CostToGo::k2022});
+  Searcher authors(subgraph, {.cost_to_go = CostToGo::kReferenceSpeed});
   std::size_t suboptimal = 0;
   std::size_t bounded = 0;
   for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {

@@ -299,7 +299,7 @@ TEST(BranchAndBound, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
 TEST(BranchAndBound, RefusesBoundsThatItDoesNotHave) {
   const Subgraph subgraph = test::make_test_subgraph();
   const ReachableSets reachable(subgraph, kMaxSteps);
-  for (const CostToGo kind : {CostToGo::kStraightLine, CostToGo::k2022}) {
+  for (const CostToGo kind : {CostToGo::kStraightLine, CostToGo::kReferenceSpeed}) {
     EXPECT_THROW(static_cast<void>(make_search_engine(subgraph, reachable, {.cost_to_go = kind})),
                  std::invalid_argument);
     EXPECT_NE(

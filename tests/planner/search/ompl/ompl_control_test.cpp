@@ -99,7 +99,7 @@ TEST_F(OmplControlTest, WhatOmplsOwnPlannerFindsIsAPlanAndCostsNoLess) {
     const auto& path = dynamic_cast<const oc::PathControl&>(*definition->getSolutionPath());
     expect_plan(path, problem, subgraph_, reachable_);
     const double cost_m2 = path_cost(path, *definition->getOptimizationObjective()).value();
-    const auto best = make_horizon_planner(subgraph_, reachable_, {})->plan(problem);
+    const auto best = make_search_engine(subgraph_, reachable_, {})->search(problem);
     ASSERT_NE(best.status, SearchStatus::kFallback);
     EXPECT_GE(cost_m2, best.cost - 1e-9);
   }

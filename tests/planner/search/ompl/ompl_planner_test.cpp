@@ -96,25 +96,6 @@ TEST_F(OmplPlannerTest, GivesThroughPlainOmplTheSamePathAsTheEngine) {
   EXPECT_GT(solved, 20);
 }
 
-TEST_F(OmplPlannerTest, HorizonPlannerPlansLikeTheEngineAgainAndAgain) {
-  const auto engine = make_search_engine(subgraph_, reachable_, {});
-  const auto planner = make_horizon_planner(subgraph_, reachable_, {});
-  for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937_64 random(seed);
-    const std::size_t horizon_steps = 1 + test::pick(random, kMaxSteps);
-    const HorizonProblem problem = test::random_problem(subgraph_, horizon_steps, random);
-    const SearchResult expected = engine->search(problem, never_stop);
-    const SearchResult planned = planner->plan(problem);
-    EXPECT_EQ(planned.status, expected.status);
-    EXPECT_EQ(planned.cost, expected.cost);
-    EXPECT_EQ(planned.maneuvers, expected.maneuvers);
-    EXPECT_EQ(planned.poses, expected.poses);
-    EXPECT_EQ(planned.generated, expected.generated);
-    EXPECT_EQ(planned.expanded, expected.expanded);
-  }
-}
-
 TEST_F(OmplPlannerTest, ADefinitionThatPosesAnotherProblemIsLikeANewOne) {
   const HorizonProblem open = test::straight_problem(kMaxSteps);
   const HorizonProblem closed = infeasible_problem();

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+
+#include "hlc_bridge/hlc/hlc_core.hpp"
+#include "hlc_bridge/hlc/hlc_events.hpp"
+#include "hlc_bridge/hlc/hlc_rules.hpp"
+
+namespace hlc {
+
+/// When commands and their copies for later (command.hpp) are published. A command is published at
+/// once, its copy as the rule says.
+class CommandCopies {
+ public:
+  /// Between a command and its copy. Short: who dies in it leaves a car that drops its plan after
+  /// kCommandLifetime and brakes.
+  static constexpr Nanoseconds kPause = 5 * kNanosecondsPerMillisecond;
+
+  explicit CommandCopies(CommandCopy rule) : rule_(rule) {}
+
+  /// A copy that still waits goes first. @param wall  now
+  void publish(const AnswerToList& answer, Nanoseconds wall, HlcActions& actions) {
+    publish_copy(actions);
+    actions.add(answer.command);
+    if (!answer.copy) return;
+    if (rule_ == CommandCopy::kAtOnce) actions.add(*answer.copy);
+    if (rule_ == CommandCopy::kAfterPause) {
+      waiting_ = answer.copy;
+      due_ = wall + kPause;
+    }
+  }
+
+  void publish_when_due(Nanoseconds wall, HlcActions& actions) {
+    if (wall >= due_) publish_copy(actions);
+  }
+
+  /// When a copy waits: wall time at which it is to be published.
+  [[nodiscard]] std::optional<Nanoseconds> due() const {
+    return waiting_ ? std::optional{due_} : std::nullopt;
+  }
+  void drop() { waiting_.reset(); }
+
+ private:
+  void publish_copy(HlcActions& actions) {
+    if (waiting_) actions.add(*std::exchange(waiting_, std::nullopt));
+  }
+
+  CommandCopy rule_;
+  std::optional<TrajectoryCommand> waiting_;
+  Nanoseconds due_{};
+};
+
+}  // namespace hlc

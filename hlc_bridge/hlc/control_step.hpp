@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "hlc_bridge/hlc/hlc_events.hpp"
+#include "hlc_bridge/hlc/hlc_rules.hpp"
+#include "hlc_bridge/messages/instant.hpp"
+#include "planner/controller/control_loop.hpp"
+
+namespace hlc {
+
+/// One control step with its waits: takes the ControlLoop from phase to phase. A phase ends when
+/// all who are awaited have answered; whoever is not reachable is not awaited. With deadlines it
+/// ends at its deadline at the latest. Without, after kMessageTimeout of wall time; who has not
+/// answered then is not awaited any more until it sends traffic again.
+class ControlStep {
+ public:
+  /// Whether messages of this vehicle's controller can come.
+  using IsReachable = std::function<bool(VehicleId)>;
+
+  ControlStep(Controller& controller, const std::optional<StepDeadlines>& deadlines,
+              Stopwatch stopwatch)
+      : loop_(controller, std::move(stopwatch)), deadlines_(deadlines) {}
+
+  void receive(const Traffic& message);
+  void receive(const Prediction& message) { loop_.receive(message); }
+  void receive(const Outcome& message) { loop_.receive(message); }
+
+  /// The step of a list that is answered: messages for the steps before are dropped.
+  void advance_to(StepIndex step) { loop_.advance_to(step); }
+  [[nodiscard]] Report stand_by(const Observation& observation) {
+    return loop_.stand_by(observation);
+  }
+
+  /// Publishes traffic. @pre not in a step
+  void begin(const VehicleStateList& list, const Observation& observation, const Instant& now,
+             HlcActions& actions);
+  [[nodiscard]] bool is_running() const { return loop_.is_in_step(); }
+
+  /// Goes on until something is to be published, something is awaited, or the step has ended; then
+  /// there is its record (the report, and what was measured).
+  /// @param is_over  nothing is waited for any more
+  /// @pre is_running()
+  [[nodiscard]] std::optional<ReportRecord> advance(const Instant& now,
+                                                    const IsReachable& is_reachable, bool is_over,
+                                                    HlcActions& actions);
+
+  /// When to go on though nothing came. @pre is_running()
+  [[nodiscard]] WakeUp wake_up() const;
+  /// Messages without which it does not go on; 0: it goes on at once. @pre is_running()
+  [[nodiscard]] std::size_t num_awaited() const { return num_awaited_; }
+
+ private:
+  [[nodiscard]] bool ends_phase(const Instant& now, const IsReachable& is_reachable,
+                                HlcActions& actions);
+  [[nodiscard]] StepOutput end_phase(const Instant& now);
+  [[nodiscard]] Nanoseconds deadline() const;
+
+  ControlLoop loop_;
+  std::optional<StepDeadlines> deadlines_;
+  VehicleStateList list_;  ///< of the step; only its times
+  bool is_warm_{};
+  Nanoseconds phase_ends_{};  ///< without deadlines; wall
+  std::size_t num_awaited_{};
+  std::set<VehicleId> silent_;  ///< not awaited until their traffic comes
+  ReportRecord record_;
+};
+
+}  // namespace hlc

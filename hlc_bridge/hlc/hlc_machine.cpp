@@ -1,0 +1,280 @@
+#include "hlc_bridge/hlc/hlc_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "hlc_bridge/hlc/observation.hpp"
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+namespace {
+
+/// For a lab control that is to receive the stop request.
+constexpr Nanoseconds kStopRequestWait = kNanosecondsPerSecond;
+constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
+constexpr Nanoseconds kAtOnce = 0;        // a wake-up that has passed
+
+Nanoseconds step_ns(const Controller& controller) {
+  return static_cast<Nanoseconds>(std::llround(1e9 * controller.subgraph().automaton().step_s));
+}
+
+void check_plan_fits_commands(const Controller& controller) {
+  const std::size_t steps = controller.options().horizon_steps;
+  const double step_s = controller.subgraph().automaton().step_s;
+  const double drivable_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime);
+  if (static_cast<double>(steps + 1) * step_s <= drivable_s + 1e-9) return;
+  throw std::invalid_argument(
+      "horizon_steps must be <= " + std::to_string(std::lround(drivable_s / step_s) - 1) +
+      ", got " + std::to_string(steps) +
+      ": a vehicle drops its command before a longer plan has ended");
+}
+
+}  // namespace
+
+HlcMachine::HlcMachine(HlcSettings settings, std::unique_ptr<Controller> controller)
+    : rules_(settings.rules),
+      cpu_time_(settings.cpu_time ? settings.cpu_time : [] { return std::uint64_t{}; }),
+      core_(std::move(controller)),
+      life_(core_.controller().options().vehicle, rules_, settings.startup_timeout),
+      start_(core_.controller().options().vehicle, rules_.start, step_ns(core_.controller())),
+      step_(core_.controller(), rules_.deadlines, cpu_time_),
+      copies_(rules_.copy),
+      subgraphs_(core_.controller(), settings.reconfiguration) {
+  check_plan_fits_commands(core_.controller());
+}
+
+void HlcMachine::on(Event event) {
+  std::visit([this](auto& what) { take(std::move(what)); }, event);
+}
+
+void HlcMachine::take(const SystemTrigger& trigger) {
+  if (trigger.next_start != kStopSymbol) return start_.trigger(trigger.next_start);
+  ending_.is_asked = true;
+  copies_.drop();
+}
+
+void HlcMachine::take(const RunState& state) {
+  life_.receive(state);
+  start_.receive(state);
+}
+
+void HlcMachine::take(const Traffic& traffic) {
+  if (traffic.vehicle == controller().options().vehicle) life_.readiness().receive_own_traffic();
+  start_.receive(traffic);
+  step_.receive(traffic);
+}
+
+void HlcMachine::take(const AutomatonRequest& request) {
+  if (request.vehicle == controller().options().vehicle) subgraphs_.receive(request);
+}
+
+void HlcMachine::take(const AfterStepFailure& failure) {
+  ending_.unwritten = "from step " + std::to_string(controller().last_step().value) +
+                      " on nothing is written: " + failure.reason;
+  actions_.error(ending_.unwritten);
+}
+
+std::vector<HlcAction> HlcMachine::advance(const Instant& now) {
+  copies_.publish_when_due(now.wall, actions_);
+  if (!ending_.code && !ending_.is_asked) life_.watch(now.wall, has_started(), actions_);
+  subgraphs_.prepare_next(actions_);
+  while (!ending_.code && go_on(now)) {
+  }
+  return actions_.take();
+}
+
+bool HlcMachine::go_on(const Instant& now) {
+  switch (phase_) {
+    case Phase::kIdle:
+      return take_list(now);
+    case Phase::kGathering:
+      return gather(now);
+    case Phase::kPreparing:
+      return prepare(now);
+    case Phase::kStepping:
+      return step(now);
+    case Phase::kAfterStep:
+      return after_step(now);
+    case Phase::kRefusing:
+      return refuse(now);
+  }
+  return false;
+}
+
+bool HlcMachine::ends(const Instant& now) {
+  ending_.code =
+      ending_.is_asked
+          ? std::optional{kExitGood}
+          : life_.exit_code(now.wall, phase_ == Phase::kIdle && !lists_.empty(), actions_);
+  if (ending_.code == kExitGood && !ending_.unwritten.empty()) {
+    actions_.error(ending_.unwritten);  // once more, as its last word
+    ending_.code = kExitNotWritten;
+  }
+  return ending_.code.has_value();
+}
+
+bool HlcMachine::take_list(const Instant& now) {
+  if (ends(now)) return false;
+  life_.publish_ready(now.wall, controller(), has_started(), actions_);
+  if (lists_.empty()) return false;
+  if (!rules_.answers_every_list) lists_.erase(lists_.begin(), lists_.end() - 1);
+  current_ = {.list = std::move(lists_.front())};
+  lists_.pop_front();
+  life_.receive_list(now.wall);
+  if (const std::string problem = core_.validate(current_.list); !problem.empty()) {
+    actions_.error(problem);
+    current_.patience = now.wall + kStopRequestWait;
+    phase_ = Phase::kRefusing;
+    return true;
+  }
+  std::optional<Observation> observation = core_.observe(current_.list);
+  if (!observation) return true;  // received twice
+  current_.observation = *std::move(observation);
+  life_.readiness().set_active(current_.observation.active);
+  phase_ = Phase::kGathering;
+  return true;
+}
+
+bool HlcMachine::refuse(const Instant& now) {
+  const bool is_received = life_.has_stop_request_readers();
+  if (!is_received && now.wall < current_.patience && !ending_.is_asked) return false;
+  if (is_received) actions_.add(StopRequest{.vehicle_id = controller().options().vehicle.value});
+  ending_.code = kExitBadInput;
+  return false;
+}
+
+bool HlcMachine::gather(const Instant& now) {
+  if (rules_.start == StartRule::kTogether) {
+    life_.readiness().update(has_started());
+    if (!life_.readiness().is_ready()) {
+      static_cast<void>(ends(now));
+      return false;
+    }
+  }
+  enter_experiment();
+  current_.patience = now.wall + rules_.preparation_patience;
+  phase_ = Phase::kPreparing;
+  return true;
+}
+
+/// If it begins with this list, or has begun.
+void HlcMachine::enter_experiment() {
+  const VehicleStateList& list = current_.list;
+  Observation& observation = current_.observation;
+  observation.present = life_.readiness().present(observation.active);
+  const bool had_begun = core_.has_begun();
+  if (!had_begun) {
+    core_.note(list, observation);
+    start_.join_if_others_drive(observation);
+  }
+  step_.advance_to(observation.step);
+  current_.is_running =
+      life_.readiness().is_ready() && core_.begins(list, observation, rules_.start, start_.time());
+  if (!current_.is_running) return;
+  start_.enter(observation.step);
+  if (!had_begun && start_.is_joining(list)) actions_.info("joining the running experiment");
+}
+
+bool HlcMachine::prepare(const Instant& now) {
+  if (subgraphs_.is_preparing() && now.wall < current_.patience && !ending_.is_asked) return false;
+  Controller& controller = core_.controller();
+  const Observation& observation = current_.observation;
+  const Nanoseconds from = cpu_time_();
+  subgraphs_.begin_step(controller, current_.list, observation.step, start_.first_step(), actions_);
+  current_.reconfiguring_ns = cpu_time_() - from;
+  if (current_.is_running) {
+    controller.set_drives_out(life_.drives_out());
+    step_.begin(current_.list, observation, now, actions_);
+    phase_ = Phase::kStepping;
+    return false;
+  }
+  if (!may_stand_by()) {
+    phase_ = Phase::kIdle;
+    return true;
+  }
+  ReportRecord record{.report = step_.stand_by(observation)};
+  notes_.note_placement(controller, actions_);
+  finish(std::move(record), now);
+  return false;
+}
+
+bool HlcMachine::may_stand_by() const {
+  return rules_.start == StartRule::kTogether ||
+         (!life_.readiness().yields_to_duplicate() && core_.may_stand_by(current_.observation));
+}
+
+bool HlcMachine::step(const Instant& now) {
+  std::optional<ReportRecord> record = step_.advance(
+      now, [this](VehicleId vehicle) { return life_.readiness().is_reachable(vehicle); },
+      ending_.is_asked, actions_);
+  if (!record) return false;
+  record->planning_ns += current_.reconfiguring_ns;
+  finish(*std::move(record), now);
+  return false;
+}
+
+void HlcMachine::finish(ReportRecord record, const Instant& now) {
+  publish_command(record.report, now);
+  if (current_.is_running) notes_.note_fallback(controller(), record.report, actions_);
+  current_.report = record.report;
+  actions_.add(std::move(record));
+  actions_.add(DrawStep{.report = current_.report,
+                        .time_to_live = kDrawnPeriods * period_of(current_.list)});
+  if (core_.has_begun() && ending_.unwritten.empty()) actions_.add(AfterStep{});
+  phase_ = Phase::kAfterStep;
+}
+
+/// And notes in the report if it is not the plan.
+void HlcMachine::publish_command(Report& report, const Instant& now) {
+  if (ending_.is_asked) return;
+  const AnswerToList answer = core_.answer(current_.list);
+  copies_.publish(answer, now.wall, actions_);
+  notes_.note_fault(step_of(current_.list), answer.fault, actions_);
+  report = with_answer(std::move(report), answer);
+}
+
+bool HlcMachine::after_step(const Instant& now) {
+  if (current_.is_running) {
+    const bool is_published = actions_.empty() && !copies_.due();
+    if (subgraphs_.looks_ahead() && !is_published) return false;
+    const bool has_time = !rules_.deadlines ||
+                          now.run < deadline_in_step(current_.list, rules_.deadlines->look_ahead);
+    subgraphs_.end_step(controller(), current_.report, has_time);
+  }
+  phase_ = Phase::kIdle;
+  return true;
+}
+
+WakeUp HlcMachine::wake_up() const {
+  const std::optional<Nanoseconds> copy = copies_.due();
+  if (ending_.code) return {.wall = copy};
+  switch (phase_) {
+    case Phase::kIdle:
+    case Phase::kGathering:
+      return {.wall = machine::earlier(copy, life_.wake_up())};
+    case Phase::kPreparing:
+    case Phase::kRefusing:
+      return {.wall = machine::earlier(copy, current_.patience)};
+    case Phase::kStepping: {
+      const WakeUp wake = step_.wake_up();
+      return {.run = wake.run, .wall = machine::earlier(copy, wake.wall)};
+    }
+    case Phase::kAfterStep:
+      return {.wall = subgraphs_.looks_ahead() && copy ? *copy : kAtOnce};
+  }
+  return {};
+}
+
+std::size_t HlcMachine::awaited() const {
+  if (phase_ != Phase::kStepping) return machine::kOnlyUrgent;
+  return std::max<std::size_t>(step_.num_awaited(), 1);
+}
+
+std::optional<int> HlcMachine::exit_code() const {
+  return copies_.due() ? std::nullopt : ending_.code;
+}
+
+}  // namespace hlc

@@ -1,0 +1,37 @@
+#include "hlc_bridge/hlc/hlc_rules.hpp"
+
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+namespace {
+
+// Leases are 2 s in real time and 10 s in logical time (ParticipantOptions::logical_time).
+constexpr Nanoseconds kDuplicatePatience = 4 * kNanosecondsPerSecond;
+constexpr Nanoseconds kDuplicatePatienceInLogicalTime = 12 * kNanosecondsPerSecond;
+/// The others wait 10 s for who waits (kMessageTimeout). What takes longer is in force later.
+constexpr Nanoseconds kPreparationPatience = 8 * kNanosecondsPerSecond;
+
+}  // namespace
+
+HlcRules rules_in_logical_time(bool keeps_commands) {
+  return {.start = StartRule::kTogether,
+          .deadlines = std::nullopt,
+          .answers_every_list = true,
+          .copy = keeps_commands ? CommandCopy::kAtOnce : CommandCopy::kNever,
+          .duplicate_patience = kDuplicatePatienceInLogicalTime,
+          .middleware_patience = 0,
+          .preparation_patience = kPreparationPatience};
+}
+
+HlcRules rules_in_real_time(bool keeps_commands, const StepDeadlines& deadlines,
+                            Nanoseconds startup_timeout) {
+  return {.start = StartRule::kAtTrigger,
+          .deadlines = deadlines,
+          .answers_every_list = false,
+          .copy = keeps_commands ? CommandCopy::kAtOnce : CommandCopy::kAfterPause,
+          .duplicate_patience = kDuplicatePatience,
+          .middleware_patience = startup_timeout,
+          .preparation_patience = 0};
+}
+
+}  // namespace hlc

@@ -1,0 +1,114 @@
+#include "hlc_bridge/hlc/life_cycle.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+
+LifeCycle::LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout)
+    : vehicle_(vehicle),
+      start_rule_(rules.start),
+      expects_lists_(!rules.answers_every_list),
+      startup_timeout_(startup_timeout),
+      readiness_(vehicle, rules.start, rules.duplicate_patience),
+      middleware_(middleware_name(vehicle.value), rules.middleware_patience) {}
+
+void LifeCycle::receive(const HlcPeers& peers) {
+  readiness_.receive(peers);
+  middleware_.receive(peers);
+  is_lab_control_absent_ = peers.lab.lost.contains(kLabControlName);
+  stop_request_readers_ = peers.stop_request_readers;
+}
+
+void LifeCycle::receive_list(Nanoseconds wall) {
+  last_list_at_ = wall;
+  list_notice_ = machine::WaitNotice{wall};
+}
+
+void LifeCycle::watch(Nanoseconds wall, bool has_started, HlcActions& actions) {
+  if (!began_at_) {
+    began_at_ = wall;
+    peers_notice_ = list_notice_ = machine::WaitNotice{wall};
+  }
+  watch_lab_control(wall, actions);
+  middleware_.look(wall, actions);
+  readiness_.update(has_started);
+  remind(wall, actions);
+}
+
+void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
+  switch (lab_control_.look(is_lab_control_absent_, stop_request_readers_, wall)) {
+    case machine::LabControlWatch::Change::kNone:
+      return;
+    case machine::LabControlWatch::Change::kLost:
+      actions.error(std::string(kLabControlName) +
+                    " is gone; the running plan is driven to its end");
+      return;
+    case machine::LabControlWatch::Change::kBack:
+      actions.info(std::string(kLabControlName) + " is back; planning goes on");
+      return;
+  }
+}
+
+void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
+  if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
+    actions.info("waits: " + readiness_.missing());
+  }
+  if (readiness_.is_ready() && expects_lists_ && list_notice_.is_due(wall)) {
+    const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
+    actions.warn("waits: " + middleware_.name() + " has sent no state list for " +
+                 std::to_string(silence / kNanosecondsPerSecond) + " s");
+  }
+}
+
+void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bool has_started,
+                              HlcActions& actions) {
+  const bool is_off_route = controller.placement() && !controller.fits_route();
+  const bool is_unseen = start_rule_ == StartRule::kAtTrigger && !controller.placement();
+  repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
+  if (!repeats_ready_ || wall < next_ready_at_) return;
+  if (next_ready_at_ == 0 && start_rule_ == StartRule::kAtTrigger) {
+    actions.info("ready, waits for a trigger");
+  }
+  actions.add(ReadyStatus{.source_id = controller_ready_id(vehicle_.value)});
+  next_ready_at_ = wall + kReadyRepeat;
+}
+
+std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
+                                        HlcActions& actions) const {
+  if (middleware_.is_lost_for_good(wall) || (middleware_.is_lost() && drives_out_)) {
+    return readiness_.is_ready() ? kExitDied : kExitMissing;
+  }
+  if (readiness_.leaves_to_duplicate(wall - *began_at_)) {
+    actions.error("another instance of " + controller_name(vehicle_.value) +
+                  " is running; stop it first");
+    return kExitBadInput;
+  }
+  if (lab_control_.is_lost_for_good(wall)) return kExitDied;
+  if (!has_list && is_start_overdue(wall)) {
+    actions.error(readiness_.missing() + " within " +
+                  std::to_string(startup_timeout_ / kNanosecondsPerSecond) + " s");
+    return kExitMissing;
+  }
+  return std::nullopt;
+}
+
+std::optional<Nanoseconds> LifeCycle::wake_up() const {
+  using machine::earlier;
+  if (!began_at_) return std::nullopt;
+  std::optional<Nanoseconds> wake = earlier(lab_control_.wake_up(), middleware_.wake_up());
+  if (readiness_.yields_to_duplicate()) {
+    wake = earlier(wake, *began_at_ + readiness_.duplicate_patience() + 1);
+  }
+  if (!readiness_.is_ready()) {
+    return earlier(wake, std::min(peers_notice_.next(), *began_at_ + startup_timeout_ + 1));
+  }
+  if (repeats_ready_) wake = earlier(wake, next_ready_at_);
+  return expects_lists_ ? earlier(wake, list_notice_.next()) : wake;
+}
+
+}  // namespace hlc

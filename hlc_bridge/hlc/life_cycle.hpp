@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hlc_bridge/hlc/hlc_events.hpp"
+#include "hlc_bridge/hlc/hlc_rules.hpp"
+#include "hlc_bridge/hlc/middleware_watch.hpp"
+#include "hlc_bridge/hlc/readiness.hpp"
+#include "hlc_bridge/machine/lab_control_watch.hpp"
+#include "hlc_bridge/machine/wait_notice.hpp"
+#include "planner/controller/controller.hpp"
+
+namespace hlc {
+
+/// What a controller's process does beside its steps: becomes ready and says so, notices who is
+/// lost and back, logs for whom it waits, and ends.
+///
+/// Ends between two steps, when
+///   * its middleware is lost and not back in time: at once where the rules say so, or when the
+///     lab control has everybody drive out (a lab control that is gone, too, is no reason: to a
+///     process that got no processor for the time of a lease all others are gone);
+///   * it yields to a duplicate instance (Readiness);
+///   * the lab control is lost for longer than kControllerStays (until then the plan in force is
+///     driven out);
+///   * somebody has not appeared within the startup timeout.
+class LifeCycle {
+ public:
+  LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout);
+
+  void receive(const HlcPeers& peers);
+  void receive(const RunState& state) { drives_out_ |= state.phase == RunPhase::kDriveOut; }
+  /// A list has come. @param wall  now
+  void receive_list(Nanoseconds wall);
+
+  [[nodiscard]] Readiness& readiness() { return readiness_; }
+  [[nodiscard]] const Readiness& readiness() const { return readiness_; }
+  /// The plan in force is to be driven to its end: the lab control says so, or is lost.
+  [[nodiscard]] bool drives_out() const { return drives_out_ || lab_control_.is_lost(); }
+  [[nodiscard]] bool has_stop_request_readers() const { return stop_request_readers_ > 0; }
+
+  /// At every advance. @param has_started  the experiment has (ExperimentStart)
+  void watch(Nanoseconds wall, bool has_started, HlcActions& actions);
+  /// At every advance between two steps: says again and again that it is ready, until the start.
+  void publish_ready(Nanoseconds wall, const Controller& controller, bool has_started,
+                     HlcActions& actions);
+  /// The code with which to end now; none: go on. Logs the reason. @param has_list  one waits
+  [[nodiscard]] std::optional<int> exit_code(Nanoseconds wall, bool has_list,
+                                             HlcActions& actions) const;
+
+  /// Between two steps: wall time at which the last three are to be called though nothing came.
+  [[nodiscard]] std::optional<Nanoseconds> wake_up() const;
+
+ private:
+  static constexpr Nanoseconds kReadyRepeat = kNanosecondsPerSecond / 2;
+
+  void watch_lab_control(Nanoseconds wall, HlcActions& actions);
+  void remind(Nanoseconds wall, HlcActions& actions);
+  [[nodiscard]] bool is_start_overdue(Nanoseconds wall) const {
+    return !readiness_.is_ready() && wall > *began_at_ + startup_timeout_;
+  }
+
+  VehicleId vehicle_;
+  StartRule start_rule_;
+  bool expects_lists_;  ///< regularly: their absence is worth a line
+  Nanoseconds startup_timeout_;
+  Readiness readiness_;
+  MiddlewareWatch middleware_;
+  machine::LabControlWatch lab_control_;
+  bool is_lab_control_absent_{};  ///< by name
+  std::size_t stop_request_readers_{};
+  bool drives_out_{};
+  std::optional<Nanoseconds> began_at_;  ///< first advance
+  machine::WaitNotice peers_notice_{0};  ///< for those who are missing
+  machine::WaitNotice list_notice_{0};   ///< for lists
+  Nanoseconds last_list_at_{};
+  bool repeats_ready_{};
+  Nanoseconds next_ready_at_{};  ///< 0: it has not been said yet
+};
+
+}  // namespace hlc

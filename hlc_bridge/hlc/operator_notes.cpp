@@ -1,0 +1,34 @@
+#include "hlc_bridge/hlc/operator_notes.hpp"
+
+#include "hlc_bridge/hlc/placement_line.hpp"
+
+namespace hlc {
+
+void OperatorNotes::note_placement(const Controller& controller, HlcActions& actions) {
+  const bool fits = controller.fits_route();
+  if (!controller.placement() || logged_fit_ == fits) return;
+  logged_fit_ = fits;
+  actions.add(fits ? machine::info(placement_line(controller))
+                   : machine::error(placement_line(controller)));
+}
+
+void OperatorNotes::note_fallback(const Controller& controller, const Report& report,
+                                  HlcActions& actions) {
+  const bool is_off_route = report.reason == FallbackReason::kOffRoute;
+  const bool is_over_budget = report.reason == FallbackReason::kBudget;
+  if ((is_off_route && !is_off_route_logged_) || (is_over_budget && !is_budget_logged_)) {
+    actions.error(stuck_line(controller, report.reason));
+  }
+  is_off_route_logged_ = is_off_route;
+  is_budget_logged_ |= is_over_budget;
+}
+
+void OperatorNotes::note_fault(StepIndex step, const std::string& fault, HlcActions& actions) {
+  if (!fault.empty() && fault != last_fault_) {
+    actions.error("the command of step " + std::to_string(step.value) +
+                  " is not sent, the last good one is: " + fault);
+  }
+  last_fault_ = fault;
+}
+
+}  // namespace hlc

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/hlc/hlc_events.hpp"
+#include "hlc_bridge/hlc/hlc_rules.hpp"
+
+namespace hlc {
+
+/// Whether a controller takes part: whether all who need what it publishes receive it, and whether
+/// it is the only instance that drives its vehicle.
+///
+/// **Duplicate instances.** A vehicle follows one controller. The one that was ready first stays: a
+/// second one that finds its vehicle's name on the lab domain is never ready, publishes nothing and
+/// leaves. Where both are ready (one was cut off or stopped for longer than its lease, and has been
+/// replaced), the vehicle would follow now the one, now the other, and nobody could reckon with
+/// what it drives: each leaves as soon as it receives the other's traffic.
+class Readiness {
+ public:
+  /// @param duplicate_patience  see HlcRules
+  Readiness(VehicleId vehicle, StartRule rule, Nanoseconds duplicate_patience)
+      : vehicle_(vehicle), rule_(rule), duplicate_patience_(duplicate_patience) {}
+
+  void receive(const HlcPeers& peers);
+  /// Another instance has published for the own vehicle. (A process does not receive its own
+  /// messages.)
+  void receive_own_traffic() { is_duplicate_received_ = true; }
+  /// Vehicles that take part, as the last list said.
+  void set_active(std::vector<VehicleId> active) { active_ = std::move(active); }
+
+  /// To be called whenever something may have changed. Becomes ready when everybody receives what
+  /// is published here; under kAtTrigger also as soon as the middleware does, if the experiment has
+  /// started: into a running one a controller comes back alone, and whoever is not there is
+  /// missing, as in any step.
+  void update(bool has_started);
+  [[nodiscard]] bool is_ready() const { return is_ready_; }
+
+  /// Another instance drives the vehicle: this one must not.
+  [[nodiscard]] bool yields_to_duplicate() const;
+  /// ... and is no dead one's trace. @param since_start  wall time
+  [[nodiscard]] bool leaves_to_duplicate(Nanoseconds since_start) const {
+    return yields_to_duplicate() && since_start > duplicate_patience_;
+  }
+  [[nodiscard]] Nanoseconds duplicate_patience() const { return duplicate_patience_; }
+
+  /// Of these, whose controllers are alive. The controllers' network alone may have failed: who is
+  /// on the lab's still commands its vehicle.
+  [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
+  /// True if messages from this vehicle's controller can come.
+  [[nodiscard]] bool is_reachable(VehicleId vehicle) const;
+
+  /// Why it is not ready yet.
+  [[nodiscard]] std::string missing() const;
+
+ private:
+  [[nodiscard]] bool has_duplicate() const;
+  [[nodiscard]] std::set<std::string> unmatched_peers() const;
+
+  VehicleId vehicle_;
+  StartRule rule_;
+  Nanoseconds duplicate_patience_;
+  HlcPeers peers_;
+  std::vector<VehicleId> active_;
+  bool is_ready_{};
+  bool is_duplicate_received_{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "hlc_bridge/hlc/hlc_events.hpp"
+#include "hlc_bridge/hlc/reconfiguration.hpp"
+#include "planner/policy/subgraph_choice.hpp"
+
+namespace hlc {
+
+/// Which subgraph a controller plans on, step by step: requests of the operator from their arrival
+/// until they are in force (Reconfiguration), zones and policies (SubgraphChoice). Every request is
+/// answered, and every switch is logged.
+class SubgraphSwitching {
+ public:
+  /// @pre check_reconfiguration throws nothing
+  SubgraphSwitching(const Controller& controller, const ReconfigurationSettings& settings)
+      : choice_(controller, settings) {}
+
+  /// What requests are to be prepared on and for.
+  [[nodiscard]] RequestBase request_base(const Controller& controller) const;
+
+  /// Requests are prepared in order, one at a time; of more than kMaxWaiting the first are dropped.
+  void receive(const AutomatonRequest& request);
+  void receive(const PreparedRequest& prepared);
+  /// At every advance.
+  void prepare_next(HlcActions& actions);
+  /// A request waits or is in work.
+  [[nodiscard]] bool is_preparing() const { return is_in_work_ || !waiting_.empty(); }
+
+  /// Before every step of the controller, also before the experiment has begun: switches it.
+  /// @param first_step  of the experiment; none: it has not begun
+  void begin_step(Controller& controller, const VehicleStateList& list, StepIndex step,
+                  std::optional<StepIndex> first_step, HlcActions& actions);
+
+  [[nodiscard]] bool looks_ahead() const { return choice_.looks_ahead(); }
+  /// After every step of the experiment, when nobody waits for the vehicle any more.
+  void end_step(const Controller& controller, const Report& report, bool may_look_ahead) {
+    choice_.end_step(controller, report, may_look_ahead);
+  }
+
+  static constexpr std::size_t kMaxWaiting = 16;
+
+ private:
+  SubgraphChoice choice_;
+  Reconfiguration reconfiguration_;
+  std::deque<AutomatonRequest> waiting_;
+  bool is_in_work_{};
+  std::vector<PreparedRequest> prepared_;  ///< since the last step
+};
+
+}  // namespace hlc

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/machine/log_line.hpp"
+#include "hlc_bridge/machine/wait_notice.hpp"
+#include "hlc_bridge/messages/run_parameters.hpp"
+
+namespace hlc::machine {
+
+/// What a process does before its first tick: it learns the run's parameters from the lab control,
+/// and (where the rules say so) waits until everybody is there. Both together take `timeout` at
+/// most, from the first call of learn on; then the process ends with kExitMissing. All times are
+/// wall time.
+///
+///     if (!start_up_.learn(now.wall, actions)) return;
+///     if (!start_up_.connect(now.wall, who_is_missing(), actions)) return;
+class StartUp {
+ public:
+  explicit StartUp(Nanoseconds timeout) : timeout_(timeout) {}
+
+  /// The lab control answered.
+  void take(const Parameter& parameter) { parameters_.take(parameter); }
+  [[nodiscard]] const RunParameters& parameters() const { return parameters_; }
+
+  /// Asks for what is missing, again every kRequestInterval. True once all is known.
+  /// @param actions  gets ParameterRequest and LogLine
+  template <class Action>
+  [[nodiscard]] bool learn(Nanoseconds now, std::vector<Action>& actions) {
+    for (const std::string& name : requests_at(now)) actions.emplace_back(ParameterRequest{name});
+    return move_line(actions) && parameters_.complete();
+  }
+
+  /// True once nobody is missing.
+  /// @param missing  who is not there yet: "a, b"; empty: everybody is
+  template <class Action>
+  [[nodiscard]] bool connect(Nanoseconds now, const std::string& missing,
+                             std::vector<Action>& actions) {
+    wait_for(now, missing);
+    return move_line(actions) && missing.empty();
+  }
+
+  /// kExitMissing after the timeout.
+  [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }
+  /// When the last of these two is to be called again though nothing came; empty once it is done.
+  [[nodiscard]] std::optional<Nanoseconds> wake_up() const { return wake_up_; }
+
+  static constexpr Nanoseconds kRequestInterval = 100 * kNanosecondsPerMillisecond;
+
+ private:
+  [[nodiscard]] std::vector<std::string> requests_at(Nanoseconds now);
+  void wait_for(Nanoseconds now, const std::string& missing);
+  [[nodiscard]] bool is_too_late(Nanoseconds now) const { return now >= *since_ + timeout_; }
+  void fail(std::string text);
+
+  /// False if the start-up has failed.
+  template <class Action>
+  bool move_line(std::vector<Action>& actions) {
+    if (line_) actions.emplace_back(std::move(*line_));
+    line_.reset();
+    return !exit_code_;
+  }
+
+  Nanoseconds timeout_;
+  RunParameters parameters_;
+  std::optional<Nanoseconds> since_;
+  Nanoseconds next_request_{};
+  WaitNotice notice_{0};
+  std::optional<Nanoseconds> wake_up_;
+  std::optional<LogLine> line_;
+  std::optional<int> exit_code_;
+};
+
+}  // namespace hlc::machine

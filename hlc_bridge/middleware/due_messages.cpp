@@ -1,0 +1,30 @@
+#include "hlc_bridge/middleware/due_messages.hpp"
+
+#include <utility>
+
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+
+DueMessages::DueMessages(std::string (*name)(std::uint8_t), Nanoseconds patience,
+                         std::set<std::uint8_t> silent)
+    : name_{name}, patience_{patience}, silent_{std::move(silent)} {}
+
+bool DueMessages::are_in(const std::vector<std::uint8_t>& peers, Nanoseconds now,
+                         MiddlewareActions& actions) {
+  std::vector<std::string> owing;
+  for (const std::uint8_t peer : peers) {
+    if (!silent_.contains(peer)) owing.push_back(name_(peer));
+  }
+  awaited_ = owing.size();
+  if (owing.empty()) return true;
+  if (now < deadline_) return false;
+  silent_.insert(peers.begin(), peers.end());
+  actions.emplace_back(machine::warning(machine::joined(owing) + ": no message for " +
+                                        std::to_string(patience_ / kNanosecondsPerSecond) +
+                                        " s; no longer waiting"));
+  awaited_ = 0;
+  return true;
+}
+
+}  // namespace hlc

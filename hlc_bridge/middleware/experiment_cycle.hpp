@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/machine/wait_notice.hpp"
+#include "hlc_bridge/middleware/experiment_parameters.hpp"
+#include "hlc_bridge/middleware/middleware_messages.hpp"
+
+namespace hlc {
+
+/// From the controllers' readiness to the stop symbol, and from there to the next experiment.
+///
+///     controllers get ready ──trigger──► triggered ──stop symbol──► stopped
+///               ▲                                         │ keep_running
+///               └──trigger── between experiments ◄────────┘
+///
+/// Between experiments commands are withheld, the controllers must report ready anew, and the lab
+/// control is asked for the parameters of the next experiment (NextExperiment): whoever is told
+/// that a vehicle is ready may start the experiment, so lists must hold its vehicles by then.
+class ExperimentCycle {
+ public:
+  /// @param vehicle_ids   of the controllers
+  /// @param offset        of the lists in a period
+  /// @param keep_running  the stop symbol ends the experiment, not the process
+  ExperimentCycle(std::vector<std::uint8_t> vehicle_ids, Nanoseconds offset, bool keep_running);
+
+  /// A controller is ready (node_names.hpp, controller_ready_id); other messages are ignored.
+  void take(const ReadyStatus& status);
+  void take(const SystemTrigger& trigger);
+  /// Counts between experiments.
+  void take(const Parameter& parameter);
+  /// A goal for the controllers, withheld until all of them are ready.
+  void take(GoalState goal) { goals_.push_back(std::move(goal)); }
+
+  /// The first experiment. @return why it cannot be served; empty if it can
+  /// @pre parameters.complete()
+  [[nodiscard]] std::string begin(const RunParameters& parameters);
+  /// Begin has succeeded.
+  [[nodiscard]] bool has_begun() const { return parameters_.complete(); }
+  /// Of the experiment under way, or the last one. @pre has_begun()
+  [[nodiscard]] const RunParameters& parameters() const { return parameters_; }
+
+  /// To be called once a period; between experiments it asks for the next one's parameters, and
+  /// takes them over. All times are wall time.
+  void prepare_next(Nanoseconds now, MiddlewareActions& actions);
+  /// Forwards the goals withheld if all controllers are ready.
+  void forward_goals(MiddlewareActions& actions);
+  /// Before a trigger has come: announces that the controllers are ready, or, now and then, logs
+  /// for whom it waits.
+  void announce_readiness(Nanoseconds now, MiddlewareActions& actions);
+
+  /// A trigger has come in this experiment.
+  [[nodiscard]] bool is_triggered() const { return is_triggered_; }
+  /// The stop symbol has come, and the process ends.
+  [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+  /// No command goes to a vehicle.
+  [[nodiscard]] bool withholds_commands() const { return is_between_ || is_stopped_; }
+
+ private:
+  [[nodiscard]] std::vector<std::string> unready_controllers() const;
+
+  std::vector<std::uint8_t> vehicle_ids_;
+  Nanoseconds offset_;
+  bool keep_running_;
+  RunParameters parameters_;
+  NextExperiment next_;
+  std::set<std::uint8_t> ready_;
+  std::vector<GoalState> goals_;
+  std::optional<machine::WaitNotice> notice_;
+  bool is_triggered_{};
+  bool is_between_{};  ///< the stop symbol has come, and no trigger since
+  bool is_stopped_{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "hlc_bridge/machine/log_line.hpp"
+
+namespace hlc {
+
+/// Logs a machine's line (spdlog's default logger).
+/// @param process  whose name stands before it; empty: none, since the logger has it
+void log(const std::string& process, const machine::LogLine& line);
+
+}  // namespace hlc

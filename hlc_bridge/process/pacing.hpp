@@ -1,0 +1,127 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "hlc_bridge/messages/instant.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+
+/// How the time of a run passes for the machine of a process. Knows no clock and no thread:
+/// `clocks` is what they show, `run` being CLOCK_REALTIME. The shell asks it under its lock.
+class Pacing {
+ public:
+  Pacing() = default;
+  Pacing(const Pacing&) = delete;
+  Pacing& operator=(const Pacing&) = delete;
+  virtual ~Pacing() = default;
+
+  /// What the machine is advanced with.
+  [[nodiscard]] virtual Instant now(const Instant& clocks) const = 0;
+
+  /// The tick that the machine waits for (WakeUp::run); after every advance.
+  virtual void want(std::optional<Nanoseconds> tick) = 0;
+  /// The tick wanted is there.
+  [[nodiscard]] virtual bool is_due() const = 0;
+  /// When the thread must look again, by the clocks.
+  [[nodiscard]] virtual WakeUp wake_up() const = 0;
+  /// How long an event that is not urgent may lie until enough have come (Machine::awaited).
+  [[nodiscard]] virtual Nanoseconds mail_delay() const = 0;
+
+  /// A SystemTrigger came. True if it releases the tick wanted.
+  virtual bool on_trigger(Nanoseconds /*next_start*/, Nanoseconds /*wall*/) { return false; }
+  /// The tick to be said in a ReadyStatus now, if any.
+  [[nodiscard]] virtual std::optional<Nanoseconds> announcement(Nanoseconds /*wall*/) {
+    return std::nullopt;
+  }
+  /// No trigger has come for too long while a tick is wanted.
+  [[nodiscard]] virtual bool has_given_up(Nanoseconds /*wall*/) const { return false; }
+};
+
+/// Real time: the computer's clock is the time of the run.
+class RealPacing : public Pacing {
+ public:
+  [[nodiscard]] Instant now(const Instant& clocks) const override { return clocks; }
+  void want(std::optional<Nanoseconds> tick) override { wanted_ = tick; }
+  [[nodiscard]] bool is_due() const override { return false; }
+  [[nodiscard]] WakeUp wake_up() const override { return {.run = wanted_}; }
+  [[nodiscard]] Nanoseconds mail_delay() const override { return 0; }
+
+ private:
+  std::optional<Nanoseconds> wanted_;
+};
+
+/// Logical time: ticks released one by one by the lab control (lab wire contract, 5.3). The process
+/// says which tick it wants next (ReadyStatus), and the tick is there when a SystemTrigger with
+/// exactly that time has come. Asking for a tick says that everything before it is done.
+///
+/// A ready status can be lost: it is said again every second of wall time. A lab control can hang
+/// while its participant still announces itself. Then no trigger comes any more, not even for
+/// others, and after `patience` the process ends. In a run that goes on, the longest time without a
+/// trigger is that in which the lab control finds out that somebody is dead: kMessageTimeout + 2 s.
+///
+/// Whoever wants no ticks (a controller, which follows lists; the lab control, which releases them)
+/// only learns from it that no time passes.
+class LogicalPacing : public Pacing {
+ public:
+  static constexpr Nanoseconds kRepeat = kNanosecondsPerSecond;
+  static constexpr Nanoseconds kPatience = 60 * kNanosecondsPerSecond;
+  static constexpr Nanoseconds kMailDelay = 50 * kNanosecondsPerMillisecond;
+
+  /// The first trigger may come as late as the last process appears.
+  [[nodiscard]] static constexpr Nanoseconds patience_for(Nanoseconds startup_timeout) {
+    return std::max(kPatience, startup_timeout + kPatience / 2);
+  }
+
+  /// @param since  wall time of the process's start
+  LogicalPacing(Nanoseconds patience, Nanoseconds since)
+      : patience_(patience), last_trigger_(since) {}
+
+  [[nodiscard]] Instant now(const Instant& clocks) const override {
+    return {.run = released_.value_or(0), .wall = clocks.wall, .has_begun = released_.has_value()};
+  }
+  void want(std::optional<Nanoseconds> tick) override {
+    if (tick == wanted_) return;
+    wanted_ = tick;
+    next_announcement_ = 0;
+  }
+  [[nodiscard]] bool is_due() const override { return wanted_ && released_ == wanted_; }
+  [[nodiscard]] WakeUp wake_up() const override {
+    return {.wall = wanted_ ? std::optional(next_announcement_) : std::nullopt};
+  }
+  [[nodiscard]] Nanoseconds mail_delay() const override { return kMailDelay; }
+
+  bool on_trigger(Nanoseconds next_start, Nanoseconds wall) override {
+    last_trigger_ = wall;
+    if (wanted_ != next_start) return false;  // meant for others
+    released_ = next_start;
+    return true;
+  }
+  [[nodiscard]] std::optional<Nanoseconds> announcement(Nanoseconds wall) override {
+    if (!wanted_ || is_due() || wall < next_announcement_) return std::nullopt;
+    next_announcement_ = wall + kRepeat;
+    return wanted_;
+  }
+  [[nodiscard]] bool has_given_up(Nanoseconds wall) const override {
+    return wanted_ && !is_due() && wall - std::min(wall, last_trigger_) >= patience_;
+  }
+
+ private:
+  Nanoseconds patience_;
+  Nanoseconds last_trigger_;  ///< wall
+  std::optional<Nanoseconds> wanted_;
+  std::optional<Nanoseconds> released_;
+  Nanoseconds next_announcement_{};  ///< wall
+};
+
+/// @param startup_timeout  wall time; @param since  wall time now
+[[nodiscard]] inline std::unique_ptr<Pacing> make_pacing(bool logical_time,
+                                                         Nanoseconds startup_timeout,
+                                                         Nanoseconds since) {
+  if (!logical_time) return std::make_unique<RealPacing>();
+  return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since);
+}
+
+}  // namespace hlc

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+
+#include "hlc_bridge/messages/messages.hpp"
+
+namespace hlc {
+
+/// Wall time: of a clock that never goes back, from any beginning (std::chrono::steady_clock).
+[[nodiscard]] inline Nanoseconds wall_time_now() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<Nanoseconds>(std::chrono::nanoseconds(now).count());
+}
+
+/// The same instant as a deadline for Signal::wait_until.
+[[nodiscard]] inline std::chrono::steady_clock::time_point wall_time_point(Nanoseconds time) {
+  return std::chrono::steady_clock::time_point{
+      std::chrono::nanoseconds{static_cast<std::int64_t>(time)}};
+}
+
+}  // namespace hlc

@@ -1,0 +1,133 @@
+#include "planner/controller/control_loop.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace hlc {
+namespace {
+
+constexpr std::uint64_t kMaxStepsAhead = 10;
+
+}  // namespace
+
+ControlLoop::ControlLoop(Controller& controller, Stopwatch stopwatch)
+    : controller_(&controller), stopwatch_(std::move(stopwatch)) {
+  if (!stopwatch_) stopwatch_ = [] { return std::uint64_t{}; };
+}
+
+StepOutput ControlLoop::begin(const Observation& observation) {
+  assert(!is_in_step());
+  advance_to(observation.step);
+  active_ = observation.active;
+  planning_ns_ = 0;
+  phase_ = StepPhase::kTraffic;
+  return {.traffic = controller_->observe(observation)};
+}
+
+Report ControlLoop::stand_by(const Observation& observation) {
+  assert(!is_in_step());
+  advance_to(observation.step);
+  return controller_->stand_by(observation);
+}
+
+void ControlLoop::advance_to(StepIndex step) {
+  step_ = step;
+  const auto drop_old = [step](auto& messages) {
+    messages.erase(messages.begin(), messages.lower_bound(step));
+  };
+  std::apply([&](auto&... kinds) { (drop_old(kinds), ...); }, received_);
+}
+
+void ControlLoop::receive(const Traffic& message) { keep(message); }
+void ControlLoop::receive(const Prediction& message) { keep(message); }
+void ControlLoop::receive(const Outcome& message) { keep(message); }
+
+template <class Message>
+void ControlLoop::keep(const Message& message) {
+  if (message.vehicle == controller_->options().vehicle || message.step < step_ ||
+      message.step.value > step_.value + kMaxStepsAhead) {
+    return;
+  }
+  std::get<Received<Message>>(received_)[message.step].insert_or_assign(message.vehicle, message);
+}
+
+/// Those of this step, by sender.
+template <class Message>
+std::vector<Message> ControlLoop::received() const {
+  std::vector<Message> result;
+  const auto& messages = std::get<Received<Message>>(received_);
+  if (const auto of_step = messages.find(step_); of_step != messages.end()) {
+    for (const auto& [vehicle, message] : of_step->second) result.push_back(message);
+  }
+  return result;
+}
+
+template <class Message>
+Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& from) const {
+  Awaited awaited{.kind = kind, .from = {}};
+  const auto& messages = std::get<Received<Message>>(received_);
+  const auto of_step = messages.find(step_);
+  for (const VehicleId vehicle : from) {
+    if (vehicle == controller_->options().vehicle) continue;
+    if (of_step == messages.end() || !of_step->second.contains(vehicle)) {
+      awaited.from.push_back(vehicle);
+    }
+  }
+  return awaited;
+}
+
+bool ControlLoop::is_strict() const {
+  return controller_->options().settle_rule == SettleRule::kStrict;
+}
+
+Awaited ControlLoop::awaited() const {
+  switch (phase_) {
+    case StepPhase::kIdle:
+      break;
+    case StepPhase::kTraffic:
+      return missing_of<Traffic>(MessageKind::kTraffic, active_);
+    case StepPhase::kPredecessors:
+      return missing_of<Prediction>(MessageKind::kPrediction, controller_->predecessors());
+    case StepPhase::kCommit:
+      return is_strict() ? missing_of<Prediction>(MessageKind::kPrediction, controller_->coupled())
+                         : missing_of<Outcome>(MessageKind::kOutcome, controller_->component());
+  }
+  assert(false && "nothing is awaited outside a step");
+  return {};
+}
+
+StepOutput ControlLoop::proceed() {
+  switch (phase_) {
+    case StepPhase::kIdle:
+      break;
+    case StepPhase::kTraffic:
+      controller_->couple(received<Traffic>());
+      phase_ = StepPhase::kPredecessors;
+      return {};
+    case StepPhase::kPredecessors:
+      phase_ = StepPhase::kCommit;
+      return plan();
+    case StepPhase::kCommit:
+      phase_ = StepPhase::kIdle;
+      return {.report = controller_->settle(received<Prediction>(), received<Outcome>())};
+  }
+  assert(false && "proceed needs a step that has begun");
+  return {};
+}
+
+StepOutput ControlLoop::plan() {
+  const std::vector<Prediction> predictions = received<Prediction>();
+  const std::uint64_t from_ns = stopwatch_();
+  StepOutput output{.prediction = controller_->plan(predictions)};
+  planning_ns_ = stopwatch_() - from_ns;
+  if (!is_strict()) output.outcome = controller_->vote();
+  return output;
+}
+
+StepOutput ControlLoop::fall_back(FallbackReason reason) {
+  assert(is_in_step());
+  phase_ = StepPhase::kIdle;
+  return {.report = controller_->give_up(reason)};
+}
+
+}  // namespace hlc

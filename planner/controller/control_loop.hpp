@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "planner/controller/controller.hpp"
+
+namespace hlc {
+
+enum class MessageKind { kTraffic, kPrediction, kOutcome };
+
+/// Messages to publish now; at the end of the step its report.
+struct StepOutput {
+  std::optional<Traffic> traffic{};
+  std::optional<Prediction> prediction{};
+  std::optional<Outcome> outcome{};
+  std::optional<Report> report{};
+};
+
+/// Whose messages the next phase needs and has not received.
+struct Awaited {
+  MessageKind kind{};
+  std::vector<VehicleId> from;
+};
+
+/// What a control step waits for.
+enum class StepPhase {
+  kIdle,          ///< not in a step
+  kTraffic,       ///< traffic of all other active vehicles
+  kPredecessors,  ///< predictions of the coupled vehicles that plan before this one
+  kCommit,  ///< predictions of the coupled vehicles (strict), outcomes of the component (agreed)
+};
+
+/// Processor time in nanoseconds from any origin; for measuring only.
+using Stopwatch = std::function<std::uint64_t()>;
+
+/// The sequence of one control step, for every owner of a controller: observe, publish traffic,
+/// couple, plan, publish prediction (and outcome under the rule `agreed`), commit, report. No
+/// clock, no waiting, no thread.
+///
+///     output = begin(observation)
+///     while is_in_step: publish output; wait until `awaited` is empty or the phase's deadline has
+///                       passed, passing on to `receive` what arrives; output = proceed()
+///
+/// Each phase works with whatever has been received. Messages are kept by step and sender, so a
+/// peer may be a phase or some steps ahead; what is for a step that is over, too far ahead to come
+/// from a sane sender, or in the own name is dropped. The last message of a sender in a step
+/// counts.
+class ControlLoop {
+ public:
+  /// @param controller  not owned; must outlive this object; between the steps its owner may do
+  /// with it what it likes (switch_to, set_drives_out)
+  /// @param stopwatch   measures planning_ns; absent: 0
+  explicit ControlLoop(Controller& controller, Stopwatch stopwatch = {});
+
+  [[nodiscard]] Controller& controller() { return *controller_; }
+  [[nodiscard]] const Controller& controller() const { return *controller_; }
+
+  /// Begins a step; outputs traffic. @pre as for Controller::observe; not in a step
+  [[nodiscard]] StepOutput begin(const Observation& observation);
+  /// Controller::stand_by, a step before the start. @pre not in a step
+  [[nodiscard]] Report stand_by(const Observation& observation);
+  /// The step of the next `begin`, if it is to be known earlier: messages for the steps before are
+  /// dropped. To be called, too, in a step that has neither `begin` nor `stand_by`.
+  void advance_to(StepIndex step);
+
+  void receive(const Traffic& message);
+  void receive(const Prediction& message);
+  void receive(const Outcome& message);
+
+  [[nodiscard]] StepPhase phase() const { return phase_; }
+  [[nodiscard]] bool is_in_step() const { return phase_ != StepPhase::kIdle; }
+  /// By sender; without the own vehicle. Empty if nothing is awaited any more. @pre in a step
+  [[nodiscard]] Awaited awaited() const;
+  /// Controller::warm_up, while the others' messages are on their way. @pre in the first phase
+  std::uint64_t warm_up() { return controller_->warm_up(); }
+
+  /// The next phase, with whatever has been received. @pre in a step
+  [[nodiscard]] StepOutput proceed();
+  /// Ends the step instead; outputs the report: the plan in force stays. @pre in a step
+  [[nodiscard]] StepOutput fall_back(FallbackReason reason);
+
+  /// How long planning took in the last step, by the stopwatch.
+  [[nodiscard]] std::uint64_t planning_ns() const { return planning_ns_; }
+
+ private:
+  template <class Message>
+  using Received = std::map<StepIndex, std::map<VehicleId, Message>>;
+
+  template <class Message>
+  void keep(const Message& message);
+  template <class Message>
+  [[nodiscard]] std::vector<Message> received() const;
+  template <class Message>
+  [[nodiscard]] Awaited missing_of(MessageKind kind, const std::vector<VehicleId>& from) const;
+  [[nodiscard]] bool is_strict() const;
+  [[nodiscard]] StepOutput plan();
+
+  Controller* controller_;
+  Stopwatch stopwatch_;
+  StepPhase phase_{StepPhase::kIdle};
+  StepIndex step_;
+  std::vector<VehicleId> active_;
+  std::uint64_t planning_ns_{};
+  std::tuple<Received<Traffic>, Received<Prediction>, Received<Outcome>> received_;
+};
+
+}  // namespace hlc

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/maneuver_design/solver/transcription.hpp"
+
+namespace hlc {
+
+/// Variables that may have to move to lower the objective: all but those whose bound is active,
+/// that is, that lie at it with a multiplier which clearly has the sign to keep them there. In
+/// order.
+///
+/// The multiplier of a channel's end condition is estimated from its variables between their bounds
+/// (or, without any, chosen so that the bounds can hold). A channel whose bounds on states are
+/// among the constraints and reached is left free altogether.
+///
+/// @param gradient  of the objective at z
+[[nodiscard]] std::vector<Eigen::Index> free_variables(const Transcription& transcription,
+                                                       const ConstraintSet& constraints,
+                                                       const Eigen::VectorXd& z,
+                                                       const Eigen::VectorXd& gradient);
+
+}  // namespace hlc

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "planner/search/horizon_problem.hpp"
+
+namespace hlc {
+
+/// The engines as scenarios, problem files and command lines name them.
+///
+/// | name                    | what plans                                                     |
+/// |-------------------------|----------------------------------------------------------------|
+/// | `branch_and_bound`      | Engine::kBranchAndBound                                        |
+/// | `best_first`            | Engine::kBestFirst                                             |
+/// | `ompl_branch_and_bound` | the same engines, called through `ompl::base::Planner`         |
+/// | `ompl_best_first`       | (make_ompl_engine): the same plans and counts, a little slower |
+inline constexpr char kEngineChoices[] =
+    "branch_and_bound, best_first, ompl_branch_and_bound, ompl_best_first";
+
+/// Sets `engine` and `factory`.
+/// @throws std::invalid_argument, "engine = NAME, allowed ...", for any other name
+void choose_engine(const std::string& name, SearchOptions& search);
+
+/// The name that `choose_engine` takes for these options; with a factory of somebody else the name
+/// of `engine`.
+[[nodiscard]] std::string engine_name(const SearchOptions& search);
+
+}  // namespace hlc

@@ -1,0 +1,36 @@
+#include "planner/scenario/engine_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "planner/search/ompl/ompl_engine.hpp"
+
+namespace hlc {
+namespace {
+
+TEST(EngineChoice, EveryNameChoosesAnEngineThatSaysIt) {
+  for (const Engine engine : {Engine::kBranchAndBound, Engine::kBestFirst}) {
+    for (const EngineFactory factory : {EngineFactory{nullptr}, EngineFactory{make_ompl_engine}}) {
+      const std::string name = engine_name({.engine = engine, .factory = factory});
+      EXPECT_NE(std::string(kEngineChoices).find(name), std::string::npos);
+      SearchOptions chosen;
+      choose_engine(name, chosen);
+      EXPECT_EQ(chosen.engine, engine);
+      EXPECT_EQ(chosen.factory, factory);
+    }
+  }
+}
+
+TEST(EngineChoice, RefusesOtherNames) {
+  for (const char* name :
+       {"", "ompl", "ompl_", "fast", "branch_and_bound_ompl", "ompl_ompl_best_first"}) {
+    SearchOptions untouched;
+    EXPECT_THROW(choose_engine(name, untouched), std::invalid_argument) << name;
+    EXPECT_EQ(engine_name(untouched), engine_name({}));
+  }
+}
+
+}  // namespace
+}  // namespace hlc

@@ -1,0 +1,236 @@
+#include "vehicle_sim/vehicle/vehicle_machine.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc {
+namespace {
+
+static_assert(machine::Machine<VehicleMachine>);
+
+/// After this many missed ticks (10 s) the vehicle stands anyway.
+constexpr Nanoseconds kMostMissedTicks = 500;
+
+const char* reason(FollowerStatus status) {
+  switch (status) {
+    case FollowerStatus::kFollowing:
+      return "it follows";
+    case FollowerStatus::kNoCommand:
+      return "no usable command";
+    case FollowerStatus::kNotFollowable:
+      return "the command is empty, malformed, too short or too wild";
+    case FollowerStatus::kTooFar:
+      return "too far from its reference";
+    case FollowerStatus::kNoEstimate:
+      return "its own state is not finite";
+  }
+  return "";
+}
+
+}  // namespace
+
+VehicleMachine::VehicleMachine(const VehicleMachineOptions& options)
+    : options_(options),
+      vehicle_(options.vehicle),
+      start_up_(options.startup_timeout),
+      lab_control_(options.rules.lab_control_grace),
+      // The lab's controllers do not answer before the start. Ours is received soon enough.
+      gave_up_waiting_(options.is_among_lab_programs) {}
+
+// --- events -------------------------------------------------------------------------------------
+
+void VehicleMachine::on(Event event) {
+  std::visit([this](auto& what) { take(std::move(what)); }, event);
+}
+
+template <class Command>
+void VehicleMachine::take(Command command) {
+  newest_answer_ = std::max(newest_answer_, command.create_stamp);
+  gave_up_waiting_ = false;
+  vehicle_.receive(std::move(command));
+}
+
+void VehicleMachine::take(const SystemTrigger& trigger) {
+  if (trigger.next_start == kStopSymbol) stop_symbol_ = true;
+}
+
+// --- what to do ---------------------------------------------------------------------------------
+
+std::vector<VehicleMachine::Action> VehicleMachine::advance(const Instant& now) {
+  Actions actions;
+  if (exit_code_) return actions;
+  if (is_told_to_end_) {
+    exit_code_ = kExitGood;
+    return actions;
+  }
+  if (!is_prepared(now, actions)) return actions;
+  if (!pending_) {
+    if (const std::optional<Nanoseconds> tick = ticks_->take(now)) {
+      pending_ = {.time = *tick, .patience_ends = now.wall + options_.rules.patience};
+    }
+  }
+  if (pending_ && !awaits_answer(*pending_, now, actions)) {
+    run_tick(std::exchange(pending_, std::nullopt)->time, actions);
+  }
+  if (!pending_ && !exit_code_) watch_lab_control(now.wall, actions);
+  return actions;
+}
+
+WakeUp VehicleMachine::wake_up() const {
+  if (exit_code_) return {};
+  if (!ticks_) return {.wall = start_up_.wake_up()};
+  if (pending_) return {.wall = pending_->patience_ends};
+  return {.run = ticks_->next()};
+}
+
+std::size_t VehicleMachine::awaited() const {
+  return !ticks_ || pending_ ? 1 : machine::kOnlyUrgent;
+}
+
+void VehicleMachine::fail(int exit_code, std::string line, Actions& actions) {
+  exit_code_ = exit_code;
+  actions.emplace_back(machine::error(std::move(line)));
+}
+
+// --- start --------------------------------------------------------------------------------------
+
+bool VehicleMachine::is_prepared(const Instant& now, Actions& actions) {
+  if (ticks_) return true;
+  if (options_.rules.connects_before_start) {
+    if (stop_symbol_) {
+      exit_code_ = kExitGood;
+      return false;
+    }
+    const bool knows = start_up_.learn(now.wall, actions);
+    if (knows) {
+      if (std::string fault = parameter_fault(); !fault.empty()) {
+        fail(kExitBadInput, std::move(fault), actions);
+        return false;
+      }
+    }
+    if (!knows || !start_up_.connect(now.wall, who_is_missing(), actions)) {
+      exit_code_ = start_up_.exit_code();
+      return false;
+    }
+  }
+  ticks_.emplace(kVehiclePeriod, 0, now);
+  return true;
+}
+
+std::string VehicleMachine::parameter_fault() const {
+  const RunParameters& parameters = start_up_.parameters();
+  if (parameters.period() == 0) return std::string(kPeriodParameter) + " = 0, must be > 0";
+  if (std::ranges::count(parameters.active_ids(), options_.vehicle.vehicle_id) == 0) {
+    return "--vehicle_id=" + std::to_string(options_.vehicle.vehicle_id) + " is not among the " +
+           kActiveIdsParameter + ": " + machine::joined(parameters.active_ids());
+  }
+  return {};
+}
+
+/// A state or a command of the run that nobody receives is lost, and then a tick would wait for it.
+/// Among the lab's programs: of anybody.
+bool VehicleMachine::is_connected() const {
+  if (presence_.ready_readers == 0 || presence_.trigger_writers == 0) return false;
+  if (options_.is_among_lab_programs) {
+    return presence_.state_readers.count > 0 && presence_.command_writers.count > 0;
+  }
+  const bool all_middlewares_receive =
+      std::ranges::all_of(start_up_.parameters().active_ids(), [&](std::int32_t id) {
+        return presence_.state_readers.names.contains(
+            middleware_name(static_cast<std::uint8_t>(id)));
+      });
+  return all_middlewares_receive &&
+         presence_.command_writers.names.contains(middleware_name(options_.vehicle.vehicle_id));
+}
+
+std::string VehicleMachine::who_is_missing() const {
+  std::vector<std::string> missing;
+  if (is_connected()) return {};
+  if (presence_.ready_readers == 0 || presence_.trigger_writers == 0) {
+    missing.emplace_back(kLabControlName);
+  }
+  for (const std::int32_t id : start_up_.parameters().active_ids()) {
+    const std::string middleware = middleware_name(static_cast<std::uint8_t>(id));
+    const bool commands =
+        id != options_.vehicle.vehicle_id || presence_.command_writers.names.contains(middleware);
+    if (!presence_.state_readers.names.contains(middleware) || !commands) {
+      missing.push_back(middleware);
+    }
+  }
+  return machine::joined(missing);
+}
+
+// --- one tick -----------------------------------------------------------------------------------
+
+bool VehicleMachine::is_answered(Nanoseconds list) const {
+  const std::uint8_t id = options_.vehicle.vehicle_id;
+  return stop_symbol_ || newest_answer_ >= list || gave_up_waiting_ ||
+         presence_.lab.lost.contains(middleware_name(id)) ||
+         presence_.lab.lost.contains(controller_name(id));
+}
+
+bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, Actions& actions) {
+  if (options_.rules.patience == 0 || vehicle_.is_braking()) return false;
+  const std::optional<Nanoseconds> list =
+      last_list_before(tick.time, start_up_.parameters().period());
+  if (!list || is_answered(*list)) return false;
+  if (now.wall < tick.patience_ends) return true;
+  actions.emplace_back(machine::warning(
+      "no answer to the list of " + std::to_string(*list) + " ns within " +
+      std::to_string(options_.rules.patience / kNanosecondsPerSecond) + " s; no longer waiting"));
+  gave_up_waiting_ = true;
+  return false;
+}
+
+void VehicleMachine::run_tick(Nanoseconds t_now, Actions& actions) {
+  make_up_for_missed_ticks(t_now, actions);
+  if (std::exchange(stop_symbol_, false)) {
+    actions.emplace_back(machine::info("stop"));
+    vehicle_.brake();
+    is_stopping_ = true;
+  }
+  const SimulatedVehicle::Tick done = vehicle_.tick(t_now);
+  actions.emplace_back(done.driven);
+  actions.emplace_back(done.state);
+  actions.emplace_back(done.observation);
+  log_why_it_stops(done, actions);
+  last_tick_ = t_now;
+  if (is_stopping_ && !vehicle_.is_braking()) {
+    is_stopping_ = false;
+    if (!options_.keep_running) exit_code_ = kExitGood;
+  }
+}
+
+void VehicleMachine::make_up_for_missed_ticks(Nanoseconds t_now, Actions& actions) {
+  if (!last_tick_) return;
+  const Nanoseconds earliest = t_now - std::min(t_now, kMostMissedTicks * kVehiclePeriod);
+  for (Nanoseconds t = std::max(*last_tick_ + kVehiclePeriod, earliest); t < t_now;
+       t += kVehiclePeriod) {
+    actions.emplace_back(vehicle_.tick(t).driven);
+  }
+}
+
+void VehicleMachine::log_why_it_stops(const SimulatedVehicle::Tick& done, Actions& actions) {
+  if (last_status_ == FollowerStatus::kFollowing && done.status != last_status_ && !is_stopping_) {
+    actions.emplace_back(machine::warning("stops at " + std::to_string(done.driven.t) +
+                                          " ns: " + reason(done.status)));
+  }
+  last_status_ = done.status;
+}
+
+/// Without it the plan is driven to its end before the vehicle leaves; one that brakes leaves as it
+/// was told to.
+void VehicleMachine::watch_lab_control(Nanoseconds wall, Actions& actions) {
+  if (!lab_control_.is_over(presence_.lab.lost.contains(kLabControlName), wall)) return;
+  if (is_stopping_ || stop_symbol_) {
+    exit_code_ = kExitGood;
+  } else {
+    fail(kExitDied, std::string(kLabControlName) + " is gone", actions);
+  }
+}
+
+}  // namespace hlc

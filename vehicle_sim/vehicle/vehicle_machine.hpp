@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hlc_bridge/machine/lab_control_watch.hpp"
+#include "hlc_bridge/machine/log_line.hpp"
+#include "hlc_bridge/machine/machine.hpp"
+#include "hlc_bridge/machine/pacing_rules.hpp"
+#include "hlc_bridge/machine/start_up.hpp"
+#include "hlc_bridge/machine/ticks.hpp"
+#include "hlc_bridge/messages/messages.hpp"
+#include "vehicle_sim/vehicle/simulated_vehicle.hpp"
+
+namespace hlc {
+
+struct VehicleMachineOptions {
+  SimulatedVehicleOptions vehicle;
+  machine::PacingRules rules;
+  /// The lab's own programs may be around: its middleware bears another name, and its controllers
+  /// do not answer before the start.
+  bool is_among_lab_programs{};
+  bool keep_running{};  ///< after a stop brake, then listen again instead of ending
+  Nanoseconds startup_timeout{30 * kNanosecondsPerSecond};  ///< wall
+};
+
+/// Who is on the lab domain, and who is matched.
+struct VehiclePresence {
+  machine::Participants lab;
+  machine::Matched state_readers;
+  machine::Matched command_writers;  ///< of trajectories
+  std::size_t ready_readers{};
+  std::size_t trigger_writers{};
+};
+
+/// One simulated vehicle of a run: every 20 ms one step of `SimulatedVehicle` with the commands
+/// that have come, and its state.
+///
+/// Where the rules say so, it learns period and active vehicles from the lab control before its
+/// first tick and waits for all its endpoints to be matched, and each tick waits for the answer to
+/// the last list before it; that wait ends when the middleware or the controller is lost, or after
+/// the patience (then nobody waits for them until a command is received again).
+///
+/// A tick that it was too late for is made up for (the plant must keep up with the clock), but its
+/// state is not published.
+///
+/// The stop symbol: it brakes for a second, then ends (kExitGood), or listens again. Without the
+/// lab control it ends after the rules' grace (kExitDied).
+class VehicleMachine {
+ public:
+  using Event =
+      std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand, DirectCommand,
+                   Parameter, SystemTrigger, VehiclePresence, machine::StopSignal>;
+  /// VehicleObservation: for the camera system's readers, where there are any. DrivenSample: for
+  /// the record of what is truly driven.
+  using Action = std::variant<ParameterRequest, VehicleState, VehicleObservation, DrivenSample,
+                              machine::LogLine>;
+
+  /// @throws std::invalid_argument if the start pose is not finite
+  explicit VehicleMachine(const VehicleMachineOptions& options);
+
+  /// Triggers but the stop symbol have no effect: time is what advance says.
+  void on(Event event);
+  [[nodiscard]] std::vector<Action> advance(const Instant& now);
+  [[nodiscard]] WakeUp wake_up() const;
+  [[nodiscard]] std::size_t awaited() const;
+  [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }
+
+ private:
+  /// A tick that has begun and waits for its answer.
+  struct PendingTick {
+    Nanoseconds time{};
+    Nanoseconds patience_ends{};  ///< wall
+  };
+  using Actions = std::vector<Action>;
+
+  template <class Command>
+  void take(Command command);
+  void take(const Parameter& parameter) { start_up_.take(parameter); }
+  void take(const SystemTrigger& trigger);
+  void take(VehiclePresence presence) { presence_ = std::move(presence); }
+  void take(const machine::StopSignal& /*signal*/) { is_told_to_end_ = true; }
+
+  [[nodiscard]] bool is_prepared(const Instant& now, Actions& actions);
+  [[nodiscard]] std::string parameter_fault() const;
+  [[nodiscard]] bool is_connected() const;
+  [[nodiscard]] std::string who_is_missing() const;
+  [[nodiscard]] bool awaits_answer(const PendingTick& tick, const Instant& now, Actions& actions);
+  [[nodiscard]] bool is_answered(Nanoseconds list) const;
+  void run_tick(Nanoseconds t_now, Actions& actions);
+  void make_up_for_missed_ticks(Nanoseconds t_now, Actions& actions);
+  void log_why_it_stops(const SimulatedVehicle::Tick& done, Actions& actions);
+  void watch_lab_control(Nanoseconds wall, Actions& actions);
+  void fail(int exit_code, std::string line, Actions& actions);
+
+  VehicleMachineOptions options_;
+  SimulatedVehicle vehicle_;
+  machine::StartUp start_up_;
+  machine::LabControlGrace lab_control_;
+  std::optional<machine::Ticks> ticks_;  ///< once it is prepared
+  std::optional<PendingTick> pending_;
+  std::optional<Nanoseconds> last_tick_;
+  VehiclePresence presence_;
+  Nanoseconds newest_answer_{};  ///< largest create_stamp received
+  bool gave_up_waiting_{};
+  bool stop_symbol_{};     ///< has come, and the next tick brakes
+  bool is_stopping_{};     ///< it brakes
+  bool is_told_to_end_{};  ///< at once
+  FollowerStatus last_status_{FollowerStatus::kNoCommand};
+  std::optional<int> exit_code_;
+};
+
+}  // namespace hlc
