@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "hlc_bridge/dds/topics.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/log.hpp"
-#include "hlc_bridge/machine/pacing.hpp"
 
 namespace hlc {
 namespace {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/coordination/commit.hpp"
 #include "planner/coordination/missing.hpp"
 #include "planner/coordination/report.hpp"
-#include "planner/coordination/commit.hpp"
 #include "planner/geometry/polygon.hpp"
 
 namespace hlc::closed_loop {
