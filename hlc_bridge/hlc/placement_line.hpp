@@ -12,7 +12,7 @@ namespace hlc {
 [[nodiscard]] std::string placement_line(const Controller& controller);
 
 /// Why a vehicle stays with its former plan, where that may last: kOffRoute, it cannot get onto its
-/// route from where it stands (joining.hpp), or kBudget.
+/// route from where it stands (lane_entry.hpp), or kBudget.
 [[nodiscard]] std::string stuck_line(const Controller& controller, FallbackReason reason);
 
 }  // namespace hlc

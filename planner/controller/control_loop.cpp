@@ -76,8 +76,8 @@ Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& 
   return awaited;
 }
 
-bool ControlLoop::is_strict() const {
-  return controller_->options().settle_rule == SettleRule::kStrict;
+bool ControlLoop::needs_votes() const {
+  return controller_->options().strategies.commit.needs_votes;
 }
 
 Awaited ControlLoop::awaited() const {
@@ -89,8 +89,9 @@ Awaited ControlLoop::awaited() const {
     case StepPhase::kPredecessors:
       return missing_of<Prediction>(MessageKind::kPrediction, controller_->predecessors());
     case StepPhase::kCommit:
-      return is_strict() ? missing_of<Prediction>(MessageKind::kPrediction, controller_->coupled())
-                         : missing_of<Outcome>(MessageKind::kOutcome, controller_->component());
+      return needs_votes()
+                 ? missing_of<Outcome>(MessageKind::kOutcome, controller_->component())
+                 : missing_of<Prediction>(MessageKind::kPrediction, controller_->coupled());
   }
   assert(false && "nothing is awaited outside a step");
   return {};
@@ -109,7 +110,7 @@ StepOutput ControlLoop::proceed() {
       return plan();
     case StepPhase::kCommit:
       phase_ = StepPhase::kIdle;
-      return {.report = controller_->settle(received<Prediction>(), received<Outcome>())};
+      return {.report = controller_->commit(received<Prediction>(), received<Outcome>())};
   }
   assert(false && "proceed needs a step that has begun");
   return {};
@@ -120,14 +121,14 @@ StepOutput ControlLoop::plan() {
   const std::uint64_t from_ns = stopwatch_();
   StepOutput output{.prediction = controller_->plan(predictions)};
   planning_ns_ = stopwatch_() - from_ns;
-  if (!is_strict()) output.outcome = controller_->vote();
+  if (needs_votes()) output.outcome = controller_->vote();
   return output;
 }
 
 StepOutput ControlLoop::fall_back(FallbackReason reason) {
   assert(is_in_step());
   phase_ = StepPhase::kIdle;
-  return {.report = controller_->give_up(reason)};
+  return {.report = controller_->fall_back(reason)};
 }
 
 }  // namespace hlc

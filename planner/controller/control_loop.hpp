@@ -39,8 +39,8 @@ enum class StepPhase {
 using Stopwatch = std::function<std::uint64_t()>;
 
 /// The sequence of one control step, for every owner of a controller: observe, publish traffic,
-/// couple, plan, publish prediction (and outcome under the rule `agreed`), commit, report. No
-/// clock, no waiting, no thread.
+/// couple, plan, publish prediction (and outcome, if the commit rule needs votes), commit, report.
+/// No clock, no waiting, no thread.
 ///
 ///     output = begin(observation)
 ///     while is_in_step: publish output; wait until `awaited` is empty or the phase's deadline has
@@ -97,7 +97,7 @@ class ControlLoop {
   [[nodiscard]] std::vector<Message> received() const;
   template <class Message>
   [[nodiscard]] Awaited missing_of(MessageKind kind, const std::vector<VehicleId>& from) const;
-  [[nodiscard]] bool is_strict() const;
+  [[nodiscard]] bool needs_votes() const;
   [[nodiscard]] StepOutput plan();
 
   Controller* controller_;

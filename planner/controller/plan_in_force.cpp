@@ -22,7 +22,7 @@ PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
       rules_(rules),
       plan_(step, pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
             standstill, automaton_),
-      told_(plan_.areas_from(step)),
+      announced_(plan_.areas_from(step)),
       last_seen_(measured),
       seen_{.step = step, .time_s = 0.0, .pose = measured} {
   for (const Trim& trim : automaton_->trims) {
@@ -30,15 +30,15 @@ PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
   }
 }
 
-PlanWatch PlanInForce::watch(const MeasuredVehicle* own, StepIndex now) {
+DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepIndex now) {
   const VehicleParameters& vehicle = automaton_->vehicle;
   const double step_s = automaton_->step_s;
   moved_.reset();
-  astray_m_ = {};
+  outside_area_m_ = {};
   deviation_m_ = 0.0;
   if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
     moved_ = plan_;
-    astray_m_ = footprint_area(vehicle.footprint, last_seen_, vehicle.safety_margin_m);
+    outside_area_m_ = footprint_area(vehicle.footprint, last_seen_, vehicle.safety_margin_m);
     return {.deviation_m = 0.0, .is_disturbed = true};
   }
   last_seen_ = own->pose;
@@ -50,57 +50,58 @@ PlanWatch PlanInForce::watch(const MeasuredVehicle* own, StepIndex now) {
   const State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
   deviation_m_ = footprint_deviation_m(own->pose, planned, vehicle, automaton_->identified);
   const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
-  const bool is_astray =
-      deviation_m_ > vehicle.safety_margin_m && !is_inside_told(own->pose, seen_.step);
-  const PlanWatch result{.deviation_m = deviation_m_, .is_disturbed = is_astray};
-  if (!is_astray && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
+  const bool is_outside =
+      deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
+  const DeviationCheck result{.deviation_m = deviation_m_, .is_disturbed = is_outside};
+  if (!is_outside && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
   const bool stands = plan_.end().value + steps_back <= now.value &&
                       std::abs(own->speed_mps) <= MissingVehicleRules{}.standing_speed_mps;
-  if (is_astray && stands) {
+  if (is_outside && stands) {
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
     deviation_m_ = result.deviation_m;
     return {.deviation_m = deviation_m_, .is_disturbed = false, .is_anchored_anew = true};
   }
   moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
                                                       automaton_->identified));
-  if (!is_astray && !stays_inside_told(*moved_, now)) moved_.reset();
-  if (is_astray) {
-    astray_m_ = footprint_area(vehicle.footprint, own->pose, vehicle.safety_margin_m);
+  if (!is_outside && !stays_inside_announced(*moved_, now)) moved_.reset();
+  if (is_outside) {
+    outside_area_m_ = footprint_area(vehicle.footprint, own->pose, vehicle.safety_margin_m);
   }
   return result;
 }
 
 /// True if the footprint lies in the area that the others know of that step.
-bool PlanInForce::is_inside_told(const Pose& measured, StepIndex step, double reserve_m) const {
-  if (step < told_.first) return false;
+bool PlanInForce::is_inside_announced(const Pose& measured, StepIndex step,
+                                      double reserve_m) const {
+  if (step < announced_.first) return false;
   const Footprint& footprint = automaton_->vehicle.footprint;
   const ConvexPolygon area = footprint_area(footprint, measured, reserve_m);
-  return contains(told_.during(step), area);
+  return contains(announced_.during(step), area);
 }
 
 /// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.
-bool PlanInForce::stays_inside_told(const Plan& plan, StepIndex now) const {
+bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const {
   const double reserve_m = kUnderWayShare * automaton_->vehicle.safety_margin_m;
   const std::vector<PredictedInstant> drive =
       predicted_drive(plan, seen_, {now.value + 1}, *automaton_);
   return std::ranges::all_of(drive, [&](const PredictedInstant& instant) {
-    return instant.step != now || is_inside_told(instant.pose, now, reserve_m);
+    return instant.step != now || is_inside_announced(instant.pose, now, reserve_m);
   });
 }
 
 /// Of a vehicle outside its areas also where it is if it stays where it was measured, if it drives
 /// on beside its plan as it is, and what lies between all these. So too of a vehicle that is not
 /// seen any more: it may have stopped on the way.
-OccupiedAreas PlanInForce::areas_to_tell(StepIndex from) const {
-  OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = told_.final_area_m};
+OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
+  OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = announced_.final_area_m};
   if (from < plan_.end()) areas.areas_m.reserve(plan_.end().value - from.value);
   for (StepIndex step = from; step < plan_.end(); ++step.value) {
-    areas.areas_m.push_back(told_.during(step));
+    areas.areas_m.push_back(announced_.during(step));
   }
-  if (astray_m_.empty()) return areas;
+  if (outside_area_m_.empty()) return areas;
   const OccupiedAreas beside = moved_->areas_from(from);
   const auto join = [this](ConvexPolygon& area, const ConvexPolygon& other) {
-    area = convex_hull(std::vector{area, other, astray_m_});
+    area = convex_hull(std::vector{area, other, outside_area_m_});
   };
   for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
     join(areas.areas_m[i], beside.during({from.value + i}));
@@ -127,12 +128,12 @@ OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const
 }
 
 Plan PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
-  const ConvexPolygon under_way = told_.during(now);
-  told_.first = now;
-  told_.areas_m.resize(1 + areas.areas_m.size());
-  told_.areas_m.front() = under_way;
-  std::ranges::copy(areas.areas_m, told_.areas_m.begin() + 1);
-  told_.final_area_m = areas.final_area_m;
+  const ConvexPolygon under_way = announced_.during(now);
+  announced_.first = now;
+  announced_.areas_m.resize(1 + areas.areas_m.size());
+  announced_.areas_m.front() = under_way;
+  std::ranges::copy(areas.areas_m, announced_.areas_m.begin() + 1);
+  announced_.final_area_m = areas.final_area_m;
   return std::exchange(plan_, std::move(candidate));
 }
 

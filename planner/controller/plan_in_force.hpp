@@ -20,20 +20,20 @@ struct DeviationRules {
   double tolerated_drift_share{0.5};
 };
 
-/// What one look at the vehicle says of its plan.
-struct PlanWatch {
+/// How far a vehicle is from its plan, and what follows.
+struct DeviationCheck {
   double deviation_m{};          ///< footprint_deviation_m, at the time of the measurement
   bool is_disturbed{false};      ///< rule 4 below: nothing new may be planned
   bool is_anchored_anew{false};  ///< rule 4: the plan is to stand where the vehicle stands
 };
 
-/// The plan that a vehicle drives, what the others have been told of it, and where the vehicle
-/// really is.
+/// The plan that a vehicle drives, what of it has been announced to the others, and where the
+/// vehicle really is.
 ///
-/// The others rely on the areas that a vehicle tells (traffic, prediction); the settle rule makes
-/// the areas told free of each other pair by pair, so it is safe if the vehicle is inside its own
-/// at all times. With m the safety margin and "deviation" the footprint_deviation_m of the measured
-/// pose from the plan at the time of the measurement:
+/// The others rely on the areas that a vehicle announces (traffic, prediction); the commit rule
+/// makes the announced areas free of each other pair by pair, so it is safe if the vehicle is
+/// inside its own at all times. With m the safety margin and "deviation" the footprint_deviation_m
+/// of the measured pose from the plan at the time of the measurement:
 ///
 /// 1. A swept area holds a vehicle that deviates by m at most, in position and heading together
 ///    (planner/automaton/deviation.hpp). Where it has steering to spare it does not deviate more:
@@ -44,15 +44,16 @@ struct PlanWatch {
 ///    remains safe to its end, however many steps no new one comes into force.
 /// 3. A vehicle that is off by more than `reanchor_share` of m plans on from where it really is:
 ///    the plan in force is moved rigidly onto the measured pose, and what is planned continues
-///    that. The step under way has been told already, so this is done only if the predicted drive
-///    stays inside what was told of it. The new plan is a plan like any other: told, checked,
-///    agreed.
-/// 4. A vehicle that deviates by more than m and is outside the area told of that time, or that is
-///    not seen any more, was disturbed: nobody knew. It plans nothing new and drives its plan to
-///    the end; from this step on its traffic tells, for each step, the hull of what it had told, of
-///    its plan from where it really is, and of where it was measured, so that nobody plans into it.
-///    Once it stands, its plan is anchored anew where it stands. What the others agreed before they
-///    heard of it cannot be taken back; all they do from then on keeps away.
+///    that. The step under way has been announced already, so this is done only if the predicted
+///    drive stays inside what was announced of it. The new plan is a plan like any other:
+///    announced, checked, agreed.
+/// 4. A vehicle that deviates by more than m and is outside the area announced for that time, or
+///    that is not seen any more, was disturbed: nobody knew. It plans nothing new and drives its
+///    plan to the end; from this step on its traffic announces, for each step, the hull of what it
+///    had announced, of its plan from where it really is, and of where it was measured, so that
+///    nobody plans into it. Once it stands, its plan is anchored anew where it stands. What the
+///    others agreed before they received this cannot be taken back; all they do from then on keeps
+///    away.
 class PlanInForce {
  public:
   /// Standing where the vehicle was measured at t(step). `standstill` is the equilibrium trim's own
@@ -64,48 +65,49 @@ class PlanInForce {
 
   /// Compares what the list of step `now` shows of the vehicle (nullptr: nothing) with the plan.
   /// @pre now does not decrease
-  PlanWatch watch(const MeasuredVehicle* own, StepIndex now);
+  DeviationCheck check_deviation(const MeasuredVehicle* own, StepIndex now);
 
   /// What a new plan continues: the plan in force, moved to where the vehicle really is if rules 3
-  /// or 4 say so. Valid after `watch`.
+  /// or 4 say so. Valid after `check_deviation`.
   [[nodiscard]] const Plan& base() const { return moved_ ? *moved_ : plan_; }
-  /// True if `base` is not the plan in force itself. Valid after `watch`.
+  /// True if `base` is not the plan in force itself. Valid after `check_deviation`.
   [[nodiscard]] bool is_moved() const { return moved_.has_value(); }
 
   /// Areas of the plan in force from t(from) on, as the others must know them (rule 4). @pre from
-  /// is the step of `watch` or the next
-  [[nodiscard]] OccupiedAreas areas_to_tell(StepIndex from) const;
+  /// is the step of `check_deviation` or the next
+  [[nodiscard]] OccupiedAreas announced_areas(StepIndex from) const;
 
   /// False if a vehicle that drives `candidate`, a plan that continues `base()`, is sure to stay
-  /// within the margin: it is on it, and all trims have steering to spare. Valid after `watch`.
+  /// within the margin: it is on it, and all trims have steering to spare. Valid after
+  /// `check_deviation`.
   [[nodiscard]] bool may_drift(const Plan& candidate) const;
 
   /// Areas of a plan that continues `base()`, from t(next) on, with its drift (rule 2).
   [[nodiscard]] OccupiedAreas areas_of(const Plan& candidate, StepIndex next) const;
 
-  /// From now on `candidate`, of which `areas` from t(now + 1) on have been told.
+  /// From now on `candidate`, of which `areas` from t(now + 1) on have been announced.
   /// @return the plan before
   Plan replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
 
  private:
-  [[nodiscard]] bool is_inside_told(const Pose& measured, StepIndex step,
-                                    double reserve_m = 0.0) const;
+  [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
+                                         double reserve_m = 0.0) const;
   [[nodiscard]] double tolerated_m() const;
-  [[nodiscard]] bool stays_inside_told(const Plan& plan, StepIndex now) const;
+  [[nodiscard]] bool stays_inside_announced(const Plan& plan, StepIndex now) const;
 
   std::shared_ptr<const UniversalAutomaton> automaton_;
   const Maneuver* standstill_;
   DeviationRules rules_;
   std::vector<bool> is_at_limit_;  ///< of each trim, is_at_steering_limit
   Plan plan_;
-  OccupiedAreas told_;  ///< areas of the plan as the others know them, and a step before
-  Pose last_seen_;      ///< measured; heading_rad is the yaw
+  OccupiedAreas announced_;  ///< areas of the plan as the others know them, and a step before
+  Pose last_seen_;           ///< measured; heading_rad is the yaw
 
-  // of the last `watch`
+  // of the last `check_deviation`
   SeenAt seen_;
   double deviation_m_{};
-  std::optional<Plan> moved_;  ///< the plan from where the vehicle really is
-  ConvexPolygon astray_m_;     ///< footprint, with margin, of a vehicle outside its plan's areas
+  std::optional<Plan> moved_;     ///< the plan from where the vehicle really is
+  ConvexPolygon outside_area_m_;  ///< footprint, with margin, of a vehicle outside its plan's areas
 };
 
 }  // namespace hlc

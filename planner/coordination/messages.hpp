@@ -70,7 +70,7 @@ struct Prediction {
 struct Outcome {
   VehicleId vehicle;
   StepIndex step;         ///< k
-  bool wants_fallback{};  ///< settle rule `agreed`: the sender had to fall back
+  bool wants_fallback{};  ///< commit rule `agreed`: the sender had to fall back
 };
 
 }  // namespace hlc

@@ -19,16 +19,16 @@ enum class FallbackReason : std::uint8_t {
   kNone,
   kInfeasible,  ///< the search found that no plan exists
   /// The search used up its expansions before it found a plan; or, of a vehicle that stands, one
-  /// that looked for a way into its lanes (joining.hpp) did so when it set out.
+  /// that looked for a way into its lanes (lane_entry.hpp) did so when it departed.
   kBudget,
   kMissing,     ///< a coupled vehicle said nothing and its reachable set leaves no room
   kConflict,    ///< the new plan meets another vehicle's new or running plan
-  kNeighbour,   ///< settle rule `agreed`: a vehicle of the same component fell back
+  kNeighbour,   ///< commit rule `agreed`: a vehicle of the same component fell back
   kDeviation,   ///< the own vehicle is too far from its planned pose, or not seen
   kLate,        ///< a deadline of the step had passed
   kUndrivable,  ///< the new plan or its command is beyond what the vehicle can follow
   /// The vehicle stands where it fits no route (status `standby`), or from where it cannot get onto
-  /// its route (joining.hpp).
+  /// its route (lane_entry.hpp).
   kOffRoute,
 };
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "planner/policy/rehearsal.hpp"
+#include "planner/policy/look_ahead_rollout.hpp"
 
 namespace hlc {
 
@@ -17,26 +17,26 @@ std::optional<SubgraphRequest> LookAhead::wish(const PolicyView& /*view*/) {
 }
 
 void LookAhead::look_ahead(const Controller& controller, const PreparedFor& prepared) {
-  constexpr double kNotRehearsed = std::numeric_limits<double>::infinity();
-  const RehearsalSettings rehearsal{.steps = settings_.steps,
-                                    .criterion_weights = settings_.criterion_weights,
-                                    .max_expansions = settings_.max_expansions,
-                                    .most_expansions = settings_.steps * settings_.max_expansions};
+  constexpr double kUnknown_m2 = std::numeric_limits<double>::infinity();
+  const LookAheadRolloutSettings rollout{
+      .steps = settings_.steps,
+      .criterion_weights = settings_.criterion_weights,
+      .max_expansions = settings_.max_expansions,
+      .most_expansions = settings_.steps * settings_.max_expansions};
   std::vector<double> costs_m2;
   for (const SubgraphRequest& candidate : settings_.candidates) {
-    const auto on_candidate = [&](Controller& rehearsing) {
-      const PreparedSubgraph& now = prepared(candidate, rehearsing);
-      if (rehearsing.prepared_subgraph().subgraph != now.subgraph) rehearsing.switch_to(now);
+    const auto on_candidate = [&](Controller& ahead) {
+      const PreparedSubgraph& now = prepared(candidate, ahead);
+      if (ahead.prepared_subgraph().subgraph != now.subgraph) ahead.switch_to(now);
     };
-    costs_m2.push_back(
-        rehearsed_cost_m2(controller, rehearsal, on_candidate).value_or(kNotRehearsed));
+    costs_m2.push_back(rollout_cost_m2(controller, rollout, on_candidate).value_or(kUnknown_m2));
   }
   const auto best = std::ranges::min_element(costs_m2);
-  if (*best == kNotRehearsed) return;
+  if (*best == kUnknown_m2) return;
   if (chosen_) {
     const double kept_m2 = costs_m2[*chosen_];
     const bool gains = *best < kept_m2 - settings_.least_gain * std::abs(kept_m2);
-    if (!gains && kept_m2 != kNotRehearsed) return;
+    if (!gains && kept_m2 != kUnknown_m2) return;
   }
   chosen_ = static_cast<std::size_t>(best - costs_m2.begin());
 }

@@ -9,11 +9,12 @@
 
 namespace hlc {
 
-/// Asks for the candidate with which a rehearsal of the next steps (rehearsal.hpp) costs least.
+/// Asks for the candidate with which a rollout of the next steps (look_ahead_rollout.hpp) costs
+/// least.
 ///
-/// The rehearsals are made after a step, when its command has been sent, so their time is none of
+/// The rollouts are made after a step, when its command has been sent, so their time is none of
 /// the step's; what they say holds from the next step on. The last choice is kept unless another
-/// one costs less by the settings' least_gain, of its amount. A candidate whose rehearsal would
+/// one costs less by the settings' least_gain, of its amount. A candidate whose rollout would
 /// exceed its expansions is not chosen.
 class LookAhead final : public Policy {
  public:
@@ -26,7 +27,7 @@ class LookAhead final : public Policy {
 
  private:
   LookAheadSettings settings_;
-  std::optional<std::size_t> chosen_;  ///< none before the first rehearsal
+  std::optional<std::size_t> chosen_;  ///< none before the first rollout
 };
 
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const LookAheadSettings& settings);

@@ -47,14 +47,14 @@ struct BatteryPolicySettings {
   friend bool operator==(const BatteryPolicySettings&, const BatteryPolicySettings&) = default;
 };
 
-/// Asks for what a rehearsal of the next steps cost least with (look_ahead.hpp).
+/// Asks for what a rollout of the next steps cost least with (look_ahead.hpp).
 struct LookAheadSettings {
   std::vector<SubgraphRequest> candidates;  ///< at least two
   std::size_t steps{8};
   std::vector<PlanningWeight> criterion_weights;
   /// Something else is asked for only if it costs less than this share less; in [0, 1).
   double least_gain{0.05};
-  std::size_t max_expansions{};  ///< of each search in a rehearsal (RehearsalSettings)
+  std::size_t max_expansions{};  ///< of each search in a rollout (LookAheadRolloutSettings)
   friend bool operator==(const LookAheadSettings&, const LookAheadSettings&) = default;
 };
 

@@ -41,7 +41,9 @@ void Rollout::choose_by(const ReconfigurationSettings& settings) {
 
 Rollout Rollout::clone() const {
   Rollout result;
-  for (const auto& controller : controllers_) result.controllers_.push_back(controller->clone());
+  for (const auto& controller : controllers_) {
+    result.controllers_.push_back(std::make_unique<Controller>(*controller));
+  }
   result.next_step_ = next_step_;
   return result;
 }

@@ -13,7 +13,7 @@ namespace hlc {
 /// searches of that step from 1 (there is a second one if the first plan would drift into
 /// something). Steps without a search write nothing. Replays of these files of a step take together
 /// the vertices that the step's report counts. The problems by which a vehicle that stands finds
-/// out where it may drive off to, without other vehicles (joining.hpp), are in
+/// out where it may drive off to, without other vehicles (lane_entry.hpp), are in
 /// vehicle_<id>_step_<k>_joining_<i>.json; their vertices count nowhere.
 class ProblemDump {
  public:

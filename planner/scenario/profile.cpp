@@ -10,14 +10,17 @@ Profile profile_from_name(const std::string& name) {
             .reference_rule = half_speed_last,
             .engine = Engine::kBranchAndBound,
             .cost_to_go = CostToGo::kReachable,
-            .settle_rule = SettleRule::kStrict};
+            .strategies = {}};
   }
   if (name == "2022") {
     return {.name = name,
             .reference_rule = half_speed_last,
             .engine = Engine::kBestFirst,
             .cost_to_go = CostToGo::kReferenceSpeed,
-            .settle_rule = SettleRule::kAgreed};
+            .strategies = {.commit = kAgreedCommit,
+                           .coupled_obstacles = &predictions_and_standing_successors,
+                           .incumbent = &no_incumbent,
+                           .standstill_timeout = nullptr}};
   }
   throw std::invalid_argument("--profile = " + name + ", allowed default, 2022");
 }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/coordination/settle.hpp"
+#include "planner/controller/controller_options.hpp"
 #include "planner/road/reference_points.hpp"
 #include "planner/search/horizon_problem.hpp"
 
@@ -14,7 +14,7 @@ struct Profile {
   ReferenceRule reference_rule{half_speed_last};
   Engine engine{};
   CostToGo cost_to_go{};
-  SettleRule settle_rule{};
+  ControllerStrategies strategies{};
 };
 
 /// |                           | `default`                       | `2022`                       |
@@ -23,6 +23,10 @@ struct Profile {
 /// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
 /// | new plans come into force | strict: safe whatever is lost   | agreed: as the authors did   |
+/// | coupled vehicles, as      | old and new plans               | predictions, standing cars   |
+/// | obstacles                 |                                 |                              |
+/// | incumbent                 | rest of the plan in force       | none: the paper's counts     |
+/// | standstill timeout        | once per horizon                | none: the paper's drives     |
 ///
 /// @throws std::invalid_argument for any other name
 [[nodiscard]] Profile profile_from_name(const std::string& name);

@@ -32,12 +32,14 @@ std::unique_ptr<Controller> controller_of(const ScenarioVehicle& vehicle, const 
                                           Lanes lanes) {
   // Best-first whatever the scenario says: a measured engine must not choose its own problems.
   return std::make_unique<Controller>(
-      ControllerOptions{.vehicle = vehicle.id,
-                        .horizon_steps = scenario.horizon_steps,
-                        .reference_speed_mps = scenario.reference_speed_mps,
-                        .reference_rule = mean_speed_first,
-                        .settle_rule = scenario.profile.settle_rule,
-                        .search = {.engine = Engine::kBestFirst}},
+      ControllerOptions{
+          .vehicle = vehicle.id,
+          .horizon_steps = scenario.horizon_steps,
+          .reference_speed_mps = scenario.reference_speed_mps,
+          .reference_rule = mean_speed_first,
+          .strategies = {.commit = scenario.profile.strategies.commit,
+                         .coupled_obstacles = scenario.profile.strategies.coupled_obstacles},
+          .search = {.engine = Engine::kBestFirst}},
       subgraph, vehicle.path, lanes == Lanes::kNone ? Corridor{} : vehicle.corridor);
 }
 

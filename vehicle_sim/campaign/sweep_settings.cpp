@@ -3,11 +3,14 @@
 namespace hlc {
 namespace {
 
+/// The search of 2022 knows neither an incumbent nor a way off after a standstill.
 void set_search(const SweepValue& value, Scenario& scenario) {
+  const Profile of = profile_from_name(value.text == "2022" ? value.text : "default");
   scenario.search.engine =
       value.text == "branch_and_bound" ? Engine::kBranchAndBound : Engine::kBestFirst;
-  scenario.search.cost_to_go =
-      value.text == "2022" ? CostToGo::kReferenceSpeed : CostToGo::kReachable;
+  scenario.search.cost_to_go = of.cost_to_go;
+  scenario.profile.strategies.incumbent = of.strategies.incumbent;
+  scenario.profile.strategies.standstill_timeout = of.strategies.standstill_timeout;
 }
 
 void set_drivable(const SweepValue& value, Scenario& scenario) {

@@ -32,7 +32,7 @@ class Car {
     static_cast<void>(controller_->observe(observation()));
     controller_->couple({});
     static_cast<void>(controller_->plan({}));
-    return controller_->settle({}, {});
+    return controller_->commit({}, {});
   }
 
   [[nodiscard]] Controller& controller() { return *controller_; }

@@ -15,9 +15,9 @@ using testing::IsEmpty;
 /// Two cars, 1 and 2, side by side or one behind the other, standing since step 100.
 class TwoLoops : public testing::Test {
  protected:
-  void stand(double second_y_m, SettleRule rule = SettleRule::kStrict) {
-    one_ = controller(1, 0.0, rule);
-    two_ = controller(2, second_y_m, rule);
+  void stand(double second_y_m, const ControllerStrategies& strategies = {}) {
+    one_ = controller(1, 0.0, strategies);
+    two_ = controller(2, second_y_m, strategies);
     first_.emplace(*one_);
     second_.emplace(*two_);
     states_ = {seen(1, 0.0, 0.0), seen(2, 0.0, second_y_m)};
@@ -66,7 +66,7 @@ TEST_F(TwoLoops, APhaseAwaitsWhatItNeedsAndTheStepEndsWithTheReport) {
 }
 
 TEST_F(TwoLoops, AgreedAwaitsTheVotesOfTheComponent) {
-  stand(0.3, SettleRule::kAgreed);
+  stand(0.3, kAgreed);
   const Traffic traffic = *first_->begin(observation()).traffic;
   second_->receive(traffic);
   first_->receive(*second_->begin(observation()).traffic);

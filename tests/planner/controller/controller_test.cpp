@@ -26,7 +26,7 @@ Report step(Controller& one, const Observation& observation,
   static_cast<void>(one.observe(observation));
   one.couple(traffic);
   static_cast<void>(one.plan(predictions));
-  return one.settle(predictions, outcomes);
+  return one.commit(predictions, outcomes);
 }
 
 TEST(Controller, BeforeTheStartItStandsWhereItIsSeen) {
@@ -105,7 +105,7 @@ TEST(Controller, WarmingUpChangesNothing) {
     EXPECT_TRUE(warm->problems().empty());
     warm->couple({});
     static_cast<void>(warm->plan({}));
-    const Report report = warm->settle({}, {});
+    const Report report = warm->commit({}, {});
     EXPECT_EQ(report.status, expected.status) << k;
     EXPECT_EQ(report.cost_m2, expected.cost_m2) << k;
     EXPECT_EQ(report.generated, expected.generated) << k;
@@ -126,9 +126,8 @@ TEST(Controller, WarmingUpEndsWhereASearchIsLong) {
   EXPECT_EQ(one.warm_up(), 1024U);
 }
 
-TEST(Controller, WithTheCostToGoOf2022ThereIsNoIncumbent) {
-  ControllerOptions options{.vehicle = {1}};
-  options.search = {.engine = Engine::kBestFirst, .cost_to_go = CostToGo::kReferenceSpeed};
+TEST(Controller, WithoutAnIncumbentTheSearchKnowsNoPlan) {
+  const ControllerOptions options{.vehicle = {1}, .strategies = {.incumbent = &no_incumbent}};
   Controller one(options, subgraph(), ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false),
                  Corridor{});
   static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));
@@ -159,7 +158,7 @@ TEST(Controller, TheReachableAreaHoldsThePlansOfTheStep) {
         }
       }
     }
-    static_cast<void>(one->settle({}, {}));
+    static_cast<void>(one->commit({}, {}));
   }
 }
 
@@ -214,7 +213,7 @@ TEST_F(TwoCars, AVehicleThatSaysNothingAtAllIsListedAndKeptAwayFrom) {
                             [&](const ConvexPolygon& area) { return contains(area, anywhere); }))
         << j;
   }
-  EXPECT_THAT(second_->settle({}, {}).missing, ElementsAre(VehicleId{1}));
+  EXPECT_THAT(second_->commit({}, {}).missing, ElementsAre(VehicleId{1}));
 }
 
 TEST_F(TwoCars, WithoutAStateOfASilentVehicleNothingNewIsPlanned) {
@@ -230,7 +229,7 @@ TEST_F(TwoCars, UnderTheStrictRuleASuccessorsPredictionIsNeeded) {
   static_cast<void>(first_->observe(at(101, states_)));
   first_->couple(std::vector{t2});
   ASSERT_TRUE(first_->plan({}).is_new);
-  const Report report = first_->settle({}, {});  // the prediction of 2 is lost
+  const Report report = first_->commit({}, {});  // the prediction of 2 is lost
   EXPECT_EQ(report.status, StepStatus::kFallback);
   EXPECT_EQ(report.reason, FallbackReason::kMissing);
 }
@@ -242,7 +241,7 @@ TEST_F(TwoCars, AConflictingPredictionKeepsTheRunningPlan) {
   const Prediction own = first_->plan({});
   ASSERT_TRUE(own.is_new);
   Prediction other{.vehicle = {2}, .step = {101}, .is_new = true, .areas = own.areas};
-  const Report report = first_->settle(std::vector{other}, {});
+  const Report report = first_->commit(std::vector{other}, {});
   EXPECT_EQ(report.status, StepStatus::kFallback);
   EXPECT_EQ(report.reason, FallbackReason::kConflict);
   EXPECT_EQ(first_->plan_in_force().end(), StepIndex{100});
@@ -254,7 +253,7 @@ TEST_F(TwoCars, MessagesOfAnotherStepAreNotTakenForThisOne) {
   first_->couple(std::vector{old});
   EXPECT_THAT(first_->coupled(), IsEmpty());
   static_cast<void>(first_->plan({}));
-  EXPECT_THAT(first_->settle({}, {}).missing, ElementsAre(VehicleId{2}));
+  EXPECT_THAT(first_->commit({}, {}).missing, ElementsAre(VehicleId{2}));
 }
 
 TEST_F(TwoCars, WhoIsNotHeardByItsNeighbourAgreesToNothingNew) {
@@ -280,8 +279,8 @@ TEST_F(TwoCars, ASilentVehicleThatStandsForGoodIsDrivenAround) {
 TEST(Controller, UnderTheAgreedRuleOneFallbackInTheComponentIsEverybodys) {
   const std::vector<MeasuredVehicle> states{seen(1, 0.0, 0.0), seen(2, 0.9, 0.0)};
   for (const bool other_falls_back : {false, true}) {
-    const auto one = controller(1, 0.0, SettleRule::kAgreed);
-    const auto other = controller(2, 0.0, SettleRule::kAgreed);
+    const auto one = controller(1, 0.0, kAgreed);
+    const auto other = controller(2, 0.0, kAgreed);
     static_cast<void>(one->stand_by(at(100, states)));
     static_cast<void>(other->stand_by(at(100, states)));
     const Traffic t2 = other->observe(at(101, states));
@@ -290,15 +289,15 @@ TEST(Controller, UnderTheAgreedRuleOneFallbackInTheComponentIsEverybodys) {
     ASSERT_TRUE(one->plan({}).is_new);
     EXPECT_FALSE(one->vote().wants_fallback);
     const Outcome outcome{.vehicle = {2}, .step = {101}, .wants_fallback = other_falls_back};
-    const Report report = one->settle({}, std::vector{outcome});
+    const Report report = one->commit({}, std::vector{outcome});
     EXPECT_EQ(report.status, other_falls_back ? StepStatus::kFallback : StepStatus::kPlanned);
   }
 }
 
 TEST(Controller, UnderTheAgreedRuleAMissingOutcomeIsAFallback) {
   const std::vector<MeasuredVehicle> states{seen(1, 0.0, 0.0), seen(2, 0.9, 0.0)};
-  const auto one = controller(1, 0.0, SettleRule::kAgreed);
-  const auto other = controller(2, 0.0, SettleRule::kAgreed);
+  const auto one = controller(1, 0.0, kAgreed);
+  const auto other = controller(2, 0.0, kAgreed);
   static_cast<void>(one->stand_by(at(100, states)));
   static_cast<void>(other->stand_by(at(100, states)));
   const Report report = step(*one, at(101, states), {other->observe(at(101, states))});
@@ -326,7 +325,7 @@ TEST_F(Deviation, OfLessThanHalfTheMarginIsReportedOnly) {
   EXPECT_NEAR(traffic.next_pose.y_m, planned_y_m, 1e-12);
   one_->couple({});
   static_cast<void>(one_->plan({}));
-  const Report report = one_->settle({}, {});
+  const Report report = one_->commit({}, {});
   EXPECT_EQ(report.status, StepStatus::kPlanned);
   EXPECT_NEAR(report.deviation_m, 0.004, 1e-9);
 }
@@ -347,7 +346,7 @@ TEST_F(Deviation, OfTheHeadingCountsLikeThatOfThePosition) {
   for (const double turn_rad : {-0.12, -0.08, 0.08, 0.12}) {
     MeasuredVehicle off = following(*one_, 106);
     off.pose.heading_rad += turn_rad;
-    const auto one = one_->clone();
+    const auto one = std::make_unique<Controller>(*one_);
     const Report report = step(*one, at(106, {off}));
     const bool is_far = std::abs(turn_rad) > 0.1;
     EXPECT_EQ(report.reason, is_far ? FallbackReason::kDeviation : FallbackReason::kNone)
@@ -428,7 +427,7 @@ TEST(Controller, DrivingOutPlansNothingNewUntilItEnds) {
 TEST(Controller, ACloneGoesItsOwnWay) {
   const auto one = controller(1);
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
-  const auto other = one->clone();
+  const auto other = std::make_unique<Controller>(*one);
   static_cast<void>(step(*other, at(101, {seen(1, 0.0, 0.0)})));
   EXPECT_EQ(one->plan_in_force().end(), StepIndex{100});
   EXPECT_GT(other->plan_in_force().end(), StepIndex{100});

@@ -11,6 +11,10 @@
 /// Controllers of cars that shall drive east, and what state lists show of such cars.
 namespace hlc::east_bound {
 
+/// Of the authors.
+inline const ControllerStrategies kAgreed{
+    .commit = kAgreedCommit, .coupled_obstacles = &predictions_and_standing_successors};
+
 inline std::shared_ptr<const Subgraph> subgraph() {
   static const auto result =
       std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
@@ -19,9 +23,9 @@ inline std::shared_ptr<const Subgraph> subgraph() {
 
 /// A controller whose car shall drive east along y = `y_m`, standing at x = 0 at step 100.
 inline std::unique_ptr<Controller> controller(std::uint8_t vehicle, double y_m = 0.0,
-                                              SettleRule rule = SettleRule::kStrict) {
+                                              const ControllerStrategies& strategies = {}) {
   return std::make_unique<Controller>(
-      ControllerOptions{.vehicle = {vehicle}, .settle_rule = rule}, subgraph(),
+      ControllerOptions{.vehicle = {vehicle}, .strategies = strategies}, subgraph(),
       ReferencePath({Point(0.0, y_m), Point(10.0, y_m)}, false), Corridor{});
 }
 

@@ -43,12 +43,12 @@ class ReportTest : public testing::Test {
     static_cast<void>(controller_->observe(next()));
     controller_->couple({});
     static_cast<void>(controller_->plan({}));
-    return controller_->settle({}, {});
+    return controller_->commit({}, {});
   }
 
   Report step_too_late() {
     static_cast<void>(controller_->observe(next()));
-    return controller_->give_up(FallbackReason::kLate);
+    return controller_->fall_back(FallbackReason::kLate);
   }
 
   std::shared_ptr<const UniversalAutomaton> automaton_;

@@ -48,7 +48,9 @@ class DrivenController {
   Controller& operator*() { return *controller_; }
   Controller* operator->() { return controller_.get(); }
   /// Goes its own way from here.
-  [[nodiscard]] DrivenController clone() const { return {controller_->clone(), now_}; }
+  [[nodiscard]] DrivenController clone() const {
+    return {std::make_unique<Controller>(*controller_), now_};
+  }
   [[nodiscard]] StepIndex next_step() const { return {now_.value + 1}; }
 
   /// A step in which these others are heard.
@@ -62,7 +64,7 @@ class DrivenController {
     static_cast<void>(controller_->observe(observation));
     controller_->couple(traffic);
     static_cast<void>(controller_->plan(predictions));
-    return controller_->settle(predictions, {});
+    return controller_->commit(predictions, {});
   }
 
  private:

@@ -172,13 +172,13 @@ TEST_F(SubgraphChoiceTest, AZoneIsSeenFromWhereTheCarIsAlsoWhenNothingNewIsPlann
   EXPECT_TRUE(is_seen);
 }
 
-TEST_F(SubgraphChoiceTest, ALookAheadTakesWhatARehearsalCostsLeast) {
+TEST_F(SubgraphChoiceTest, ALookAheadTakesWhatARolloutCostsLeast) {
   const LookAheadSettings settings{.candidates = {kSlowLabel, kFastLabel},
                                    .steps = 4,
                                    .criterion_weights = {{"fast", 10.0}},
                                    .max_expansions = 10'000};
   use({.policies = {settings}, .min_stay_s = 0.0});
-  EXPECT_EQ(drive(), "slow") << "nothing has been rehearsed yet";
+  EXPECT_EQ(drive(), "slow") << "nothing has been rolled out yet";
   EXPECT_EQ(drive(), "slow, label slow");
 }
 
@@ -202,7 +202,7 @@ TEST_F(SubgraphChoiceTest, ALookAheadKeepsItsChoiceUnlessAnotherGains) {
   for (int k = 0; k < 30; ++k) EXPECT_EQ(drive(), first);
 }
 
-TEST_F(SubgraphChoiceTest, WhileTheOperatorHasAskedNothingIsRehearsed) {
+TEST_F(SubgraphChoiceTest, WhileTheOperatorHasAskedNothingIsRolledOut) {
   use({.policies = {LookAheadSettings{
            .candidates = {kSlowLabel, kFastLabel}, .steps = 4, .max_expansions = 10'000}}});
   EXPECT_TRUE(choice_->looks_ahead());

@@ -20,6 +20,10 @@ namespace {
 
 using test::plans_in_force_are_free;
 
+const ControllerStrategies kStrict{};
+const ControllerStrategies kAgreed{.commit = kAgreedCommit,
+                                   .coupled_obstacles = &predictions_and_standing_successors};
+
 std::shared_ptr<const Subgraph> paper_subgraph() {
   static const auto subgraph =
       std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
@@ -27,7 +31,7 @@ std::shared_ptr<const Subgraph> paper_subgraph() {
 }
 
 /// Three cars on straight lines through one point, `distances_m` before it.
-Rollout three_cars_that_meet(SettleRule rule,
+Rollout three_cars_that_meet(const ControllerStrategies& strategies,
                              const std::array<double, 3>& distances_m = {1.0, 1.0, 1.0}) {
   std::vector<std::unique_ptr<Controller>> controllers;
   std::vector<Pose> starts;
@@ -37,7 +41,8 @@ Rollout three_cars_that_meet(SettleRule rule,
     const Point position = -distances_m[i] * ahead;
     const Pose start{position.x(), position.y(), direction};
     ReferencePath path({start.position_m(), 2.0 * ahead}, false);
-    ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)}, .settle_rule = rule};
+    ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)},
+                              .strategies = strategies};
     options.search.max_expansions = 20'000;
     controllers.push_back(
         std::make_unique<Controller>(options, paper_subgraph(), std::move(path), Corridor{}));
@@ -65,7 +70,7 @@ void lose_pattern(Rollout& rollout, std::uint32_t pattern, StepIndex step) {
 class LossOfOneStep : public testing::TestWithParam<int> {};
 
 TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
-  Rollout before = three_cars_that_meet(SettleRule::kStrict);
+  Rollout before = three_cars_that_meet(kStrict);
   for (int i = 0; i < GetParam(); ++i) static_cast<void>(before.step());
   ASSERT_TRUE(plans_in_force_are_free(before));
 
@@ -94,7 +99,7 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     std::bernoulli_distribution is_lost(0.02 + 0.02 * (seed % 20));
-    Rollout rollout = three_cars_that_meet(SettleRule::kStrict);
+    Rollout rollout = three_cars_that_meet(kStrict);
     rollout.lose([&](const Delivery&) { return is_lost(random); });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
@@ -111,7 +116,7 @@ TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> distance(0.6, 1.4);
     const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
-    Rollout rollout = three_cars_that_meet(SettleRule::kStrict, distances);
+    Rollout rollout = three_cars_that_meet(kStrict, distances);
     rollout.lose([](const Delivery&) { return true; });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
@@ -126,7 +131,7 @@ TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
   for (std::uint8_t mute = 1; mute <= 3; ++mute) {
     for (std::uint64_t from = 2; from < 8; ++from) {
       SCOPED_TRACE("vehicle " + std::to_string(mute) + " mute from step " + std::to_string(from));
-      Rollout rollout = three_cars_that_meet(SettleRule::kStrict);
+      Rollout rollout = three_cars_that_meet(kStrict);
       rollout.lose([&](const Delivery& delivery) {
         return delivery.from.value == mute && delivery.step.value >= from;
       });
@@ -139,7 +144,7 @@ TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
 }
 
 TEST(Loss, WithoutLossTheStrictRuleNeverFallsBack) {
-  Rollout rollout = three_cars_that_meet(SettleRule::kStrict);
+  Rollout rollout = three_cars_that_meet(kStrict);
   for (int i = 0; i < 40; ++i) {
     for (const Report& report : rollout.step()) {
       ASSERT_EQ(report.status, StepStatus::kPlanned)
@@ -158,7 +163,7 @@ TEST(Loss, TheAgreedRuleLetsPlansMeetIfOutcomesAreLost) {
     std::uniform_real_distribution<double> distance(0.6, 1.4);
     const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
     std::bernoulli_distribution is_lost(0.2);
-    Rollout rollout = three_cars_that_meet(SettleRule::kAgreed, distances);
+    Rollout rollout = three_cars_that_meet(kAgreed, distances);
     rollout.lose([&](const Delivery& delivery) {
       return delivery.kind == MessageKind::kOutcome && is_lost(random);
     });

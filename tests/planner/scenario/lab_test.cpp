@@ -185,7 +185,7 @@ Report first_step(const Scenario& scenario) {
   static_cast<void>(controller->observe(seen_at({11}, pose)));
   controller->couple({});
   const Prediction prediction = controller->plan({});
-  const Report report = controller->settle({}, {});
+  const Report report = controller->commit({}, {});
   EXPECT_EQ(prediction.is_new, report.status == StepStatus::kPlanned)
       << "what is not driven is not told";
   return report;

@@ -74,7 +74,7 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
       for (const auto& controller : rollout.controllers()) {
         if (controller->options().vehicle != report.vehicle) continue;
         dump.write(*controller);
-        num_joining += controller->joining_problems().size();
+        num_joining += controller->entry_problems().size();
         for (std::size_t j = 0; j < scenario.horizon_steps; ++j) {
           if (report.status != StepStatus::kPlanned) break;
           decision.trims.push_back(

@@ -188,6 +188,18 @@ TEST(ScenarioSearch, TheProfileSaysWhatSearchesUnlessTheCommandLineDoes) {
   EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::kReferenceSpeed);
 }
 
+TEST(ScenarioSearch, TheProfileSaysByWhichRulesControllersPlanAndAgree) {
+  const auto strategies = [](const std::string& profile) {
+    return make_controller(read_scenario(three_cars(profile)), {1})->options().strategies;
+  };
+  EXPECT_EQ(strategies("default"), ControllerStrategies{});
+  const ControllerStrategies of_2022 = strategies("2022");
+  EXPECT_EQ(of_2022.commit, kAgreedCommit);
+  EXPECT_EQ(of_2022.coupled_obstacles, &predictions_and_standing_successors);
+  EXPECT_EQ(of_2022.incumbent, &no_incumbent) << "its counts are to be the paper's";
+  EXPECT_EQ(of_2022.standstill_timeout, nullptr) << "its drives are to be the paper's";
+}
+
 TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
   const auto read = [](const ScenarioChoices& choices) {
     return [choices] { static_cast<void>(read_scenario(choices)); };

@@ -1,6 +1,6 @@
 // Cars that nobody placed to the millimetre: whole closed loops from starts beside and askew in the
 // lane.
-#include "planner/controller/joining.hpp"
+#include "planner/controller/lane_entry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ std::map<VehicleId, Joined> drive(const Scenario& scenario, RunSummary& summary,
   JointStepRules rules;
   rules.on_traffic = [&](const Controller& controller, const Traffic& traffic) {
     DrivableRoute route = controller.route();
-    if (const auto& area = controller.joining_area()) {
+    if (const auto& area = controller.entry_area()) {
       route.corridor = *area;
       result[traffic.vehicle].widened_steps += 1;
     }

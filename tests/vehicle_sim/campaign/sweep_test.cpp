@@ -97,7 +97,8 @@ TEST(Sweep, EverySettingReachesTheScenario) {
   EXPECT_EQ(scenario.steps, 30U);
   EXPECT_EQ(scenario.reference_speed_mps, 0.7);
   EXPECT_EQ(scenario.profile.reference_rule, half_speed_last);
-  EXPECT_EQ(scenario.profile.settle_rule, SettleRule::kStrict);
+  EXPECT_EQ(scenario.profile.strategies.commit, kStrictCommit);
+  EXPECT_EQ(scenario.profile.strategies.incumbent, &no_incumbent);
   EXPECT_EQ(scenario.search.engine, Engine::kBestFirst);
   EXPECT_EQ(scenario.search.cost_to_go, CostToGo::kReferenceSpeed);
   EXPECT_TRUE(scenario.vehicles[0].corridor.pieces().empty());

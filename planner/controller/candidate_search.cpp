@@ -1,0 +1,177 @@
+#include "planner/controller/candidate_search.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "planner/controller/self_loop.hpp"
+#include "planner/controller/trajectory.hpp"
+
+namespace hlc {
+namespace {
+
+/// Swept areas are rounded outwards on the way to the reachable area.
+constexpr double kReachRounding_m = 1e-5;
+
+/// A warm-up ends when the engine has asked so often whether to stop, every 64 expansions: after a
+/// fraction of a millisecond.
+constexpr int kWarmUpLooks = 16;
+
+PlanQuality quality_of(SearchStatus found) {
+  switch (found) {
+    case SearchStatus::kOptimal:
+      return PlanQuality::kOptimal;
+    case SearchStatus::kUnproven:
+      return PlanQuality::kUnproven;
+    case SearchStatus::kBudget:
+      return PlanQuality::kBudget;
+    case SearchStatus::kFallback:
+      break;
+  }
+  return PlanQuality::kNone;
+}
+
+void add_figures(const SearchResult& result, const Subgraph& on, Report& report) {
+  report.generated += result.generated;
+  report.expanded += result.expanded;
+  if (result.status == SearchStatus::kFallback) return;
+  report.subgraph = on.spec().name;
+  report.cost_m2 = result.cost;
+  report.quality = quality_of(result.status);
+  report.gap_m2 = result.status == SearchStatus::kOptimal ? 0.0 : result.cost - result.lower_bound;
+}
+
+/// The command that the plan would become is looked at before anybody is told of it.
+bool is_drivable(const Plan& plan, const CandidateInputs& inputs,
+                 const UniversalAutomaton& automaton) {
+  if (!inputs.lab) return true;
+  return !trajectory_fault(sample_trajectory(plan, inputs.now, inputs.lab->point_interval_s, 0.0,
+                                             automaton.step_s, automaton.vehicle),
+                           inputs.lab);
+}
+
+/// The search has kept the swept areas free, and they are within reach; those that hold a drift may
+/// be larger.
+bool is_free(const PlanCandidate& candidate, const CandidateInputs& inputs) {
+  const OccupiedAreas& areas = candidate.areas;
+  const auto is_in_reach = [&](const ConvexPolygon& area) {
+    return contains(inputs.reachable_area_m, area, kReachRounding_m);
+  };
+  if (inputs.in_force.may_drift(*candidate.plan) &&
+      !(std::ranges::all_of(areas.areas_m, is_in_reach) && is_in_reach(areas.final_area_m))) {
+    return false;
+  }
+  const auto& obstacles_m = candidate.problems.back().obstacles_m;
+  for (std::size_t j = 0; j < obstacles_m.size(); ++j) {
+    const ConvexPolygon& area = areas.during({inputs.now.value + 1 + j});
+    if (std::ranges::any_of(obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
+          return intersects(area, obstacle);
+        })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+CandidateSearch::CandidateSearch(PreparedSubgraph on, const SearchOptions& search,
+                                 std::size_t horizon_steps)
+    : horizon_steps_(horizon_steps), current_(std::move(on), search) {}
+
+std::vector<const ReachableSets*> CandidateSearch::reachable() const {
+  std::vector<const ReachableSets*> result{current_.on().reachable.get()};
+  if (former_) result.push_back(former_->engine.on().reachable.get());
+  return result;
+}
+
+double CandidateSearch::reach_m(TrimId trim) const {
+  const auto reach_in = [&](const PreparedSubgraph& on) {
+    return on.reachable->max_distance_m(trim, horizon_steps_, 0);
+  };
+  return std::max(reach_in(current_.on()), former_ ? reach_in(former_->engine.on()) : 0.0);
+}
+
+void CandidateSearch::switch_to(const PreparedSubgraph& next, const SearchOptions& search,
+                                StepIndex now) {
+  assert(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
+  assert(next.reachable->max_steps() > horizon_steps_);
+  EngineCache engine(next, search);
+  // Of several switches in a row: what the plan in force was found on.
+  if (!former_) former_ = Former{std::move(current_), {}};
+  former_->last = {now.value + horizon_steps_};
+  current_ = std::move(engine);
+}
+
+void CandidateSearch::set_max_expansions(std::size_t max_expansions) {
+  current_.set_max_expansions(max_expansions);
+  if (former_) former_->engine.set_max_expansions(max_expansions);
+}
+
+SearchResult CandidateSearch::search(const HorizonProblem& problem) {
+  return current_.engine().search(problem);
+}
+
+std::uint64_t CandidateSearch::warm_up(const HorizonProblem& problem) {
+  int looks = 0;
+  return current_.engine().search(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
+}
+
+PlanCandidate CandidateSearch::find(HorizonProblem problem, const CandidateInputs& inputs,
+                                    Report& report) {
+  PlanCandidate candidate;
+  candidate.problems.push_back(std::move(problem));
+  search_with_and_without_drift(current_, inputs, candidate, report);
+  if (former_) search_on_former(inputs, candidate, report);
+  return candidate;
+}
+
+void CandidateSearch::search_on(EngineCache& on, const CandidateInputs& inputs,
+                                PlanCandidate& candidate, Report& report) {
+  const Subgraph& subgraph = *on.on().subgraph;
+  const SearchResult result = on.engine().search(candidate.problems.back());
+  add_figures(result, subgraph, report);
+  if (result.status == SearchStatus::kFallback) {
+    candidate.obstacle =
+        result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;
+    return;
+  }
+  const StepIndex next{inputs.now.value + 1};
+  const UniversalAutomaton& automaton = subgraph.automaton();
+  candidate.plan = inputs.in_force.base().continued(
+      next, result.maneuvers, self_loop(automaton, result.maneuvers.back()->to),
+      subgraph.shared_automaton());
+  candidate.areas = inputs.in_force.areas_of(*candidate.plan, next);
+  if (!is_drivable(*candidate.plan, inputs, automaton)) {
+    candidate.obstacle = FallbackReason::kUndrivable;
+  } else if (!is_free(candidate, inputs)) {
+    candidate.obstacle = FallbackReason::kConflict;
+  }
+  if (candidate.obstacle != FallbackReason::kNone) candidate.plan.reset();
+}
+
+void CandidateSearch::search_with_and_without_drift(EngineCache& on, const CandidateInputs& inputs,
+                                                    PlanCandidate& candidate, Report& report) {
+  search_on(on, inputs, candidate, report);
+  if (candidate.obstacle != FallbackReason::kConflict) return;
+  HorizonProblem without_drift = candidate.problems.back();
+  without_drift.avoids_steering_limit = true;
+  candidate.problems.push_back(std::move(without_drift));
+  candidate.obstacle = FallbackReason::kNone;
+  search_on(on, inputs, candidate, report);
+}
+
+void CandidateSearch::search_on_former(const CandidateInputs& inputs, PlanCandidate& candidate,
+                                       Report& report) {
+  if (candidate.plan || inputs.now > former_->last) {
+    former_.reset();
+    return;
+  }
+  // A second search would take as long again: what is left is for the next step.
+  if (candidate.obstacle == FallbackReason::kBudget) return;
+  candidate.obstacle = FallbackReason::kNone;
+  if (candidate.problems.size() > 1) candidate.problems.push_back(candidate.problems.front());
+  search_with_and_without_drift(former_->engine, inputs, candidate, report);
+}
+
+}  // namespace hlc

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planner/controller/engine_cache.hpp"
+#include "planner/controller/plan_in_force.hpp"
+#include "planner/coordination/report.hpp"
+#include "planner/search/horizon_problem.hpp"
+#include "planner/vehicle/lab_limits.hpp"
+
+namespace hlc {
+
+/// What a new plan must fit to. Not owned.
+struct CandidateInputs {
+  const PlanInForce& in_force;            ///< what the plan continues
+  StepIndex now;                          ///< k; the plan is new from t(k+1) on
+  const ConvexPolygon& reachable_area_m;  ///< as announced in this step's traffic
+  const std::optional<LabLimits>& lab;    ///< what the vehicle can follow; absent: anything
+};
+
+/// What came of the search for a new plan.
+struct PlanCandidate {
+  std::optional<Plan> plan;  ///< none: see `obstacle`
+  OccupiedAreas areas;       ///< of the plan from t(k+1) on
+  FallbackReason obstacle{FallbackReason::kNone};
+  /// Those given to the search, in order: two if the first plan would have drifted into something,
+  /// after a switch perhaps more.
+  std::vector<HorizonProblem> problems;
+};
+
+/// Searches a new plan and checks it: what a vehicle can follow, and what its drift (drift.hpp)
+/// does not lead into anything. Where the drift does, a plan without any is searched.
+///
+/// After a switch to another subgraph the former one is searched where nothing is found, until
+/// something is, for a horizon at most. A value (EngineCache).
+class CandidateSearch {
+ public:
+  /// @throws std::invalid_argument as EngineCache
+  CandidateSearch(PreparedSubgraph on, const SearchOptions& search, std::size_t horizon_steps);
+
+  /// What is searched on now.
+  [[nodiscard]] const PreparedSubgraph& on() const { return current_.on(); }
+  /// Reachable sets of all that may be searched on, that of `on` first.
+  [[nodiscard]] std::vector<const ReachableSets*> reachable() const;
+  /// How far the vehicle can get from the trim in a horizon.
+  [[nodiscard]] double reach_m(TrimId trim) const;
+
+  /// @param now  the last step
+  /// @pre as Controller::switch_to
+  void switch_to(const PreparedSubgraph& next, const SearchOptions& search, StepIndex now);
+  void set_max_expansions(std::size_t max_expansions);
+
+  /// One search, unchecked, on what is searched on now.
+  [[nodiscard]] SearchResult search(const HorizonProblem& problem);
+  /// Searches for a fraction of a millisecond and forgets what is found.
+  /// @return expansions
+  std::uint64_t warm_up(const HorizonProblem& problem);
+
+  /// @param report  gets the figures of the search
+  [[nodiscard]] PlanCandidate find(HorizonProblem problem, const CandidateInputs& inputs,
+                                   Report& report);
+
+ private:
+  /// What was searched on before a switch.
+  struct Former {
+    EngineCache engine;
+    StepIndex last;  ///< of the steps that may still use it
+  };
+
+  static void search_on(EngineCache& on, const CandidateInputs& inputs, PlanCandidate& candidate,
+                        Report& report);
+  static void search_with_and_without_drift(EngineCache& on, const CandidateInputs& inputs,
+                                            PlanCandidate& candidate, Report& report);
+  void search_on_former(const CandidateInputs& inputs, PlanCandidate& candidate, Report& report);
+
+  std::size_t horizon_steps_;
+  EngineCache current_;
+  std::optional<Former> former_;  ///< until something was found on `current_`
+};
+
+}  // namespace hlc

@@ -1,0 +1,20 @@
+#include "planner/controller/controller_options.hpp"
+
+namespace hlc {
+
+std::vector<const Maneuver*> rest_of_plan_in_force(const Plan& in_force, StepIndex next,
+                                                   std::size_t horizon_steps) {
+  std::vector<const Maneuver*> maneuvers;
+  maneuvers.reserve(horizon_steps);
+  for (std::size_t j = 0; j < horizon_steps; ++j) {
+    maneuvers.push_back(&in_force.maneuver_during({next.value + j}));
+  }
+  return maneuvers;
+}
+
+std::vector<const Maneuver*> no_incumbent(const Plan& /*in_force*/, StepIndex /*next*/,
+                                          std::size_t /*horizon_steps*/) {
+  return {};
+}
+
+}  // namespace hlc

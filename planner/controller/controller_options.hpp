@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "planner/controller/drivable_area.hpp"
+#include "planner/controller/obstacles.hpp"
+#include "planner/controller/plan_in_force.hpp"
+#include "planner/coordination/commit.hpp"
+#include "planner/road/reference_points.hpp"
+#include "planner/search/horizon_problem.hpp"
+#include "planner/vehicle/lab_limits.hpp"
+
+namespace hlc {
+
+/// A plan that the search knows before it begins (HorizonProblem::incumbent): n maneuvers from
+/// t(next) on, or nothing. A rule is one function.
+/// @param in_force  planning starts from where it will be at t(next)
+using IncumbentRule = std::vector<const Maneuver*> (*)(const Plan& in_force, StepIndex next,
+                                                       std::size_t horizon_steps);
+
+/// What is left of the plan in force, then standing.
+[[nodiscard]] std::vector<const Maneuver*> rest_of_plan_in_force(const Plan& in_force,
+                                                                 StepIndex next,
+                                                                 std::size_t horizon_steps);
+[[nodiscard]] std::vector<const Maneuver*> no_incumbent(const Plan& in_force, StepIndex next,
+                                                        std::size_t horizon_steps);
+
+/// By which rules a controller plans and agrees. A rule of one's own is one function. All vehicles
+/// of a run need the same.
+struct ControllerStrategies {
+  CommitRule commit{kStrictCommit};
+  CoupledObstacleRule coupled_obstacles{&old_and_new_plans};  ///< has to go with `commit`
+  IncumbentRule incumbent{&rest_of_plan_in_force};
+  /// nullptr: never.
+  StandstillTimeoutRule standstill_timeout{&once_per_horizon};
+  friend bool operator==(const ControllerStrategies&, const ControllerStrategies&) = default;
+};
+
+struct ControllerOptions {
+  VehicleId vehicle;
+  std::size_t horizon_steps{8};
+  double reference_speed_mps{0.8};
+  ReferenceRule reference_rule{half_speed_last};
+  ControllerStrategies strategies{};
+  SearchOptions search{};
+  DeviationRules deviation{};
+  /// What the vehicle can follow: a plan beyond it does not come into force. Absent: anything.
+  std::optional<LabLimits> lab{};
+};
+
+}  // namespace hlc

@@ -1,0 +1,43 @@
+#include "planner/controller/drivable_area.hpp"
+
+#include <utility>
+
+namespace hlc {
+
+bool once_per_horizon(std::uint64_t stood_steps, std::size_t horizon_steps) {
+  return stood_steps % horizon_steps == 0;
+}
+
+void DrivableArea::update_drivable_area(const DrivableAreaInputs& inputs) {
+  const bool has_timed_out = this->has_timed_out(inputs);
+  const bool may_need_entry = entry_.is_possible && !entry_.area;
+  if (inputs.is_ended && (is_departing_ || (may_need_entry && !inputs.lies_in_lanes()))) {
+    entry_ = inputs.find_entry();
+    is_departing_ = false;
+  } else if (has_timed_out && may_need_entry) {
+    // It may as well wait for somebody: only a way out counts.
+    if (LaneEntry way_out = inputs.find_entry(); way_out.area) entry_ = std::move(way_out);
+  }
+  // A vehicle that stands in its lanes may need the area to drive off.
+  if (entry_.area && !inputs.is_ended && !stands_since_ && inputs.lies_in_lanes()) {
+    entry_.area.reset();
+  }
+}
+
+FallbackReason DrivableArea::obstacle() const {
+  if (entry_.is_possible) return FallbackReason::kNone;
+  return entry_.is_certain ? FallbackReason::kOffRoute : FallbackReason::kBudget;
+}
+
+bool DrivableArea::has_timed_out(const DrivableAreaInputs& inputs) {
+  if (!inputs.stands) {
+    stands_since_.reset();
+    return false;
+  }
+  if (timeout_ == nullptr) return false;
+  stands_since_ = stands_since_.value_or(inputs.next);
+  const std::uint64_t stood_steps = inputs.next.value - stands_since_->value;
+  return stood_steps > 0 && timeout_(stood_steps, horizon_steps_);
+}
+
+}  // namespace hlc

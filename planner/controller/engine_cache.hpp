@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "planner/controller/prepared_subgraph.hpp"
+#include "planner/search/search_engine.hpp"
+
+namespace hlc {
+
+/// What searches on a prepared subgraph. The engine is a cache: what it finds depends on the
+/// problem alone. So a copy shares the subgraph and its tables, which never change, and makes a
+/// search engine of its own when it first searches.
+class EngineCache {
+ public:
+  /// @throws std::invalid_argument as make_search_engine
+  EngineCache(PreparedSubgraph on, SearchOptions search)
+      : on_(std::move(on)), search_(std::move(search)), engine_(make()) {}
+  EngineCache(const EngineCache& other) : on_(other.on_), search_(other.search_) {}
+  EngineCache& operator=(const EngineCache& other) { return *this = EngineCache(other); }
+  EngineCache(EngineCache&&) = default;
+  EngineCache& operator=(EngineCache&&) = default;
+  ~EngineCache() = default;
+
+  [[nodiscard]] const PreparedSubgraph& on() const { return on_; }
+
+  void set_max_expansions(std::size_t max_expansions) {
+    search_.max_expansions = max_expansions;
+    engine_.reset();
+  }
+
+  /// Until the next change of this object.
+  [[nodiscard]] SearchEngine& engine() {
+    if (!engine_) engine_ = make();
+    return *engine_;
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<SearchEngine> make() const {
+    return make_search_engine(*on_.subgraph, *on_.reachable, search_, on_.tables);
+  }
+
+  PreparedSubgraph on_;
+  SearchOptions search_;
+  std::unique_ptr<SearchEngine> engine_;
+};
+
+}  // namespace hlc

@@ -1,0 +1,84 @@
+#include "planner/controller/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hlc {
+
+bool is_well_formed(const Outcome& /*outcome*/) { return true; }
+
+MissingVehicleRules rules_for_missing(const UniversalAutomaton& automaton) {
+  const VehicleParameters& vehicle = automaton.vehicle;
+  return {
+      .max_speed_mps = top_speed_mps(automaton),
+      .circumradius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m) +
+                        std::sqrt(2.0) * vehicle.safety_margin_m,
+      .footprint = vehicle.footprint,
+      .safety_margin_m = vehicle.safety_margin_m};
+}
+
+std::vector<VehicleId> Neighbours::silent(std::span<const VehicleId> active) {
+  std::vector<VehicleId> silent;
+  for (const VehicleId other : active) {
+    if (other == own_) continue;
+    const StepIndex last = last_received_.try_emplace(other, now_).first->second;
+    if (now_.value >= last.value + kSilentSteps) silent.push_back(other);
+  }
+  return silent;
+}
+
+void Neighbours::receive(std::span<const Traffic> traffic, const Observation& observation) {
+  missing_.clear();
+  for (const VehicleId other : observation.active) {
+    if (other == own_) continue;
+    const Traffic* message = find_message(traffic, other, now_);
+    if (message == nullptr) {
+      missing_.push_back(other);
+      continue;
+    }
+    traffic_[other] = *message;  // over the former one: as many areas again
+    last_received_[other] = now_;
+  }
+  update_liveness(observation);
+  update_standstill(observation);
+}
+
+bool Neighbours::is_received(VehicleId vehicle) const {
+  const auto found = traffic_.find(vehicle);
+  return found != traffic_.end() && found->second.step == now_;
+}
+
+std::vector<const Traffic*> Neighbours::received() const {
+  std::vector<const Traffic*> result;
+  for (const auto& [vehicle, traffic] : traffic_) {
+    if (traffic.step == now_) result.push_back(&traffic);
+  }
+  return result;
+}
+
+void Neighbours::update_liveness(const Observation& observation) {
+  for (const VehicleId other : observation.active) {
+    const bool lives = is_received(other) ||
+                       std::ranges::find(observation.present, other) != observation.present.end();
+    const auto [last, is_first] = last_sign_of_life_.try_emplace(other, now_);
+    if (lives && !is_first) last->second = now_;
+  }
+}
+
+void Neighbours::update_standstill(const Observation& observation) {
+  for (const VehicleId other : observation.active) {
+    const MeasuredVehicle* state = observation.measured(other);
+    const bool stands = state != nullptr && is_seen_standing(*state, rules_);
+    const auto [last, is_first] = last_not_standing_.try_emplace(other, now_);
+    if (!stands && !is_first) last->second = now_;
+  }
+}
+
+bool Neighbours::stands_for_good(VehicleId vehicle, std::size_t horizon_steps) const {
+  return hlc::stands_for_good({.now = now_,
+                               .last_sign_of_life = last_sign_of_life_.at(vehicle),
+                               .last_not_standing = last_not_standing_.at(vehicle)},
+                              horizon_steps);
+}
+
+}  // namespace hlc

@@ -1,0 +1,45 @@
+#include "planner/controller/problem_alone.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace hlc {
+namespace {
+
+/// Boundary pieces this far beyond what the plan can reach are kept, so that no footprint looks
+/// past them.
+constexpr double kBoundaryReserve_m = 0.4;
+
+}  // namespace
+
+HorizonProblem problem_alone(const Traffic& own, const RouteTracker& tracker,
+                             const Corridor& corridor, double reach_m,
+                             const UniversalAutomaton& automaton,
+                             const ControllerOptions& options) {
+  const double s_m = tracker.s_m().value();
+  HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
+  Reference reference = reference_points(
+      tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps,
+      options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
+  problem.reference_m = std::move(reference.points_m);
+  problem.reference_speed_mps = std::move(reference.speeds_mps);
+  problem.boundary_m =
+      corridor.boundary_m(s_m - kBoundaryReserve_m, s_m + reach_m + kBoundaryReserve_m);
+  return problem;
+}
+
+HorizonProblem one_step_later(HorizonProblem problem, const Traffic& own) {
+  problem.start = own.next_pose;
+  problem.start_trim = own.next_trim;
+  problem.incumbent.clear();
+  auto& reference_m = problem.reference_m;
+  if (reference_m.size() < 2) return problem;
+  reference_m.push_back(2.0 * reference_m.back() - reference_m[reference_m.size() - 2]);
+  reference_m.erase(reference_m.begin());
+  if (problem.obstacles_m.empty()) return problem;
+  std::ranges::rotate(problem.obstacles_m, problem.obstacles_m.begin() + 1);
+  problem.obstacles_m.back() = problem.obstacles_m[problem.obstacles_m.size() - 2];
+  return problem;
+}
+
+}  // namespace hlc

@@ -1,0 +1,50 @@
+#include "planner/controller/route_tracker.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace hlc {
+namespace {
+
+/// The path is searched this far behind the last projection, for a vehicle that was moved a little.
+constexpr double kProjectionBack_m = 0.3;
+
+/// A route that the vehicle fits is better than any that it does not.
+constexpr double kUnfitCost_m = 1e6;
+
+}  // namespace
+
+RouteTracker::RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes)
+    : routes_(std::move(routes)) {
+  assert(!routes_->empty());
+}
+
+void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
+  std::optional<double> least_m;
+  for (std::size_t i = 0; i < routes_->size(); ++i) {
+    const DrivableRoute& route = (*routes_)[i];
+    const Placement placement = placement_on(route, pose, footprint);
+    const double cost_m = misfit_m(placement) + (fits(placement, route) ? 0.0 : kUnfitCost_m);
+    if (least_m && cost_m >= *least_m) continue;
+    least_m = cost_m;
+    route_ = i;
+    placement_ = placement;
+  }
+  s_m_ = placement_->s_m;
+}
+
+Placement RouteTracker::place(const Pose& pose, const Footprint& footprint) {
+  Placement placement = placement_on(route(), pose, footprint);
+  s_m_ = placement.s_m;
+  return placement;
+}
+
+double RouteTracker::project(const Point& position_m, double reach_m) const {
+  const ReferencePath& path = route().path;
+  if (!s_m_) return path.project(position_m).s_m;
+  return path
+      .project_within(position_m, *s_m_ - kProjectionBack_m, *s_m_ + reach_m + kProjectionBack_m)
+      .s_m;
+}
+
+}  // namespace hlc

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "planner/road/placement.hpp"
+
+namespace hlc {
+
+/// Which of its routes a vehicle follows, and where on it it is. A value; the routes are shared.
+class RouteTracker {
+ public:
+  /// @param routes  those that the vehicle may take, at least one
+  explicit RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes);
+
+  [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return *routes_; }
+  /// The one followed; before the first `select_route` the first of all.
+  [[nodiscard]] const DrivableRoute& route() const { return (*routes_)[route_]; }
+  /// In the last `select_route`.
+  [[nodiscard]] const std::optional<Placement>& placement() const { return placement_; }
+  [[nodiscard]] bool fits_route() const { return placement_ && fits(*placement_, route()); }
+  /// Arc length on the route; none before the first `select_route`.
+  [[nodiscard]] const std::optional<double>& s_m() const { return s_m_; }
+
+  /// Follows the route that the pose fits best (placement.hpp), from its place there on.
+  /// @param pose  the planner's (heading, not yaw)
+  void select_route(const Pose& pose, const Footprint& footprint);
+  /// The place of the pose on the route that is followed, wherever it was before.
+  Placement place(const Pose& pose, const Footprint& footprint);
+  /// Moves on to the position. @param reach_m  as for `project`
+  void advance(const Point& position_m, double reach_m) { s_m_ = project(position_m, reach_m); }
+
+  /// Arc length of a position that the vehicle may get to from where it is.
+  /// @param reach_m  how far it may get
+  [[nodiscard]] double project(const Point& position_m, double reach_m) const;
+
+ private:
+  std::shared_ptr<const std::vector<DrivableRoute>> routes_;
+  std::size_t route_{};
+  std::optional<Placement> placement_;
+  std::optional<double> s_m_;
+};
+
+}  // namespace hlc

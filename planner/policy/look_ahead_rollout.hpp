@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "planner/controller/controller.hpp"
+
+namespace hlc {
+
+struct LookAheadRolloutSettings {
+  std::size_t steps{8};
+  std::vector<PlanningWeight> criterion_weights;
+  std::size_t max_expansions{};   ///< of each search
+  std::size_t most_expansions{};  ///< of all searches together: a step may need several
+};
+
+/// Called before each step of a look-ahead rollout with the controller that is stepped: may switch
+/// it.
+using BeforeStep = std::function<void(Controller&)>;
+
+/// What the vehicle would drive in the next steps, in a closed loop: the controller is stepped as
+/// ever, its vehicle follows the plan exactly, and the other vehicles drive what they announced in
+/// the last step (Controller::announced_plans), and then stand, as every controller reckons with.
+/// Whoever published nothing is not there.
+///
+/// The cost of a step is what planning goes by, of what is driven:
+///
+///     c_k = |p(k+2) - r_k|^2 + sum_c w_c c(e_k)   [m^2]
+///
+/// with p(k+2) the planned position at t(k+2), r_k the point of the path at the arc length of
+/// p(k+1) plus reference_speed * step, e_k the maneuver between the two, and w_c its weights.
+///
+/// @param controller  after a step; it stays as it is
+/// @return sum of c_k over the steps; none for a controller without a plan or a place on its path,
+/// or if most_expansions do not suffice: the rollout ends with the step that exceeds them
+[[nodiscard]] std::optional<double> rollout_cost_m2(const Controller& controller,
+                                                    const LookAheadRolloutSettings& settings,
+                                                    const BeforeStep& before_step);
+
+}  // namespace hlc

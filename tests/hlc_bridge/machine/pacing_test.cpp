@@ -1,0 +1,107 @@
+#include "hlc_bridge/machine/pacing.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hlc {
+namespace {
+
+constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
+constexpr Nanoseconds kWall = 1000 * kSecond;
+
+struct LogicalPacingTest : testing::Test {
+  [[nodiscard]] Instant now(Nanoseconds wall) const {
+    return pacing.now({.run = 123'456, .wall = wall});
+  }
+  LogicalPacing pacing{60 * kSecond, kWall};
+};
+
+TEST_F(LogicalPacingTest, TimeHasNotBegunBeforeTheFirstTick) {
+  EXPECT_FALSE(now(kWall).has_begun);
+  EXPECT_EQ(now(kWall).run, 0U);
+  EXPECT_EQ(now(kWall + 5).wall, kWall + 5);
+  pacing.want(0);
+  EXPECT_FALSE(pacing.is_due());
+  EXPECT_TRUE(pacing.on_trigger(0, kWall));
+  EXPECT_TRUE(pacing.is_due());
+  EXPECT_TRUE(now(kWall).has_begun);
+}
+
+TEST_F(LogicalPacingTest, TimeStandsStillBetweenTicks) {
+  pacing.want(1);
+  EXPECT_TRUE(pacing.on_trigger(1, kWall));
+  pacing.want(std::nullopt);
+  EXPECT_EQ(now(kWall + kSecond).run, 1U);
+  pacing.want(201);
+  EXPECT_EQ(now(kWall + 2 * kSecond).run, 1U);
+  EXPECT_TRUE(pacing.on_trigger(201, kWall));
+  EXPECT_EQ(now(kWall + 2 * kSecond).run, 201U);
+}
+
+TEST_F(LogicalPacingTest, SaysWhichTickIsWantedUntilItIsReleased) {
+  EXPECT_EQ(pacing.announcement(kWall), std::nullopt) << "no tick is wanted";
+  EXPECT_EQ(pacing.wake_up().wall, std::nullopt);
+  pacing.want(200);
+  EXPECT_EQ(pacing.announcement(kWall), 200U);
+  EXPECT_EQ(pacing.announcement(kWall + 1), std::nullopt);
+  pacing.want(200);
+  EXPECT_EQ(pacing.announcement(kWall + 1), std::nullopt) << "the same tick still";
+  EXPECT_EQ(pacing.wake_up().wall, kWall + kSecond);
+  EXPECT_EQ(pacing.announcement(kWall + kSecond), 200U);
+  pacing.on_trigger(200, kWall + kSecond);
+  EXPECT_EQ(pacing.announcement(kWall + 2 * kSecond), std::nullopt);
+  pacing.want(400);
+  EXPECT_EQ(pacing.announcement(kWall + kSecond + 1), 400U) << "the next one at once";
+}
+
+TEST_F(LogicalPacingTest, TriggersForOtherTimesHaveNoEffect) {
+  EXPECT_FALSE(pacing.on_trigger(0, kWall)) << "no tick is wanted";
+  pacing.want(200);
+  for (const Nanoseconds other :
+       {Nanoseconds{201}, Nanoseconds{220}, Nanoseconds{400}, Nanoseconds{17}, kStopSymbol}) {
+    EXPECT_FALSE(pacing.on_trigger(other, kWall));
+    EXPECT_FALSE(pacing.is_due());
+  }
+  EXPECT_FALSE(now(kWall).has_begun);
+}
+
+TEST_F(LogicalPacingTest, ATriggerGivesOneTickOnly) {
+  pacing.want(0);
+  EXPECT_TRUE(pacing.on_trigger(0, kWall));
+  EXPECT_TRUE(pacing.on_trigger(0, kWall));
+  pacing.want(20);
+  EXPECT_FALSE(pacing.is_due());
+}
+
+TEST_F(LogicalPacingTest, GivesUpWhenNoTriggerComesThoughATickIsWanted) {
+  EXPECT_FALSE(pacing.has_given_up(kWall + 1000 * kSecond));
+  pacing.want(0);
+  EXPECT_FALSE(pacing.has_given_up(kWall + 60 * kSecond - 1));
+  EXPECT_TRUE(pacing.has_given_up(kWall + 60 * kSecond));
+  pacing.on_trigger(17, kWall + 59 * kSecond);  // for somebody else: the lab control lives
+  EXPECT_FALSE(pacing.has_given_up(kWall + 100 * kSecond));
+  EXPECT_TRUE(pacing.has_given_up(kWall + 119 * kSecond));
+  EXPECT_FALSE(pacing.has_given_up(kWall)) << "a reading from before the trigger";
+}
+
+TEST(LogicalPacing, HasMorePatienceWithALongStart) {
+  EXPECT_EQ(LogicalPacing::patience_for(20 * kSecond), 60 * kSecond);
+  EXPECT_EQ(LogicalPacing::patience_for(90 * kSecond), 120 * kSecond);
+}
+
+TEST(RealPacing, TimeIsThatOfTheClock) {
+  RealPacing pacing;
+  const Instant now = pacing.now({.run = 5, .wall = 7});
+  EXPECT_EQ(now.run, 5U);
+  EXPECT_EQ(now.wall, 7U);
+  EXPECT_TRUE(now.has_begun);
+  EXPECT_EQ(pacing.wake_up().run, std::nullopt);
+  pacing.want(200);
+  EXPECT_EQ(pacing.wake_up().run, 200U);
+  EXPECT_FALSE(pacing.on_trigger(200, 7));
+  EXPECT_FALSE(pacing.is_due());
+  EXPECT_EQ(pacing.announcement(7), std::nullopt);
+  EXPECT_FALSE(pacing.has_given_up(~Nanoseconds{0}));
+}
+
+}  // namespace
+}  // namespace hlc
