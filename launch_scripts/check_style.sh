@@ -38,9 +38,9 @@ done
 cd "$root"
 [[ -z $since ]] || git rev-parse --quiet --verify "$since^{commit}" >/dev/null || fail "--since = $since: no such commit"
 
-# Of so many files at most, those with the most changed lines: a file takes five seconds, and the check is to take less
-# than three minutes. What is left out is named.
-most_files=40
+# Of so many files at most, those with the most changed lines: a file takes eight seconds of a processor, and the check
+# is to take less than three minutes. What is left out is named.
+most_files=30
 
 ./launch_scripts/setup.sh --style || exit 1
 mapfile -d '' sources < <(git ls-files -z '*.cpp' '*.hpp')
@@ -94,8 +94,9 @@ else
   ((${#changed[@]} <= most_files)) ||
     echo "clang-tidy does not look at $((${#changed[@]} - most_files)) more files: ${changed[*]:most_files}"
 fi
-# The same finding of a header comes once for every file that includes it.
-findings=$(grep -E ': (error|warning): ' "$work/tidy" | sed "s|^$root/||" | sort -u || true)
+# The same finding of a header comes once for every file that includes it. What GCC compiles and clang 14 does not
+# (clang-diagnostic-error: a lambda that captures a structured binding) is no finding.
+findings=$(grep -E ': (error|warning): ' "$work/tidy" | grep -vF '[clang-diagnostic-error]' | sed "s|^$root/||" | sort -u || true)
 if [[ -n $findings ]]; then
   echo "$findings"
   echo "check_style.sh: clang-tidy has $(wc -l <<<"$findings") findings in $what" >&2

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 #include "tests/support/folders.hpp"
@@ -21,6 +22,7 @@ struct BadFaultFlags {
   std::string flags;
   std::string named;  ///< what the message must speak of
 };
+void PrintTo(const BadFaultFlags& one, std::ostream* out) { *out << '"' << one.flags << '"'; }
 
 class FaultSimulatorRefuses : public testing::TestWithParam<BadFaultFlags> {};
 
