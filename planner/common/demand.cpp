@@ -1,6 +1,5 @@
 #include "planner/common/demand.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
@@ -16,17 +15,6 @@ std::string digits(Number number) {
   return {buffer.data(), end};
 }
 
-/// From the repository's root on, wherever the clone lies that was compiled.
-std::string_view below_the_root(std::string_view file) {
-  std::size_t begin = std::string_view::npos;
-  for (const std::string_view top : {"/planner/", "/hlc_bridge/", "/vehicle_sim/", "/tests/"}) {
-    const std::size_t found = file.rfind(top);
-    if (found == std::string_view::npos) continue;
-    begin = begin == std::string_view::npos ? found : std::max(begin, found);
-  }
-  return begin == std::string_view::npos ? file : file.substr(begin + 1);
-}
-
 }  // namespace
 
 void DemandedValue::write(double number) { text_ = digits(number); }
@@ -35,7 +23,7 @@ void DemandedValue::write(std::uint64_t number) { text_ = digits(number); }
 
 void demand_failed(std::string_view file, int line, std::string_view condition,
                    std::string_view names, std::initializer_list<DemandedValue> values) {
-  std::string text(below_the_root(file));
+  std::string text(file);
   text += ":" + std::to_string(line) + ": demanded ";
   text += condition;
   if (values.size() > 0) {

@@ -25,7 +25,7 @@ TEST(DemandDeathTest, OfAFalseConditionPrintsPlaceConditionAndValuesAndAborts) {
   const std::size_t needed = 3;
   EXPECT_EXIT(HLC_DEMAND(list.size() >= needed, list.size(), needed),
               testing::KilledBySignal(SIGABRT),
-              "^planner/common/demand_test.cpp:[0-9]+: demanded list.size\\(\\) >= needed; "
+              "^tests/planner/common/demand_test.cpp:[0-9]+: demanded list.size\\(\\) >= needed; "
               "list.size\\(\\), needed = 2, 3\n$");
 }
 
