@@ -5,11 +5,13 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: build.sh [--preset release|debug|asan|tsan] [--programs | --unit_tests | --thread_tests]
+usage: build.sh [--preset release|debug|asan|tsan|coverage]
+                [--programs | --unit_tests | --thread_tests | --tests_of FOLDER]
   --preset NAME   what to build (default release), into build/NAME
   --programs      only the programs, no tests
   --unit_tests    only the tests that need no other process
   --thread_tests  of these only those of the rooms that have threads
+  --tests_of FOLDER  only the tests in tests/FOLDER and what they need; with the preset tsan only those of threads
 Exit codes: 0 good, 1 the build failed, 2 bad input
 TEXT
 }
@@ -18,12 +20,13 @@ preset=release
 targets=()
 while (($#)); do
   case "$1" in
-    --preset)
-      (($# >= 2)) || { echo "build.sh: --preset needs a value" >&2; exit 2; }
-      preset=$2
+    --preset | --tests_of)
+      (($# >= 2)) || { echo "build.sh: $1 needs a value" >&2; exit 2; }
+      if [[ $1 == --preset ]]; then preset=$2; else targets=(--target "tests/$2/all"); fi
       shift
       ;;
     --preset=*) preset=${1#*=} ;;
+    --tests_of=*) targets=(--target "tests/${1#*=}/all") ;;
     --programs | --unit_tests | --thread_tests) targets=(--target "${1#--}") ;;
     -h | --help) usage; exit 0 ;;
     *) echo "build.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
@@ -31,8 +34,8 @@ while (($#)); do
   shift
 done
 case "$preset" in
-  release | debug | asan | tsan) ;;
-  *) echo "build.sh: --preset = $preset, allowed release, debug, asan, tsan" >&2; exit 2 ;;
+  release | debug | asan | tsan | coverage) ;;
+  *) echo "build.sh: --preset = $preset, allowed release, debug, asan, tsan, coverage" >&2; exit 2 ;;
 esac
 
 mkdir -p "$root/build/$preset"

@@ -1,46 +1,74 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, runs all tests.
+# Installs what is missing, builds, runs all tests or those of one folder.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: run_tests.sh [--sanitize] [--long] [--unit] [--filter REGEX]
+usage: run_tests.sh [FOLDER] [--sanitize] [--long] [--unit] [--filter REGEX] [--coverage]
+  FOLDER          builds and runs only the tests of this folder and of those below it, named as the sources or as the
+                  tests: planner/search or tests/planner/search
   --sanitize      then the same under the address and undefined behaviour sanitizers (preset asan), and the
                   unit tests of everything that has threads under the thread sanitizer (preset tsan)
   --long          ten times as many seeds in property tests, and integration tests until one of five times fails
   --unit          only unit tests, no processes
   --filter REGEX  only tests whose name matches
-Exit codes: 0 all passed, 1 setup, build or a test failed, 2 bad input
+  --coverage      instead builds with counters (preset coverage) and prints which share of the lines of every folder the
+                  tests ran; the lines are in build/coverage/html
+Exit codes: 0 all passed, 1 setup, build or a test failed, 2 bad input, also a filter that no test matches
 TEXT
 }
 
+fail() { echo "run_tests.sh: $1" >&2; exit 2; }
+cd "$root" || exit 1
+
+# Folders of tests/ that hold tests, and those above them, as the sources are called.
+test_folders() {
+  grep -rl --include=CMakeLists.txt add_test tests | while read -r file; do
+    folder=${file%/CMakeLists.txt}
+    while [[ $folder == tests/* ]]; do
+      echo "${folder#tests/}"
+      folder=${folder%/*}
+    done
+  done | sort -u
+}
+
 presets=(release)
-select=()
+folder=""
+filter=""
 unit=false
 long=false
 while (($#)); do
   case "$1" in
     --sanitize) presets=(release asan tsan) ;;
+    --coverage) presets=(coverage) ;;
     --long) long=true ;;
     --unit) unit=true ;;
-    --filter) (($# >= 2)) || { echo "run_tests.sh: --filter needs a value" >&2; exit 2; }
-      select+=(-R "$2"); shift ;;
-    --filter=*) select+=(-R "${1#*=}") ;;
+    --filter) (($# >= 2)) || fail "--filter needs a value"
+      filter=$2; shift ;;
+    --filter=*) filter=${1#*=} ;;
     -h | --help) usage; exit 0 ;;
-    *) echo "run_tests.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
+    -*) fail "unknown flag $1 (see --help)" ;;
+    *) [[ -z $folder ]] || fail "FOLDER = $1, already given as $folder"
+      folder=${1#"$root"/} folder=${folder#./} folder=${folder#tests/} folder=${folder%/}
+      test_folders | grep -qxF -e "$folder" ||
+        fail "FOLDER = $1, allowed $(test_folders | paste -sd ' ' | sed 's/ /, /g')" ;;
   esac
   shift
 done
 
-cd "$root" || exit 1
 if $long; then export HLC_TEST_LONG=1; fi # tests/support/num_seeds.hpp
+[[ -n $filter ]] || export HLC_TESTS_BY_SUITE=1 # tests/house/discover_tests.cmake
+select=()
+[[ -z $filter ]] || select+=(-R "$filter")
+[[ -z $folder ]] || select+=(-L "^tests/$folder(/|\$)")
+! $unit || select+=(-L '^unit')
 
 # run PRESET CTEST_FLAG...
 run() {
   local preset=$1
   shift
-  ctest --preset "$preset" -j "$(nproc)" "${select[@]}" "$@" && return
+  ctest --preset "$preset" -j "$(nproc)" --no-tests=error "$@" && return
   code=1
   local name
   while IFS= read -r name; do
@@ -48,28 +76,45 @@ run() {
   done < <(cat "build/$preset/Testing/Temporary/LastTestsFailed.log" 2>/dev/null)
 }
 
-./launch_scripts/setup.sh || exit 1
+setup=()
+[[ ${presets[0]} != coverage ]] || setup=(--coverage)
+./launch_scripts/setup.sh "${setup[@]}" || exit 1
 code=0
 failed=() # said again at the end: the sanitizers' output is long
 for preset in "${presets[@]}"; do
+  build=(--preset "$preset")
+  of_preset=("${select[@]}")
+  what=$preset
   if [[ $preset == tsan ]]; then
-    # Fast DDS is not built for the thread sanitizer, and most rooms have no threads (tests/README.md).
-    ./launch_scripts/build.sh --preset tsan --thread_tests || exit 1
-    echo "Testing (tsan, unit tests of what has threads)"
-    run tsan --no-tests=error -L unit_threads
+    # Fast DDS is not built for the thread sanitizer, and most folders have no threads (tests/README.md).
+    of_preset+=(-L '^unit_threads$')
+    what+=", unit tests of what has threads"
   elif $unit; then
-    ./launch_scripts/build.sh --preset "$preset" --unit_tests || exit 1
-    echo "Testing ($preset, unit tests)"
-    run "$preset" --no-tests=error -L unit
-  else
-    ./launch_scripts/build.sh --preset "$preset" || exit 1
-    echo "Testing ($preset)"
-    run "$preset" --no-tests=error
-    if $long; then
-      echo "Repeating ($preset)"
-      run "$preset" -L integration --repeat until-fail:5
-    fi
+    what+=", unit tests"
+  fi
+  if [[ -n $folder ]]; then
+    build+=(--tests_of "$folder")
+    what+=", $folder"
+  elif [[ $preset == tsan ]]; then
+    build+=(--thread_tests)
+  elif $unit; then
+    build+=(--unit_tests)
+  fi
+  ./launch_scripts/build.sh "${build[@]}" || exit 1
+  if ! ctest --preset "$preset" -N "${of_preset[@]}" | grep -q '^Total Tests: [1-9]'; then
+    [[ $preset != "${presets[0]}" ]] || fail "no test among: $what${filter:+, --filter = $filter}"
+    echo "No test among: $what${filter:+, --filter = $filter}"
+    continue
+  fi
+  [[ $preset != coverage ]] || find build/coverage -name '*.gcda' -delete # counts of an earlier run
+  echo "Testing ($what)"
+  run "$preset" "${of_preset[@]}"
+  if $long && ! $unit && [[ $preset != tsan ]] &&
+    ctest --preset "$preset" -N "${of_preset[@]}" -L '^integration$' | grep -q '^Total Tests: [1-9]'; then
+    echo "Repeating ($what)"
+    run "$preset" "${of_preset[@]}" -L '^integration$' --repeat until-fail:5
   fi
 done
+[[ ${presets[0]} != coverage ]] || ./tests/house/coverage.sh "$folder" || exit 1
 ((${#failed[@]} == 0)) || printf 'failed: %s\n' "${failed[@]}" >&2
 exit "$code"

@@ -11,17 +11,26 @@ packages=(
   procps util-linux iproute2
 )
 
+style=(clang-format-14 clang-tidy-14 python3)
+coverage=(gcovr)
+
 usage() {
-  echo "usage: setup.sh [--help]"
+  echo "usage: setup.sh [--style] [--coverage]"
   echo "Installs missing packages (as root, or with sudo): ${packages[*]}"
+  echo "  --style     also those that check_style.sh needs: ${style[*]}"
+  echo "  --coverage  also those that run_tests.sh --coverage needs: ${coverage[*]}"
   echo "Exit codes: 0 good, 1 a package could not be installed, 2 bad input"
 }
 
-case "${1:-}" in
-  "") ;;
-  -h | --help) usage; exit 0 ;;
-  *) echo "setup.sh: unknown flag $1, allowed --help" >&2; exit 2 ;;
-esac
+while (($#)); do
+  case "$1" in
+    --style) packages+=("${style[@]}") ;;
+    --coverage) packages+=("${coverage[@]}") ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "setup.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
+  esac
+  shift
+done
 
 missing=()
 for package in "${packages[@]}"; do

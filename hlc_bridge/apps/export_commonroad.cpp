@@ -11,11 +11,11 @@
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
-#include "hlc_bridge/record/text_file.hpp"
 #include "hlc_bridge/result/planned_motion.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/road/lanelet_map.hpp"
 
 namespace {

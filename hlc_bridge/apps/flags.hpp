@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,16 +15,6 @@
 namespace hlc {
 
 [[nodiscard]] inline CLI::Validator vehicle_id_range() { return whole(1, kMaxVehicleId); }
-
-/// @throws std::invalid_argument naming the flag if an id is there twice
-inline void check_each_once(const std::string& flag, std::vector<int> ids) {
-  std::ranges::sort(ids);
-  const auto twice = std::ranges::adjacent_find(ids);
-  if (twice != ids.end()) {
-    throw std::invalid_argument(flag + ": " + std::to_string(*twice) +
-                                " twice, allowed every id once");
-  }
-}
 
 /// The lab's own.
 inline constexpr const char* kDiscoveryServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";

@@ -34,7 +34,7 @@ void check_plan_fits_commands(const Controller& controller) {
 
 }  // namespace
 
-HlcMachine::HlcMachine(HlcSettings settings, std::unique_ptr<Controller> controller)
+HlcMachine::HlcMachine(const HlcSettings& settings, std::unique_ptr<Controller> controller)
     : rules_(settings.rules),
       cpu_time_(settings.cpu_time ? settings.cpu_time : [] { return std::uint64_t{}; }),
       core_(std::move(controller)),

@@ -62,7 +62,7 @@ class HlcMachine {
 
   /// @param controller  of the vehicle that is driven
   /// @throws std::invalid_argument if its plans are longer than a vehicle follows a command
-  HlcMachine(HlcSettings settings, std::unique_ptr<Controller> controller);
+  HlcMachine(const HlcSettings& settings, std::unique_ptr<Controller> controller);
 
   [[nodiscard]] const Controller& controller() const { return core_.controller(); }
   /// For whoever prepares requested subgraphs.

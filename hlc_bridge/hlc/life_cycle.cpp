@@ -11,8 +11,7 @@ namespace hlc {
 
 LifeCycle::LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout)
     : vehicle_(vehicle),
-      start_rule_(rules.start),
-      expects_lists_(!rules.answers_every_list),
+      rules_(rules),
       startup_timeout_(startup_timeout),
       readiness_(vehicle, rules.start, rules.duplicate_patience),
       middleware_(middleware_name(vehicle.value), rules.middleware_patience) {}
@@ -54,11 +53,12 @@ void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
   }
 }
 
+/// Of lists only where they come by the clock: elsewhere they come as fast as everybody is done.
 void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
     actions.info("waits: " + readiness_.missing());
   }
-  if (readiness_.is_ready() && expects_lists_ && list_notice_.is_due(wall)) {
+  if (readiness_.is_ready() && !rules_.answers_every_list && list_notice_.is_due(wall)) {
     const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
     actions.warn("waits: " + middleware_.name() + " has sent no state list for " +
                  std::to_string(silence / kNanosecondsPerSecond) + " s");
@@ -68,10 +68,10 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
 void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bool has_started,
                               HlcActions& actions) {
   const bool is_off_route = controller.placement() && !controller.fits_route();
-  const bool is_unseen = start_rule_ == StartRule::kAtTrigger && !controller.placement();
+  const bool is_unseen = rules_.start == StartRule::kAtTrigger && !controller.placement();
   repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
   if (!repeats_ready_ || wall < next_ready_at_) return;
-  if (next_ready_at_ == 0 && start_rule_ == StartRule::kAtTrigger) {
+  if (next_ready_at_ == 0 && rules_.start == StartRule::kAtTrigger) {
     actions.info("ready, waits for a trigger");
   }
   actions.add(ReadyStatus{.source_id = controller_ready_id(vehicle_.value)});
@@ -108,7 +108,7 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
     return earlier(wake, std::min(peers_notice_.next(), *began_at_ + startup_timeout_ + 1));
   }
   if (repeats_ready_) wake = earlier(wake, next_ready_at_);
-  return expects_lists_ ? earlier(wake, list_notice_.next()) : wake;
+  return rules_.answers_every_list ? wake : earlier(wake, list_notice_.next());
 }
 
 }  // namespace hlc

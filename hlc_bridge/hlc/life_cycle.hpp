@@ -61,8 +61,7 @@ class LifeCycle {
   }
 
   VehicleId vehicle_;
-  StartRule start_rule_;
-  bool expects_lists_;  ///< regularly: their absence is worth a line
+  HlcRules rules_;
   Nanoseconds startup_timeout_;
   Readiness readiness_;
   MiddlewareWatch middleware_;

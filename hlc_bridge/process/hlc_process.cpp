@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "hlc_bridge/dds/topics.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/log.hpp"
-#include "hlc_bridge/process/pacing.hpp"
 #include "hlc_bridge/time/precedence.hpp"
 #include "hlc_bridge/time/resident_memory.hpp"
 #include "hlc_bridge/time/thread_clock.hpp"

@@ -9,10 +9,10 @@
 #include "hlc_bridge/lab_control/real_time_run.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
-#include "hlc_bridge/record/text_file.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/wall_time.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 namespace {

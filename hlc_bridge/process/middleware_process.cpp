@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "hlc_bridge/dds/topics.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/log.hpp"
-#include "hlc_bridge/process/pacing.hpp"
 
 namespace hlc {
 namespace {
@@ -25,12 +25,6 @@ MiddlewareSettings settings_of(const MiddlewareOptions& options) {
           .startup_timeout = nanoseconds(options.startup_timeout),
           .rules = options.logical_time ? logical_middleware_rules(beside_lab_programs)
                                         : real_middleware_rules(beside_lab_programs)};
-}
-
-std::unique_ptr<Pacing> pacing_of(const MiddlewareOptions& options) {
-  if (!options.logical_time) return std::make_unique<RealPacing>();
-  return std::make_unique<LogicalPacing>(
-      LogicalPacing::patience_for(nanoseconds(options.startup_timeout)), wall_time_now());
 }
 
 ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
@@ -102,7 +96,9 @@ struct MiddlewareProcess::LabEndpoints {
 
 MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
     : options_(std::move(options)),
-      shell_(options_.node_id, MiddlewareMachine{settings_of(options_)}, pacing_of(options_)),
+      shell_(options_.node_id, MiddlewareMachine{settings_of(options_)},
+             make_pacing(options_.logical_time, nanoseconds(options_.startup_timeout),
+                         wall_time_now())),
       lab_(on_domain(options_, DomainRole::kLab), [this] { shell_.presence_changed(); }),
       local_(on_domain(options_, DomainRole::kLocal), [this] { shell_.presence_changed(); }),
       list_writer_(local_, topics::vehicle_state_list(), [this] { shell_.presence_changed(); }),

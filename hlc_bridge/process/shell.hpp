@@ -12,9 +12,9 @@
 
 #include "hlc_bridge/machine/log_line.hpp"
 #include "hlc_bridge/machine/machine.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
-#include "hlc_bridge/process/pacing.hpp"
 #include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/wall_time.hpp"

@@ -1,14 +1,14 @@
 #include "hlc_bridge/record/commonroad_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
-#include <iomanip>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 #include "planner/common/yaml_text.hpp"
+#include "planner/road/commonroad_writer.hpp"
 
 namespace hlc {
 namespace {
@@ -16,56 +16,80 @@ namespace {
 enum class Steering { kWritten, kLeftOut };
 
 /// A quantity with one value.
-struct Exact {
-  const char* name;
-  double value;
-};
-
-std::ostream& operator<<(std::ostream& xml, const Exact& exact) {
-  return xml << '<' << exact.name << "><exact>" << exact.value << "</exact></" << exact.name << '>';
+void add_exact(CommonRoadWriter& xml, const char* name, double value) {
+  xml.open_inline(name);
+  xml.number("exact", value);
+  xml.close_inline();
 }
 
-void write_state(std::ostream& xml, const State& state, std::size_t time, Steering steering) {
-  xml << "<position><point><x>" << state.pose.x_m << "</x><y>" << state.pose.y_m
-      << "</y></point></position>" << Exact{"orientation", wrap_angle(state.pose.heading_rad)}
-      << "<time><exact>" << time << "</exact></time>" << Exact{"velocity", state.speed_mps};
-  if (steering == Steering::kWritten) xml << Exact{"steeringAngle", state.steering_rad};
+/// The content of a state, in one line.
+void add_state(CommonRoadWriter& xml, const State& state, std::size_t time, Steering steering) {
+  xml.open_inline("position");
+  xml.open_inline("point");
+  xml.number("x", state.pose.x_m);
+  xml.number("y", state.pose.y_m);
+  xml.close_inline();
+  xml.close_inline();
+  add_exact(xml, "orientation", wrap_angle(state.pose.heading_rad));
+  xml.open_inline("time");
+  xml.text("exact", std::to_string(time));
+  xml.close_inline();
+  add_exact(xml, "velocity", state.speed_mps);
+  if (steering == Steering::kWritten) add_exact(xml, "steeringAngle", state.steering_rad);
 }
 
-void write_motion(std::ostream& xml, int id, const Footprint& footprint,
-                  const std::vector<State>& states, Steering steering) {
+void add_shape(CommonRoadWriter& xml, const Footprint& footprint) {
+  xml.open("shape");
+  xml.open_inline("rectangle");
+  xml.number("length", footprint.length_m);
+  xml.number("width", footprint.width_m);
+  xml.close_inline();
+  xml.close_inline();
+}
+
+void add_motion(CommonRoadWriter& xml, int id, const Footprint& footprint,
+                const std::vector<State>& states, Steering steering) {
   assert(states.size() >= 2);
-  xml << "  <dynamicObstacle id=\"" << id << "\">\n    <type>car</type>\n    <shape><rectangle>"
-      << "<length>" << footprint.length_m << "</length><width>" << footprint.width_m
-      << "</width></rectangle></shape>\n    <initialState>";
-  write_state(xml, states.front(), 0, steering);
-  xml << "</initialState>\n    <trajectory>\n";
+  xml.open("dynamicObstacle");
+  xml.PushAttribute("id", id);
+  xml.text("type", "car", false);
+  add_shape(xml, footprint);
+  xml.open("initialState");
+  add_state(xml, states.front(), 0, steering);
+  xml.close_inline();
+  xml.open("trajectory");
   for (std::size_t i = 1; i < states.size(); ++i) {
-    xml << "      <state>";
-    write_state(xml, states[i], i, steering);
-    xml << "</state>\n";
+    xml.open("state");
+    add_state(xml, states[i], i, steering);
+    xml.close_inline();
   }
-  xml << "    </trajectory>\n  </dynamicObstacle>\n";
+  xml.close();
+  xml.close();
 }
 
-void write_problem(std::ostream& xml, int id, const VehicleParameters& vehicle,
-                   const std::vector<State>& planned) {
+void add_problem(CommonRoadWriter& xml, int id, const VehicleParameters& vehicle,
+                 const std::vector<State>& planned) {
   const State& start = planned.front();
-  const double yaw_rate_radps = start.speed_mps * curvature_per_m(start.steering_rad, vehicle);
-  xml << "  <planningProblem id=\"" << id << "\">\n    <initialState>";
-  write_state(xml, start, 0, Steering::kLeftOut);
-  xml << Exact{"yawRate", yaw_rate_radps}
-      << Exact{"slipAngle", slip_angle_rad(start.steering_rad, vehicle)}
-      << "</initialState>\n    <goalState><time><intervalStart>" << planned.size() - 1
-      << "</intervalStart><intervalEnd>" << planned.size() - 1
-      << "</intervalEnd></time></goalState>\n  </planningProblem>\n";
+  xml.open("planningProblem");
+  xml.PushAttribute("id", id);
+  xml.open("initialState");
+  add_state(xml, start, 0, Steering::kLeftOut);
+  add_exact(xml, "yawRate", start.speed_mps * curvature_per_m(start.steering_rad, vehicle));
+  add_exact(xml, "slipAngle", slip_angle_rad(start.steering_rad, vehicle));
+  xml.close_inline();
+  xml.open("goalState");
+  xml.open_inline("time");
+  xml.text("intervalStart", std::to_string(planned.size() - 1));
+  xml.text("intervalEnd", std::to_string(planned.size() - 1));
+  xml.close_inline();
+  xml.close_inline();
+  xml.close();
 }
 
 void check_ids(const LaneletMap& map) {
   if (!map.lanelets.empty() && map.lanelets.rbegin()->first > kProblemIds) {
-    throw std::runtime_error(map.benchmark_id + ": lanelet " +
-                             std::to_string(map.lanelets.rbegin()->first) + ", allowed ids up to " +
-                             std::to_string(kProblemIds));
+    throw std::runtime_error(fmt::format("{}: lanelet {}, allowed ids up to {}", map.benchmark_id,
+                                         map.lanelets.rbegin()->first, kProblemIds));
   }
 }
 
@@ -74,24 +98,19 @@ void check_ids(const LaneletMap& map) {
 std::string commonroad_xml(const LaneletMap& map, const VehicleParameters& vehicle,
                            const std::vector<ExportedVehicle>& vehicles, double time_step_s) {
   check_ids(map);
-  std::ostringstream xml;
-  xml.imbue(std::locale::classic());
-  xml << std::fixed << std::setprecision(9);
-  xml << commonroad_head({.benchmark_id = map.benchmark_id,
-                          .author = "export_commonroad",
-                          .source = "run",
-                          .time_step = shortest_text(time_step_s)});
-  xml << lanelets_to_xml(map);
+  CommonRoadWriter xml({.benchmark_id = map.benchmark_id,
+                        .author = "export_commonroad",
+                        .source = "run",
+                        .time_step = shortest_text(time_step_s)});
+  xml.add_lanelets(map);
   for (const ExportedVehicle& one : vehicles) {
-    write_motion(xml, kPlannedIds + one.id.value, vehicle.footprint, one.planned,
-                 Steering::kWritten);
-    write_motion(xml, kDrivenIds + one.id.value, vehicle.footprint, one.driven, Steering::kLeftOut);
+    add_motion(xml, kPlannedIds + one.id.value, vehicle.footprint, one.planned, Steering::kWritten);
+    add_motion(xml, kDrivenIds + one.id.value, vehicle.footprint, one.driven, Steering::kLeftOut);
   }
   for (const ExportedVehicle& one : vehicles) {
-    write_problem(xml, kProblemIds + one.id.value, vehicle, one.planned);
+    add_problem(xml, kProblemIds + one.id.value, vehicle, one.planned);
   }
-  xml << "</commonRoad>\n";
-  return xml.str();
+  return xml.finish();
 }
 
 LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles) {

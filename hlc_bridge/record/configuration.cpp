@@ -1,11 +1,13 @@
 #include "hlc_bridge/record/configuration.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 #include <system_error>
 
-#include "hlc_bridge/record/text_file.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -24,7 +26,7 @@ std::string text_of(const std::optional<std::string>& value) {
   return value ? quoted_yaml(*value) : "null";
 }
 
-std::optional<std::string> text_or_null(const YamlNode& flags, const std::string& key) {
+std::optional<std::string> text_or_null(const Node& flags, const std::string& key) {
   return flags.is_value(key) ? std::optional(flags.required<std::string>(key)) : std::nullopt;
 }
 
@@ -46,11 +48,15 @@ void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>&
 std::string flags_yaml(const ScenarioChoices& choices) {
   const auto path = [](const fs::path& file) { return fs::absolute(file).string(); };
   const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
-  return "scenario: " + text_of(path(choices.file)) + "\nprofile: " + text_of(choices.profile) +
-         "\nengine: " + text_of(choices.engine) + "\nsubgraph: " + text_of(choices.subgraph) +
-         "\npolicy: " + text_of(choices.policy) + "\nmap: " + text_of(map) +
-         "\ncars: " + (choices.cars ? std::to_string(*choices.cars) : "null") +
-         "\nsteps: " + (choices.steps ? std::to_string(*choices.steps) : "null") + "\n";
+  const auto number = [](const std::optional<std::size_t>& value) {
+    return value ? fmt::to_string(*value) : "null";
+  };
+  return fmt::format(
+      "scenario: {}\nprofile: {}\nengine: {}\nsubgraph: {}\npolicy: {}\nmap: {}\ncars: {}\n"
+      "steps: {}\n",
+      text_of(path(choices.file)), text_of(choices.profile), text_of(choices.engine),
+      text_of(choices.subgraph), text_of(choices.policy), text_of(map), number(choices.cars),
+      number(choices.steps));
 }
 
 ScenarioChoices kept_choices(const fs::path& run_folder) {
@@ -58,7 +64,7 @@ ScenarioChoices kept_choices(const fs::path& run_folder) {
   if (!fs::exists(file)) {
     throw std::invalid_argument(file.string() + ": is not there, so the scenario must be given");
   }
-  const YamlNode flags = YamlNode::read_file(file);
+  const Node flags = Node::read_yaml(file);
   ScenarioChoices choices;
   choices.file = copy_of(run_folder, flags.required<std::string>("scenario"));
   choices.profile = flags.required<std::string>("profile");

@@ -1,11 +1,13 @@
 #include "hlc_bridge/record/drive_file.hpp"
 
-#include "hlc_bridge/record/text_file.hpp"
+#include <fmt/format.h>
+
+#include "planner/common/csv.hpp"
 
 namespace hlc {
 
 std::filesystem::path drive_file(const std::filesystem::path& run_folder, std::uint8_t vehicle_id) {
-  return run_folder / ("vehicle_" + std::to_string(vehicle_id) + ".csv");
+  return run_folder / fmt::format("vehicle_{}.csv", vehicle_id);
 }
 
 Drive read_drive(const std::filesystem::path& file) {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 

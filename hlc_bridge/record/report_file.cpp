@@ -1,14 +1,15 @@
 #include "hlc_bridge/record/report_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 
-#include "hlc_bridge/record/text_file.hpp"
-#include "planner/common/csv_field.hpp"
-#include "planner/common/yaml_text.hpp"
+#include "planner/common/csv.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 namespace {
@@ -20,31 +21,15 @@ constexpr std::string_view kHeading =
 
 std::string line(const ReportRecord& record) {
   const Report& report = record.report;
-  std::string text;
-  const auto add = [&text](const std::string& field) { text += (text.empty() ? "" : ",") + field; };
-  add(std::to_string(report.step.value));
-  add(std::to_string(report.vehicle.value));
-  add(to_string(report.status));
-  add(to_string(report.reason));
-  add(shortest_text(report.planned_pose.x_m));
-  add(shortest_text(report.planned_pose.y_m));
-  add(shortest_text(report.planned_pose.heading_rad));
-  add(std::to_string(report.planned_trim.index + 1));
-  add(shortest_text(report.cost_m2));
-  add(to_string(report.quality));
-  add(shortest_text(report.gap_m2));
-  add(std::to_string(report.generated));
-  add(std::to_string(report.expanded));
-  add(std::to_string(report.level));
-  add(ids_to_text(report.coupled));
-  add(ids_to_text(report.missing));
-  add(shortest_text(report.deviation_m));
-  add(std::to_string(record.planning_ns));
-  add(record.deadline_missed ? "1" : "0");
-  add(std::to_string(record.late_ns));
-  add(csv_field(report.maneuver));
-  add(csv_field(report.subgraph));
-  return text + "\n";
+  const Pose& pose = report.planned_pose;
+  return CsvLine(report.step.value, report.vehicle.value, to_string(report.status),
+                 to_string(report.reason), pose.x_m, pose.y_m, pose.heading_rad,
+                 report.planned_trim.index + 1, report.cost_m2, to_string(report.quality),
+                 report.gap_m2, report.generated, report.expanded, report.level,
+                 ids_to_text(report.coupled), ids_to_text(report.missing), report.deviation_m,
+                 record.planning_ns, record.deadline_missed, record.late_ns, report.maneuver,
+                 report.subgraph)
+      .text();
 }
 
 /// The enumerator with this name, among the first `count`.
@@ -73,7 +58,7 @@ class RowReader {
   std::uint64_t whole(std::uint64_t least = 0, std::uint64_t most = ~std::uint64_t{0}) {
     const std::uint64_t value = table_.unsigned_number(row_, column_);
     if (value < least || value > most) {
-      table_.refuse(row_, column_, std::to_string(least) + " ... " + std::to_string(most));
+      table_.refuse(row_, column_, fmt::format("{} ... {}", least, most));
     }
     ++column_;
     return value;
@@ -144,9 +129,7 @@ ReportRecord read_row(RowReader row) {
 
 std::string ids_to_text(const std::vector<VehicleId>& ids) {
   std::string text;
-  for (const VehicleId id : ids) {
-    text += (text.empty() ? "" : ";") + std::to_string(id.value);
-  }
+  for (const VehicleId id : ids) text += fmt::format("{}{}", text.empty() ? "" : ";", id.value);
   return text;
 }
 

@@ -16,7 +16,7 @@
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/plot/automaton_plot.hpp"
@@ -85,10 +85,10 @@ void run(const Choices& choices) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   hlc::write_automaton_file(file, *choices.out.file);
   if (const auto& table = choices.table.file) {
-    hlc::write_atomically(hlc::maneuver_table(*file.automaton), *table);
+    hlc::write_file(*table, hlc::maneuver_table(*file.automaton));
   }
   if (const auto& plot = choices.plot.file) {
-    hlc::write_atomically(hlc::automaton_plot(file), *plot);
+    hlc::write_file(*plot, hlc::automaton_plot(file));
   }
   std::printf("%s: %zu trims, %zu maneuvers, labels", choices.out.file->c_str(),
               configuration.trims.size(),

@@ -1,15 +1,14 @@
 // Chooses trims from a recorded drive and prints them as the `trims` of an automaton's
 // configuration.
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -17,7 +16,8 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/csv.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/trim_choice.hpp"
 
@@ -25,89 +25,62 @@ namespace {
 
 constexpr double kWindow_s = 0.2;  // long enough that measurement noise does not pass for steering
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-/// A table of numbers with a line of column names.
-class NumberTable {
+/// Columns of a drive, by name.
+class DriveTable {
  public:
-  explicit NumberTable(const std::filesystem::path& path) : path_(path) {
-    std::error_code error;
-    if (std::filesystem::is_regular_file(path, error)) file_.open(path);
-    std::string line;
-    if (!std::getline(file_, line)) {
-      throw std::invalid_argument(path.string() + ": cannot be read, allowed a CSV file");
-    }
-    for (const std::string& name : cells_of(line)) columns_.emplace(name, columns_.size());
-    names_ = line;
-  }
+  explicit DriveTable(const std::filesystem::path& path) : table_(path) {}
 
-  [[nodiscard]] bool has(const std::string& column) const { return columns_.contains(column); }
-  [[nodiscard]] const std::string& names() const { return names_; }
-
-  [[nodiscard]] bool next_row() {
-    std::string line;
-    if (!std::getline(file_, line)) return false;
-    cells_ = cells_of(line);
-    ++row_;
-    return true;
+  [[nodiscard]] bool has(const std::string& column) const {
+    return table_.find(column).has_value();
   }
-  [[nodiscard]] double number(const std::string& column) const {
-    const std::size_t i = columns_.at(column);
-    const std::string text = i < cells_.size() ? cells_[i] : "";
-    double value{};
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || rest != text.data() + text.size() || !std::isfinite(value)) {
-      throw std::invalid_argument(path_.string() + ":" + std::to_string(row_) + ": " + column +
-                                  " = " + hlc::one_line(text) + ", allowed a number");
-    }
+  [[nodiscard]] std::string columns() const {
+    return fmt::format("{}", fmt::join(table_.columns(), ","));
+  }
+  [[nodiscard]] std::size_t size() const { return table_.size(); }
+  [[nodiscard]] double number(std::size_t row, const std::string& column) const {
+    const std::size_t i = table_.find(column).value();
+    const double value = table_.number(row, i);
+    if (!std::isfinite(value)) table_.refuse(row, i, "a number");
     return value;
+  }
+  [[noreturn]] void refuse(std::size_t row, const std::string& column,
+                           const std::string& allowed) const {
+    table_.refuse(row, table_.find(column).value(), allowed);
   }
 
  private:
-  std::filesystem::path path_;
-  std::ifstream file_;
-  std::string names_;
-  std::map<std::string, std::size_t> columns_;
-  std::vector<std::string> cells_;
-  std::size_t row_{1};
+  hlc::CsvTable table_;
 };
+
+std::vector<hlc::DriveSample> read_samples(const DriveTable& table) {
+  std::vector<hlc::DriveSample> samples;
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    samples.push_back({table.number(row, "speed_mps"), table.number(row, "steering_rad")});
+  }
+  return samples;
+}
 
 std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
                                          const hlc::VehicleParameters& vehicle) {
-  NumberTable table(path);
-  std::vector<hlc::DriveSample> samples;
-  if (table.has("speed_mps") && table.has("steering_rad")) {
-    while (table.next_row()) {
-      samples.push_back({table.number("speed_mps"), table.number("steering_rad")});
-    }
-    return samples;
-  }
+  const DriveTable table(path);
+  if (table.has("speed_mps") && table.has("steering_rad")) return read_samples(table);
   const std::string time = table.has("t_ns") ? "t_ns" : "t_s";
   const std::string heading = table.has("yaw_rad") ? "yaw_rad" : "heading_rad";
   for (const std::string& column : {time, std::string("x_m"), std::string("y_m"), heading}) {
     if (table.has(column)) continue;
-    throw std::invalid_argument(path.string() + ":1: columns = " + hlc::one_line(table.names()) +
-                                ", allowed speed_mps and steering_rad, or t_ns or t_s, x_m, y_m "
-                                "and yaw_rad or heading_rad");
+    throw std::invalid_argument(
+        fmt::format("{}:1: columns = {}, allowed speed_mps and steering_rad, or t_ns or t_s, x_m, "
+                    "y_m and yaw_rad or heading_rad",
+                    path.string(), hlc::one_line(table.columns())));
   }
   std::vector<hlc::DrivePoint> points;
-  while (table.next_row()) {
-    const double time_s = table.number(time) * (time == "t_ns" ? 1e-9 : 1.0);
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const double time_s = table.number(row, time) * (time == "t_ns" ? 1e-9 : 1.0);
     if (!points.empty() && time_s <= points.back().time_s) {
-      throw std::invalid_argument(path.string() + ": " + time + " = " +
-                                  std::to_string(table.number(time)) + ", allowed only increasing");
+      table.refuse(row, time, "only increasing");
     }
-    points.push_back({time_s, {table.number("x_m"), table.number("y_m"), table.number(heading)}});
+    points.push_back(
+        {time_s, {table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, heading)}});
   }
   return hlc::drive_samples(points, kWindow_s, vehicle);
 }
@@ -120,8 +93,8 @@ struct Car {
 };
 
 Car read_car(const std::filesystem::path& configuration) {
-  const hlc::YamlNode file = hlc::YamlNode::read_file(configuration);
-  const hlc::YamlNode vehicle = file.map("vehicle");
+  const hlc::Node file = hlc::Node::read_yaml(configuration);
+  const hlc::Node vehicle = file.map("vehicle");
   Car car;
   car.name = configuration.filename().string();
   car.vehicle = hlc::read_vehicle(vehicle);
@@ -238,7 +211,13 @@ int main(int argc, char** argv) {
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("choose_trims", [&] {
     const Car car = configuration.empty() ? Car{} : read_car(configuration);
-    const std::vector<hlc::DriveSample> samples = read_drive(drive, car.vehicle);
+    const std::vector<hlc::DriveSample> samples = [&] {
+      try {
+        return read_drive(drive, car.vehicle);
+      } catch (const std::runtime_error& error) {
+        throw std::invalid_argument(error.what());  // the drive is the user's
+      }
+    }();
     try {
       const std::vector<hlc::ChosenTrim> trims =
           hlc::choose_trims(samples, count, car.vehicle, car.limits);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -25,18 +27,6 @@
 /// unknown flags refused, one line and exit code 2 for bad ones.
 namespace hlc {
 
-/// What a flag's text may be that its type does not take, as ", allowed ..."; empty if unknown.
-inline std::string allowed_by_type(const CLI::App& app, const std::string& message) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (message.find(": " + option->get_name() + " = ") == std::string::npos) continue;
-    const std::string type = option->get_type_name();
-    if (type.starts_with("BOOLEAN")) return ", allowed true or false";
-    if (type.starts_with("INT") || type.starts_with("UINT")) return ", allowed a whole number";
-    if (type.starts_with("FLOAT")) return ", allowed a number";
-  }
-  return {};
-}
-
 /// One line about what is wrong, whatever the names of files and keys in it hold.
 inline void complain(const std::string& program, const std::string& message) {
   std::cerr << program << ": " << escaped(message) << '\n';
@@ -53,9 +43,85 @@ inline void flush_standard_output() {
                            (reason == 0 ? "" : ": " + std::generic_category().message(reason)));
 }
 
+/// A validator by what is good and what is allowed then.
+/// @param shown  in the help, beside the flag's type; empty: nothing
+template <class IsGood>
+[[nodiscard]] CLI::Validator allowing(IsGood is_good, const std::string& allowed,
+                                      const std::string& shown) {
+  return CLI::Validator(
+      [is_good, allowed](std::string& text) {
+        return is_good(text) ? std::string{} : one_line(text) + ", allowed " + allowed;
+      },
+      shown);
+}
+
+/// For flags of that type, whatever value of it: CLI11 would not say what is allowed.
+template <class Type>
+[[nodiscard]] CLI::Validator of_type(const std::string& allowed) {
+  const auto is_good = [](const std::string& text) {
+    Type value{};
+    return CLI::detail::lexical_cast(text, value);
+  };
+  return allowing(is_good, allowed, "");
+}
+
+/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range lets
+/// pass.
+inline CLI::Validator within(double min, double max) {
+  const std::string allowed = std::isfinite(min) && std::isfinite(max)
+                                  ? shortest_text(min) + " ... " + shortest_text(max)
+                                  : "a finite number";
+  const auto is_good = [min, max](const std::string& text) {
+    double value{};
+    return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= min &&
+           value <= max;
+  };
+  return allowing(is_good, allowed, allowed);
+}
+
+/// For flags with whole numbers: digits alone. CLI11 takes "-5" for a large unsigned number, and
+/// one that is too large for the largest.
+inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
+  const std::string allowed = fmt::format("{} ... {}", min, max);
+  const auto is_good = [min, max](const std::string& text) {
+    std::uint64_t value{};
+    const char* const end = text.data() + text.size();
+    const auto [read_until, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && read_until == end && value >= min && value <= max;
+  };
+  return allowing(is_good, allowed, allowed);
+}
+
+/// The same for every finite number.
+inline CLI::Validator finite() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return within(-kInfinity, kInfinity);
+}
+
+/// For flags with names.
+inline CLI::Validator among(const std::vector<std::string>& names) {
+  const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
+  const auto is_good = [names](const std::string& text) {
+    return std::ranges::find(names, text) != names.end();
+  };
+  return allowing(is_good, allowed, allowed);
+}
+
+/// Checks of the type alone, after those that a flag has of its own.
+inline void check_types(CLI::App& app) {
+  for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("BOOLEAN")) option->check(of_type<bool>("true or false"));
+    if (type.starts_with("INT")) option->check(of_type<int>("a whole number"));
+    if (type.starts_with("UINT")) option->check(of_type<std::uint64_t>("a whole number"));
+    if (type.starts_with("FLOAT")) option->check(of_type<double>("a number"));
+  }
+}
+
 /// Nothing if the flags are good; else the exit code: 0 after the help, 2 after one line about the
 /// bad flag, `failed`, as exit_code_of has it, after one line about a help that is not out.
 inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int failed = 1) {
+  check_types(app);
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -70,9 +136,6 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
     }
   } catch (const CLI::ExtrasError& error) {
     complain(app.get_name(), std::string(error.what()) + ", allowed what --help lists");
-    return 2;
-  } catch (const CLI::ConversionError& error) {
-    complain(app.get_name(), error.what() + allowed_by_type(app, error.what()));
     return 2;
   } catch (const CLI::ArgumentMismatch& error) {
     complain(app.get_name(), std::string(error.what()) + ", allowed with a value");
@@ -106,61 +169,12 @@ int exit_code_of(const char* program, Work work, int failed = 1) {
   }
 }
 
-/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range lets
-/// pass.
-inline CLI::Validator within(double min, double max) {
-  const std::string allowed = std::isfinite(min) && std::isfinite(max)
-                                  ? shortest_text(min) + " ... " + shortest_text(max)
-                                  : "a finite number";
-  return CLI::Validator(
-      [min, max, allowed](std::string& text) {
-        double value{};
-        const bool is_number = CLI::detail::lexical_cast(text, value);
-        if (is_number && std::isfinite(value) && value >= min && value <= max) return std::string{};
-        return one_line(text) + ", allowed " + allowed;
-      },
-      allowed);
-}
-
-/// For flags with whole numbers: digits alone. CLI11 takes "-5" for a large unsigned number, and
-/// one that is too large for the largest.
-inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
-  const std::string allowed = std::to_string(min) + " ... " + std::to_string(max);
-  return CLI::Validator(
-      [min, max, allowed](std::string& text) {
-        std::uint64_t value{};
-        const char* const end = text.data() + text.size();
-        const auto [read_until, error] = std::from_chars(text.data(), end, value);
-        const bool is_good = error == std::errc{} && read_until == end;
-        if (is_good && value >= min && value <= max) return std::string{};
-        return one_line(text) + ", allowed " + allowed;
-      },
-      allowed);
-}
-
-/// The same for every finite number.
-inline CLI::Validator finite() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return within(-kInfinity, kInfinity);
-}
-
-/// For flags with names.
-inline CLI::Validator among(const std::vector<std::string>& names) {
-  std::string allowed;
-  for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
-  return CLI::Validator(
-      [names, allowed](std::string& text) {
-        if (std::ranges::find(names, text) != names.end()) return std::string{};
-        return one_line(text) + ", allowed " + allowed;
-      },
-      allowed);
-}
-
-/// @throws std::invalid_argument for a value that is there twice
-inline void check_each_once(const std::string& flag, const std::vector<std::string>& values) {
+/// @throws std::invalid_argument naming the flag for a value that is there twice
+template <class Value>
+void check_each_once(const std::string& flag, const std::vector<Value>& values) {
   for (auto value = values.begin(); value != values.end(); ++value) {
     if (std::find(values.begin(), value, *value) == value) continue;
-    throw std::invalid_argument(flag + " = " + *value + " twice, allowed each once");
+    throw std::invalid_argument(fmt::format("{} = {} twice, allowed each once", flag, *value));
   }
 }
 

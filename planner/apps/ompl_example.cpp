@@ -27,7 +27,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/geometry/median.hpp"
 #include "planner/scenario/problem_file.hpp"
@@ -308,7 +308,7 @@ int run(const Flags& flags) {
   if (flags.log.file) {
     std::ostringstream log;
     benchmark.saveResultsToStream(log);
-    hlc::write_atomically(log.str(), *flags.log.file);
+    hlc::write_file(*flags.log.file, log.str());
   }
   return 0;
 }

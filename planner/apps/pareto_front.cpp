@@ -15,7 +15,7 @@
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/pareto_table.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
@@ -182,9 +182,9 @@ void run(const Flags& flags) {
   const hlc::ParetoDescription description{problem.maneuver.from, problem.maneuver.to,
                                            problem.maneuver.duration_s, flags.criteria,
                                            problem.maneuver.free_duration};
-  hlc::write_atomically(hlc::pareto_table(front, description), *flags.table.file);
+  hlc::write_file(*flags.table.file, hlc::pareto_table(front, description));
   if (const auto& plot = flags.plot.file) {
-    hlc::write_atomically(hlc::pareto_plot(front, weighted_sums, description), *plot);
+    hlc::write_file(*plot, hlc::pareto_plot(front, weighted_sums, description));
   }
   print_summary(flags, front, weighted_sums);
 }

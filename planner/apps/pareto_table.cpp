@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/common/yaml_text.hpp"
+#include "planner/common/csv.hpp"
 
 namespace hlc {
 namespace {
@@ -16,23 +16,24 @@ double highest_speed_mps(const ManeuverSolution& solution) {
 }  // namespace
 
 std::string pareto_table(const ParetoFront& front, const ParetoDescription& description) {
-  std::string out;
-  for (const std::string& criterion : description.criteria) out += criterion + ",";
-  out += "dx,dy,dpsi,status,";
-  if (description.free_duration) out += "duration,";
-  out += "v_max,dominated,knee,first_order_residual\n";
+  CsvLine heading;
+  for (const std::string& criterion : description.criteria) heading.add(criterion);
+  heading.add("dx", "dy", "dpsi", "status");
+  if (description.free_duration) heading.add("duration");
+  heading.add("v_max", "dominated", "knee", "first_order_residual");
+  std::string out = heading.text();
   const std::size_t knee = front.points.empty() ? 0 : knee_point(front.objectives());
   for (std::size_t i = 0; i < front.points.size(); ++i) {
     const ParetoPoint& point = front.points[i];
     const Pose end = point.solution.states.back().pose;
-    for (const double value : point.objectives) out += shortest_text(value) + ",";
-    out += shortest_text(end.x_m) + "," + shortest_text(end.y_m) + "," +
-           shortest_text(end.heading_rad) + ",";
-    out += point.solution.status == ManeuverStatus::kOptimal ? "optimal," : "not_converged,";
-    if (description.free_duration) out += shortest_text(point.solution.duration_s) + ",";
-    out += shortest_text(highest_speed_mps(point.solution)) + "," +
-           (point.is_dominated ? "1," : "0,") + (i == knee ? "1," : "0,") +
-           shortest_text(point.solution.first_order_residual) + "\n";
+    CsvLine line;
+    for (const double value : point.objectives) line.add(value);
+    line.add(end.x_m, end.y_m, end.heading_rad,
+             point.solution.status == ManeuverStatus::kOptimal ? "optimal" : "not_converged");
+    if (description.free_duration) line.add(point.solution.duration_s);
+    line.add(highest_speed_mps(point.solution), point.is_dominated, i == knee,
+             point.solution.first_order_residual);
+    out += line.text();
   }
   return out;
 }

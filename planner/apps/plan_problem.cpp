@@ -1,5 +1,7 @@
 // Solves one planning problem from a file alone: what a controller decided in one step, or a
 // problem written by hand.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -11,7 +13,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/plot/problem_plot.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/problem_file.hpp"
@@ -123,11 +125,7 @@ Json to_json(const Solved& solved) {
   return json;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+std::string number(double value) { return fmt::format("{:.9g}", value); }
 
 void print(const hlc::ProblemFile& file, const Solved& solved) {
   const hlc::SearchResult& result = solved.result;
@@ -177,7 +175,7 @@ int run(const Flags& flags) {
     print(file, solved);
   }
   if (flags.plot.file) {
-    hlc::write_atomically(hlc::problem_plot(file, solved.result), *flags.plot.file);
+    hlc::write_file(*flags.plot.file, hlc::problem_plot(file, solved.result));
   }
   return solved.result.status == hlc::SearchStatus::kFallback ? kExitFallback : 0;
 }

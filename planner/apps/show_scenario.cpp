@@ -6,7 +6,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/plot/scenario_plot.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
     const hlc::Scenario scenario = hlc::read_scenario(choices);
     hlc::check_output_files({plot}, hlc::files_of(scenario));
     if (plot.file) {
-      hlc::write_atomically(hlc::scenario_plot(scenario, hlc::map_of(scenario)), *plot.file);
+      hlc::write_file(*plot.file, hlc::scenario_plot(scenario, hlc::map_of(scenario)));
     }
     if (starts) {
       print_starts(scenario);

@@ -1,5 +1,7 @@
 #include "planner/automaton/automaton_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,9 +13,9 @@
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/sha256.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
@@ -38,10 +40,8 @@ std::string row(const Point& p) { return row({p.x(), p.y()}); }
 /// A literal block: one row per line.
 template <class Rows>
 void append_table(std::string& text, const char* key, const Rows& rows) {
-  text += "    ";
-  text += key;
-  text += ": |\n";
-  for (const auto& one : rows) text += "      " + row(one) + "\n";
+  text += fmt::format("    {}: |\n", key);
+  for (const auto& one : rows) text += fmt::format("      {}\n", row(one));
 }
 
 std::string map_of(const std::vector<CriterionValue>& values) {
@@ -53,13 +53,11 @@ std::string map_of(const std::vector<CriterionValue>& values) {
 }
 
 void append_maneuver(std::string& text, const Maneuver& m) {
-  text += "  - from: " + std::to_string(m.from.index + 1) + "\n";
-  text += "    to: " + std::to_string(m.to.index + 1) + "\n";
-  text += "    label: " + quoted_yaml(m.label) + "\n";
-  text += "    displacement: [" + shortest_text(m.displacement.x_m) + ", " +
-          shortest_text(m.displacement.y_m) + ", " + shortest_text(m.displacement.heading_rad) +
-          "]\n";
-  text += "    criteria: " + map_of(m.criteria) + "\n";
+  text += fmt::format("  - from: {}\n    to: {}\n    label: {}\n", m.from.index + 1, m.to.index + 1,
+                      quoted_yaml(m.label));
+  text += fmt::format("    displacement: [{}, {}, {}]\n    criteria: {}\n",
+                      shortest_text(m.displacement.x_m), shortest_text(m.displacement.y_m),
+                      shortest_text(m.displacement.heading_rad), map_of(m.criteria));
   append_table(text, "inputs", m.inputs);
   append_table(text, "states", m.states);
   append_table(text, "swept_area_m", m.swept_area_m.vertices_m);
@@ -69,27 +67,27 @@ void append_maneuver(std::string& text, const Maneuver& m) {
 /// Everything but the line with the hash, which comes second.
 std::string text_without_hash(const AutomatonFile& file) {
   const UniversalAutomaton& automaton = *file.automaton;
-  std::string text = "automaton_schema: " + std::to_string(kAutomatonSchema) + "\n";
+  std::string text = fmt::format("automaton_schema: {}\n", kAutomatonSchema);
   text +=
       "# Built by build_automaton. Not to be edited: change the configuration and build again.\n";
   text +=
       "# Rows of inputs: u_v [m/s^2], u_delta [rad/s]; of states: x, y [m], psi [rad], v [m/s],\n";
   text += "# delta [rad]; of areas: x, y [m]. In the frame of the start pose.\n";
-  text += "configuration: {file: " + quoted_yaml(file.configuration_file) +
-          ", sha256: " + file.configuration_sha256 +
-          (file.chosen_intervals ? ", intervals: " + std::to_string(*file.chosen_intervals) : "") +
-          ", horizon_steps: " + std::to_string(file.horizon_steps) + "}\n";
-  text += "vehicle: " + to_yaml(automaton.vehicle, automaton.identified) + "\n";
-  text += "limits: " + to_yaml(automaton.limits) + "\n";
-  text += "step_s: " + shortest_text(automaton.step_s) + "\n";
-  text += "labels:";
-  for (const std::string& label : file.labels) text += "\n  - " + quoted_yaml(label);
+  text += fmt::format(
+      "configuration: {{file: {}, sha256: {}{}, horizon_steps: {}}}\n",
+      quoted_yaml(file.configuration_file), file.configuration_sha256,
+      file.chosen_intervals ? fmt::format(", intervals: {}", *file.chosen_intervals) : "",
+      file.horizon_steps);
+  text += fmt::format("vehicle: {}\nlimits: {}\nstep_s: {}\nlabels:",
+                      to_yaml(automaton.vehicle, automaton.identified), to_yaml(automaton.limits),
+                      shortest_text(automaton.step_s));
+  for (const std::string& label : file.labels) text += fmt::format("\n  - {}", quoted_yaml(label));
   text += "\ntrims:\n";
   for (std::size_t i = 0; i < automaton.trims.size(); ++i) {
     const Trim& trim = automaton.trims[i];
-    text += "  - {speed_mps: " + shortest_text(trim.speed_mps) +
-            ", steering_rad: " + shortest_text(trim.steering_rad) +
-            ", unit_costs: " + map_of(automaton.unit_costs[i]) + "}\n";
+    text += fmt::format("  - {{speed_mps: {}, steering_rad: {}, unit_costs: {}}}\n",
+                        shortest_text(trim.speed_mps), shortest_text(trim.steering_rad),
+                        map_of(automaton.unit_costs[i]));
   }
   text += "subgraphs:\n";
   for (const SubgraphSpec& subgraph : file.subgraphs) text += "  - " + to_yaml(subgraph) + "\n";
@@ -99,17 +97,6 @@ std::string text_without_hash(const AutomatonFile& file) {
 }
 
 // --- reading ------------------------------------------------------------------------------------
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream stream;
-  if (std::filesystem::is_regular_file(path, error)) stream.open(path, std::ios::binary);
-  std::stringstream text;
-  if (!stream.is_open() || !(text << stream.rdbuf())) {
-    throw std::invalid_argument(path.string() + ": cannot be read, allowed an automaton file");
-  }
-  return text.str();
-}
 
 /// The hash of the text without its second line.
 std::string hash_of_rest(const std::string& text) {
@@ -122,7 +109,7 @@ std::string hash_of_rest(const std::string& text) {
 }
 
 /// Rows of `columns` finite numbers.
-std::vector<std::vector<double>> read_table(const YamlNode& entry, const std::string& key,
+std::vector<std::vector<double>> read_table(const Node& entry, const std::string& key,
                                             std::size_t columns) {
   const auto text = entry.required<std::string>(key);
   std::vector<std::vector<double>> rows;
@@ -143,27 +130,27 @@ std::vector<std::vector<double>> read_table(const YamlNode& entry, const std::st
     }
     if (at != end) ++at;
     if (numbers.size() != columns) {
-      entry.fail(key, "a table of " + std::to_string(columns) + " columns");
+      entry.fail(key, fmt::format("a table of {} columns", columns));
     }
     rows.push_back(std::move(numbers));
   }
   return rows;
 }
 
-ConvexPolygon read_area(const YamlNode& entry, const std::string& key) {
+ConvexPolygon read_area(const Node& entry, const std::string& key) {
   ConvexPolygon area;
   for (const auto& r : read_table(entry, key, 2)) area.vertices_m.emplace_back(r[0], r[1]);
   return area;
 }
 
-std::vector<CriterionValue> read_values(const YamlNode& entry, const std::string& key) {
-  const YamlNode map = entry.map(key);
+std::vector<CriterionValue> read_values(const Node& entry, const std::string& key) {
+  const Node map = entry.map(key);
   std::vector<CriterionValue> values;
   for (const std::string& name : map.keys()) values.push_back({name, map.required<double>(name)});
   return values;
 }
 
-Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automaton,
+Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
                        const std::vector<std::string>& labels) {
   const Allowed trims = between(1.0, static_cast<double>(automaton.trims.size()));
   Maneuver m;
@@ -172,10 +159,8 @@ Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automato
   m.label = entry.required<std::string>("label",
                                         m.from == m.to ? one_of({kOwnStepLabel}) : one_of(labels));
   m.duration_s = automaton.step_s;
-  std::vector<double> end;
-  for (const YamlNode& number : entry.list("displacement")) end.push_back(number.as<double>());
-  if (end.size() != 3) entry.fail("displacement", "x, y and heading");
-  m.displacement = {end[0], end[1], end[2]};
+  const auto end = entry.list("displacement", 3, "x, y and heading");
+  m.displacement = {end[0].as<double>(), end[1].as<double>(), end[2].as<double>()};
   m.criteria = read_values(entry, "criteria");
   for (const auto& r : read_table(entry, "inputs", 2)) m.inputs.push_back({r[0], r[1]});
   for (const auto& r : read_table(entry, "states", 5)) {
@@ -186,26 +171,25 @@ Maneuver read_maneuver(const YamlNode& entry, const UniversalAutomaton& automato
   entry.check_no_unknown_keys();
   const std::string fault = fault_of(m, automaton);
   if (!fault.empty()) {
-    entry.fail("label",
-               "a maneuver that its vehicle can drive: " + std::to_string(m.from.index + 1) +
-                   " -> " + std::to_string(m.to.index + 1) + ": " + fault);
+    entry.fail("label", fmt::format("a maneuver that its vehicle can drive: {} -> {}: {}",
+                                    m.from.index + 1, m.to.index + 1, fault));
   }
   return m;
 }
 
-void read_trims(const YamlNode& node, UniversalAutomaton& automaton) {
-  for (const YamlNode& entry : node.list("trims")) {
+void read_trims(const Node& node, UniversalAutomaton& automaton) {
+  for (const Node& entry : node.list("trims")) {
     automaton.trims.push_back(read_trim(entry, automaton.vehicle, automaton.limits));
     automaton.unit_costs.push_back(read_values(entry, "unit_costs"));
     entry.check_no_unknown_keys();
   }
 }
 
-void check_subgraphs(const YamlNode& node, const AutomatonFile& file) {
+void check_subgraphs(const Node& node, const AutomatonFile& file) {
   for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
     if (file.automaton->find({i}, {i}, kOwnStepLabel) == nullptr) {
-      node.fail("maneuvers", "the own step of every trim; that of trim " + std::to_string(i + 1) +
-                                 " is missing");
+      node.fail("maneuvers",
+                fmt::format("the own step of every trim; that of trim {} is missing", i + 1));
     }
   }
   for (const SubgraphSpec& spec : file.subgraphs) {
@@ -230,18 +214,19 @@ std::string shell_word(const std::filesystem::path& path) {
 }
 
 /// Before anything else is read: another version may have other keys.
-void check_version(const YamlNode& node, const std::filesystem::path& path) {
+void check_version(const Node& node, const std::filesystem::path& path) {
   if (!node.has("automaton_schema")) {
     throw std::invalid_argument(path.string() +
                                 ":1: no built automaton, allowed a file of build_automaton");
   }
   if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
-  node.fail("automaton_schema", std::to_string(kAutomatonSchema) +
-                                    "; build the file anew from its configuration: " +
-                                    "build_automaton CONFIG.yaml --out " + shell_word(path));
+  node.fail("automaton_schema",
+            fmt::format("{}; build the file anew from its configuration: build_automaton "
+                        "CONFIG.yaml --out {}",
+                        kAutomatonSchema, shell_word(path)));
 }
 
-void check_hash(const YamlNode& node, const std::string& text, const std::string& command) {
+void check_hash(const Node& node, const std::string& text, const std::string& command) {
   if (node.required<std::string>("sha256") == hash_of_rest(text)) return;
   node.fail(
       "sha256",
@@ -257,7 +242,7 @@ std::string to_text(const AutomatonFile& file) {
 }
 
 void write_automaton_file(const AutomatonFile& file, const std::filesystem::path& path) {
-  write_atomically(to_text(file), path);
+  write_file(path, to_text(file));
 }
 
 bool is_automaton_file(const std::filesystem::path& path) {
@@ -270,11 +255,11 @@ bool is_automaton_file(const std::filesystem::path& path) {
 }
 
 AutomatonFile read_automaton_file(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
-  const YamlNode node = YamlNode::parse(text, path.string());
+  const std::string text = read_regular_file(path, "an automaton file");
+  const Node node = Node::parse_yaml(text, path.string());
   check_version(node, path);
   AutomatonFile file;
-  const YamlNode configuration = node.map("configuration");
+  const Node configuration = node.map("configuration");
   file.configuration_file = configuration.required<std::string>("file");
   file.configuration_sha256 = configuration.required<std::string>("sha256");
   if (configuration.has("intervals")) {
@@ -285,17 +270,17 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
   check_hash(node, text, rebuild_command(file, path, path.parent_path() / file.configuration_file));
 
   auto automaton = std::make_shared<UniversalAutomaton>();
-  const YamlNode vehicle = node.map("vehicle");
+  const Node vehicle = node.map("vehicle");
   automaton->vehicle = read_vehicle(vehicle);
   automaton->limits = read_limits(node.map("limits"));
   automaton->identified = read_identified(vehicle, automaton->vehicle, automaton->limits);
   vehicle.check_no_unknown_keys();
   automaton->step_s = node.required<double>("step_s", above(0.0));
-  for (const YamlNode& label : node.list("labels")) {
+  for (const Node& label : node.list("labels")) {
     file.labels.push_back(label.as<std::string>());
   }
   read_trims(node, *automaton);
-  for (const YamlNode& entry : node.list("maneuvers")) {
+  for (const Node& entry : node.list("maneuvers")) {
     automaton->maneuvers.push_back(read_maneuver(entry, *automaton, file.labels));
   }
   file.subgraphs = read_subgraphs(node, {automaton->trims, automaton->vehicle, automaton->limits,
@@ -308,8 +293,9 @@ AutomatonFile read_automaton_file(const std::filesystem::path& path) {
 
 std::string rebuild_command(const AutomatonFile& file, const std::filesystem::path& path,
                             const std::filesystem::path& configuration_path) {
-  return "build_automaton " + shell_word(configuration_path) + " --out " + shell_word(path) +
-         (file.chosen_intervals ? " --intervals " + std::to_string(*file.chosen_intervals) : "");
+  return fmt::format(
+      "build_automaton {} --out {}{}", shell_word(configuration_path), shell_word(path),
+      file.chosen_intervals ? fmt::format(" --intervals {}", *file.chosen_intervals) : "");
 }
 
 }  // namespace hlc

@@ -86,6 +86,43 @@ const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
   return nullptr;
 }
 
+/// Which maneuvers may be exit edges, from what is preferred to what is taken at last.
+struct ExitChoice {
+  bool under_speed_limit;  ///< only of a subgraph with a limit: not faster than both their trims
+  bool any_label;
+};
+constexpr ExitChoice kExitChoices[] = {{true, false}, {true, true}, {false, false}, {false, true}};
+
+bool speeds_up(const Maneuver& maneuver, const std::vector<Trim>& trims) {
+  const double faster_mps =
+      std::max(trims[maneuver.from.index].speed_mps, trims[maneuver.to.index].speed_mps);
+  return top_speed_mps(maneuver) > faster_mps + kRounding_mps;
+}
+
+bool allows(const ExitChoice& choice, const Maneuver& maneuver, const SubgraphSpec& spec,
+            const std::vector<Trim>& trims) {
+  const TrimPair pair{maneuver.from, maneuver.to};
+  if (!choice.any_label && !holds(declared_labels(spec, pair), maneuver.label)) return false;
+  if (is_off(spec, pair, maneuver.label)) return false;
+  return !choice.under_speed_limit || !speeds_up(maneuver, trims);
+}
+
+/// An equilibrium that is off can be held, too.
+void add_standing_if_off(bool is_on, const Trim& trim, TrimId id,
+                         const std::vector<const Maneuver*>& maneuvers, std::vector<Edge>& edges) {
+  if (is_on || !trim.is_equilibrium()) return;
+  if (const Maneuver* standing = find(maneuvers, id, kOwnStepLabel)) {
+    edges.push_back({id, standing});
+  }
+}
+
+/// @return true if there are any
+bool sort_by_target(std::vector<Edge>& edges) {
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const Edge& a, const Edge& b) { return a.to < b.to; });
+  return !edges.empty();
+}
+
 }  // namespace
 
 std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
@@ -123,7 +160,8 @@ std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edg
 Subgraph::Subgraph(std::shared_ptr<const UniversalAutomaton> automaton, SubgraphSpec spec)
     : automaton_(std::move(automaton)), spec_(std::move(spec)) {
   check_spec();
-  switch_on();
+  switch_trims_on();
+  switch_edges_on();
   measure_distances();
   add_exits();
   list_permitted();
@@ -133,25 +171,28 @@ void Subgraph::fail(const std::string& reason) const {
   throw std::invalid_argument("subgraph '" + spec_.name + "': " + reason);
 }
 
+void Subgraph::check_trim(TrimId trim) const {
+  const std::size_t count = automaton_->trims.size();
+  if (trim.index < count) return;
+  fail("trim " + printed(trim) + ", allowed 1 ... " + std::to_string(count));
+}
+
+void Subgraph::check_labels(const std::vector<std::string>& labels) const {
+  if (labels.empty()) fail("no label");
+  for (const std::string& label : labels) {
+    if (holds_twice(labels, label)) fail("label '" + label + "' is listed twice");
+  }
+}
+
 void Subgraph::check_spec() const {
-  const std::vector<Trim>& trims = automaton_->trims;
-  const auto check_trim = [&](TrimId trim) {
-    if (trim.index >= trims.size()) {
-      fail("trim " + printed(trim) + ", allowed 1 ... " + std::to_string(trims.size()));
-    }
-  };
-  const auto check_labels = [&](const std::vector<std::string>& labels) {
-    if (labels.empty()) fail("no label");
-    for (const std::string& label : labels) {
-      if (holds_twice(labels, label)) fail("label '" + label + "' is listed twice");
-    }
+  const auto stands = [this](TrimId trim) {
+    return automaton_->trims[trim.index].is_equilibrium();
   };
   for (const TrimId trim : spec_.trims) {
     check_trim(trim);
     if (holds_twice(spec_.trims, trim)) fail("trim " + printed(trim) + " is listed twice");
   }
-  if (std::none_of(spec_.trims.begin(), spec_.trims.end(),
-                   [&](TrimId trim) { return trims[trim.index].is_equilibrium(); })) {
+  if (std::none_of(spec_.trims.begin(), spec_.trims.end(), stands)) {
     fail("no trim of speed 0 among its trims");
   }
   check_labels(spec_.labels);
@@ -159,23 +200,24 @@ void Subgraph::check_spec() const {
     check_trim(one.edge.from);
     check_trim(one.edge.to);
     check_labels(one.labels);
-    if (one.edge.from == one.edge.to) fail("labels for a trim's own step " + printed(one.edge));
+    if (one.edge.from == one.edge.to) fail("labels for a self-loop, " + printed(one.edge));
   }
   for (const EdgesOff& off : spec_.off) {
     check_trim(off.edge.from);
     check_trim(off.edge.to);
-    if (off.edge.from == off.edge.to && trims[off.edge.from.index].is_equilibrium()) {
+    if (off.edge.from == off.edge.to && stands(off.edge.from)) {
       fail("edge " + printed(off.edge) + " is off, but standing must be possible");
     }
   }
 }
 
-/// Fills trims_, is_on_, standstill_, and successors_ of the trims that are on.
-void Subgraph::switch_on() {
+bool Subgraph::is_too_fast(double speed_mps) const {
+  return spec_.max_speed_mps && speed_mps > *spec_.max_speed_mps + kRounding_mps;
+}
+
+/// Fills trims_, is_on_ and standstill_.
+void Subgraph::switch_trims_on() {
   const std::vector<Trim>& trims = automaton_->trims;
-  const auto is_too_fast = [this](double speed_mps) {
-    return spec_.max_speed_mps && speed_mps > *spec_.max_speed_mps + kRounding_mps;
-  };
   is_on_.assign(trims.size(), false);
   for (const TrimId trim : spec_.trims) {
     if (is_too_fast(trims[trim.index].speed_mps)) continue;
@@ -184,16 +226,20 @@ void Subgraph::switch_on() {
   }
   standstill_ = *std::find_if(trims_.begin(), trims_.end(),
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
+}
 
-  const std::vector<TrimPair> pairs = rule_edges(
-      spec_.rule, trims, spec_.trims, automaton_->vehicle, automaton_->limits, automaton_->step_s);
+/// Fills successors_ of the trims that are on.
+void Subgraph::switch_edges_on() {
+  const std::vector<TrimPair> pairs =
+      rule_edges(spec_.rule, automaton_->trims, spec_.trims, automaton_->vehicle,
+                 automaton_->limits, automaton_->step_s);
   for (const EdgeLabels& one : spec_.edges) {
     if (!std::binary_search(pairs.begin(), pairs.end(), one.edge)) {
       fail("labels for edge " + printed(one.edge) + ", which its rule does not give");
     }
   }
   const ManeuversFrom held = maneuvers_from(*automaton_);
-  successors_.resize(trims.size());
+  successors_.resize(automaton_->trims.size());
   for (const TrimPair& pair : pairs) {
     if (!is_on(pair.from) || !is_on(pair.to)) continue;
     for (const std::string& label : labels_of(spec_, pair)) {
@@ -207,6 +253,18 @@ void Subgraph::switch_on() {
   }
 }
 
+/// The distance by way of the nearest successor, if that is less than the distance of the trim.
+/// @return true if it is
+bool Subgraph::shorten_distance(TrimId trim) {
+  std::size_t& distance = distance_to_standstill_[trim.index];
+  const std::size_t before = distance;
+  for (const Edge& edge : successors_[trim.index]) {
+    const std::size_t via = distance_to_standstill_[edge.to.index];
+    if (via != kNever) distance = std::min(distance, via + 1);
+  }
+  return distance < before;
+}
+
 void Subgraph::measure_distances() {
   const std::vector<Trim>& trims = automaton_->trims;
   distance_to_standstill_.assign(trims.size(), kNever);
@@ -215,14 +273,7 @@ void Subgraph::measure_distances() {
   }
   for (bool is_shorter = true; is_shorter;) {
     is_shorter = false;
-    for (const TrimId trim : trims_) {
-      for (const Edge& edge : successors_[trim.index]) {
-        const std::size_t via = distance_to_standstill_[edge.to.index];
-        if (via == kNever || via + 1 >= distance_to_standstill_[trim.index]) continue;
-        distance_to_standstill_[trim.index] = via + 1;
-        is_shorter = true;
-      }
-    }
+    for (const TrimId trim : trims_) is_shorter |= shorten_distance(trim);
   }
   for (const TrimId trim : trims_) {
     if (distance_to_standstill_[trim.index] == kNever) {
@@ -231,18 +282,28 @@ void Subgraph::measure_distances() {
   }
 }
 
+/// Of the maneuvers out of a trim those into a trim that is nearer to the trims that are on, by the
+/// labels and speeds that rule 2 of Subgraph prefers; none if there is no way out.
+std::vector<Edge> Subgraph::exits_among(const std::vector<const Maneuver*>& maneuvers,
+                                        const std::vector<bool>& is_nearer) const {
+  std::vector<Edge> exits;
+  for (const ExitChoice& choice : kExitChoices) {
+    if (choice.under_speed_limit && !spec_.max_speed_mps) continue;
+    for (const Maneuver* maneuver : maneuvers) {
+      if (!is_nearer[maneuver->to.index]) continue;
+      if (allows(choice, *maneuver, spec_, automaton_->trims)) {
+        exits.push_back({maneuver->to, maneuver});
+      }
+    }
+    if (!exits.empty()) break;
+  }
+  return exits;
+}
+
 /// Fills successors_ and distances of the trims that are off, and starts_.
 void Subgraph::add_exits() {
   const std::vector<Trim>& trims = automaton_->trims;
   const ManeuversFrom held = maneuvers_from(*automaton_);
-  const auto is_held_open = [this](const Maneuver& maneuver) {
-    return !is_off(spec_, {maneuver.from, maneuver.to}, maneuver.label);
-  };
-  const auto speeds_up = [&trims](const Maneuver& maneuver) {
-    const double faster_mps =
-        std::max(trims[maneuver.from.index].speed_mps, trims[maneuver.to.index].speed_mps);
-    return top_speed_mps(maneuver) > faster_mps + kRounding_mps;
-  };
   // Trims by exit distance: the trims that are on are left at once, then ring after ring.
   std::vector<bool> is_nearer = is_on_;
   std::vector<TrimId> ring;
@@ -250,45 +311,18 @@ void Subgraph::add_exits() {
     ring.clear();
     for (std::size_t i = 0; i < trims.size(); ++i) {
       if (is_nearer[i]) continue;
-      std::vector<Edge>& exits = successors_[i];
-      const auto add_those = [&](bool any_label, bool may_speed_up) {
-        if (!exits.empty()) return;
-        for (const Maneuver* maneuver : held[i]) {
-          const TrimPair pair{maneuver->from, maneuver->to};
-          const bool is_labelled =
-              any_label || holds(declared_labels(spec_, pair), maneuver->label);
-          if (is_nearer[pair.to.index] && is_labelled && is_held_open(*maneuver) &&
-              (may_speed_up || !speeds_up(*maneuver))) {
-            exits.push_back({pair.to, maneuver});
-          }
-        }
-      };
-      if (spec_.max_speed_mps) {
-        add_those(false, false);
-        add_those(true, false);
-      }
-      add_those(false, true);
-      add_those(true, true);
-      if (!exits.empty()) ring.push_back({i});
+      successors_[i] = exits_among(held[i], is_nearer);
+      if (!successors_[i].empty()) ring.push_back({i});
     }
     for (const TrimId trim : ring) {
       is_nearer[trim.index] = true;
-      std::size_t& distance = distance_to_standstill_[trim.index];
-      for (const Edge& edge : successors_[trim.index]) {
-        distance = std::min(distance, distance_to_standstill_[edge.to.index] + 1);
-      }
+      shorten_distance(trim);
     }
   } while (!ring.empty());
 
   for (std::size_t i = 0; i < trims.size(); ++i) {
-    std::vector<Edge>& edges = successors_[i];
-    if (!is_on_[i] && trims[i].is_equilibrium()) {
-      if (const Maneuver* own = find(held[i], {i}, kOwnStepLabel)) edges.push_back({{i}, own});
-    }
-    if (edges.empty()) continue;
-    std::stable_sort(edges.begin(), edges.end(),
-                     [](const Edge& a, const Edge& b) { return a.to < b.to; });
-    starts_.push_back({i});
+    add_standing_if_off(is_on_[i], trims[i], {i}, held[i], successors_[i]);
+    if (sort_by_target(successors_[i])) starts_.push_back({i});
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace hlc {
 
-/// Which edges there are between the trims of a subgraph, beside each trim's own step.
+/// Which edges there are between the trims of a subgraph, beside each trim's self-loop.
 enum class EdgeRule {
   kChain,  ///< every equilibrium trim to and from every trim, and neighbours in their order
   /// All pairs that the bounds on acceleration and steering rate allow in one step. With a friction
@@ -51,7 +51,7 @@ struct SubgraphSpec {
   friend bool operator==(const SubgraphSpec&, const SubgraphSpec&) = default;
 };
 
-/// The pairs of a rule among the trims `on`, own steps included, sorted.
+/// The pairs of a rule among the trims `on`, self-loops included, sorted.
 /// @pre every element of `on` is an index into `trims`
 [[nodiscard]] std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
                                                const std::vector<TrimId>& on,
@@ -61,7 +61,7 @@ struct SubgraphSpec {
 /// The labels of the edges from one trim to another, without those that are off.
 [[nodiscard]] std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edge);
 
-/// One switched-on edge: a maneuver, or a trim's own step.
+/// One switched-on edge: a maneuver, or a trim's self-loop.
 struct Edge {
   TrimId to;
   const Maneuver* maneuver{};
@@ -87,7 +87,7 @@ struct Edge {
 ///    trims: who has to slow down does not speed up before. So a vehicle that is too fast for the
 ///    subgraph is slowed down over as many steps as it needs, and what is off is left on the
 ///    shortest way. The speed limit does not hold on it: it cannot.
-/// 3. An equilibrium trim can be held for ever, on or off: it keeps its own step. So standing is
+/// 3. An equilibrium trim can be held for ever, on or off: it keeps its self-loop. So standing is
 ///    always a plan.
 /// 4. A trim without any way out gives no new plan; the fallback is driven.
 ///
@@ -129,9 +129,16 @@ class Subgraph {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const;
+  void check_trim(TrimId trim) const;
+  void check_labels(const std::vector<std::string>& labels) const;
   void check_spec() const;
-  void switch_on();
+  [[nodiscard]] bool is_too_fast(double speed_mps) const;
+  void switch_trims_on();
+  void switch_edges_on();
+  bool shorten_distance(TrimId trim);
   void measure_distances();
+  [[nodiscard]] std::vector<Edge> exits_among(const std::vector<const Maneuver*>& maneuvers,
+                                              const std::vector<bool>& is_nearer) const;
   void add_exits();
   void list_permitted();
 

@@ -1,5 +1,7 @@
 #include "planner/automaton/subgraph_yaml.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -19,14 +21,14 @@ Allowed trim_numbers(const SubgraphContext& context) {
   return between(1.0, static_cast<double>(context.trims.size()));
 }
 
-std::vector<TrimId> read_trims(const YamlNode& entry, const SubgraphContext& context) {
+std::vector<TrimId> read_trims(const Node& entry, const SubgraphContext& context) {
   std::vector<TrimId> result;
   if (entry.is_value("trims")) {
     (void)entry.required<std::string>("trims", one_of({"all"}));
     for (std::size_t i = 0; i < context.trims.size(); ++i) result.push_back(TrimId{i});
     return result;
   }
-  for (const YamlNode& one : entry.list("trims")) {
+  for (const Node& one : entry.list("trims")) {
     const TrimId trim = as_trim(one.as<std::size_t>(trim_numbers(context)));
     if (contains(result, trim)) one.fail("each trim once");
     result.push_back(trim);
@@ -38,9 +40,9 @@ std::vector<TrimId> read_trims(const YamlNode& entry, const SubgraphContext& con
   return result;
 }
 
-std::vector<std::string> read_label_list(const YamlNode& entry, const SubgraphContext& context) {
+std::vector<std::string> read_label_list(const Node& entry, const SubgraphContext& context) {
   std::vector<std::string> labels;
-  for (const YamlNode& one : entry.list("labels")) {
+  for (const Node& one : entry.list("labels")) {
     labels.push_back(one.as<std::string>(one_of(context.labels)));
     if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("each label once");
   }
@@ -48,7 +50,7 @@ std::vector<std::string> read_label_list(const YamlNode& entry, const SubgraphCo
   return labels;
 }
 
-std::vector<std::string> read_labels(const YamlNode& entry, const SubgraphContext& context) {
+std::vector<std::string> read_labels(const Node& entry, const SubgraphContext& context) {
   if (!entry.has("labels")) {
     return {entry.required<std::string>("label", one_of(context.labels))};
   }
@@ -56,7 +58,7 @@ std::vector<std::string> read_labels(const YamlNode& entry, const SubgraphContex
   return read_label_list(entry, context);
 }
 
-TrimPair read_pair(const YamlNode& entry, const SubgraphContext& context) {
+TrimPair read_pair(const Node& entry, const SubgraphContext& context) {
   const auto from = entry.required<std::size_t>("from", trim_numbers(context));
   const auto to = entry.required<std::size_t>("to", trim_numbers(context));
   return {as_trim(from), as_trim(to)};
@@ -68,9 +70,9 @@ std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& 
                     context.step_s);
 }
 
-void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+void read_edge_labels(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
-  for (const YamlNode& one : entry.optional_list("edges")) {
+  for (const Node& one : entry.optional_list("edges")) {
     const TrimPair pair = read_pair(one, context);
     if (pair.from == pair.to || !contains(pairs, pair)) {
       one.fail("to", "a trim that the rule connects with `from`");
@@ -86,7 +88,7 @@ void read_edge_labels(const YamlNode& entry, const SubgraphContext& context, Sub
 
 /// Checks an entry of `off` between other trims. Edges out of trims that are on are those of the
 /// subgraph; any other edge of the automaton may lead out of a trim that is off (see Subgraph).
-void check_off(const YamlNode& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
+void check_off(const Node& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
                const SubgraphContext& context, const SubgraphSpec& spec) {
   const bool is_left_from =
       !contains(spec.trims, off.edge.from) ||
@@ -99,9 +101,9 @@ void check_off(const YamlNode& one, const EdgesOff& off, const std::vector<TrimP
   static_cast<void>(one.required<std::string>("label", one_of(labels)));
 }
 
-void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpec& spec) {
+void read_off(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
-  for (const YamlNode& one : entry.optional_list("off")) {
+  for (const Node& one : entry.optional_list("off")) {
     EdgesOff off{read_pair(one, context), std::nullopt};
     if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
     one.check_no_unknown_keys();
@@ -109,7 +111,7 @@ void read_off(const YamlNode& entry, const SubgraphContext& context, SubgraphSpe
       one.fail("to", "an edge other than standing, which must be possible");
     }
     if (off.edge.from == off.edge.to && off.label) {
-      one.fail("label", "none for a trim's own step, which is the same for all labels");
+      one.fail("label", "none for a self-loop, which is the same for all labels");
     }
     if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
     if (contains(spec.off, off)) one.fail("each edge once");
@@ -123,22 +125,21 @@ std::vector<std::size_t> steps_from(const std::vector<TrimId>& starts,
                                     std::size_t num_trims) {
   std::vector<std::size_t> steps(num_trims, Subgraph::kNever);
   for (const TrimId start : starts) steps[start.index] = 0;
+  const auto shortens = [&](const TrimPair& pair) {
+    const std::size_t near = steps[(against ? pair.to : pair.from).index];
+    std::size_t& far = steps[(against ? pair.from : pair.to).index];
+    if (near == Subgraph::kNever || near + 1 >= far) return false;
+    far = near + 1;
+    return true;
+  };
   for (bool is_shorter = true; is_shorter;) {
     is_shorter = false;
-    for (const TrimPair& pair : pairs) {
-      const TrimId near = against ? pair.to : pair.from;
-      const TrimId far = against ? pair.from : pair.to;
-      if (steps[near.index] == Subgraph::kNever) continue;
-      if (steps[near.index] + 1 >= steps[far.index]) continue;
-      steps[far.index] = steps[near.index] + 1;
-      is_shorter = true;
-    }
+    for (const TrimPair& pair : pairs) is_shorter |= shortens(pair);
   }
   return steps;
 }
 
-void check_connected(const YamlNode& entry, const SubgraphContext& context,
-                     const SubgraphSpec& spec) {
+void check_connected(const Node& entry, const SubgraphContext& context, const SubgraphSpec& spec) {
   const auto is_too_fast = [&](TrimId trim) {
     return spec.max_speed_mps && context.trims[trim.index].speed_mps > *spec.max_speed_mps;
   };
@@ -154,23 +155,23 @@ void check_connected(const YamlNode& entry, const SubgraphContext& context,
   const auto to_stand = steps_from(standing, pairs, true, context.trims.size());
   for (const TrimId trim : spec.trims) {
     if (is_too_fast(trim)) continue;
-    const std::string number = std::to_string(trim.index + 1);
     if (from_start[trim.index] == Subgraph::kNever) {
-      entry.fail("trims", "trims that hang together: no edges lead from trim " +
-                              std::to_string(standing.front().index + 1) + " to trim " + number);
+      entry.fail("trims",
+                 fmt::format("trims that hang together: no edges lead from trim {} to trim {}",
+                             standing.front().index + 1, trim.index + 1));
     }
     if (to_stand[trim.index] > context.horizon_steps) {
       const std::string needed = to_stand[trim.index] == Subgraph::kNever
                                      ? "never reaches it"
-                                     : "needs " + std::to_string(to_stand[trim.index]) + " steps";
-      entry.fail("trims", "trims that reach a trim of speed 0 within the horizon of " +
-                              std::to_string(context.horizon_steps) + " steps; trim " + number +
-                              " " + needed);
+                                     : fmt::format("needs {} steps", to_stand[trim.index]);
+      entry.fail("trims", fmt::format("trims that reach a trim of speed 0 within the horizon of {} "
+                                      "steps; trim {} {}",
+                                      context.horizon_steps, trim.index + 1, needed));
     }
   }
 }
 
-SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context) {
+SubgraphSpec read_subgraph(const Node& entry, const SubgraphContext& context) {
   SubgraphSpec spec;
   spec.name = entry.required<std::string>("name");
   if (spec.name.empty() || has_control_characters(spec.name)) {
@@ -192,22 +193,22 @@ SubgraphSpec read_subgraph(const YamlNode& entry, const SubgraphContext& context
 
 template <class T, class Print>
 std::string list_of(const std::vector<T>& values, Print print) {
-  std::string text;
-  for (const T& value : values) text += (text.empty() ? "" : ", ") + print(value);
-  return "[" + text + "]";
+  std::vector<std::string> texts;
+  for (const T& value : values) texts.push_back(print(value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 std::string number(TrimId trim) { return std::to_string(trim.index + 1); }
 
 std::string ends(const TrimPair& edge) {
-  return "from: " + number(edge.from) + ", to: " + number(edge.to);
+  return fmt::format("from: {}, to: {}", number(edge.from), number(edge.to));
 }
 
 }  // namespace
 
-std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const SubgraphContext& context) {
+std::vector<SubgraphSpec> read_subgraphs(const Node& file, const SubgraphContext& context) {
   std::vector<SubgraphSpec> subgraphs;
-  for (const YamlNode& entry : file.list("subgraphs")) {
+  for (const Node& entry : file.list("subgraphs")) {
     SubgraphSpec spec = read_subgraph(entry, context);
     if (std::any_of(subgraphs.begin(), subgraphs.end(),
                     [&spec](const SubgraphSpec& other) { return other.name == spec.name; })) {
@@ -220,20 +221,20 @@ std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file, const SubgraphCon
 }
 
 std::string to_yaml(const SubgraphSpec& spec) {
-  std::string text = "{name: " + quoted_yaml(spec.name) +
-                     ", labels: " + list_of(spec.labels, quoted_yaml) +
-                     ", trims: " + list_of(spec.trims, number);
+  std::string text = fmt::format("{{name: {}, labels: {}, trims: {}", quoted_yaml(spec.name),
+                                 list_of(spec.labels, quoted_yaml), list_of(spec.trims, number));
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {
     text += ", off: " + list_of(spec.off, [](const EdgesOff& off) {
-              return "{" + ends(off.edge) +
-                     (off.label ? ", label: " + quoted_yaml(*off.label) : "") + "}";
+              return fmt::format("{{{}{}}}", ends(off.edge),
+                                 off.label ? ", label: " + quoted_yaml(*off.label) : "");
             });
   }
   if (!spec.edges.empty()) {
     text += ", edges: " + list_of(spec.edges, [](const EdgeLabels& one) {
-              return "{" + ends(one.edge) + ", labels: " + list_of(one.labels, quoted_yaml) + "}";
+              return fmt::format("{{{}, labels: {}}}", ends(one.edge),
+                                 list_of(one.labels, quoted_yaml));
             });
   }
   return text + "}";

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 
 namespace hlc {
 
@@ -35,7 +35,7 @@ struct SubgraphContext {
 /// trims do not hang together (each must be reached from the first trim of speed 0 and reach
 /// standstill within the horizon, over the edges that the rule gives and `off` leaves; what a speed
 /// limit takes away is known only once the maneuvers are, see Subgraph)
-[[nodiscard]] std::vector<SubgraphSpec> read_subgraphs(const YamlNode& file,
+[[nodiscard]] std::vector<SubgraphSpec> read_subgraphs(const Node& file,
                                                        const SubgraphContext& context);
 
 /// The same entry as text, one line of YAML ("{name: B, ...}"): reads back to the same spec.

@@ -1,5 +1,7 @@
 #include "planner/automaton/vehicle_yaml.hpp"
 
+#include <fmt/format.h>
+
 #include <initializer_list>
 #include <utility>
 
@@ -20,14 +22,14 @@ constexpr double kStrongest = 1e4;  // m/s^2, rad/s, 1/m
 std::string fields(std::initializer_list<Field> list) {
   std::string text;
   for (const auto& [key, value] : list) {
-    text += (text.empty() ? "" : ", ") + std::string(key) + ": " + shortest_text(value);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, shortest_text(value));
   }
   return text;
 }
 
 }  // namespace
 
-VehicleParameters read_vehicle(const YamlNode& vehicle) {
+VehicleParameters read_vehicle(const Node& vehicle) {
   VehicleParameters v;
   v.wheelbase_m = vehicle.required<double>("wheelbase_m", above(0.0, kLongest_m));
   v.rear_axle_to_cg_m = vehicle.required<double>("rear_axle_to_cg_m", between(0.0, v.wheelbase_m));
@@ -38,13 +40,13 @@ VehicleParameters read_vehicle(const YamlNode& vehicle) {
   return v;
 }
 
-IdentifiedVehicle read_identified(const YamlNode& vehicle, const VehicleParameters& parameters,
+IdentifiedVehicle read_identified(const Node& vehicle, const VehicleParameters& parameters,
                                   const VehicleLimits& limits) {
   if (vehicle.is_value("identified")) {
     static_cast<void>(vehicle.required<std::string>("identified", one_of({"kinematic"})));
     return kinematic_vehicle(parameters, limits.steering_max_rad);
   }
-  const YamlNode identified = vehicle.optional_map("identified");
+  const Node identified = vehicle.optional_map("identified");
   IdentifiedVehicle v;
   v.path_speed_gain = identified.optional("path_speed_gain", v.path_speed_gain, above(0.0));
   v.path_speed_steering =
@@ -62,7 +64,7 @@ IdentifiedVehicle read_identified(const YamlNode& vehicle, const VehicleParamete
   return v;
 }
 
-VehicleLimits read_limits(const YamlNode& limits) {
+VehicleLimits read_limits(const Node& limits) {
   VehicleLimits l;
   l.acceleration_mps2 = limits.required<double>("acceleration_mps2", above(0.0, kStrongest));
   l.steering_rate_radps = limits.required<double>("steering_rate_radps", above(0.0, kStrongest));
@@ -80,8 +82,7 @@ VehicleLimits read_limits(const YamlNode& limits) {
   return l;
 }
 
-Trim read_trim(const YamlNode& trim, const VehicleParameters& vehicle,
-               const VehicleLimits& limits) {
+Trim read_trim(const Node& trim, const VehicleParameters& vehicle, const VehicleLimits& limits) {
   Trim result;
   result.speed_mps =
       trim.required<double>("speed_mps", between(limits.speed_min_mps, limits.speed_max_mps));

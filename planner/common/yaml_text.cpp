@@ -1,9 +1,10 @@
 #include "planner/common/yaml_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 
 namespace hlc {
 namespace {
@@ -37,9 +38,7 @@ std::string escaped(const std::string& text) {
     if (c == '\n') {
       result += "\\n";
     } else if (is_control(c)) {
-      std::array<char, 5> code{};
-      std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned char>(c));
-      result += code.data();
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
     } else {
       result += c;
     }

@@ -29,7 +29,7 @@ void complete(Maneuver& maneuver, const AutomatonConfiguration& configuration) {
   maneuver.lane_area_m = std::move(areas.lane_area_m);
 }
 
-Maneuver own_step(TrimId id, const AutomatonConfiguration& configuration) {
+Maneuver self_loop(TrimId id, const AutomatonConfiguration& configuration) {
   const Trim& trim = configuration.trims[id.index];
   Maneuver step;
   step.from = id;
@@ -333,7 +333,7 @@ UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
   UniversalAutomaton automaton = without_maneuvers(configuration);
   for (std::size_t i = 0; i < configuration.trims.size(); ++i) {
     automaton.unit_costs.push_back(unit_costs(configuration.trims[i], configuration));
-    automaton.maneuvers.push_back(own_step(TrimId{i}, configuration));
+    automaton.maneuvers.push_back(self_loop(TrimId{i}, configuration));
   }
   for (Maneuver& maneuver : designed) automaton.maneuvers.push_back(std::move(maneuver));
   return automaton;

@@ -49,7 +49,7 @@ struct DesignTask {
                                            const std::vector<DesignTask>& tasks,
                                            const std::function<void()>& before_each = {});
 
-/// The automaton: every trim's own step (exact arc, label "trim"), then the designed maneuvers in
+/// The automaton: every trim's self-loop (exact arc, label "trim"), then the designed maneuvers in
 /// their order.
 [[nodiscard]] UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
                                            std::vector<Maneuver> designed);

@@ -1,10 +1,12 @@
 #include "planner/maneuver_design/automaton_configuration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
@@ -13,10 +15,10 @@
 namespace hlc {
 namespace {
 
-std::vector<Trim> listed_trims(const YamlNode& file, const VehicleParameters& vehicle,
+std::vector<Trim> listed_trims(const Node& file, const VehicleParameters& vehicle,
                                const VehicleLimits& limits) {
   std::vector<Trim> trims;
-  for (const YamlNode& entry : file.list("trims")) {
+  for (const Node& entry : file.list("trims")) {
     const Trim trim = read_trim(entry, vehicle, limits);
     entry.check_no_unknown_keys();
     if (std::find(trims.begin(), trims.end(), trim) != trims.end()) {
@@ -31,10 +33,10 @@ std::vector<Trim> listed_trims(const YamlNode& file, const VehicleParameters& ve
   return trims;
 }
 
-std::vector<double> increasing_numbers(const YamlNode& map, const std::string& key,
+std::vector<double> increasing_numbers(const Node& map, const std::string& key,
                                        const Allowed& allowed) {
   std::vector<double> numbers;
-  for (const YamlNode& entry : map.list(key)) {
+  for (const Node& entry : map.list(key)) {
     numbers.push_back(entry.as<double>(allowed));
     if (numbers.size() > 1 && numbers.back() <= numbers[numbers.size() - 2]) {
       entry.fail("numbers that increase");
@@ -46,9 +48,9 @@ std::vector<double> increasing_numbers(const YamlNode& map, const std::string& k
 
 /// Standstill, then every speed with every steering angle that friction circle and limit on the
 /// curvature allow it.
-std::vector<Trim> grid_trims(const YamlNode& file, const VehicleParameters& vehicle,
+std::vector<Trim> grid_trims(const Node& file, const VehicleParameters& vehicle,
                              const VehicleLimits& limits) {
-  const YamlNode grid = file.map("trims");
+  const Node grid = file.map("trims");
   const std::vector<double> speeds =
       increasing_numbers(grid, "speeds_mps", above(0.0, limits.speed_max_mps));
   const std::vector<double> steering = increasing_numbers(
@@ -66,7 +68,7 @@ std::vector<Trim> grid_trims(const YamlNode& file, const VehicleParameters& vehi
   return trims;
 }
 
-std::vector<Trim> read_trims(const YamlNode& file, const VehicleParameters& vehicle,
+std::vector<Trim> read_trims(const Node& file, const VehicleParameters& vehicle,
                              const VehicleLimits& limits) {
   if (file.is_list("trims")) return listed_trims(file, vehicle, limits);
   if (!file.has("trims") || file.is_value("trims") || limits.speed_min_mps > 0.0) {
@@ -77,7 +79,7 @@ std::vector<Trim> read_trims(const YamlNode& file, const VehicleParameters& vehi
   return grid_trims(file, vehicle, limits);
 }
 
-void read_front_point(const YamlNode& entry, LabelledCriterion& criterion) {
+void read_front_point(const Node& entry, LabelledCriterion& criterion) {
   FrontPoint point;
   point.minimised = entry.required<std::string>("minimise", one_of(criterion_names()));
   point.bounded = entry.required<std::string>("bound", one_of(criterion_names()));
@@ -90,7 +92,7 @@ void read_front_point(const YamlNode& entry, LabelledCriterion& criterion) {
   criterion.front_point = point;
 }
 
-LabelledCriterion read_criterion(const YamlNode& entry) {
+LabelledCriterion read_criterion(const Node& entry) {
   LabelledCriterion criterion;
   if (!entry.is_map()) {
     criterion.label = entry.as<std::string>(one_of(criterion_names()));
@@ -101,14 +103,15 @@ LabelledCriterion read_criterion(const YamlNode& entry) {
   if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
       has_control_characters(criterion.label) ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
-    entry.fail("name", "one line of text, a name of its own: neither empty, nor '" + kOwnStepLabel +
-                           "', nor a criterion's");
+    entry.fail("name", fmt::format("one line of text, a name of its own: neither empty, nor '{}', "
+                                   "nor a criterion's",
+                                   kOwnStepLabel));
   }
   if (entry.has("minimise")) {
     read_front_point(entry, criterion);
     return criterion;
   }
-  const YamlNode weights = entry.map("weights");
+  const Node weights = entry.map("weights");
   std::size_t positive = 0;
   for (const std::string& name : names) {
     if (!weights.has(name)) continue;
@@ -125,9 +128,9 @@ LabelledCriterion read_criterion(const YamlNode& entry) {
   return criterion;
 }
 
-std::vector<LabelledCriterion> read_criteria(const YamlNode& file) {
+std::vector<LabelledCriterion> read_criteria(const Node& file) {
   std::vector<LabelledCriterion> criteria;
-  for (const YamlNode& entry : file.list("criteria")) {
+  for (const Node& entry : file.list("criteria")) {
     LabelledCriterion criterion = read_criterion(entry);
     if (std::any_of(criteria.begin(), criteria.end(), [&](const LabelledCriterion& other) {
           return other.label == criterion.label;
@@ -148,12 +151,11 @@ std::vector<std::string> labels_of(const std::vector<LabelledCriterion>& criteri
   return labels;
 }
 
-ConfigurationPlaces places_of(const YamlNode& file, const AutomatonConfiguration& configuration) {
+ConfigurationPlaces places_of(const Node& file, const AutomatonConfiguration& configuration) {
   ConfigurationPlaces places;
-  places.intervals = file.has("intervals") ? file.place("intervals")
-                                           : file.place("intervals") + " = " +
-                                                 std::to_string(configuration.intervals);
-  for (const YamlNode& entry : file.list("subgraphs")) {
+  places.intervals = file.place("intervals");
+  if (!file.has("intervals")) places.intervals += fmt::format(" = {}", configuration.intervals);
+  for (const Node& entry : file.list("subgraphs")) {
     places.subgraphs.push_back(
         {entry.place("trims"), entry.has("max_speed_mps") ? entry.place("max_speed_mps") : ""});
   }
@@ -163,10 +165,10 @@ ConfigurationPlaces places_of(const YamlNode& file, const AutomatonConfiguration
 }  // namespace
 
 AutomatonConfiguration read_automaton_configuration(const std::filesystem::path& path) {
-  const YamlNode file = YamlNode::read_file(path);
+  const Node file = Node::read_yaml(path);
   AutomatonConfiguration configuration;
   configuration.source = path.string();
-  const YamlNode vehicle = file.map("vehicle");
+  const Node vehicle = file.map("vehicle");
   configuration.vehicle = read_vehicle(vehicle);
   configuration.limits = read_limits(file.map("limits"));
   configuration.identified = read_identified(vehicle, configuration.vehicle, configuration.limits);

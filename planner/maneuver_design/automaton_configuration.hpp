@@ -52,7 +52,7 @@ struct AutomatonConfiguration {
   IdentifiedVehicle identified;
   VehicleLimits limits;
   std::vector<Trim> trims;
-  double step_s{0.2};  ///< duration of every maneuver and of a trim's own step
+  double step_s{0.2};  ///< duration of every maneuver and of a trim's self-loop
   std::size_t horizon_steps{
       8};                     ///< in so many steps every trim of a subgraph must reach standstill
   std::size_t intervals{20};  ///< of constant input, per maneuver

@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/built_automaton.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -15,26 +17,25 @@ namespace {
 std::string line_of(const LabelledCriterion& criterion) {
   std::string text = "criterion " + quoted_yaml(criterion.label);
   for (const CriterionWeight& one : criterion.weights) {
-    text += " " + one.criterion + " " + shortest_text(one.weight);
+    text += fmt::format(" {} {}", one.criterion, shortest_text(one.weight));
   }
   if (const auto& point = criterion.front_point) {
-    text += " minimise " + point->minimised + " bound " + point->bounded + " share " +
-            shortest_text(point->share);
+    text += fmt::format(" minimise {} bound {} share {}", point->minimised, point->bounded,
+                        shortest_text(point->share));
   }
   return text + (criterion.normalised ? " normalised\n" : "\n");
 }
 
 /// One line per value, in a fixed order.
 std::string canonical_text(const AutomatonConfiguration& c) {
-  std::string text = "schema " + std::to_string(kAutomatonSchema) + "\n";
-  text += "vehicle " + to_yaml(c.vehicle, c.identified) + "\n";
-  text += "limits " + to_yaml(c.limits) + "\n";
+  std::string text = fmt::format("schema {}\nvehicle {}\nlimits {}\n", kAutomatonSchema,
+                                 to_yaml(c.vehicle, c.identified), to_yaml(c.limits));
   for (const Trim& trim : c.trims) {
-    text += "trim " + shortest_text(trim.speed_mps) + " " + shortest_text(trim.steering_rad) + "\n";
+    text += fmt::format("trim {} {}\n", shortest_text(trim.speed_mps),
+                        shortest_text(trim.steering_rad));
   }
-  text += "step_s " + shortest_text(c.step_s) + "\n";
-  text += "horizon_steps " + std::to_string(c.horizon_steps) + "\n";
-  text += "intervals " + std::to_string(c.intervals) + "\n";
+  text += fmt::format("step_s {}\nhorizon_steps {}\nintervals {}\n", shortest_text(c.step_s),
+                      c.horizon_steps, c.intervals);
   text += c.edges == EdgeChoice::kAll ? "edges all\n" : "edges subgraphs\n";
   for (const LabelledCriterion& criterion : c.criteria) text += line_of(criterion);
   for (const SubgraphSpec& subgraph : c.subgraphs) text += "subgraph " + to_yaml(subgraph) + "\n";
@@ -74,9 +75,9 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
                       const std::filesystem::path& configuration_path) {
   const AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
   if (configuration_sha256(configuration) == file.configuration_sha256) return;
-  throw std::invalid_argument(path.string() + ": stale, built from another state of " +
-                              configuration_path.string() + ", allowed what it says now; build " +
-                              "it anew: " + rebuild_command(file, path, configuration_path));
+  throw std::invalid_argument(fmt::format(
+      "{}: stale, built from another state of {}, allowed what it says now; build it anew: {}",
+      path.string(), configuration_path.string(), rebuild_command(file, path, configuration_path)));
 }
 
 AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {
@@ -91,8 +92,9 @@ AutomatonConfiguration read_configuration_of(const std::filesystem::path& path) 
   const AutomatonFile file = read_automaton_file(path);
   const auto beside = configuration_beside(file, path);
   if (!beside) {
-    throw std::invalid_argument(path.string() + ": its configuration " + file.configuration_file +
-                                " is not beside it, without which no maneuvers can be designed");
+    throw std::invalid_argument(fmt::format(
+        "{}: its configuration {} is not beside it, without which no maneuvers can be designed",
+        path.string(), file.configuration_file));
   }
   check_is_current(file, path, *beside);
   AutomatonConfiguration configuration = read_automaton_configuration(*beside);

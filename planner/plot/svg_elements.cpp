@@ -1,13 +1,19 @@
 #include "planner/plot/svg_elements.hpp"
 
-#include <cstdio>
+#include <tinyxml2.h>
 
-#include "planner/common/xml_text.hpp"
+#include <cstdio>
 
 namespace hlc::svg {
 namespace {
 
 using Eigen::Vector2d;
+
+std::string escaped(const std::string& text) {
+  tinyxml2::XMLPrinter printer;
+  printer.PushText(text.c_str());
+  return printer.CStr();
+}
 
 }  // namespace
 
@@ -20,7 +26,7 @@ std::string number(double value) {
 std::string text_at(const Vector2d& at, const std::string& text, const std::string& anchor,
                     const std::string& more) {
   return "<text x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\" text-anchor=\"" + anchor +
-         "\"" + more + ">" + xml_escaped(text) + "</text>\n";
+         "\"" + more + ">" + escaped(text) + "</text>\n";
 }
 
 std::string segment(const Vector2d& from, const Vector2d& to, const std::string& style) {

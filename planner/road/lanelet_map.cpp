@@ -1,20 +1,17 @@
 #include "planner/road/lanelet_map.hpp"
 
+#include <fmt/format.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iomanip>
-#include <iterator>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
-#include "planner/common/xml_text.hpp"
+#include "planner/common/text_file.hpp"
+#include "planner/road/commonroad_writer.hpp"
 
 namespace hlc {
 namespace {
@@ -29,8 +26,7 @@ class Reader {
   LaneletMap read(std::string_view xml) const {
     tinyxml2::XMLDocument document;
     if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
-      fail(document.ErrorLineNum(),
-           std::string("not well-formed XML (") + document.ErrorName() + ")");
+      fail(document.ErrorLineNum(), fmt::format("not well-formed XML ({})", document.ErrorName()));
     }
     const XMLElement* root = document.RootElement();
     if (root == nullptr || std::strcmp(root->Name(), "commonRoad") != 0) {
@@ -38,7 +34,8 @@ class Reader {
     }
     const std::string_view version = attribute(*root, "commonRoadVersion");
     if (version != "2020a") {
-      fail(root->GetLineNum(), "commonRoadVersion is " + quoted(version) + ", must be \"2020a\"");
+      fail(root->GetLineNum(),
+           fmt::format("commonRoadVersion is {}, must be \"2020a\"", quoted(version)));
     }
     LaneletMap map{.benchmark_id = std::string(attribute(*root, "benchmarkID")), .lanelets = {}};
     for (const XMLElement* element = root->FirstChildElement("lanelet"); element != nullptr;
@@ -46,7 +43,7 @@ class Reader {
       Lanelet lanelet = read_lanelet(*element);
       const LaneletId id = lanelet.id;
       if (!map.lanelets.emplace(id, std::move(lanelet)).second) {
-        fail(element->GetLineNum(), "lanelet id " + std::to_string(id) + " is taken already");
+        fail(element->GetLineNum(), fmt::format("lanelet id {} is taken already", id));
       }
     }
     if (map.lanelets.empty()) {
@@ -58,7 +55,7 @@ class Reader {
 
  private:
   [[noreturn]] void fail(int line, const std::string& what) const {
-    throw std::runtime_error(name_ + ":" + std::to_string(line) + ": " + what);
+    throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
   }
 
   /// The value in quotes, without line breaks and cut short, so that an error stays one line.
@@ -75,7 +72,7 @@ class Reader {
     const char* value = element.Attribute(attribute_name);
     if (value == nullptr) {
       fail(element.GetLineNum(),
-           std::string("<") + element.Name() + "> needs the attribute " + attribute_name);
+           fmt::format("<{}> needs the attribute {}", element.Name(), attribute_name));
     }
     return value;
   }
@@ -85,9 +82,9 @@ class Reader {
     LaneletId id = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
     if (error != std::errc{} || end != text.data() + text.size() || id < 1) {
-      fail(element.GetLineNum(), std::string("<") + element.Name() + "> " + attribute_name +
-                                     " is " + quoted(text) +
-                                     ", must be a whole number from 1 to 2147483647");
+      fail(element.GetLineNum(),
+           fmt::format("<{}> {} is {}, must be a whole number from 1 to 2147483647", element.Name(),
+                       attribute_name, quoted(text)));
     }
     return id;
   }
@@ -95,8 +92,7 @@ class Reader {
   const XMLElement& child(const XMLElement& element, const char* child_name) const {
     const XMLElement* found = element.FirstChildElement(child_name);
     if (found == nullptr) {
-      fail(element.GetLineNum(),
-           std::string("<") + element.Name() + "> needs a <" + child_name + ">");
+      fail(element.GetLineNum(), fmt::format("<{}> needs a <{}>", element.Name(), child_name));
     }
     return *found;
   }
@@ -111,7 +107,7 @@ class Reader {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
       fail(element.GetLineNum(),
-           std::string("<") + axis + "> is " + quoted(text) + ", must be a finite number [m]");
+           fmt::format("<{}> is {}, must be a finite number [m]", axis, quoted(text)));
     }
     return value;
   }
@@ -124,8 +120,8 @@ class Reader {
       points.emplace_back(coordinate(*point, "x"), coordinate(*point, "y"));
     }
     if (points.size() < 2) {
-      fail(element.GetLineNum(), std::string("<") + bound_name + "> has " +
-                                     std::to_string(points.size()) + " points, must be at least 2");
+      fail(element.GetLineNum(),
+           fmt::format("<{}> has {} points, must be at least 2", bound_name, points.size()));
     }
     return points;
   }
@@ -146,8 +142,9 @@ class Reader {
     }
     const std::string_view direction = attribute(*element, "drivingDir");
     if (direction != "same" && direction != "opposite") {
-      fail(element->GetLineNum(), std::string("<") + side + "> drivingDir is " + quoted(direction) +
-                                      ", must be \"same\" or \"opposite\"");
+      fail(element->GetLineNum(),
+           fmt::format("<{}> drivingDir is {}, must be \"same\" or \"opposite\"", side,
+                       quoted(direction)));
     }
     return Lanelet::Adjacent{.id = id_attribute(*element, "ref"),
                              .same_direction = direction == "same"};
@@ -159,10 +156,9 @@ class Reader {
     lanelet.left_m = bound(element, "leftBound");
     lanelet.right_m = bound(element, "rightBound");
     if (lanelet.left_m.size() != lanelet.right_m.size()) {
-      fail(element.GetLineNum(), "lanelet " + std::to_string(lanelet.id) + ": <leftBound> has " +
-                                     std::to_string(lanelet.left_m.size()) +
-                                     " points and <rightBound> " +
-                                     std::to_string(lanelet.right_m.size()) + ", must be equal");
+      fail(element.GetLineNum(),
+           fmt::format("lanelet {}: <leftBound> has {} points and <rightBound> {}, must be equal",
+                       lanelet.id, lanelet.left_m.size(), lanelet.right_m.size()));
     }
     lanelet.predecessors = references(element, "predecessor");
     lanelet.successors = references(element, "successor");
@@ -179,8 +175,8 @@ class Reader {
              element = element->NextSiblingElement(kind)) {
           const LaneletId id = id_attribute(*element, "ref");
           if (map.lanelets.find(id) == map.lanelets.end()) {
-            fail(element->GetLineNum(), std::string("<") + kind + "> ref is " + std::to_string(id) +
-                                            ", must be the id of a lanelet of this file");
+            fail(element->GetLineNum(),
+                 fmt::format("<{}> ref is {}, must be the id of a lanelet of this file", kind, id));
           }
         }
       }
@@ -189,28 +185,6 @@ class Reader {
 
   const std::string& name_;
 };
-
-void write_bound(std::ostream& xml, const char* name, const std::vector<Point>& points_m) {
-  xml << "    <" << name << ">\n";
-  for (const Point& point : points_m) {
-    xml << "      <point><x>" << point.x() << "</x><y>" << point.y() << "</y></point>\n";
-  }
-  xml << "    </" << name << ">\n";
-}
-
-void write_references(std::ostream& xml, const char* name, const std::vector<LaneletId>& ids) {
-  for (const LaneletId id : ids) {
-    xml << "    <" << name << " ref=\"" << id << "\"/>\n";
-  }
-}
-
-void write_adjacent(std::ostream& xml, const char* name,
-                    const std::optional<Lanelet::Adjacent>& adjacent) {
-  if (adjacent) {
-    xml << "    <" << name << " ref=\"" << adjacent->id << "\" drivingDir=\""
-        << (adjacent->same_direction ? "same" : "opposite") << "\"/>\n";
-  }
-}
 
 }  // namespace
 
@@ -245,61 +219,23 @@ LaneletMap parse_lanelet_map(std::string_view xml, const std::string& name) {
 
 LaneletMap read_lanelet_map(const std::filesystem::path& file) {
   std::error_code ignored;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || !std::filesystem::is_regular_file(file, ignored)) {
+  if (!std::filesystem::is_regular_file(file, ignored)) {
     throw std::runtime_error(file.string() + ": cannot be read, must be a CommonRoad 2020a file");
   }
-  const std::string xml{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return parse_lanelet_map(xml, file.string());
-}
-
-std::string commonroad_head(const CommonRoadHead& head) {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         "<commonRoad commonRoadVersion=\"2020a\" benchmarkID=\"" +
-         xml_escaped(head.benchmark_id) + "\" date=\"2025-01-01\" author=\"" +
-         xml_escaped(head.author) + "\" affiliation=\"none\" source=\"" + xml_escaped(head.source) +
-         "\" timeStepSize=\"" + xml_escaped(head.time_step) +
-         "\">\n"
-         "  <location>\n"
-         "    <geoNameId>-999</geoNameId>\n"
-         "    <gpsLatitude>999</gpsLatitude>\n"
-         "    <gpsLongitude>999</gpsLongitude>\n"
-         "  </location>\n"
-         "  <scenarioTags><urban/><intersection/></scenarioTags>\n";
-}
-
-std::string lanelets_to_xml(const LaneletMap& map) {
-  std::ostringstream xml;
-  xml.imbue(std::locale::classic());
-  xml << std::fixed << std::setprecision(9);
-  for (const auto& [id, lanelet] : map.lanelets) {
-    xml << "  <lanelet id=\"" << id << "\">\n";
-    write_bound(xml, "leftBound", lanelet.left_m);
-    write_bound(xml, "rightBound", lanelet.right_m);
-    write_references(xml, "predecessor", lanelet.predecessors);
-    write_references(xml, "successor", lanelet.successors);
-    write_adjacent(xml, "adjacentLeft", lanelet.adjacent_left);
-    write_adjacent(xml, "adjacentRight", lanelet.adjacent_right);
-    xml << "    <laneletType>urban</laneletType>\n  </lanelet>\n";
-  }
-  return xml.str();
+  return parse_lanelet_map(read_file(file), file.string());
 }
 
 std::string to_commonroad_xml(const LaneletMap& map) {
-  return commonroad_head({.benchmark_id = map.benchmark_id,
-                          .author = "generate_map",
-                          .source = "generated",
-                          .time_step = "0.2"}) +
-         lanelets_to_xml(map) + "</commonRoad>\n";
+  CommonRoadWriter writer({.benchmark_id = map.benchmark_id,
+                           .author = "generate_map",
+                           .source = "generated",
+                           .time_step = "0.2"});
+  writer.add_lanelets(map);
+  return writer.finish();
 }
 
 void write_lanelet_map(const LaneletMap& map, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << to_commonroad_xml(map);
-  stream.close();
-  if (!stream) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  write_file(file, to_commonroad_xml(map));
 }
 
 }  // namespace hlc

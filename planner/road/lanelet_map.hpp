@@ -65,21 +65,6 @@ struct LaneletMap {
 /// of a whole benchmark, is left out.
 [[nodiscard]] std::string to_commonroad_xml(const LaneletMap& map);
 
-/// What a CommonRoad file says of itself.
-struct CommonRoadHead {
-  std::string benchmark_id;
-  std::string author;
-  std::string source;
-  std::string time_step;  ///< [s]
-};
-
-/// The begin of a CommonRoad 2020a file, up to its first lanelet. The date is always the same.
-[[nodiscard]] std::string commonroad_head(const CommonRoadHead& head);
-
-/// The map's <lanelet> elements alone, as in `to_commonroad_xml`: for files that hold more than a
-/// map.
-[[nodiscard]] std::string lanelets_to_xml(const LaneletMap& map);
-
 /// @throws std::runtime_error if the file cannot be written
 void write_lanelet_map(const LaneletMap& map, const std::filesystem::path& file);
 

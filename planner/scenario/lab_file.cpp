@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 
 LabLimits read_lab(const std::filesystem::path& file, double step_s) {
-  const YamlNode node = YamlNode::read_file(file);
+  const Node node = Node::read_yaml(file);
   LabLimits lab;
   lab.curvature_min_per_m = node.required<double>("curvature_min_per_m", between(-1e4, 0.0));
   lab.curvature_max_per_m = node.required<double>("curvature_max_per_m", between(0.0, 1e4));
@@ -21,7 +21,7 @@ LabLimits read_lab(const std::filesystem::path& file, double step_s) {
     node.fail("point_interval_s",
               "what divides the automaton's step of " + shortest_text(step_s) + " s");
   }
-  const YamlNode area = node.map("area");
+  const Node area = node.map("area");
   lab.x_min_m = area.required<double>("x_min_m");
   lab.x_max_m = area.required<double>("x_max_m", above(lab.x_min_m));
   lab.y_min_m = area.required<double>("y_min_m");

@@ -1,5 +1,7 @@
 #include "planner/scenario/named_subgraph.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "planner/maneuver_design/automaton_builder.hpp"
@@ -9,9 +11,9 @@
 namespace hlc {
 
 std::string names_of(const std::vector<SubgraphSpec>& subgraphs) {
-  std::string names;
-  for (const SubgraphSpec& one : subgraphs) names += (names.empty() ? "" : ", ") + one.name;
-  return names;
+  std::vector<std::string> names;
+  for (const SubgraphSpec& one : subgraphs) names.push_back(one.name);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 const SubgraphSpec* find_subgraph(const std::vector<SubgraphSpec>& subgraphs,

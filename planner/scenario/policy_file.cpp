@@ -1,6 +1,7 @@
 #include "planner/scenario/policy_file.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "planner/policy/policy_check.hpp"
+#include "planner/scenario/search_values.hpp"
 
 namespace hlc {
 namespace {
@@ -18,17 +20,17 @@ constexpr double kLongest_s = 86'400.0;
 constexpr std::size_t kMostCandidates = 100;
 constexpr double kMostVolts = 1000.0;
 
-std::vector<TrimId> read_trims(const YamlNode& node, const std::string& key) {
+std::vector<TrimId> read_trims(const Node& node, const std::string& key) {
   std::vector<TrimId> trims;
-  for (const YamlNode& entry : node.optional_list(key)) {
+  for (const Node& entry : node.optional_list(key)) {
     trims.push_back({entry.as<std::size_t>(at_least(1.0)) - 1});
   }
   return trims;
 }
 
-SubgraphRequest read_request(const YamlNode& node) {
+SubgraphRequest read_request(const Node& node) {
   SubgraphRequest request;
-  for (const YamlNode& label : node.optional_list("labels")) {
+  for (const Node& label : node.optional_list("labels")) {
     request.labels.push_back(label.as<std::string>());
   }
   if (node.has("labels") && request.labels.empty()) node.fail("labels", "at least one");
@@ -40,15 +42,15 @@ SubgraphRequest read_request(const YamlNode& node) {
   return request;
 }
 
-std::pair<double, double> read_range(const YamlNode& node, const std::string& key) {
-  const std::vector<YamlNode> bounds = node.list(key);
+std::pair<double, double> read_range(const Node& node, const std::string& key) {
+  const std::vector<Node> bounds = node.list(key);
   if (bounds.size() != 2) node.fail(key, "two numbers, [from, to]");
   const auto from = bounds[0].as<double>();
   const auto to = bounds[1].as<double>(above(from));
   return {from, to};
 }
 
-SpeedZone read_zone(const YamlNode& node) {
+SpeedZone read_zone(const Node& node) {
   SpeedZone zone;
   std::tie(zone.min_x_m, zone.max_x_m) = read_range(node, "x_m");
   std::tie(zone.min_y_m, zone.max_y_m) = read_range(node, "y_m");
@@ -57,10 +59,10 @@ SpeedZone read_zone(const YamlNode& node) {
   return zone;
 }
 
-TimePolicySettings read_time(const YamlNode& rule) {
+TimePolicySettings read_time(const Node& rule) {
   TimePolicySettings settings;
   double last_s = 0.0;
-  for (const YamlNode& node : rule.list("time")) {
+  for (const Node& node : rule.list("time")) {
     const bool is_first = settings.changes.empty();
     const auto from_s = node.required<double>(
         "from_s", is_first ? between(0.0, kLongest_s) : above(last_s, kLongest_s));
@@ -72,8 +74,8 @@ TimePolicySettings read_time(const YamlNode& rule) {
   return settings;
 }
 
-SituationPolicySettings read_situation(const YamlNode& rule) {
-  const YamlNode node = rule.map("situation");
+SituationPolicySettings read_situation(const Node& rule) {
+  const Node node = rule.map("situation");
   SituationPolicySettings settings{.open_road = read_request(node.map("open_road")),
                                    .conflict = read_request(node.map("conflict"))};
   settings.after_conflict_s = node.optional<double>("after_conflict_s", settings.after_conflict_s,
@@ -82,8 +84,8 @@ SituationPolicySettings read_situation(const YamlNode& rule) {
   return settings;
 }
 
-BatteryPolicySettings read_battery(const YamlNode& rule) {
-  const YamlNode node = rule.map("battery");
+BatteryPolicySettings read_battery(const Node& rule) {
+  const Node node = rule.map("battery");
   BatteryPolicySettings settings;
   settings.below_v = node.required<double>("below_v", above(0.0, kMostVolts));
   settings.back_above_v = node.optional<double>("back_above_v", settings.below_v,
@@ -93,38 +95,32 @@ BatteryPolicySettings read_battery(const YamlNode& rule) {
   return settings;
 }
 
-LookAheadSettings read_look_ahead(const YamlNode& rule) {
-  const YamlNode node = rule.map("look_ahead");
+LookAheadSettings read_look_ahead(const Node& rule) {
+  const Node node = rule.map("look_ahead");
   LookAheadSettings settings;
-  for (const YamlNode& candidate : node.list("candidates")) {
+  for (const Node& candidate : node.list("candidates")) {
     settings.candidates.push_back(read_request(candidate));
   }
   const std::size_t candidates = settings.candidates.size();
   if (candidates < 2 || candidates > kMostCandidates) {
-    node.fail("candidates", "2 ... " + std::to_string(kMostCandidates) + " requests");
+    node.fail("candidates", fmt::format("2 ... {} requests", kMostCandidates));
   }
   settings.steps = node.optional<std::size_t>("steps", settings.steps, between(1.0, 64.0));
-  const YamlNode weights = node.optional_map("criterion_weights");
-  for (const std::string& criterion : weights.keys()) {
-    settings.criterion_weights.push_back(
-        {criterion,
-         weights.required<double>(criterion, between(0.0, SearchOptions::kMostWeight_m2))});
-  }
+  settings.criterion_weights = read_criterion_weights(node);
   settings.least_gain =
       node.optional<double>("least_gain", settings.least_gain, between(0.0, 0.99));
   const std::size_t most = kMostLookAheadExpansions / (candidates * settings.steps);
   settings.max_expansions = node.required<std::size_t>("max_expansions", at_least(1.0));
   if (settings.max_expansions > most) {
-    node.fail("max_expansions", "1 ... " + std::to_string(most) + ": with " +
-                                    std::to_string(candidates) + " candidates over " +
-                                    std::to_string(settings.steps) + " steps " +
-                                    std::to_string(kMostLookAheadExpansions) + " in all");
+    node.fail("max_expansions",
+              fmt::format("1 ... {}: with {} candidates over {} steps {} in all", most, candidates,
+                          settings.steps, kMostLookAheadExpansions));
   }
   node.check_no_unknown_keys();
   return settings;
 }
 
-PolicySettings read_rule(const YamlNode& node) {
+PolicySettings read_rule(const Node& node) {
   const std::vector<std::string> keys = node.keys();
   if (keys.size() == 1) {
     const std::string& kind = keys.front();
@@ -136,12 +132,12 @@ PolicySettings read_rule(const YamlNode& node) {
   node.fail("a map of one key: time, situation, battery or look_ahead");
 }
 
-ReconfigurationSettings read_policy(const YamlNode& node) {
+ReconfigurationSettings read_policy(const Node& node) {
   ReconfigurationSettings settings;
-  for (const YamlNode& zone : node.optional_list("zones")) {
+  for (const Node& zone : node.optional_list("zones")) {
     settings.zones.push_back(read_zone(zone));
   }
-  for (const YamlNode& rule : node.optional_list("rules")) {
+  for (const Node& rule : node.optional_list("rules")) {
     settings.policies.push_back(read_rule(rule));
   }
   settings.min_stay_s =
@@ -155,9 +151,9 @@ ReconfigurationSettings read_policy(const YamlNode& node) {
 
 }  // namespace
 
-std::map<std::string, ReconfigurationSettings> read_policies(const YamlNode& scenario) {
+std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenario) {
   std::map<std::string, ReconfigurationSettings> policies;
-  const YamlNode node = scenario.optional_map("policies");
+  const Node node = scenario.optional_map("policies");
   for (const std::string& name : node.keys()) {
     if (name == kNoPolicy) {
       throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
@@ -168,7 +164,7 @@ std::map<std::string, ReconfigurationSettings> read_policies(const YamlNode& sce
   return policies;
 }
 
-void check_policy(const YamlNode& scenario, const std::string& name,
+void check_policy(const Node& scenario, const std::string& name,
                   const ReconfigurationSettings& settings, const Subgraph& base,
                   std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
   try {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "planner/automaton/subgraph.hpp"
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 #include "planner/policy/policy_settings.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
@@ -31,13 +31,12 @@ namespace hlc {
 ///     trims_on, trims_off   lists of numbers from 1
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
-[[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(
-    const YamlNode& scenario);
+[[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenario);
 
 /// Tries every request of the policy, and the limit of every zone (check_reconfiguration).
 /// @throws std::invalid_argument with one line: the place of the policies, its name and why one of
 /// its requests cannot be
-void check_policy(const YamlNode& scenario, const std::string& name,
+void check_policy(const Node& scenario, const std::string& name,
                   const ReconfigurationSettings& settings, const Subgraph& base,
                   std::size_t horizon_steps, const std::optional<LabLimits>& lab);
 

@@ -1,8 +1,9 @@
 #include "planner/scenario/problem_dump.hpp"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
-#include <cstdio>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -28,17 +29,16 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
 void ProblemDump::write(const Controller& controller) const {
   const ControllerOptions& options = controller.options();
   if (controller.subgraph().spec() != declared_) {
-    throw std::runtime_error("problems on subgraph '" + controller.subgraph().spec().name +
-                             "' cannot be written, which " + automaton_file_.string() +
-                             " does not declare");
+    throw std::runtime_error(
+        fmt::format("problems on subgraph '{}' cannot be written, which {} does not declare",
+                    controller.subgraph().spec().name, automaton_file_.string()));
   }
   const auto write_all = [&](std::span<const HorizonProblem> problems, const char* what) {
     std::size_t number = 0;
     for (const HorizonProblem& problem : problems) {
-      char name[96];
-      std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu_%s_%zu.json",
-                    static_cast<unsigned>(options.vehicle.value),
-                    static_cast<unsigned long long>(controller.last_step().value), what, ++number);
+      const std::string name =
+          fmt::format("vehicle_{}_step_{:010}_{}_{}.json", options.vehicle.value,
+                      controller.last_step().value, what, ++number);
       write_problem_file({.automaton_file = automaton_file_,
                           .subgraph = controller.prepared_subgraph().subgraph,
                           .problem = problem,

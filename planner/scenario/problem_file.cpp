@@ -1,16 +1,19 @@
 #include "planner/scenario/problem_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/common/atomic_write.hpp"
-#include "planner/common/json_reader.hpp"
+#include "planner/common/node.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/named_subgraph.hpp"
-#include "planner/search/edge_costs.hpp"
+#include "planner/scenario/search_values.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -31,7 +34,7 @@ std::string number(double value) {
 }
 
 std::string point(const Point& at_m) {
-  return "[" + number(at_m.x()) + ", " + number(at_m.y()) + "]";
+  return fmt::format("[{}, {}]", number(at_m.x()), number(at_m.y()));
 }
 
 template <class Items, class Write>
@@ -53,23 +56,13 @@ std::string quoted(const std::string& text) { return nlohmann::json(text).dump()
 
 // ---- reading
 
-double read_coordinate(const JsonPlace& place) {
-  const double value_m = place.number();
-  if (std::abs(value_m) > HorizonProblem::kLargest_m) place.fail("numbers from -1e9 to 1e9");
-  return value_m;
-}
+const Allowed kCoordinates = between(-HorizonProblem::kLargest_m, HorizonProblem::kLargest_m);
+const Allowed kHeadings =
+    between(-HorizonProblem::kLargestHeading_rad, HorizonProblem::kLargestHeading_rad);
 
-double read_heading(const JsonPlace& place) {
-  const double value_rad = place.number();
-  if (std::abs(value_rad) > HorizonProblem::kLargestHeading_rad) {
-    place.fail("numbers from -1e6 to 1e6");
-  }
-  return value_rad;
-}
-
-Point read_point(const JsonPlace& place) {
-  const auto xy = place.list("[x, y]", 2);
-  return {read_coordinate(xy[0]), read_coordinate(xy[1])};
+Point read_point(const Node& node) {
+  const auto xy = node.entries(2, "[x, y]");
+  return {xy[0].as<double>(kCoordinates), xy[1].as<double>(kCoordinates)};
 }
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -103,63 +96,64 @@ Turns turns_of(const ConvexPolygon::Vertices& vertices_m) {
   return turns;
 }
 
-ConvexPolygon read_polygon(const JsonPlace& place) {
+ConvexPolygon read_polygon(const Node& node) {
   ConvexPolygon area_m;
   ConvexPolygon::Vertices& vertices = area_m.vertices_m;
-  for (const JsonPlace& vertex : place.list("a list of vertices [x, y]")) {
+  for (const Node& vertex : node.entries()) {
     vertices.push_back(read_point(vertex));
   }
-  if (vertices.size() < 3) place.fail("a convex polygon of at least 3 vertices");
+  if (vertices.size() < 3) node.fail("a convex polygon of at least 3 vertices");
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (vertices[i] == vertices[(i + 1) % vertices.size()]) {
-      place.fail("a convex polygon whose vertices differ, the first not repeated at the end");
+      node.fail("a convex polygon whose vertices differ, the first not repeated at the end");
     }
   }
   const Turns turns = turns_of(vertices);
   if (turns.left && turns.right) {
-    place.fail("a convex polygon, its vertices in order: this one turns both left and right");
+    node.fail("a convex polygon, its vertices in order: this one turns both left and right");
   }
   const double area_m2 = signed_area_m2(vertices);
   if (!(std::abs(area_m2) >= kSmallestArea_m2)) {
-    place.fail("a convex polygon with an area of at least 1e-12 m^2");
+    node.fail("a convex polygon with an area of at least 1e-12 m^2");
   }
   if (area_m2 < 0.0) std::ranges::reverse(vertices);
   if (std::abs(std::abs(turns.sum_rad) - 2.0 * std::numbers::pi) >= 1e-3) {
-    place.fail("a convex polygon, its vertices in order: this one crosses itself");
+    node.fail("a convex polygon, its vertices in order: this one crosses itself");
   }
   return area_m;
 }
 
-Segment read_segment(const JsonPlace& place) {
-  const auto ends = place.list("[[x1, y1], [x2, y2]]", 2);
+Segment read_segment(const Node& node) {
+  const auto ends = node.entries(2, "[[x1, y1], [x2, y2]]");
   return {read_point(ends[0]), read_point(ends[1])};
 }
 
-TrimId read_trim(const JsonPlace& place, const Subgraph& subgraph) {
-  return {place.whole(1, subgraph.automaton().trims.size()) - 1};
+TrimId read_trim(const Node& node, const Subgraph& subgraph) {
+  const auto trims = static_cast<double>(subgraph.automaton().trims.size());
+  return {node.required<std::size_t>("trim", between(1.0, trims)) - 1};
 }
 
-void read_start(const JsonPlace& place, const Subgraph& subgraph, HorizonProblem& problem) {
-  place.check_keys({"x", "y", "psi", "trim"});
-  problem.start.x_m = read_coordinate(place.at("x", "a finite number"));
-  problem.start.y_m = read_coordinate(place.at("y", "a finite number"));
-  problem.start.heading_rad = read_heading(place.at("psi", "a finite number"));
-  problem.start_trim = read_trim(place.at("trim", "the number of a trim, from 1"), subgraph);
+void read_start(const Node& node, const Subgraph& subgraph, HorizonProblem& problem) {
+  node.check_keys({"x", "y", "psi", "trim"});
+  problem.start.x_m = node.required<double>("x", kCoordinates);
+  problem.start.y_m = node.required<double>("y", kCoordinates);
+  problem.start.heading_rad = node.required<double>("psi", kHeadings);
+  problem.start_trim = read_trim(node, subgraph);
 }
 
 /// A maneuver of the whole automaton: a plan in force may hold what is off by now.
-std::vector<const Maneuver*> read_incumbent(const JsonPlace& place, const Subgraph& subgraph,
+std::vector<const Maneuver*> read_incumbent(const Node& root, const Subgraph& subgraph,
                                             const HorizonProblem& problem) {
   std::vector<const Maneuver*> incumbent;
   TrimId from = problem.start_trim;
-  for (const JsonPlace& entry : place.list("one {trim, label} per step", problem.horizon_steps())) {
+  for (const Node& entry :
+       root.optional_list("incumbent", problem.horizon_steps(), "one {trim, label} per step")) {
     entry.check_keys({"trim", "label"});
-    const TrimId to = read_trim(entry.at("trim", "the number of a trim, from 1"), subgraph);
-    const std::string label =
-        entry.at("label", "the label of a maneuver").text("the label of a maneuver");
-    const Maneuver* maneuver = subgraph.automaton().find(from, to, label);
+    const TrimId to = read_trim(entry, subgraph);
+    const Maneuver* maneuver =
+        subgraph.automaton().find(from, to, entry.required<std::string>("label"));
     if (maneuver == nullptr) {
-      entry.fail("a maneuver of the automaton from trim " + std::to_string(from.index + 1));
+      entry.fail(fmt::format("a maneuver of the automaton from trim {}", from.index + 1));
     }
     incumbent.push_back(maneuver);
     from = to;
@@ -167,117 +161,76 @@ std::vector<const Maneuver*> read_incumbent(const JsonPlace& place, const Subgra
   return incumbent;
 }
 
-std::vector<PlanningWeight> read_weights(const JsonPlace& place, const Subgraph& subgraph) {
-  const std::vector<std::string> known = criteria_of(subgraph);
-  std::vector<PlanningWeight> weights;
-  for (const std::string& criterion : place.keys()) {
-    const std::string range = "a number from 0 to 1e9";
-    const JsonPlace weight = place.at(criterion, range);
-    if (std::ranges::find(known, criterion) == known.end()) {
-      std::string allowed = "criteria of the automaton's maneuvers:";
-      for (const std::string& name : known) allowed += " " + name;
-      weight.fail(allowed);
-    }
-    weights.push_back({criterion, weight.number(0.0, SearchOptions::kMostWeight_m2, range)});
-  }
-  return weights;
-}
-
 std::string weights_text(const std::vector<PlanningWeight>& weights) {
   std::string text;
   for (const auto& [criterion, weight_m2] : weights) {
-    text += (text.empty() ? "" : ", ") + quoted(criterion) + ": " + shortest_text(weight_m2);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", quoted(criterion),
+                        shortest_text(weight_m2));
   }
   return "{" + text + "}";
 }
 
-SearchOptions read_search(const JsonPlace& place, const Subgraph& subgraph) {
-  place.check_keys({"engine", "cost_to_go", "max_expansions", "criterion_weights"});
+SearchOptions read_search(const Node& node, const Subgraph& subgraph) {
+  node.check_keys({"engine", "cost_to_go", "max_expansions", "criterion_weights"});
   SearchOptions search;
-  if (const auto engine = place.find("engine")) {
-    try {
-      choose_engine(engine->text(kEngineChoices), search);
-    } catch (const std::invalid_argument&) {
-      engine->fail(kEngineChoices);
-    }
+  if (const auto engine = read_engine(node)) choose_engine(*engine, search);
+  if (node.has("cost_to_go")) {
+    search.cost_to_go = read_named(node, "cost_to_go", cost_to_go_from_name, kCostToGoNames);
   }
-  if (const auto cost_to_go = place.find("cost_to_go")) {
-    try {
-      search.cost_to_go = cost_to_go_from_name(cost_to_go->text(kCostToGoNames));
-    } catch (const std::invalid_argument&) {
-      cost_to_go->fail(kCostToGoNames);
-    }
-  }
-  if (const auto budget = place.find("max_expansions")) {
-    search.max_expansions = budget->whole(1, SearchOptions::kMostExpansions);
-  }
-  if (const auto weights = place.find("criterion_weights")) {
-    search.criterion_weights = read_weights(*weights, subgraph);
-  }
+  search.max_expansions = read_max_expansions(node);
+  search.criterion_weights = read_criterion_weights(node);
+  check_criterion_weights(node, search.criterion_weights, subgraph);
   return search;
 }
 
-HorizonProblem read_problem(const JsonPlace& root, const Subgraph& subgraph) {
+HorizonProblem read_problem(const Node& root, const Subgraph& subgraph) {
   HorizonProblem problem;
-  const std::size_t n =
-      root.at("horizon_steps", "a whole number from 1 to 64").whole(1, kMaxProblemSteps);
-  const std::string per_step = "one per step, " + std::to_string(n) + " of them (horizon_steps)";
-  const std::string step_s = shortest_text(subgraph.automaton().step_s) + ", the automaton's";
-  const JsonPlace step = root.at("step_s", step_s);
-  if (step.number() != subgraph.automaton().step_s) step.fail(step_s);
-  read_start(root.at("start", "{x, y, psi, trim}"), subgraph, problem);
-  for (const JsonPlace& entry : root.at("reference", per_step).list(per_step, n)) {
+  const auto n = root.required<std::size_t>("horizon_steps", between(1.0, kMaxProblemSteps));
+  const std::string per_step = fmt::format("one per step, {} of them (horizon_steps)", n);
+  const double step_s = subgraph.automaton().step_s;
+  if (root.required<double>("step_s") != step_s) {
+    root.fail("step_s", shortest_text(step_s) + ", the automaton's");
+  }
+  read_start(root.map("start"), subgraph, problem);
+  for (const Node& entry : root.list("reference", n, per_step)) {
     problem.reference_m.push_back(read_point(entry));
   }
-  if (const auto speeds = root.find("reference_speed")) {
-    for (const JsonPlace& entry : speeds->list(per_step, n)) {
-      problem.reference_speed_mps.push_back(
-          entry.number(0.0, std::numeric_limits<double>::max(), "a finite number, at least 0"));
-    }
+  for (const Node& entry : root.optional_list("reference_speed", n, per_step)) {
+    problem.reference_speed_mps.push_back(entry.as<double>(at_least(0.0)));
   }
-  if (const auto obstacles = root.find("obstacles")) {
-    for (const JsonPlace& entry : obstacles->list(per_step, n)) {
-      auto& areas_m = problem.obstacles_m.emplace_back();
-      for (const JsonPlace& area : entry.list("a list of polygons")) {
-        areas_m.push_back(read_polygon(area));
-      }
-    }
+  for (const Node& entry : root.optional_list("obstacles", n, per_step)) {
+    auto& areas_m = problem.obstacles_m.emplace_back();
+    for (const Node& area : entry.entries()) areas_m.push_back(read_polygon(area));
   }
-  if (const auto corridor = root.find("corridor")) {
-    for (const JsonPlace& entry : corridor->list("a list of segments [[x1, y1], [x2, y2]]")) {
-      problem.boundary_m.push_back(read_segment(entry));
-    }
+  for (const Node& entry : root.optional_list("corridor")) {
+    problem.boundary_m.push_back(read_segment(entry));
   }
-  if (const auto avoids = root.find("avoids_steering_limit")) {
-    problem.avoids_steering_limit = avoids->truth();
-  }
-  if (const auto incumbent = root.find("incumbent")) {
-    problem.incumbent = read_incumbent(*incumbent, subgraph, problem);
-  }
+  problem.avoids_steering_limit = root.optional<bool>("avoids_steering_limit", false);
+  problem.incumbent = read_incumbent(root, subgraph, problem);
   return problem;
 }
 
-void check_keys(const JsonPlace& root) {
+Node read_root(const std::filesystem::path& path) {
+  Node root = Node::read_json(path);
   root.check_keys({"automaton", "subgraph", "horizon_steps", "step_s", "start", "reference",
                    "reference_speed", "obstacles", "corridor", "avoids_steering_limit", "incumbent",
                    "search"});
+  return root;
 }
 
-std::filesystem::path automaton_of(const JsonPlace& root, const std::filesystem::path& path) {
-  const std::string allowed = "the path of an automaton or configuration file";
-  const JsonPlace place = root.at("automaton", allowed);
-  const std::string written = place.text(allowed);
-  if (written.empty()) place.fail(allowed);
+std::filesystem::path automaton_of(const Node& root, const std::filesystem::path& path) {
+  const auto written = root.required<std::string>("automaton");
+  if (written.empty()) root.fail("automaton", "the path of an automaton or configuration file");
   return (path.parent_path() / written).lexically_normal();
 }
 
-ProblemFile read_rest(const JsonPlace& root, std::filesystem::path automaton_file,
+ProblemFile read_rest(const Node& root, std::filesystem::path automaton_file,
                       std::shared_ptr<const Subgraph> subgraph) {
   ProblemFile file;
   file.automaton_file = std::move(automaton_file);
   file.subgraph = std::move(subgraph);
   file.problem = read_problem(root, *file.subgraph);
-  if (const auto search = root.find("search")) file.search = read_search(*search, *file.subgraph);
+  if (root.has("search")) file.search = read_search(root.map("search"), *file.subgraph);
   return file;
 }
 
@@ -291,11 +244,11 @@ std::string to_text(const ProblemFile& file) {
   };
   add("automaton", quoted(file.automaton_file.string()));
   add("subgraph", quoted(file.subgraph->spec().name));
-  add("horizon_steps", std::to_string(problem.horizon_steps()));
+  add("horizon_steps", fmt::to_string(problem.horizon_steps()));
   add("step_s", number(file.subgraph->automaton().step_s));
-  add("start", "{\"x\": " + number(problem.start.x_m) + ", \"y\": " + number(problem.start.y_m) +
-                   ", \"psi\": " + number(problem.start.heading_rad) +
-                   ", \"trim\": " + std::to_string(problem.start_trim.index + 1) + "}");
+  add("start", fmt::format(R"({{"x": {}, "y": {}, "psi": {}, "trim": {}}})",
+                           number(problem.start.x_m), number(problem.start.y_m),
+                           number(problem.start.heading_rad), problem.start_trim.index + 1));
   add("reference", list(problem.reference_m, ", ", point));
   if (!problem.reference_speed_mps.empty()) {
     add("reference_speed", list(problem.reference_speed_mps, ", ", number));
@@ -305,47 +258,41 @@ std::string to_text(const ProblemFile& file) {
   }
   if (!problem.boundary_m.empty()) {
     add("corridor", list(problem.boundary_m, ",\n    ", [](const Segment& segment) {
-          return "[" + point(segment.from_m) + ", " + point(segment.to_m) + "]";
+          return fmt::format("[{}, {}]", point(segment.from_m), point(segment.to_m));
         }));
   }
   if (problem.avoids_steering_limit) add("avoids_steering_limit", "true");
   if (!problem.incumbent.empty()) {
     add("incumbent", list(problem.incumbent, ", ", [](const Maneuver* maneuver) {
-          return "{\"trim\": " + std::to_string(maneuver->to.index + 1) +
-                 ", \"label\": " + quoted(maneuver->label) + "}";
+          return fmt::format(R"({{"trim": {}, "label": {}}})", maneuver->to.index + 1,
+                             quoted(maneuver->label));
         }));
   }
-  add("search",
-      std::string("{\"engine\": \"") + engine_name(file.search) + "\", \"cost_to_go\": \"" +
-          to_string(file.search.cost_to_go) +
-          "\", \"max_expansions\": " + std::to_string(file.search.max_expansions) +
-          (file.search.criterion_weights.empty()
-               ? ""
-               : ", \"criterion_weights\": " + weights_text(file.search.criterion_weights)) +
-          "}");
+  const std::string weights =
+      file.search.criterion_weights.empty()
+          ? ""
+          : ", \"criterion_weights\": " + weights_text(file.search.criterion_weights);
+  add("search", fmt::format(R"({{"engine": "{}", "cost_to_go": "{}", "max_expansions": {}{}}})",
+                            engine_name(file.search), to_string(file.search.cost_to_go),
+                            file.search.max_expansions, weights));
   return text + "\n}\n";
 }
 
 void write_problem_file(const ProblemFile& file, const std::filesystem::path& path) {
-  write_atomically(to_text(file), path);
+  write_file(path, to_text(file));
 }
 
 ProblemFile read_problem_file(const std::filesystem::path& path,
                               const std::optional<std::filesystem::path>& automaton_file) {
-  const std::string name = path.string();
-  const nlohmann::json document = read_json(path);
-  const JsonPlace root(name, "", document);
-  check_keys(root);
+  const Node root = read_root(path);
   const std::filesystem::path automaton =
       automaton_file ? *automaton_file : automaton_of(root, path);
-  const std::string allowed = "the name of a subgraph of the automaton";
-  const JsonPlace subgraph = root.at("subgraph", allowed);
-  const std::string wanted = subgraph.text(allowed);
+  const auto wanted = root.required<std::string>("subgraph");
   bool is_unknown = false;
   const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
     const SubgraphSpec* spec = find_subgraph(offered, wanted);
     is_unknown = spec == nullptr;
-    if (is_unknown) subgraph.fail(names_of(offered));
+    if (is_unknown) root.fail("subgraph", names_of(offered));
     return *spec;
   };
   const auto read = [&] {
@@ -353,9 +300,12 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
       return read_subgraph(automaton, choose);
     } catch (const std::invalid_argument& error) {
       if (is_unknown) throw;  // names the problem's file
-      if (!automaton_file) root.at("automaton", "").fail_because(error.what());
-      throw std::invalid_argument(name + ": with the automaton of " + automaton.string() + ": " +
-                                  error.what());
+      throw std::invalid_argument(fmt::format(
+          "{}: {}",
+          automaton_file
+              ? fmt::format("{}: with the automaton of {}", path.string(), automaton.string())
+              : root.place("automaton"),
+          error.what()));
     }
   };
   return read_rest(root, automaton, read());
@@ -363,14 +313,8 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
 
 ProblemFile read_problem_file(const std::filesystem::path& path,
                               std::shared_ptr<const Subgraph> subgraph) {
-  const std::string name = path.string();
-  const nlohmann::json document = read_json(path);
-  const JsonPlace root(name, "", document);
-  check_keys(root);
-  const JsonPlace written = root.at("subgraph", subgraph->spec().name);
-  if (written.text(subgraph->spec().name) != subgraph->spec().name) {
-    written.fail(subgraph->spec().name);
-  }
+  const Node root = read_root(path);
+  static_cast<void>(root.required<std::string>("subgraph", one_of({subgraph->spec().name})));
   return read_rest(root, automaton_of(root, path), std::move(subgraph));
 }
 

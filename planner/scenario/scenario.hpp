@@ -65,7 +65,12 @@ struct ScenarioChoices {
   std::optional<std::size_t> cars;  ///< scenarios on a circle only
 };
 
-/// Reads the scenario, its map and its automaton: from a file that build_automaton has written, or
+/// Most cars of a scenario on a circle.
+inline constexpr std::size_t kMaxCarsOnCircle = 20;
+
+/// Reads the scenario in three stages: what its file says (scenario_values.hpp), the files that it
+/// names (scenario_inputs.hpp: map, lab and automaton), and the two put together
+/// (scenario_assembly.hpp). The automaton is read from a file that build_automaton has written, or
 /// from a configuration, of which it builds what the chosen subgraph needs, or with
 /// `reconfigurable: true` or `policies` all (maneuvers are solved);
 /// and checks that it can be driven: routes exist and close, start poses do not overlap, standstill

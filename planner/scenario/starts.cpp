@@ -1,5 +1,7 @@
 #include "planner/scenario/starts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <random>
@@ -59,9 +61,9 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
     Scenario candidate = with_starts(scenario, starts_s_m);
     if (!overlapping_starts(candidate)) return candidate;
   }
-  throw std::invalid_argument(scenario.file.string() + ": " +
-                              std::to_string(scenario.vehicles.size()) +
-                              " vehicles, allowed so many that random starts do not overlap");
+  throw std::invalid_argument(
+      fmt::format("{}: {} vehicles, allowed so many that random starts do not overlap",
+                  scenario.file.string(), scenario.vehicles.size()));
 }
 
 }  // namespace hlc

@@ -21,6 +21,19 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "none, the automaton holds no criteria" : text;
 }
 
+void check_weights(const std::vector<PlanningWeight>& weights,
+                   const std::vector<std::string>& known) {
+  for (const auto& [criterion, weight_m2] : weights) {
+    if (std::ranges::find(known, criterion) == known.end()) {
+      throw std::invalid_argument("criterion_weights: " + criterion + ", allowed " + joined(known));
+    }
+    if (!(weight_m2 >= 0.0 && weight_m2 <= SearchOptions::kMostWeight_m2)) {
+      throw std::invalid_argument("criterion_weights: " + criterion + " = " +
+                                  std::to_string(weight_m2) + ", allowed numbers from 0 to 1e9");
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> criteria_of(const Subgraph& subgraph) {
@@ -41,35 +54,30 @@ EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>
                      std::size_t max_steps)
     : weights_(weights) {
   if (weights_.empty()) return;
-  const std::vector<std::string> known = criteria_of(subgraph);
-  for (const auto& [criterion, weight_m2] : weights_) {
-    if (std::ranges::find(known, criterion) == known.end()) {
-      throw std::invalid_argument("criterion_weights: " + criterion + ", allowed " + joined(known));
-    }
-    if (!(weight_m2 >= 0.0 && weight_m2 <= SearchOptions::kMostWeight_m2)) {
-      throw std::invalid_argument("criterion_weights: " + criterion + " = " +
-                                  std::to_string(weight_m2) + ", allowed numbers from 0 to 1e9");
-    }
-  }
+  check_weights(weights_, criteria_of(subgraph));
   least_ = std::numeric_limits<double>::infinity();
   for (const TrimId trim : subgraph.starts()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       least_ = std::min(least_, weighted(*edge.maneuver));
     }
   }
-  constexpr double kSurely = 1.0 - 1e-12;
   const std::size_t num_trims = subgraph.automaton().trims.size();
   to_go_.assign(max_steps + 1, std::vector<double>(num_trims, 0.0));
   for (std::size_t steps = 1; steps <= max_steps; ++steps) {
     for (const TrimId trim : subgraph.starts()) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const Edge& edge : subgraph.successors(trim, steps)) {
-        least = std::min(
-            least, kSurely * (above_least(*edge.maneuver) + to_go_[steps - 1][edge.to.index]));
-      }
-      to_go_[steps][trim.index] = least;
+      to_go_[steps][trim.index] = least_to_go(subgraph.successors(trim, steps), to_go_[steps - 1]);
     }
   }
+}
+
+double EdgeCosts::least_to_go(std::span<const Edge> edges,
+                              const std::vector<double>& after_edge) const {
+  constexpr double kSurely = 1.0 - 1e-12;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Edge& edge : edges) {
+    least = std::min(least, kSurely * (reduced_cost(*edge.maneuver) + after_edge[edge.to.index]));
+  }
+  return least;
 }
 
 double EdgeCosts::weighted(const Maneuver& maneuver) const {
@@ -80,7 +88,7 @@ double EdgeCosts::weighted(const Maneuver& maneuver) const {
   return cost;
 }
 
-double EdgeCosts::above_least(const Maneuver& maneuver) const {
+double EdgeCosts::reduced_cost(const Maneuver& maneuver) const {
   return is_zero() ? 0.0 : weighted(maneuver) - least_;
 }
 

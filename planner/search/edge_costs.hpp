@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace hlc {
 ///     w(e) = sum_c w_c c(e)   [m^2]
 ///
 /// A criterion may be negative (J1 is), costs in a search must not be: a search adds
-/// `above_least(e)` = w(e) - least(), the least over all edges of the subgraph, and n least() to
+/// `reduced_cost(e)` = w(e) - least(), the least over all edges of the subgraph, and n least() to
 /// the result. All plans have n maneuvers, so the order of plans is the same.
 class EdgeCosts {
  public:
@@ -32,9 +33,9 @@ class EdgeCosts {
   [[nodiscard]] bool is_zero() const { return weights_.empty(); }
   [[nodiscard]] double least() const { return least_; }
   /// @pre `maneuver` is an edge of the subgraph
-  [[nodiscard]] double above_least(const Maneuver& maneuver) const;
+  [[nodiscard]] double reduced_cost(const Maneuver& maneuver) const;
 
-  /// The least sum of `above_least` over the `steps` edges of any path from `trim` that ends in an
+  /// The least sum of `reduced_cost` over the `steps` edges of any path from `trim` that ends in an
   /// equilibrium, made smaller by more than the rounding of such a sum. A lower bound, exact but
   /// for obstacles, for every automaton: it is computed from the edges that are searched.
   /// @pre distance_to_standstill(trim) <= steps <= max_steps
@@ -42,6 +43,8 @@ class EdgeCosts {
 
  private:
   [[nodiscard]] double weighted(const Maneuver& maneuver) const;
+  [[nodiscard]] double least_to_go(std::span<const Edge> edges,
+                                   const std::vector<double>& after_edge) const;
 
   std::vector<PlanningWeight> weights_;
   double least_{};

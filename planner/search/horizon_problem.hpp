@@ -11,8 +11,8 @@
 
 namespace hlc {
 
-/// The receding-horizon problem: find n maneuvers (or trims' own steps) from the start that end in
-/// an equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
+/// The receding-horizon problem: find n maneuvers (or self-loops of trims) from the start that end
+/// in an equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
 ///
 ///     sum_{j=1}^{n} || p_j - r_j ||^2   [m^2]
 ///

@@ -102,6 +102,8 @@ class PlainRun {
   void expand(const Vertex& parent);
   [[nodiscard]] double cost_to_go(const Point& position_m, std::size_t depth) const;
   [[nodiscard]] bool incoming_edge_is_free(const Vertex& vertex);
+  [[nodiscard]] bool meets_obstacle(const Vertex& vertex);
+  [[nodiscard]] bool crosses_boundary(const Vertex& vertex);
   /// Moves an area to the parent of the vertex, into `placed_m_`, and returns its box.
   Box place(const ConvexPolygon& area_m, const Vertex& parent);
 
@@ -200,21 +202,23 @@ double PlainRun::cost_to_go(const Point& position_m, std::size_t depth) const {
 }
 
 bool PlainRun::incoming_edge_is_free(const Vertex& vertex) {
-  if (vertex.step == nullptr) return true;
-  const Maneuver& maneuver = *vertex.step->maneuver;
-  if (!obstacles_.empty() && !obstacles_[vertex.depth - 1].empty()) {
-    const Box box = place(maneuver.swept_area_m, *vertex.parent);
-    for (const Obstacle& obstacle : obstacles_[vertex.depth - 1]) {
-      if (overlap(box, obstacle.box) && meet(placed_m_, obstacle.corners_m)) return false;
-    }
-  }
-  if (!boundary_.empty()) {
-    const Box box = place(maneuver.lane_area_m, *vertex.parent);
-    for (const BoundaryPiece& piece : boundary_) {
-      if (overlap(box, piece.box) && meet(placed_m_, piece.segment)) return false;
-    }
-  }
-  return true;
+  return vertex.step == nullptr || !(meets_obstacle(vertex) || crosses_boundary(vertex));
+}
+
+bool PlainRun::meets_obstacle(const Vertex& vertex) {
+  if (obstacles_.empty() || obstacles_[vertex.depth - 1].empty()) return false;
+  const Box box = place(vertex.step->maneuver->swept_area_m, *vertex.parent);
+  return std::ranges::any_of(obstacles_[vertex.depth - 1], [&](const Obstacle& obstacle) {
+    return overlap(box, obstacle.box) && meet(placed_m_, obstacle.corners_m);
+  });
+}
+
+bool PlainRun::crosses_boundary(const Vertex& vertex) {
+  if (boundary_.empty()) return false;
+  const Box box = place(vertex.step->maneuver->lane_area_m, *vertex.parent);
+  return std::ranges::any_of(boundary_, [&](const BoundaryPiece& piece) {
+    return overlap(box, piece.box) && meet(placed_m_, piece.segment);
+  });
 }
 
 Box PlainRun::place(const ConvexPolygon& area_m, const Vertex& parent) {

@@ -9,7 +9,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 #include "tests/benchmarks/contestants.hpp"
 #include "tests/benchmarks/problem_sets.hpp"
 #include "tests/benchmarks/search_report.hpp"
@@ -84,7 +84,7 @@ bool run(const Choices& choices) {
   }
   hlc::test::print_legend(std::cout);
   if (choices.json.file) {
-    hlc::write_atomically(to_json(reports).dump(2) + '\n', *choices.json.file);
+    hlc::write_file(*choices.json.file, to_json(reports).dump(2) + '\n');
   }
   bool is_optimal = true;
   for (const hlc::test::SetReport& report : reports) {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "hlc_bridge/record/drive_file.hpp"
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"

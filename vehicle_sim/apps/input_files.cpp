@@ -1,7 +1,7 @@
 #include "vehicle_sim/apps/input_files.hpp"
 
-#include "hlc_bridge/record/text_file.hpp"
 #include "planner/common/sha256.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 

@@ -8,7 +8,7 @@
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
 

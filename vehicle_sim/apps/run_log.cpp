@@ -1,6 +1,7 @@
 #include "vehicle_sim/apps/run_log.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc {
 namespace {
@@ -62,8 +63,9 @@ RunLog::RunLog(std::filesystem::path folder, std::string heading)
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
     if (error) {
-      throw std::invalid_argument("--out = " + folder_.string() + ": cannot be made, " +
-                                  error.message() + ", allowed a folder that can be written to");
+      throw std::invalid_argument(
+          fmt::format("--out = {}: cannot be made, {}, allowed a folder that can be written to",
+                      folder_.string(), error.message()));
     }
   }
   if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
@@ -79,8 +81,8 @@ RunLog::RunLog(std::filesystem::path folder, std::string heading)
 RunLog::~RunLog() { ::close(lock_); }
 
 void RunLog::refuse(const std::string& what) const {
-  throw std::invalid_argument("--out = " + folder_.string() + ": " + what +
-                              ", allowed a new folder or that of the same campaign");
+  throw std::invalid_argument(fmt::format(
+      "--out = {}: {}, allowed a new folder or that of the same campaign", folder_.string(), what));
 }
 
 void RunLog::lock() {
@@ -122,7 +124,7 @@ void RunLog::open() {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Json record = Json::parse(lines[i], nullptr, false);
     if (!record.is_object() || !record.contains("run") || !record["run"].is_number_unsigned()) {
-      refuse("line " + std::to_string(i + 1) + " of runs.jsonl is no record of a run");
+      refuse(fmt::format("line {} of runs.jsonl is no record of a run", i + 1));
     }
     records_[record["run"].get<std::size_t>()] = lines[i];
     kept += lines[i] + "\n";
@@ -133,10 +135,8 @@ void RunLog::open() {
 void RunLog::check(std::size_t num_runs,
                    const std::function<void(std::size_t run, const Json&)>& read) const {
   for (const auto& [run, line] : records_) {
-    const std::string record = "the record of run " + std::to_string(run) + " in runs.jsonl ";
-    if (run >= num_runs) {
-      refuse(record + "is none of this campaign's " + std::to_string(num_runs));
-    }
+    const std::string record = fmt::format("the record of run {} in runs.jsonl ", run);
+    if (run >= num_runs) refuse(fmt::format("{}is none of this campaign's {}", record, num_runs));
     try {
       read(run, Json::parse(line));
     } catch (const std::exception&) {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hlc_bridge/record/program.hpp"
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 #include "vehicle_sim/apps/figures_record.hpp"
 #include "vehicle_sim/apps/input_files.hpp"
 #include "vehicle_sim/campaign/sweep_csv.hpp"

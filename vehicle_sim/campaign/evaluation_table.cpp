@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/common/csv_field.hpp"
+#include "planner/common/csv.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_table.hpp"
 

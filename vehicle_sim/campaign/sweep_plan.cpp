@@ -30,7 +30,7 @@ SweepValue trims_value(const std::set<TrimId>& chosen, const std::vector<Trim>& 
   return value;
 }
 
-std::vector<SweepValue> all_subsets(const YamlNode& settings, const std::vector<Trim>& trims) {
+std::vector<SweepValue> all_subsets(const Node& settings, const std::vector<Trim>& trims) {
   std::vector<TrimId> moving;
   for (std::size_t i = 0; i < trims.size(); ++i) {
     if (!trims[i].is_equilibrium()) moving.push_back(TrimId{i});
@@ -51,10 +51,10 @@ std::vector<SweepValue> all_subsets(const YamlNode& settings, const std::vector<
   return values;
 }
 
-SweepValue read_trims(const YamlNode& entry, const std::vector<Trim>& trims) {
+SweepValue read_trims(const Node& entry, const std::vector<Trim>& trims) {
   if (!entry.is_list()) entry.fail("a list of trims' numbers");
   std::set<TrimId> chosen;
-  for (const YamlNode& one : entry.entries()) {
+  for (const Node& one : entry.entries()) {
     const TrimId trim{one.as<std::size_t>(between(1.0, static_cast<double>(trims.size()))) - 1};
     if (!chosen.insert(trim).second) one.fail("each trim once");
   }
@@ -65,7 +65,7 @@ SweepValue read_trims(const YamlNode& entry, const std::vector<Trim>& trims) {
   return value;
 }
 
-SweepValue read_value(const YamlNode& entry, const SweepSetting& setting,
+SweepValue read_value(const Node& entry, const SweepSetting& setting,
                       const std::vector<Trim>& trims) {
   if (setting.name == kTrimsSetting) return read_trims(entry, trims);
   if (!setting.is_number) return {.text = entry.as<std::string>(setting.allowed)};
@@ -73,7 +73,7 @@ SweepValue read_value(const YamlNode& entry, const SweepSetting& setting,
   return {.text = shortest_text(number), .number = number};
 }
 
-std::vector<SweepAxis> read_axes(const YamlNode& settings, const std::vector<Trim>& trims) {
+std::vector<SweepAxis> read_axes(const Node& settings, const std::vector<Trim>& trims) {
   std::vector<SweepAxis> axes;
   for (const SweepSetting& setting : sweep_settings()) {
     if (!settings.has(setting.name)) continue;
@@ -82,7 +82,7 @@ std::vector<SweepAxis> read_axes(const YamlNode& settings, const std::vector<Tri
       static_cast<void>(settings.required<std::string>(setting.name, one_of({kSubsets})));
       axis.values = all_subsets(settings, trims);
     } else {
-      for (const YamlNode& entry : settings.list(setting.name)) {
+      for (const Node& entry : settings.list(setting.name)) {
         SweepValue value = read_value(entry, setting, trims);
         const auto is_same = [&](const SweepValue& one) { return one.text == value.text; };
         if (std::ranges::any_of(axis.values, is_same)) entry.fail("each value once");
@@ -97,8 +97,8 @@ std::vector<SweepAxis> read_axes(const YamlNode& settings, const std::vector<Tri
 }
 
 /// The scenarios, and the automaton that they share.
-void read_scenarios(const YamlNode& node, SweepPlan& plan) {
-  for (const YamlNode& entry : node.list("scenarios")) {
+void read_scenarios(const Node& node, SweepPlan& plan) {
+  for (const Node& entry : node.list("scenarios")) {
     const std::filesystem::path scenario = beside(plan.file, entry.as<std::string>());
     if (!std::filesystem::is_regular_file(scenario)) entry.fail("a scenario's file");
     // Reports tell scenarios by their names.
@@ -107,7 +107,7 @@ void read_scenarios(const YamlNode& node, SweepPlan& plan) {
         })) {
       entry.fail("each scenario once, by its name");
     }
-    const YamlNode in_scenario = YamlNode::read_file(scenario);
+    const Node in_scenario = Node::read_yaml(scenario);
     const auto automaton = beside(scenario, in_scenario.required<std::string>("automaton"));
     if (!plan.scenarios.empty() && automaton != plan.automaton) {
       entry.fail("scenarios on the same automaton, " + plan.automaton.string());
@@ -122,9 +122,9 @@ void read_scenarios(const YamlNode& node, SweepPlan& plan) {
   if (plan.scenarios.empty()) node.fail("scenarios", "at least one scenario's file");
 }
 
-void read_subgraph_names(const YamlNode& node, const std::vector<SubgraphSpec>& offered,
+void read_subgraph_names(const Node& node, const std::vector<SubgraphSpec>& offered,
                          SweepPlan& plan) {
-  for (const YamlNode& entry : node.list("subgraphs")) {
+  for (const Node& entry : node.list("subgraphs")) {
     const auto name = entry.as<std::string>();
     if (find_subgraph(offered, name) == nullptr) entry.fail(names_of(offered));
     if (std::ranges::find(plan.subgraphs, name) != plan.subgraphs.end()) {
@@ -135,15 +135,15 @@ void read_subgraph_names(const YamlNode& node, const std::vector<SubgraphSpec>& 
   if (plan.subgraphs.empty()) node.fail("subgraphs", names_of(offered));
 }
 
-std::vector<std::vector<std::size_t>> read_tables(const YamlNode& node, const SweepPlan& plan) {
+std::vector<std::vector<std::size_t>> read_tables(const Node& node, const SweepPlan& plan) {
   std::vector<std::vector<std::size_t>> tables;
   if (!node.has("tables")) return tables;
   std::vector<std::string> settings;
   for (const SweepAxis& axis : plan.axes) settings.push_back(axis.setting);
-  for (const YamlNode& entry : node.list("tables")) {
+  for (const Node& entry : node.list("tables")) {
     if (!entry.is_list()) entry.fail("a list of settings");
     std::vector<std::size_t> axes;
-    for (const YamlNode& one : entry.entries()) {
+    for (const Node& one : entry.entries()) {
       const auto name = one.as<std::string>(one_of(settings));
       const auto axis =
           static_cast<std::size_t>(std::ranges::find(settings, name) - settings.begin());
@@ -162,7 +162,7 @@ std::size_t grid_size(const SweepPlan& plan) {
   return size;
 }
 
-void check_size(const YamlNode& node, const SweepPlan& plan) {
+void check_size(const Node& node, const SweepPlan& plan) {
   double size = static_cast<double>(plan.runs_each());
   for (const SweepAxis& axis : plan.axes) size *= static_cast<double>(axis.values.size());
   if (!plan.runs && size > kMaxRuns) {
@@ -175,7 +175,7 @@ void check_size(const YamlNode& node, const SweepPlan& plan) {
 }  // namespace
 
 SweepPlan read_sweep(const std::filesystem::path& file) {
-  const YamlNode node = YamlNode::read_file(file);
+  const Node node = Node::read_yaml(file);
   SweepPlan plan{.file = file};
   read_scenarios(node, plan);
   const AutomatonConfiguration automaton = read_automaton_configuration(plan.automaton);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/scenario/scenario.hpp"
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "planner/common/csv_field.hpp"
+#include "planner/common/csv.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/tradeoff.hpp"
 #include "vehicle_sim/campaign/tradeoff_rows.hpp"

@@ -48,7 +48,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
                                     subgraph.distance_to_standstill(edge.to),
                                     is_at_steering_limit(automaton.trims[edge.to.index],
                                                          automaton.vehicle, automaton.identified),
-                                    costs_.above_least(*edge.maneuver)});
+                                    costs_.reduced_cost(*edge.maneuver)});
     }
   }
 }
@@ -65,11 +65,6 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
   collision_.prepare(problem);
   const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
   const bool has_incumbent = write_incumbent(problem, result);
-  const bool is_bound = is_admissible(options_.cost_to_go);
-  const double least_cost = static_cast<double>(n) * costs_.least();
-  const auto bound_of_start = [&] {
-    return least_cost_of_problem(subgraph_, reachable_, costs_, problem);
-  };
 
   vertices_.clear();
   vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
@@ -81,26 +76,38 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
     open.pop();
     if (!incoming_edge_is_free(vertices_[taken.vertex])) continue;
     if (vertices_[taken.vertex].depth == n) {
-      if (!has_incumbent || cost_of(taken.vertex, n) < result.cost) {
-        write_path(taken.vertex, problem, result);
-      }
-      result.lower_bound = is_bound ? result.cost : std::min(bound_of_start(), result.cost);
-      const bool is_proven = result.lower_bound == result.cost;
-      result.status = is_proven ? SearchStatus::kOptimal : SearchStatus::kUnproven;
-      result.reason = NoPath::kNone;
+      end_at_goal(taken.vertex, problem, has_incumbent, result);
       break;
     }
     const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
     if (result.expanded == options_.max_expansions || is_told_to_stop) {
       // Every other entry of the open list has no smaller f.
-      const double bound = is_bound ? taken.cost_estimate + least_cost : bound_of_start();
-      give_up(has_incumbent, bound, result);
+      const double open_cost = taken.cost_estimate + static_cast<double>(n) * costs_.least();
+      give_up(has_incumbent, lower_bound(open_cost, problem), result);
       break;
     }
     expand(taken.vertex, problem, cost_to_go, open);
     ++result.expanded;
   }
   result.generated = vertices_.size();
+}
+
+/// With the goal's path, unless the incumbent costs no more.
+void BestFirstSearch::end_at_goal(VertexId goal, const HorizonProblem& problem, bool has_incumbent,
+                                  SearchResult& result) const {
+  if (!has_incumbent || cost_of(goal, problem.horizon_steps()) < result.cost) {
+    write_path(goal, problem, result);
+  }
+  result.lower_bound = std::min(lower_bound(result.cost, problem), result.cost);
+  const bool is_proven = result.lower_bound == result.cost;
+  result.status = is_proven ? SearchStatus::kOptimal : SearchStatus::kUnproven;
+  result.reason = NoPath::kNone;
+}
+
+/// What every path costs at least, if by the cost-to-go it is `estimate`.
+double BestFirstSearch::lower_bound(double estimate, const HorizonProblem& problem) const {
+  if (is_admissible(options_.cost_to_go)) return estimate;
+  return least_cost_of_problem(subgraph_, reachable_, costs_, problem);
 }
 
 bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResult& result) {

@@ -63,7 +63,7 @@ class BestFirstSearch final : public SearchEngine {
     TrimId to;
     std::size_t distance_to_standstill;
     bool ends_at_limit;
-    double cost;  ///< EdgeCosts::above_least
+    double cost;  ///< EdgeCosts::reduced_cost
   };
 
   struct Vertex {
@@ -88,6 +88,9 @@ class BestFirstSearch final : public SearchEngine {
   void expand(VertexId vertex, const HorizonProblem& problem, const CostToGoFunction& cost_to_go,
               OpenList& open);
   [[nodiscard]] bool incoming_edge_is_free(const Vertex& vertex);
+  void end_at_goal(VertexId goal, const HorizonProblem& problem, bool has_incumbent,
+                   SearchResult& result) const;
+  [[nodiscard]] double lower_bound(double estimate, const HorizonProblem& problem) const;
   /// Writes maneuvers, poses and cost of the incumbent; nothing, and false, if it is no free path.
   bool write_incumbent(const HorizonProblem& problem, SearchResult& result);
   [[nodiscard]] const Step* find_step(TrimId trim, const Maneuver* maneuver) const;

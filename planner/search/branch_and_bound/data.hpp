@@ -97,7 +97,7 @@ struct alignas(64) EdgeData {
   double displacement[4];  ///< x, y [m], cosine and sine of the heading
   double turned[4];        ///< position and heading of it, turned to the left: -y, x, -sine, cosine
   Move move;               ///< the displacement once more
-  double cost;             ///< of the maneuver itself (EdgeCosts::above_least)
+  double cost;             ///< of the maneuver itself (EdgeCosts::reduced_cost)
   std::uint32_t to;        ///< trim
   /// The swept area: convex pieces of up to eight corners. Most have one.
   std::uint32_t first_swept;  ///< of `Tables::area_blocks`

@@ -159,7 +159,7 @@ EdgeData TableStore::edge_data(const Edge& edge, const Frame& displacement,
   const double s = displacement.sin_heading;
   EdgeData data{.displacement = {x_m, y_m, c, s},
                 .turned = {-y_m, x_m, -s, c},
-                .cost = costs.above_least(*edge.maneuver),
+                .cost = costs.reduced_cost(*edge.maneuver),
                 .to = static_cast<std::uint32_t>(edge.to.index),
                 .first_swept = static_cast<std::uint32_t>(area_blocks_.size())};
   const auto& corners = edge.maneuver->swept_area_m.vertices_m;

@@ -170,12 +170,12 @@ TEST(ControllerProgram, RefusesAnAutomatonThatTheLabsVehiclesCannotFollow) {
 TEST(ControllerProgram, RefusesAVehicleThatIsNamedTwice) {
   const Outcome outcome = run_program("high_level_controller --vehicle_ids=1,2,1");
   EXPECT_EQ(outcome.exit_code, kExitBadInput);
-  EXPECT_NE(outcome.output.find("--vehicle_ids: 1 twice"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("--vehicle_ids = 1 twice"), std::string::npos) << outcome.output;
 }
 
 TEST(ControllerProgram, SaysWhatAFlagMayBe) {
   const std::vector<std::pair<std::string, std::string>> lines{
-      {"--simulated_time=perhaps", "--simulated_time = perhaps, allowed true or false"},
+      {"--simulated_time=perhaps", "--simulated_time: perhaps, allowed true or false"},
       {"--core=first", "--core: first, allowed 0 ... 1023"},
       {"--dds_domain=400", "--dds_domain: 400 is not allowed, 0 to 232"},
       {"--colour=red", "not expected: --colour=red, allowed what --help lists"}};

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/text_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc {

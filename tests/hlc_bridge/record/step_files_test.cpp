@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc {

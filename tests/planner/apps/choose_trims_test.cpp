@@ -108,7 +108,7 @@ TEST_F(ChooseTrimsProgram, BadInputIsOneLineAndCode2) {
     EXPECT_NE(outcome.output.find(named), std::string::npos) << outcome.output;
     EXPECT_EQ(outcome.output.find('\n'), outcome.output.size() - 1) << outcome.output;
   };
-  refused(path("letters.csv"), "letters.csv:2: steering_rad = left, allowed a number");
+  refused(path("letters.csv"), "letters.csv:2: steering_rad = \"left\", allowed a number");
   refused(path("columns.csv"), "columns.csv:1: columns = a,b, allowed");
   refused(path("stands.csv"), "stood for the whole drive");
   refused(path("nowhere.csv"), "nowhere.csv: cannot be read");

@@ -127,7 +127,7 @@ TEST_F(ProblemPrograms, BadInputIsOneLineAndExitCode2) {
     EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
   }
   EXPECT_THAT(run_program("plan_problem " + unknown).output,
-              HasSubstr("problem.json: unknown key start.phi, allowed x, y, psi, trim"));
+              HasSubstr("problem.json: start.phi = 0, unknown key, allowed keys x, y, psi, trim"));
 }
 
 TEST_F(ProblemPrograms, TheNameOfAFileStaysInOneLine) {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 
 namespace hlc {
 namespace {
@@ -31,7 +31,7 @@ TEST(ShortestText, ReadsBackAsTheSameBits) {
 
 TEST(QuotedYaml, ReadsBack) {
   for (const char* text : {"", "B", "a: b # c", "\"\\\"", "- [x]", "µCar"}) {
-    const YamlNode node = YamlNode::parse("key: " + quoted_yaml(text), "test");
+    const Node node = Node::parse_yaml("key: " + quoted_yaml(text), "test");
     EXPECT_EQ(node.required<std::string>("key"), text);
   }
 }

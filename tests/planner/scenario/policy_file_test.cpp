@@ -19,7 +19,7 @@ using testing::HasSubstr;
 std::map<std::string, ReconfigurationSettings> read(const std::string& text) {
   static const Subgraph base =
       test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims);
-  const YamlNode node = YamlNode::parse(text, "test.yaml");
+  const Node node = Node::parse_yaml(text, "test.yaml");
   auto policies = read_policies(node);
   for (const auto& [name, settings] : policies) check_policy(node, name, settings, base, 8, {});
   return policies;

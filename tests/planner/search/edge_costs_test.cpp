@@ -113,7 +113,7 @@ double least_sum(const EdgeCosts& costs, const Subgraph& subgraph, TrimId trim, 
   double least = std::numeric_limits<double>::infinity();
   for (const Edge& edge : subgraph.successors(trim)) {
     least = std::min(
-        least, costs.above_least(*edge.maneuver) + least_sum(costs, subgraph, edge.to, steps - 1));
+        least, costs.reduced_cost(*edge.maneuver) + least_sum(costs, subgraph, edge.to, steps - 1));
   }
   return least;
 }
@@ -131,7 +131,7 @@ TEST(EdgeCosts, WhatTheRestCostsAtLeastIsExactAndNeverTooMuch) {
         EXPECT_NEAR(costs.to_go(trim, steps), truth, 1e-9);
       }
       for (const Edge& edge : subgraph.successors(trim)) {
-        EXPECT_GE(costs.above_least(*edge.maneuver), 0.0);
+        EXPECT_GE(costs.reduced_cost(*edge.maneuver), 0.0);
       }
     }
   }

@@ -1,14 +1,14 @@
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/csv.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
+#include "planner/common/yaml_text.hpp"
 
 namespace hlc {
 namespace {
@@ -43,8 +43,9 @@ class RowScanner {
   [[nodiscard]] bool is_at(char c) const { return at_ < text_.size() && text_[at_] == c; }
 
   [[noreturn]] void refuse(std::size_t line, const std::string& what) const {
-    throw std::runtime_error(file_.string() + ":" + std::to_string(line) + ": " + what +
-                             ", allowed quotes around a whole field, doubled within it");
+    throw std::runtime_error(
+        fmt::format("{}:{}: {}, allowed quotes around a whole field, doubled within it",
+                    file_.string(), line, what));
   }
 
   std::string plain() {
@@ -83,29 +84,20 @@ class RowScanner {
 
 }  // namespace
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
-  write_atomically(content, file);
+std::string csv_field(std::string_view text) {
+  std::string field{text};
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return field;
+  for (std::size_t at = 0; (at = field.find('"', at)) != std::string::npos; at += 2) {
+    field.insert(at, 1, '"');
+  }
+  return '"' + field + '"';
 }
 
-std::string read_file(const std::filesystem::path& file) {
-  std::ifstream stream{file, std::ios::binary};
-  std::string content{std::istreambuf_iterator<char>{stream}, {}};
-  if (!stream || stream.bad()) {
-    throw std::runtime_error(file.string() + ": cannot be read");
-  }
-  return content;
-}
+std::string CsvLine::number_text(double value) { return shortest_text(value); }
 
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> pieces;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= text.size(); ++i) {
-    if (i == text.size() || text[i] == separator) {
-      pieces.emplace_back(text.substr(begin, i - begin));
-      begin = i + 1;
-    }
-  }
-  return pieces;
+void CsvLine::append(const std::string& field) {
+  text_ += (is_empty_ ? "" : ",") + field;
+  is_empty_ = false;
 }
 
 CsvTable::CsvTable(const std::filesystem::path& file, std::string_view heading)
@@ -113,17 +105,35 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::string_view heading)
   const std::string content = read_file(file);
   const std::size_t end = content.find('\n');
   if (end == std::string::npos || std::string_view{content}.substr(0, end) != heading) {
-    throw std::runtime_error(file.string() + ":1: the heading must be " + std::string{heading});
+    throw std::runtime_error(fmt::format("{}:1: the heading must be {}", file.string(), heading));
   }
-  RowScanner scanner{file, content, end + 1};
+  read_rows(content, end + 1);
+}
+
+CsvTable::CsvTable(const std::filesystem::path& file) : file_{file} {
+  std::string content = read_regular_file(file, "a CSV file");
+  std::erase(content, '\r');
+  if (!content.ends_with('\n')) content += '\n';
+  const std::size_t end = content.find('\n');
+  columns_ = split(std::string_view{content}.substr(0, end), ',');
+  read_rows(content, end + 1);
+}
+
+void CsvTable::read_rows(std::string_view text, std::size_t begin) {
+  RowScanner scanner{file_, text, begin};
   while (std::optional<CsvRow> row = scanner.next()) {
     if (row->fields.size() != columns_.size()) {
-      throw std::runtime_error(file.string() + ":" + std::to_string(row->line) + ": " +
-                               std::to_string(row->fields.size()) + " fields, must be " +
-                               std::to_string(columns_.size()));
+      throw std::runtime_error(fmt::format("{}:{}: {} fields, must be {}", file_.string(),
+                                           row->line, row->fields.size(), columns_.size()));
     }
     rows_.push_back(std::move(*row));
   }
+}
+
+std::optional<std::size_t> CsvTable::find(std::string_view column) const {
+  const auto found = std::ranges::find(columns_, column);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
 }
 
 const std::string& CsvTable::text(std::size_t row, std::size_t column) const {
@@ -147,9 +157,9 @@ std::uint64_t CsvTable::unsigned_number(std::size_t row, std::size_t column) con
 }
 
 void CsvTable::refuse(std::size_t row, std::size_t column, std::string_view allowed) const {
-  throw std::runtime_error(file_.string() + ":" + std::to_string(rows_.at(row).line) + ": " +
-                           columns_.at(column) + " = \"" + text(row, column) + "\", allowed " +
-                           std::string{allowed});
+  throw std::runtime_error(fmt::format("{}:{}: {} = \"{}\", allowed {}", file_.string(),
+                                       rows_.at(row).line, columns_.at(column), text(row, column),
+                                       allowed));
 }
 
 }  // namespace hlc

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "planner/common/value_tree.hpp"
 
 namespace hlc {
 
@@ -25,28 +26,31 @@ struct Allowed {
 [[nodiscard]] Allowed between(double min, double max);  ///< min <= x <= max
 [[nodiscard]] Allowed one_of(std::vector<std::string> words);
 
-/// A map, list or value of a YAML file that knows where it stands, for strict reading: every field
-/// has a type and a range, and a key that nobody asked for is an error.
+/// A map, list or value of a YAML or JSON file that knows where it stands, for strict reading:
+/// every field has a type and a range, and a key that nobody asked for is an error.
 ///
-///     const YamlNode file = YamlNode::read_file("car.yaml");
+///     const Node file = Node::read_yaml("car.yaml");
 ///     const auto length_m = file.required<double>("length_m", above(0.0));
 ///     const auto name = file.optional<std::string>("name", "car");
-///     for (const YamlNode& wheel : file.list("wheels")) {
+///     for (const Node& wheel : file.list("wheels")) {
 ///       radii_m.push_back(wheel.required<double>("radius_m"));
 ///       wheel.check_no_unknown_keys();
 ///     }
 ///     file.check_no_unknown_keys();  // for every map, after its last field
 ///
-/// All errors are std::invalid_argument with one line, "file:line: key = value, allowed ...". Keys
-/// are printed with the way to them, list entries counted from 1: `trims[3].speed_mps`. Long values
-/// are cut.
-class YamlNode {
+/// All errors are std::invalid_argument with one line, "file:line: key = value, allowed ...", of
+/// JSON without the line. Keys are printed with the way to them, list entries counted from 1 in
+/// YAML, `trims[3].speed_mps`, and from 0 in JSON. Long values are cut. Copies are cheap: all nodes
+/// of a file share it.
+class Node {
  public:
-  /// @throws std::invalid_argument if the file is no regular file, cannot be read, is not YAML, or
-  /// does not hold a map
-  [[nodiscard]] static YamlNode read_file(const std::filesystem::path& path);
+  /// @throws std::invalid_argument if the file is no regular file, cannot be read, is not YAML (see
+  /// parse_yaml), or does not hold a map
+  [[nodiscard]] static Node read_yaml(const std::filesystem::path& path);
   /// The same for text in memory; `name` stands for the file in messages.
-  [[nodiscard]] static YamlNode parse(const std::string& text, const std::string& name);
+  [[nodiscard]] static Node parse_yaml(const std::string& text, const std::string& name);
+  /// The same for JSON (see parse_json); need not be a regular file.
+  [[nodiscard]] static Node read_json(const std::filesystem::path& path);
 
   [[nodiscard]] bool has(const std::string& key) const;
 
@@ -64,26 +68,36 @@ class YamlNode {
   [[nodiscard]] T optional(const std::string& key, T fallback, const Allowed& allowed = {}) const;
 
   /// A map inside this map.
-  [[nodiscard]] YamlNode map(const std::string& key) const;
+  [[nodiscard]] Node map(const std::string& key) const;
   /// The same; a map without keys if the key is absent.
-  [[nodiscard]] YamlNode optional_map(const std::string& key) const;
+  [[nodiscard]] Node optional_map(const std::string& key) const;
   /// Entries of a list inside this map; may be empty.
-  [[nodiscard]] std::vector<YamlNode> list(const std::string& key) const;
+  [[nodiscard]] std::vector<Node> list(const std::string& key) const;
+  /// The same of a list that must have so many entries; `allowed` describes it in messages.
+  [[nodiscard]] std::vector<Node> list(const std::string& key, std::size_t count,
+                                       const std::string& allowed) const;
   /// The same; no entries if the key is absent.
-  [[nodiscard]] std::vector<YamlNode> optional_list(const std::string& key) const;
+  [[nodiscard]] std::vector<Node> optional_list(const std::string& key) const;
+  [[nodiscard]] std::vector<Node> optional_list(const std::string& key, std::size_t count,
+                                                const std::string& allowed) const;
 
   /// The keys of this map, in their order in the file.
   [[nodiscard]] std::vector<std::string> keys() const;
 
   /// True if this entry of a list is a map, a list.
-  [[nodiscard]] bool is_map() const { return node_.IsMap(); }
-  [[nodiscard]] bool is_list() const { return node_.IsSequence(); }
+  [[nodiscard]] bool is_map() const { return value_->kind == Value::Kind::kMap; }
+  [[nodiscard]] bool is_list() const { return value_->kind == Value::Kind::kList; }
   /// Value of an entry of a list. T as for `required`.
   template <typename T>
   [[nodiscard]] T as(const Allowed& allowed = {}) const;
   /// Entries of an entry that is itself a list.
-  [[nodiscard]] std::vector<YamlNode> entries() const;
+  [[nodiscard]] std::vector<Node> entries() const;
+  /// The same of a list that must have so many; `allowed` describes it in messages.
+  [[nodiscard]] std::vector<Node> entries(std::size_t count, const std::string& allowed) const;
 
+  /// Throws if this map holds another key than these: for use before any field is read, so that a
+  /// misspelt key is named rather than the field that is missing for it.
+  void check_keys(std::initializer_list<const char*> known) const;
   /// Throws if this map holds a key that none of the functions above was asked for.
   void check_no_unknown_keys() const;
 
@@ -97,16 +111,19 @@ class YamlNode {
   [[noreturn]] void fail(const std::string& allowed) const;
 
  private:
-  YamlNode(const YAML::Node& node, std::string file, std::string path, int line);
-  [[nodiscard]] std::optional<YamlNode> find(const std::string& key) const;
-  [[nodiscard]] YamlNode child(const std::string& key, const std::string& allowed) const;
+  struct File;  ///< name, format and tree of values
+  Node(std::shared_ptr<const File> file, const Value& value, std::string path, int line);
+  [[nodiscard]] static Node root_of(Value root, const std::string& name, FileFormat format);
+  [[nodiscard]] std::optional<Node> find(const std::string& key) const;
+  [[nodiscard]] Node child(const std::string& key, const std::string& allowed) const;
   [[noreturn]] void fail_at(int line, const std::string& text) const;
-  [[nodiscard]] std::string path_of(const std::string& key) const;
+  [[nodiscard]] std::string shown_value() const;
+  [[nodiscard]] std::string map_word() const;
 
-  YAML::Node node_;
-  std::string file_;
+  std::shared_ptr<const File> file_;
+  const Value* value_;
   std::string path_;  ///< way from the top, empty there
-  int line_;
+  int line_;          ///< of an absent map, the line of the one around it
   std::shared_ptr<std::vector<std::string>> asked_;  ///< keys; shared by copies
 };
 

@@ -1,4 +1,4 @@
-#include "hlc_bridge/record/text_file.hpp"
+#include "planner/common/csv.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "planner/common/csv_field.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
@@ -16,38 +15,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TEST(TextFile, ReadsBackWhatWasWritten) {
-  const TemporaryFolder folder;
-  for (const std::string& content :
-       {std::string{}, std::string{"a\nb"}, std::string(100'000, 'x')}) {
-    write_file(folder / "file", content);
-    EXPECT_EQ(read_file(folder / "file"), content);
-  }
-}
-
-TEST(TextFile, WritingLeavesNothingElseBehind) {
-  const TemporaryFolder folder;
-  write_file(folder / "file", "old");
-  write_file(folder / "file", "new");
-  std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator{folder.path()}) {
-    EXPECT_EQ(entry.path().filename(), "file");
-    ++files;
-  }
-  EXPECT_EQ(files, 1U);
-}
-
-TEST(TextFile, FailureNamesTheFile) {
-  const TemporaryFolder folder;
-  EXPECT_THAT([&] { write_file(folder / "no" / "file", "x"); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("no/file: cannot be written")));
-  EXPECT_THAT([&] { (void)read_file(folder / "nothing"); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("nothing: cannot be read")));
-}
-
-TEST(Split, KeepsEmptyPieces) {
-  EXPECT_THAT(split("a,,b,", ','), ElementsAre("a", "", "b", ""));
-  EXPECT_THAT(split("", ','), ElementsAre(""));
+TEST(CsvLine, WritesNumbersTruthsTextsAndWhatIsNotThere) {
+  CsvLine line(1U, 0.1, true, "a", std::string("b,c"));
+  line.add(std::optional<double>(), std::optional(-2.5));
+  EXPECT_EQ(line.text(), "1,0.1,1,a,\"b,c\",,-2.5\n");
+  EXPECT_EQ(CsvLine("", "").text(), ",\n");
 }
 
 class CsvTableTest : public testing::Test {
@@ -124,6 +96,18 @@ TEST_F(CsvTableTest, RefusesWhatIsNoNumberAndNamesThePlace) {
   EXPECT_THAT([&] { (void)csv.unsigned_number(1, 1); },
               ThrowsMessage<std::runtime_error>(HasSubstr("b = \"-3\", allowed a whole number")));
   EXPECT_THROW((void)csv.number(2, 0), std::runtime_error);
+}
+
+TEST_F(CsvTableTest, AFileOfAnybodyMayHaveAnyColumnsAndLineEnds) {
+  put(folder_ / "t.csv", "x,y\r\n1,2\r\n3,4");
+  const CsvTable csv(folder_ / "t.csv");
+  EXPECT_EQ(csv.size(), 2U);
+  EXPECT_EQ(csv.find("y"), 1U);
+  EXPECT_EQ(csv.find("z"), std::nullopt);
+  EXPECT_EQ(csv.number(1, 1), 4.0);
+  EXPECT_THAT(
+      [&] { (void)CsvTable("/dev/zero"); },
+      ThrowsMessage<std::invalid_argument>("/dev/zero: cannot be read, allowed a CSV file"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -17,6 +18,9 @@ namespace hlc {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -33,7 +37,7 @@ TEST(WriteAtomically, TouchesNoOtherFile) {
   put(file, "old");
   const std::string own = file.string() + "." + std::to_string(getpid()) + "_0.part";
   for (const std::string& other : {file.string() + ".part", own}) put(other, "of the user");
-  write_atomically("new", file);
+  write_file(file, "new");
   EXPECT_EQ(text_of(file), "new");
   EXPECT_EQ(text_of(file.string() + ".part"), "of the user");
   EXPECT_EQ(text_of(own), "of the user");
@@ -50,7 +54,7 @@ TEST(WriteAtomically, OfProcessesThatWriteTheSameFileOneLeavesItsWholeText) {
     int code = 0;
     try {
       for (int round = 0; round < 50; ++round) {
-        write_atomically(std::string(kSize, static_cast<char>('a' + i)), file);
+        write_file(file, std::string(kSize, static_cast<char>('a' + i)));
       }
     } catch (const std::exception&) {
       code = 1;
@@ -76,11 +80,45 @@ TEST(WriteAtomically, RefusesWhatIsThereAndNoRegularFile) {
   fs::create_symlink("target", folder / "link");
   for (const fs::path& path :
        {pipe, folder / "folder", folder / "link", folder / "no" / "c.yaml"}) {
-    EXPECT_THROW(write_atomically("new", path), std::runtime_error) << path;
+    EXPECT_THROW(write_file(path, "new"), std::runtime_error) << path;
   }
   EXPECT_TRUE(fs::is_fifo(pipe));
   EXPECT_TRUE(fs::is_symlink(folder / "link"));
   EXPECT_EQ(num_files(folder), 4);
+}
+
+TEST(TextFile, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  for (const std::string& content :
+       {std::string{}, std::string{"a\nb"}, std::string(100'000, 'x')}) {
+    write_file(folder / "file", content);
+    EXPECT_EQ(read_file(folder / "file"), content);
+  }
+}
+
+TEST(TextFile, WritingLeavesNothingElseBehind) {
+  const TemporaryFolder folder;
+  write_file(folder / "file", "old");
+  write_file(folder / "file", "new");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator{folder.path()}) {
+    EXPECT_EQ(entry.path().filename(), "file");
+    ++files;
+  }
+  EXPECT_EQ(files, 1U);
+}
+
+TEST(TextFile, FailureNamesTheFile) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { write_file(folder / "no" / "file", "x"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("no/file: cannot be written")));
+  EXPECT_THAT([&] { (void)read_file(folder / "nothing"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("nothing: cannot be read")));
+}
+
+TEST(Split, KeepsEmptyPieces) {
+  EXPECT_THAT(split("a,,b,", ','), ElementsAre("a", "", "b", ""));
+  EXPECT_THAT(split("", ','), ElementsAre(""));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "hlc_bridge/process/pacing.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,12 @@
-#include "planner/common/yaml_reader.hpp"
+#include "planner/common/node.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <stdexcept>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc {
 namespace {
@@ -21,7 +24,7 @@ numbers: [1, 2, x]
 nothing:
 )";
 
-YamlNode file() { return YamlNode::parse(kText, "car.yaml"); }
+Node file() { return Node::parse_yaml(kText, "car.yaml"); }
 
 /// Message of the error that `read` throws.
 std::string message(const std::function<void()>& read) {
@@ -33,8 +36,8 @@ std::string message(const std::function<void()>& read) {
   return "no error";
 }
 
-TEST(YamlNode, ReadsFieldsOfTheirTypes) {
-  const YamlNode node = file();
+TEST(Node, ReadsFieldsOfTheirTypes) {
+  const Node node = file();
   EXPECT_EQ(node.required<std::string>("name"), "car");
   EXPECT_EQ(node.required<double>("length_m", above(0.0)), 0.22);
   EXPECT_EQ(node.required<int>("doors"), 4);
@@ -50,8 +53,8 @@ TEST(YamlNode, ReadsFieldsOfTheirTypes) {
   EXPECT_NO_THROW(node.optional_map("extras").check_no_unknown_keys());
 }
 
-TEST(YamlNode, NamesFileLineWayValueAndWhatIsAllowed) {
-  const YamlNode node = file();
+TEST(Node, NamesFileLineWayValueAndWhatIsAllowed) {
+  const Node node = file();
   EXPECT_EQ(message([&] { (void)node.required<int>("name"); }),
             "car.yaml:1: name = car, allowed a whole number");
   EXPECT_EQ(message([&] { (void)node.required<int>("length_m"); }),
@@ -87,15 +90,15 @@ TEST(YamlNode, NamesFileLineWayValueAndWhatIsAllowed) {
             "car.yaml:3: doors = 4, allowed fewer than wheels");
 }
 
-TEST(YamlNode, RefusesNumbersThatAreNotFinite) {
+TEST(Node, RefusesNumbersThatAreNotFinite) {
   for (const char* const text : {"x: .nan", "x: .inf", "x: nan", "x: inf", "x: 1e999"}) {
-    EXPECT_NE(message([&] { (void)YamlNode::parse(text, "f").required<double>("x"); }), "no error")
+    EXPECT_NE(message([&] { (void)Node::parse_yaml(text, "f").required<double>("x"); }), "no error")
         << text;
   }
 }
 
-TEST(YamlNode, RefusesKeysThatNobodyAskedFor) {
-  const YamlNode node = YamlNode::parse("a: 1\nb: 2\nd: 3\n", "f.yaml");
+TEST(Node, RefusesKeysThatNobodyAskedFor) {
+  const Node node = Node::parse_yaml("a: 1\nb: 2\nd: 3\n", "f.yaml");
   (void)node.required<int>("a");
   (void)node.optional("b", 0);
   (void)node.optional("c", 0);
@@ -105,31 +108,53 @@ TEST(YamlNode, RefusesKeysThatNobodyAskedFor) {
   EXPECT_EQ(message([&] { node.check_no_unknown_keys(); }), "no error");
 }
 
-TEST(YamlNode, RefusesTheSameKeyTwice) {
-  EXPECT_EQ(message([] { (void)YamlNode::parse("a: 1\nb: 2\na: 3\n", "f.yaml"); }),
+TEST(Node, RefusesTheSameKeyTwice) {
+  EXPECT_EQ(message([] { (void)Node::parse_yaml("a: 1\nb: 2\na: 3\n", "f.yaml"); }),
             "f.yaml:3: a = 3, allowed once; the key is there twice");
 }
 
-TEST(YamlNode, RefusesWhatIsNotAReadableMap) {
-  EXPECT_EQ(message([] { (void)YamlNode::parse("a: 1\nb: [1", "f.yaml"); }).substr(0, 20),
+TEST(Node, RefusesWhatIsNotAReadableMap) {
+  EXPECT_EQ(message([] { (void)Node::parse_yaml("a: 1\nb: [1", "f.yaml"); }).substr(0, 20),
             "f.yaml:2: not YAML: ");
-  EXPECT_EQ(message([] { (void)YamlNode::parse("", "f.yaml"); }),
+  EXPECT_EQ(message([] { (void)Node::parse_yaml("", "f.yaml"); }),
             "f.yaml:1: (nothing), allowed a map (key: value)");
-  EXPECT_EQ(message([] { (void)YamlNode::parse("[1, 2]", "f.yaml"); }),
+  EXPECT_EQ(message([] { (void)Node::parse_yaml("[1, 2]", "f.yaml"); }),
             "f.yaml:1: (a list), allowed a map (key: value)");
-  EXPECT_EQ(message([] { (void)YamlNode::read_file("no/such/file.yaml"); }),
+  EXPECT_EQ(message([] { (void)Node::read_yaml("no/such/file.yaml"); }),
             "no/such/file.yaml: cannot be read, allowed a YAML file");
-  EXPECT_EQ(message([] { (void)YamlNode::read_file("/"); }),
-            "/: cannot be read, allowed a YAML file");
+  EXPECT_EQ(message([] { (void)Node::read_yaml("/"); }), "/: cannot be read, allowed a YAML file");
   for (const std::string device : {"/dev/null", "/dev/zero"}) {
-    EXPECT_EQ(message([&device] { (void)YamlNode::read_file(device); }),
+    EXPECT_EQ(message([&device] { (void)Node::read_yaml(device); }),
               device + ": cannot be read, allowed a YAML file");
   }
 }
 
-TEST(YamlNode, PrintsEveryValueAndKeyInOneShortLine) {
+TEST(Node, ReadsAliasesButNoValueThatHoldsItself) {
+  const Node node = Node::parse_yaml("a: &a [1, 2]\nb: *a\n", "f.yaml");
+  EXPECT_EQ(node.list("b")[1].as<int>(), 2);
+  EXPECT_THAT(message([] { (void)Node::parse_yaml("a: &a [*a, *a]\n", "f.yaml"); }),
+              testing::HasSubstr("lists or objects within each other, allowed 100 at most"));
+}
+
+TEST(Node, ReadsJsonLikeYamlButWithItsTypes) {
+  const TemporaryFolder folder;
+  put(folder / "car.json", R"({"name": "car", "length_m": 0.22, "open": true, "doors": [4, "5"]})");
+  const Node node = Node::read_json(folder / "car.json");
+  EXPECT_EQ(node.required<std::string>("name"), "car");
+  EXPECT_EQ(node.required<double>("length_m", above(0.0)), 0.22);
+  EXPECT_TRUE(node.required<bool>("open"));
+  EXPECT_EQ(node.list("doors")[0].as<std::size_t>(), 4U);
+  EXPECT_THAT(message([&] { (void)node.list("doors")[1].as<int>(); }),
+              testing::EndsWith("car.json: doors[1] = \"5\", allowed a whole number"));
+  EXPECT_THAT(message([&] { (void)node.required<std::string>("length_m"); }),
+              testing::EndsWith("car.json: length_m = 0.22, allowed text"));
+  EXPECT_THAT(message([&] { (void)node.list("doors", 3, "three"); }),
+              testing::EndsWith("car.json: doors has 2 entries, allowed three"));
+}
+
+TEST(Node, PrintsEveryValueAndKeyInOneShortLine) {
   const std::string longest(60, 'x');
-  const YamlNode node = YamlNode::parse(
+  const Node node = Node::parse_yaml(
       "a: |\n  two\n  lines\nb: " + longest + "y\n\"k\\ney\": 1\n" + longest + "y: 2\n", "f.yaml");
   EXPECT_EQ(message([&] { (void)node.required<int>("a"); }),
             "f.yaml:1: a = two\\nlines\\n, allowed a whole number");
@@ -141,8 +166,8 @@ TEST(YamlNode, PrintsEveryValueAndKeyInOneShortLine) {
   EXPECT_EQ(node.required<int>(longest + "y"), 2) << "keys are compared whole";
 }
 
-TEST(YamlNode, TellsThePlaceOfAKey) {
-  const YamlNode vehicle = file().map("vehicle");
+TEST(Node, TellsThePlaceOfAKey) {
+  const Node vehicle = file().map("vehicle");
   EXPECT_EQ(vehicle.map("limits").place("speed_mps"),
             "car.yaml:6: vehicle.limits.speed_mps = -1.0");
   EXPECT_EQ(vehicle.place("limits"), "car.yaml:6: vehicle.limits = (a map)");

@@ -1,11 +1,13 @@
-#include "planner/common/atomic_write.hpp"
+#include "planner/common/text_file.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace hlc {
@@ -18,7 +20,7 @@ namespace fs = std::filesystem;
 std::pair<fs::path, std::FILE*> new_file_beside(const fs::path& path) {
   for (int number = 0;; ++number) {
     fs::path name = path;
-    name += "." + std::to_string(getpid()) + "_" + std::to_string(number) + ".part";
+    name += fmt::format(".{}_{}.part", getpid(), number);
     std::FILE* const file = std::fopen(name.c_str(), "wbx");
     if (file != nullptr || errno != EEXIST) return {name, file};
   }
@@ -31,7 +33,7 @@ bool is_written(std::FILE* file, std::string_view text) {
 
 }  // namespace
 
-void write_atomically(std::string_view text, const std::filesystem::path& path) {
+void write_file(const fs::path& path, std::string_view text) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
@@ -46,6 +48,36 @@ void write_atomically(std::string_view text, const std::filesystem::path& path) 
     fs::remove(temporary, error);
   }
   throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream stream{path, std::ios::binary};
+  std::string text{std::istreambuf_iterator<char>{stream}, {}};
+  if (!stream || stream.bad()) throw std::runtime_error(path.string() + ": cannot be read");
+  return text;
+}
+
+std::string read_regular_file(const fs::path& path, std::string_view allowed) {
+  std::error_code error;
+  try {
+    if (fs::is_regular_file(path, error)) return read_file(path);
+  } catch (const std::runtime_error&) {
+    // The same message for whatever reason.
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: cannot be read, allowed {}", path.string(), allowed));
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> pieces;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    if (i == text.size() || text[i] == separator) {
+      pieces.emplace_back(text.substr(begin, i - begin));
+      begin = i + 1;
+    }
+  }
+  return pieces;
 }
 
 }  // namespace hlc

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hlc {
+
+/// What a YAML or JSON file holds, in the order of the file and without any meaning yet.
+struct Value {
+  enum class Kind {
+    kNothing,
+    kScalar,   ///< of YAML: its reader decides whether it is text, a number or a truth value
+    kText,     ///< of JSON
+    kLiteral,  ///< of JSON: a number or a truth value
+    kList,
+    kMap,
+  };
+  Kind kind{Kind::kNothing};
+  int line{};                       ///< from 1, of a map's entry that of its key; 0: not known
+  std::string text{};               ///< of a scalar, text or literal
+  std::vector<std::string> keys{};  ///< of a map, as many as `values`, all different
+  std::vector<Value> values{};      ///< of a list or map
+};
+
+enum class FileFormat { kYaml, kJson };
+
+/// Parses a text; `name` stands for the file in messages. Anchors of YAML are resolved.
+/// @throws std::invalid_argument with one line, "name:line: ..." (YAML) or "name: ..." (JSON), if
+/// the text is not of that format, holds a number beyond a double (JSON), a key twice in one map,
+/// more than 100 lists and maps within each other or more than 10 million values
+[[nodiscard]] Value parse_yaml(const std::string& text, const std::string& name);
+[[nodiscard]] Value parse_json(std::istream& stream, const std::string& name);
+
+/// The value as messages show it: one short line.
+[[nodiscard]] std::string shown(const Value& value, FileFormat format);
+
+/// "limits" and "speed" -> "limits.speed"; "wheels" and the first entry -> "wheels[1]" (YAML) or
+/// "wheels[0]" (JSON, as programs count).
+[[nodiscard]] std::string joined_path(const std::string& path, const std::string& key);
+[[nodiscard]] std::string joined_path(const std::string& path, std::size_t index,
+                                      FileFormat format);
+/// "car.yaml:3: ", or "car.json: " if the line is not known.
+[[nodiscard]] std::string file_and_line(const std::string& file, int line);
+
+/// Builds the tree from a parser's events, and refuses what the functions above say.
+class ValueTreeBuilder {
+ public:
+  ValueTreeBuilder(std::string name, FileFormat format) : name_(std::move(name)), format_(format) {}
+
+  /// The key of the next value of the open map.
+  void key(std::string text, int line);
+  void scalar(Value::Kind kind, std::string text, int line);
+  void open(Value::Kind kind, int line);  ///< a list or map
+  void close();
+
+  /// Where the next value (or the one that was begun last) stands, "limits.speed"; empty at the
+  /// top.
+  [[nodiscard]] std::string path(bool is_next = true) const;
+  /// @pre all that was opened is closed
+  [[nodiscard]] Value take() { return std::move(root_); }
+
+ private:
+  Value& add(Value::Kind kind, int line);
+
+  std::string name_;
+  FileFormat format_;
+  Value root_;
+  std::vector<Value*> open_;  ///< a list or map stays in place while it is open
+  std::size_t count_{};
+};
+
+}  // namespace hlc

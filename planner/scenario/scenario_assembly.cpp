@@ -1,0 +1,239 @@
+#include "planner/scenario/scenario_assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/automaton/lab_check.hpp"
+#include "planner/common/yaml_text.hpp"
+#include "planner/policy/speed_zones.hpp"
+#include "planner/road/route.hpp"
+#include "planner/scenario/engine_choice.hpp"
+#include "planner/scenario/policy_file.hpp"
+#include "planner/scenario/search_values.hpp"
+#include "planner/scenario/starts.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace hlc {
+namespace {
+
+/// The command line's engine, else the file's, else the profile's.
+SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices& choices,
+                            const Profile& profile) {
+  SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
+  search.max_expansions = values.max_expansions;
+  search.criterion_weights = values.criterion_weights;
+  if (values.engine) choose_engine(*values.engine, search);
+  try {
+    if (choices.engine) choose_engine(*choices.engine, search);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("--") + error.what());
+  }
+  try {
+    check_search_options(search);
+  } catch (const std::invalid_argument& error) {
+    if (choices.engine) {
+      throw std::invalid_argument(fmt::format(
+          "--engine = {} with profile {}, allowed best_first or ompl_best_first: the profile's "
+          "cost-to-go is {}",
+          *choices.engine, profile.name, to_string(search.cost_to_go)));
+    }
+    values.node.fail("engine", fmt::format("with profile {}: {}", profile.name, error.what()));
+  }
+  return search;
+}
+
+/// Every plan ends in standstill, so no trim may be farther from it than the horizon.
+void check_standstill_is_near(const Node& node, const Scenario& scenario) {
+  for (const TrimId trim : scenario.subgraph->trims()) {
+    const std::size_t steps = scenario.subgraph->distance_to_standstill(trim);
+    if (steps <= scenario.horizon_steps) continue;
+    node.fail(
+        node.has("horizon_steps") ? "horizon_steps" : "subgraph",
+        fmt::format(
+            "a horizon of at least {} steps: so many takes trim {} of subgraph {} to standstill",
+            steps, trim.index + 1, scenario.subgraph->spec().name));
+  }
+}
+
+void check_lab(const Scenario& scenario) {
+  if (!scenario.lab) return;
+  const std::string fault = lab_fault_of(*scenario.subgraph, *scenario.lab);
+  if (fault.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("{}: subgraph {}, {} by {}", scenario.automaton_file.string(),
+                  scenario.subgraph->spec().name, fault, scenario.lab_file->string()));
+}
+
+/// The command line's policy, else the file's.
+void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
+                   Scenario& scenario) {
+  scenario.policies = values.policies;
+  std::string known = kNoPolicy;
+  for (const auto& [name, settings] : values.policies) known += ", " + name;
+  const auto is_known = [&](const std::string& name) {
+    return name == kNoPolicy || values.policies.contains(name);
+  };
+  if (!is_known(values.policy)) values.node.fail("policy", known);
+  scenario.policy = choices.policy.value_or(values.policy);
+  if (!is_known(scenario.policy)) {
+    throw std::invalid_argument(
+        fmt::format("--policy = {}, allowed {}", one_line(scenario.policy), known));
+  }
+  // Policies are made for the file's own subgraph; another one may be too narrow for some of them.
+  const bool is_own_subgraph = scenario.subgraph->spec().name == values.subgraph;
+  for (const auto& [name, settings] : values.policies) {
+    if (name != scenario.policy && !is_own_subgraph) continue;
+    check_policy(values.node, name, settings, *scenario.subgraph, scenario.horizon_steps,
+                 scenario.lab);
+  }
+  if (scenario.policy != kNoPolicy) {
+    scenario.reconfiguration = scenario.policies.at(scenario.policy);
+  }
+}
+
+Route build_route_of(const RouteValues& values, const LaneletMap& map) {
+  const auto lanelets = values.lanelets.find(map.benchmark_id);
+  if (lanelets == values.lanelets.end()) {
+    values.node.fail("lanelets", "a list for the map with benchmarkID " + map.benchmark_id);
+  }
+  const Node by_map = values.node.map("lanelets");
+  for (std::size_t i = 0; i < lanelets->second.size(); ++i) {
+    if (map.lanelets.contains(lanelets->second[i])) continue;
+    by_map.list(map.benchmark_id)[i].fail("a lanelet of the map " + map.benchmark_id);
+  }
+  try {
+    return build_route(map, lanelets->second, values.is_closed);
+  } catch (const std::runtime_error& error) {
+    by_map.fail(map.benchmark_id, fmt::format("a route that can be driven: {}", error.what()));
+  }
+}
+
+ScenarioVehicle place_vehicle(const VehicleValues& values, const Route& route) {
+  // Its arc length has no other bounds than its route's.
+  static_cast<void>(values.node.required<double>("start_m", between(0.0, route.path.length_m())));
+  const double heading_rad = route.path.heading_rad_at(values.start_m);
+  const Point position = route.path.at(values.start_m) +
+                         values.start_left_m * Point(-std::sin(heading_rad), std::cos(heading_rad));
+  return {.id = values.id,
+          .name = values.name,
+          .start = {position.x(), position.y(), wrap_angle(heading_rad + values.start_turned_rad)},
+          .start_s_m = values.start_m,
+          .path = route.path,
+          .corridor = route.corridor};
+}
+
+void add_vehicles_on_routes(const ScenarioValues& values, const LaneletMap& map,
+                            Scenario& scenario) {
+  std::map<std::string, Route> routes;
+  for (const RouteValues& one : values.routes) routes.emplace(one.name, build_route_of(one, map));
+  for (const auto& [name, route] : routes) {
+    scenario.routes.push_back({.name = name, .path = route.path, .corridor = route.corridor});
+  }
+  for (const VehicleValues& one : values.vehicles) {
+    const auto route = routes.find(one.route);
+    if (route == routes.end()) one.node.fail("route", "the name of an entry of `routes`");
+    scenario.vehicles.push_back(place_vehicle(one, route->second));
+  }
+}
+
+/// Cars evenly on a circle, each on the straight line to the opposite point; no lanes.
+void add_cars_on_circle(const CircleValues& circle, std::size_t cars, Scenario& scenario) {
+  if (cars < 1 || cars > kMaxCarsOnCircle) {
+    throw std::invalid_argument(
+        fmt::format("--cars = {}, allowed 1 ... {}", cars, kMaxCarsOnCircle));
+  }
+  for (std::size_t i = 0; i < cars; ++i) {
+    const double angle =
+        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(cars);
+    const Point offset = circle.radius_m * Point(std::cos(angle), std::sin(angle));
+    const Point start = circle.centre_m + offset;
+    scenario.vehicles.push_back(
+        {.id = {static_cast<std::uint8_t>(i + 1)},
+         .name = fmt::format("car {}", i + 1),
+         .start = {start.x(), start.y(), wrap_angle(angle + std::numbers::pi)},
+         .start_s_m = 0.0,
+         .path = ReferencePath({start, circle.centre_m - offset}, false),
+         .corridor = {}});
+    const ScenarioVehicle& car = scenario.vehicles.back();
+    scenario.routes.push_back({.name = car.name, .path = car.path, .corridor = car.corridor});
+  }
+}
+
+void add_vehicles(const ScenarioValues& values, const ScenarioInputs& inputs,
+                  const ScenarioChoices& choices, Scenario& scenario) {
+  if (values.circle) {
+    add_cars_on_circle(*values.circle, choices.cars.value_or(values.circle->cars), scenario);
+    return;
+  }
+  if (choices.cars) {
+    throw std::invalid_argument(
+        fmt::format("--cars: {} has named vehicles; allowed for scenarios with `circle`",
+                    choices.file.string()));
+  }
+  add_vehicles_on_routes(values, inputs.map.value(), scenario);
+}
+
+void check_starts(const ScenarioValues& values, const Scenario& scenario) {
+  const auto overlap = overlapping_starts(scenario);
+  if (!overlap) return;
+  const auto [first, second] = *overlap;
+  const std::string allowed = fmt::format(
+      "start poses whose footprints with margin do not overlap: those of vehicles {} and {} do",
+      scenario.vehicles[first].id.value, scenario.vehicles[second].id.value);
+  if (values.circle) values.node.fail("circle", allowed);
+  values.vehicles[second].node.fail("start_m", allowed);
+}
+
+/// A zone that nobody comes through is a mistake: where it should be, nobody would slow down.
+void check_zones(const Node& node, const Scenario& scenario) {
+  for (const auto& [name, settings] : scenario.policies) {
+    for (std::size_t i = 0; i < settings.zones.size(); ++i) {
+      const std::vector<SpeedZone> zone{settings.zones[i]};
+      const bool is_driven_through =
+          std::ranges::any_of(scenario.routes, [&zone](const DrivableRoute& route) {
+            return limit_on(zone, route.path, 0.0, route.path.length_m()).has_value();
+          });
+      if (is_driven_through) continue;
+      node.map("policies")
+          .map(name)
+          .list("zones")[i]
+          .fail("x_m", "a zone that a route comes through");
+    }
+  }
+}
+
+}  // namespace
+
+Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
+                           const ScenarioChoices& choices) {
+  Scenario scenario;
+  scenario.file = choices.file;
+  scenario.name = values.name;
+  scenario.automaton_file = values.automaton_file;
+  scenario.map_file = inputs.map_file;
+  scenario.lab_file = values.lab_file;
+  scenario.lab = inputs.lab;
+  scenario.steps = choices.steps.value_or(values.steps);
+  scenario.horizon_steps = values.horizon_steps;
+  scenario.reference_speed_mps = values.reference_speed_mps;
+  scenario.profile = profile_from_name(choices.profile);
+  scenario.search = choose_search(values, choices, scenario.profile);
+  scenario.is_reconfigurable = values.is_reconfigurable;
+  scenario.subgraph = inputs.subgraph;
+  check_criterion_weights(values.node, values.criterion_weights, *scenario.subgraph);
+  check_standstill_is_near(values.node, scenario);
+  check_lab(scenario);
+  choose_policy(values, choices, scenario);
+  add_vehicles(values, inputs, choices, scenario);
+  check_starts(values, scenario);
+  check_zones(values.node, scenario);
+  std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);
+  return scenario;
+}
+
+}  // namespace hlc

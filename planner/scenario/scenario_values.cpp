@@ -1,0 +1,106 @@
+#include "planner/scenario/scenario_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+
+#include "planner/scenario/policy_file.hpp"
+#include "planner/scenario/scenario.hpp"
+#include "planner/scenario/search_values.hpp"
+
+namespace hlc {
+namespace {
+
+/// A car may be started so far off its place, to see what becomes of it.
+constexpr double kMostBeside_m = 10.0;
+constexpr double kMostTurned_rad = std::numbers::pi;
+
+std::filesystem::path beside(const std::filesystem::path& file, const std::string& path) {
+  return (file.parent_path() / path).lexically_normal();
+}
+
+std::vector<RouteValues> parse_routes(const Node& scenario) {
+  std::vector<RouteValues> routes;
+  for (const Node& node : scenario.list("routes")) {
+    RouteValues route{.name = node.required<std::string>("name"),
+                      .is_closed = node.optional<bool>("closed", true),
+                      .lanelets = {},
+                      .node = node};
+    const Node by_map = node.map("lanelets");
+    for (const std::string& benchmark_id : by_map.keys()) {
+      std::vector<LaneletId>& lanelets = route.lanelets[benchmark_id];
+      for (const Node& lanelet : by_map.list(benchmark_id)) {
+        lanelets.push_back(lanelet.as<int>(at_least(1.0)));
+      }
+    }
+    node.check_no_unknown_keys();
+    routes.push_back(std::move(route));
+  }
+  return routes;
+}
+
+std::vector<VehicleValues> parse_vehicles(const Node& scenario) {
+  std::vector<VehicleValues> vehicles;
+  for (const Node& node : scenario.list("vehicles")) {
+    const VehicleId id{
+        static_cast<std::uint8_t>(node.required<std::size_t>("id", between(1.0, kMaxVehicleId)))};
+    if (std::ranges::find(vehicles, id, &VehicleValues::id) != vehicles.end()) {
+      node.fail("id", "every id once");
+    }
+    vehicles.push_back(
+        {.id = id,
+         .name = node.optional<std::string>("name", fmt::format("vehicle {}", id.value)),
+         .route = node.required<std::string>("route"),
+         .start_m = node.required<double>("start_m"),
+         .start_left_m =
+             node.optional<double>("start_left_m", 0.0, between(-kMostBeside_m, kMostBeside_m)),
+         .start_turned_rad = node.optional<double>("start_turned_rad", 0.0,
+                                                   between(-kMostTurned_rad, kMostTurned_rad)),
+         .node = node});
+    node.check_no_unknown_keys();
+  }
+  if (vehicles.empty()) scenario.fail("vehicles", "at least one");
+  return vehicles;
+}
+
+CircleValues parse_circle(const Node& node) {
+  CircleValues circle;
+  circle.cars = node.required<std::size_t>("cars", between(1.0, kMaxCarsOnCircle));
+  circle.radius_m = node.required<double>("radius_m", above(0.0));
+  circle.centre_m = {node.required<double>("centre_x_m"), node.required<double>("centre_y_m")};
+  node.check_no_unknown_keys();
+  return circle;
+}
+
+}  // namespace
+
+ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& path) {
+  ScenarioValues values{
+      .name = node.required<std::string>("name"),
+      .automaton_file = beside(path, node.required<std::string>("automaton")),
+      .subgraph = node.required<std::string>("subgraph"),
+      .steps = node.required<std::size_t>("steps", between(1.0, 100000.0)),
+      .horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0)),
+      .reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0)),
+      .engine = read_engine(node),
+      .max_expansions = read_max_expansions(node),
+      .criterion_weights = read_criterion_weights(node),
+      .is_reconfigurable = node.optional<bool>("reconfigurable", false),
+      .policies = read_policies(node),
+      .policy = node.optional<std::string>("policy", kNoPolicy),
+      .node = node};
+  if (node.has("lab")) values.lab_file = beside(path, node.required<std::string>("lab"));
+  if (node.has("circle")) {
+    values.circle = parse_circle(node.map("circle"));
+  } else {
+    if (node.has("map")) values.map_file = beside(path, node.required<std::string>("map"));
+    values.routes = parse_routes(node);
+    values.vehicles = parse_vehicles(node);
+  }
+  node.check_no_unknown_keys();
+  return values;
+}
+
+}  // namespace hlc

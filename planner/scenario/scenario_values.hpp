@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/common/node.hpp"
+#include "planner/geometry/pose.hpp"
+#include "planner/policy/policy_settings.hpp"
+#include "planner/road/lanelet_map.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace hlc {
+
+/// An entry of `routes`.
+struct RouteValues {
+  std::string name;
+  bool is_closed{true};
+  std::map<std::string, std::vector<LaneletId>> lanelets;  ///< by the benchmarkID of the map
+  Node node;                                               ///< where it stands, for messages
+};
+
+/// An entry of `vehicles`.
+struct VehicleValues {
+  VehicleId id;
+  std::string name;
+  std::string route;
+  double start_m{};
+  double start_left_m{};
+  double start_turned_rad{};
+  Node node;
+};
+
+/// `circle`.
+struct CircleValues {
+  std::size_t cars{};
+  double radius_m{};
+  Point centre_m{0.0, 0.0};
+};
+
+/// What a scenario file says, by itself: before anything that it names is read.
+struct ScenarioValues {
+  std::string name;
+  std::filesystem::path automaton_file;
+  std::string subgraph;
+  std::size_t steps{};
+  std::size_t horizon_steps{};
+  double reference_speed_mps{};
+  std::optional<std::string> engine{};  ///< as choose_engine takes it
+  std::size_t max_expansions{};
+  std::vector<PlanningWeight> criterion_weights{};
+  bool is_reconfigurable{};
+  std::map<std::string, ReconfigurationSettings> policies{};
+  std::string policy;
+  std::optional<std::filesystem::path> lab_file{};
+  std::optional<CircleValues> circle{};  ///< none: `map`, `routes` and `vehicles`
+  std::optional<std::filesystem::path> map_file{};
+  std::vector<RouteValues> routes{};
+  std::vector<VehicleValues> vehicles{};
+  Node node;  ///< the whole file, for messages
+};
+
+/// Reads the values of a scenario file. Paths in it start beside `path`, where it was read from.
+/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
+[[nodiscard]] ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& path);
+
+}  // namespace hlc

@@ -1,0 +1,71 @@
+#include "vehicle_sim/closed_loop/fault_campaign.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/folders.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+const FaultCampaign& campaign() {
+  static const FaultCampaign campaign(
+      {.scenario_folder = test::source_folder() + "/launch_scripts/scenarios",
+       .cars = 3,
+       .kinds = fault_kinds_of({})});
+  return campaign;
+}
+
+std::string text_of(const FaultCase& the_case, const FaultRunResult& result) {
+  std::string text = describe(the_case);
+  for (const Violation& violation : result.violations) {
+    text += violation.check + ": " + violation.text + "\n";
+  }
+  return text;
+}
+
+TEST(FaultCampaign, NothingIsViolatedInRunsWithFaultsOfAllKinds) {
+  FaultTotals totals;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const FaultCase the_case = campaign().draw(seed);
+    const FaultRunResult result = FaultCampaign::run(the_case);
+    EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
+    totals.add(result);
+  }
+  // The cars drive, and they meet.
+  EXPECT_GT(totals.planned, totals.car_steps / 2) << describe(totals);
+  EXPECT_LT(totals.smallest_distance_m, 0.1) << describe(totals);
+}
+
+TEST(FaultCampaign, WithoutFaultsEverybodyPlansInEveryStep) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const FaultCase the_case = campaign().draw(seed, {});
+    const FaultRunResult result = FaultCampaign::run(the_case);
+    EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
+    EXPECT_GT(result.planned, 0U) << text_of(the_case, result);
+  }
+}
+
+TEST(FaultCampaign, TheSameSeedGivesTheSameHashAndAnotherSeedAnother) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const FaultRunResult first = FaultCampaign::run(campaign().draw(seed));
+    const FaultRunResult again = FaultCampaign::run(campaign().draw(seed));
+    EXPECT_EQ(first.hash, again.hash) << seed;
+    EXPECT_NE(first.hash, FaultCampaign::run(campaign().draw(seed + 1)).hash) << seed;
+  }
+}
+
+TEST(FaultCampaign, LookingOnChangesNothing) {
+  std::size_t lines = 0;
+  const FaultCase the_case = campaign().draw(4);
+  const FaultRunResult seen =
+      FaultCampaign::run(the_case, [&](Nanoseconds, const std::string&) { ++lines; });
+  EXPECT_GT(lines, 100U);
+  EXPECT_EQ(seen.hash, FaultCampaign::run(the_case).hash);
+}
+
+TEST(FaultCampaign, AFaultThatIsNotThereCannotBeKept) {
+  EXPECT_THROW(static_cast<void>(campaign().draw(1, {1000})), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hlc::closed_loop

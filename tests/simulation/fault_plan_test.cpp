@@ -1,0 +1,78 @@
+#include "vehicle_sim/closed_loop/fault_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace hlc::closed_loop {
+namespace {
+
+FaultPlanSettings settings_of(std::span<const FaultKind> kinds) {
+  return {.vehicle_ids = {1, 2, 3}, .kinds = {kinds.begin(), kinds.end()}};
+}
+
+TEST(FaultPlan, TheSameSeedGivesTheSameFaultsAndAnotherOneOthers) {
+  const FaultPlanSettings settings = settings_of(all_fault_kinds());
+  EXPECT_EQ(draw_faults(5, settings), draw_faults(5, settings));
+  EXPECT_NE(draw_faults(5, settings), draw_faults(6, settings));
+}
+
+TEST(FaultPlan, FaultsLieInTheirTimeAndAreOfTheKindsAskedFor) {
+  const std::vector kinds{FaultKind::kKill, FaultKind::kCut};
+  FaultPlanSettings settings = settings_of(kinds);
+  settings.first = kNanosecondsPerSecond;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::vector<Fault> faults = draw_faults(seed, settings);
+    EXPECT_FALSE(faults.empty());
+    EXPECT_LE(end_of(faults), settings.last);
+    EXPECT_TRUE(std::ranges::is_sorted(faults, {}, &Fault::begin));
+    for (const Fault& fault : faults) {
+      EXPECT_GE(fault.begin, settings.first);
+      EXPECT_LT(fault.begin, fault.end);
+      EXPECT_TRUE(std::ranges::count(kinds, fault.kind) == 1) << to_string(fault);
+    }
+  }
+}
+
+TEST(FaultPlan, EveryKindComesSoonerOrLaterAndVehiclesAreNeverKilled) {
+  std::set<FaultKind> kinds;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    for (const Fault& fault : draw_faults(seed, settings_of(all_fault_kinds()))) {
+      kinds.insert(fault.kind);
+      const bool holds_up = fault.kind == FaultKind::kKill || fault.kind == FaultKind::kFreeze;
+      EXPECT_FALSE(holds_up && fault.process.starts_with("vehicle")) << to_string(fault);
+    }
+  }
+  EXPECT_EQ(kinds.size(), all_fault_kinds().size());
+}
+
+TEST(FaultPlan, NobodyIsKilledWhileItStandsStill) {
+  const std::vector kinds{FaultKind::kKill, FaultKind::kFreeze};
+  FaultPlanSettings settings = settings_of(kinds);
+  settings.vehicle_ids = {1};
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::vector<Fault> faults = draw_faults(seed, settings);
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_TRUE(faults[i].process != faults[j].process || faults[j].end < faults[i].begin);
+      }
+    }
+  }
+}
+
+TEST(FaultPlan, WithoutKindsThereAreNoFaults) {
+  EXPECT_TRUE(draw_faults(1, settings_of({})).empty());
+  EXPECT_EQ(end_of({}), 0U);
+}
+
+TEST(FaultPlan, AFaultIsALine) {
+  const Fault cut{.kind = FaultKind::kCut,
+                  .begin = 2'150'000'000,
+                  .end = 3'200'000'000,
+                  .process = "middleware_1"};
+  EXPECT_EQ(to_string(cut), "2.150 s ... 3.200 s: cut middleware_1 -> anybody");
+}
+
+}  // namespace
+}  // namespace hlc::closed_loop

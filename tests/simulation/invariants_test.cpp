@@ -1,0 +1,146 @@
+#include "vehicle_sim/closed_loop/invariants.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr VehicleId kOne{1};
+constexpr VehicleId kTwo{2};
+
+ConvexPolygon square_at(double x_m) {
+  return footprint_area({.length_m = 0.2, .width_m = 0.2}, {.x_m = x_m});
+}
+
+Prediction standing_at(VehicleId vehicle, std::uint64_t step, double x_m) {
+  return {.vehicle = vehicle,
+          .step = {step},
+          .is_new = true,
+          .areas = {.first = {step + 1}, .areas_m = {}, .final_area_m = square_at(x_m)}};
+}
+
+Report report_of(VehicleId vehicle, std::uint64_t step, StepStatus status,
+                 FallbackReason reason = FallbackReason::kNone) {
+  return {.vehicle = vehicle, .step = {step}, .status = status, .reason = reason};
+}
+
+class Footprints : public testing::Test {
+ protected:
+  FootprintsCheck check_{{.length_m = 0.2, .width_m = 0.1},
+                         {{std::uint8_t{1}, Pose{}}, {std::uint8_t{2}, Pose{.x_m = 1.0}}}};
+  Violations violations_;
+};
+
+TEST_F(Footprints, AreComparedAtTheSameTickHoweverLateItIsTold) {
+  check_.driven(2, 99, {.x_m = 1.0});
+  check_.driven(1, 99, {.x_m = 0.0});
+  check_.driven(1, 100, {.x_m = 0.0});
+  check_.driven(1, 101, {.x_m = 0.9});
+  check_.driven(1, 102, {.x_m = 0.0});
+  check_.judge(0, violations_);
+  EXPECT_TRUE(violations_.empty());
+  check_.driven(2, 100, {.x_m = 1.0});
+  check_.driven(2, 101, {.x_m = 2.0});
+  check_.driven(2, 102, {.x_m = 1.0});
+  check_.judge(0, violations_);
+  EXPECT_TRUE(violations_.empty());
+  EXPECT_NEAR(check_.smallest_distance_m(), 0.8, 1e-9);
+}
+
+TEST_F(Footprints, ThatTouchAreToldOnce) {
+  for (std::uint64_t tick = 5; tick < 8; ++tick) {
+    check_.driven(1, tick, {.x_m = 0.85});
+    check_.driven(2, tick, {.x_m = 1.0});
+    check_.judge(0, violations_);
+  }
+  EXPECT_EQ(violations_.size(), 1U);
+}
+
+TEST_F(Footprints, OfWhoHasNotBegunOrHasEndedStand) {
+  check_.driven(1, 5, {.x_m = 0.5});
+  check_.judge(0, violations_);
+  EXPECT_TRUE(violations_.empty());
+  EXPECT_NEAR(check_.smallest_distance_m(), 0.3, 1e-9);
+  check_.driven(2, 6, {.x_m = 1.0});
+  check_.ended(2);
+  check_.driven(1, 7, {.x_m = 0.9});
+  check_.judge(0, violations_);
+  EXPECT_EQ(violations_.size(), 1U);
+}
+
+TEST(Plans, ThatMeetAreToldWhenTheSecondComesIntoForce) {
+  PlansCheck check(8);
+  Violations violations;
+  check.predicted(standing_at(kOne, 10, 0.0));
+  check.predicted(standing_at(kTwo, 10, 0.1));
+  check.reported(report_of(kOne, 10, StepStatus::kPlanned), 0, violations);
+  check.reported(report_of(kTwo, 10, StepStatus::kFallback, FallbackReason::kConflict), 0,
+                 violations);
+  EXPECT_TRUE(violations.empty());
+  check.predicted(standing_at(kTwo, 11, 0.1));
+  check.reported(report_of(kTwo, 11, StepStatus::kPlanned), 0, violations);
+  EXPECT_EQ(violations.size(), 1U);
+}
+
+TEST(Plans, OfWhoIsOffItsPlanOrSilentForLongAreLeftOut) {
+  for (const bool is_off : {true, false}) {
+    PlansCheck check(8);
+    Violations violations;
+    check.predicted(standing_at(kOne, 10, 0.0));
+    check.reported(report_of(kOne, 10, StepStatus::kPlanned), 0, violations);
+    const std::uint64_t step = is_off ? 12 : 23;
+    if (is_off) {
+      check.reported(report_of(kOne, 11, StepStatus::kFallback, FallbackReason::kDeviation), 0,
+                     violations);
+    }
+    check.predicted(standing_at(kTwo, step, 0.1));
+    check.reported(report_of(kTwo, step, StepStatus::kPlanned), 0, violations);
+    EXPECT_TRUE(violations.empty());
+  }
+}
+
+TEST(Reasons, WhoEndsBadlyHasComplained) {
+  ReasonsCheck check;
+  Violations violations;
+  check.started("a");
+  check.log("a", machine::info("waiting"), 1);
+  check.ended("a", 4, 2, violations);
+  EXPECT_EQ(violations.size(), 1U);
+  check.log("a", machine::error("b is gone"), 3);
+  check.ended("a", 4, 4, violations);
+  check.ended("c", 0, 5, violations);
+  check.ended("d", 130, 6, violations);
+  EXPECT_EQ(violations.size(), 1U);
+}
+
+TEST(Reasons, AVehicleThatStopsSaysSoInTheSameTurn) {
+  ReasonsCheck check;
+  Violations violations;
+  check.driven("a", true, 10);
+  check.driven("a", false, 20);
+  check.log("a", machine::warning("stops"), 20);
+  check.judge(100, violations);
+  EXPECT_TRUE(violations.empty());
+  check.driven("a", true, 110);
+  check.driven("a", false, 120);
+  check.judge(200, violations);
+  EXPECT_EQ(violations.size(), 1U);
+}
+
+TEST(Planning, WhoIsAbleHasPlannedOrFoundThatThereIsNoWay) {
+  PlanningCheck check(100);
+  Violations violations;
+  check.report({.report = report_of(kOne, 1, StepStatus::kPlanned)}, 50);
+  check.report({.report = report_of(kTwo, 1, StepStatus::kFallback, FallbackReason::kInfeasible)},
+               150);
+  check.judge({2}, 200, violations);
+  EXPECT_TRUE(violations.empty());
+  check.judge({1, 2}, 200, violations);
+  ASSERT_EQ(violations.size(), 1U);
+  check.report({.report = report_of(kOne, 2, StepStatus::kPlanned)}, 150);
+  check.judge({1, 2}, 200, violations);
+  EXPECT_EQ(violations.size(), 1U);
+}
+
+}  // namespace
+}  // namespace hlc::closed_loop

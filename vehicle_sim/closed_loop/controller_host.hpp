@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "hlc_bridge/hlc/hlc_machine.hpp"
+#include "vehicle_sim/closed_loop/host.hpp"
+
+namespace hlc::closed_loop {
+
+/// The endpoints of a controller, as hlc_process.cpp has them. Nobody asks for other subgraphs.
+class ControllerHost : public Host {
+ public:
+  using Machine = HlcMachine;
+  using Host::perform;
+
+  [[nodiscard]] static NodeDescription description(std::uint8_t vehicle) {
+    return {.name = controller_name(vehicle),
+            .writes = {{TopicId::kTraffic},
+                       {TopicId::kPrediction},
+                       {TopicId::kOutcome},
+                       {TopicId::kCommand, vehicle},
+                       {TopicId::kReport},
+                       {TopicId::kControllerReady, vehicle},
+                       {TopicId::kStopRequest}},
+            .reads = {{TopicId::kTraffic},
+                      {TopicId::kPrediction},
+                      {TopicId::kOutcome},
+                      {TopicId::kRunState},
+                      {TopicId::kForwardedTrigger, vehicle},
+                      {TopicId::kSystemTrigger},
+                      {TopicId::kStateList, vehicle}}};
+  }
+  void attach(const ProcessPlace& place, const HlcMachine& /*machine*/) { set_place(place); }
+
+  template <class Process>
+  void receive(std::size_t topic, const Message& message, Process& process) {
+    switch (topic) {
+      case kHeardTraffic:
+        return process.post(std::get<Traffic>(message));
+      case kHeardPredictions:
+        return process.post(std::get<Prediction>(message));
+      case kHeardOutcomes:
+        return process.post(std::get<Outcome>(message));
+      case kRunStates:
+        return process.post_urgent(std::get<RunState>(message));
+      case kLists:
+        return process.post_urgent(std::get<VehicleStateList>(message));
+      default:
+        break;
+    }
+    const auto& trigger = std::get<SystemTrigger>(message);
+    if (trigger.next_start == kStopSymbol) {
+      if (topic == kForwarded || !place().is_logical) process.post_urgent(trigger);
+    } else if (topic == kForwarded) {
+      process.post(trigger);
+    }
+  }
+
+  [[nodiscard]] HlcPeers presence() const {
+    std::set<std::string> receivers = readers(kTraffic);
+    for (const std::size_t topic : {kPredictions, kOutcomes}) {
+      const std::set<std::string> others = readers(topic);
+      std::erase_if(receivers, [&](const std::string& name) { return !others.contains(name); });
+    }
+    return {.lab = participants(Domain::kLab),
+            .local = participants(Domain::kLocal),
+            .controllers = participants(Domain::kControllers),
+            .receivers = std::move(receivers),
+            .command_readers = readers(kCommands).size(),
+            .stop_request_readers = readers(kStopRequests).size()};
+  }
+
+  void perform(const Traffic& traffic) const { publish(kTraffic, traffic); }
+  void perform(const Prediction& prediction) const {
+    place().observer->on_prediction(prediction);
+    publish(kPredictions, prediction);
+  }
+  void perform(const Outcome& outcome) const { publish(kOutcomes, outcome); }
+  void perform(const TrajectoryCommand& command) const {
+    place().observer->on_command(place().node, command);
+    publish(kCommands, command);
+  }
+  void perform(const ReportRecord& record) const {
+    place().observer->on_report(place().node, record);
+    publish(kReports, record);
+  }
+  void perform(const ReadyStatus& status) const { publish(kReady, status); }
+  void perform(const StopRequest& request) const { publish(kStopRequests, request); }
+  void perform(const AutomatonAnswer& /*answer*/) const {}
+  void perform(const PrepareRequest& /*request*/) const {}
+  void perform(const DrawStep& /*step*/) const {}
+  void perform(const AfterStep& /*step*/) const {}
+
+ private:
+  enum Writes : std::size_t {
+    kTraffic,
+    kPredictions,
+    kOutcomes,
+    kCommands,
+    kReports,
+    kReady,
+    kStopRequests
+  };
+  enum Reads : std::size_t {
+    kHeardTraffic,
+    kHeardPredictions,
+    kHeardOutcomes,
+    kRunStates,
+    kForwarded,
+    kTriggers,
+    kLists
+  };
+};
+
+}  // namespace hlc::closed_loop

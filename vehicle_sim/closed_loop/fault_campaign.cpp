@@ -1,0 +1,129 @@
+#include "vehicle_sim/closed_loop/fault_campaign.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <numeric>
+#include <stdexcept>
+
+#include "planner/scenario/starts.hpp"
+#include "vehicle_sim/closed_loop/seeded_random.hpp"
+#include "vehicle_sim/closed_loop/shrink.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr std::size_t kFewestCars = 3;
+constexpr std::size_t kMostCars = 8;
+
+/// Faults of a run in real time come while cars drive, some already at the start; a run in logical
+/// time lasts some seconds of true time only.
+constexpr Nanoseconds kLastFault = 20 * kNanosecondsPerSecond;
+constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
+
+}  // namespace
+
+FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
+  const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";
+  const bool is_any = settings_.cars == 0;
+  for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
+    if (is_any || settings_.cars == cars) {
+      circles_.emplace(cars, read_scenario({.file = circle, .cars = cars}));
+    }
+  }
+  if (is_any || settings_.cars == 3) {
+    paper_ = read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
+  }
+}
+
+FaultCase FaultCampaign::draw(std::uint64_t seed) const {
+  SeededRandom random(mixed(seed, 7));
+  FaultCase the_case{.seed = seed};
+  auto circle = circles_.begin();
+  std::advance(circle, static_cast<std::ptrdiff_t>(random.below(circles_.size())));
+  if (paper_ && random.chance(0.5)) {
+    the_case.scenario = with_random_starts(*paper_, random.next());
+  } else {
+    the_case.scenario = circle->second;
+  }
+  FaultRunSettings& run = the_case.run;
+  run.lab.seed = seed;
+  run.lab.is_logical = random.chance(0.25);
+  // Logical time is for one machine.
+  run.lab.transport =
+      !run.lab.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
+  FaultPlanSettings plan{.kinds = settings_.kinds,
+                         .last = run.lab.is_logical ? kLastLogicalFault : kLastFault};
+  for (const ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
+    plan.vehicle_ids.push_back(vehicle.id.value);
+  }
+  run.faults = draw_faults(random.next(), plan);
+  return the_case;
+}
+
+FaultCase FaultCampaign::draw(std::uint64_t seed, const std::vector<std::size_t>& kept) const {
+  FaultCase the_case = draw(seed);
+  std::vector<Fault> faults;
+  for (const std::size_t index : kept) {
+    if (index >= the_case.run.faults.size()) {
+      throw std::invalid_argument("fault " + std::to_string(index) + ", must be < " +
+                                  std::to_string(the_case.run.faults.size()));
+    }
+    faults.push_back(the_case.run.faults[index]);
+  }
+  the_case.run.faults = std::move(faults);
+  return the_case;
+}
+
+Shrunk FaultCampaign::shrink(std::uint64_t seed) const {
+  std::vector<std::size_t> all(draw(seed).run.faults.size());
+  std::iota(all.begin(), all.end(), std::size_t{});
+  Shrunk result;
+  result.kept = shrunk<std::size_t>(std::move(all), [&](const std::vector<std::size_t>& kept) {
+    return !run(draw(seed, kept)).violations.empty();
+  });
+  result.the_case = draw(seed, result.kept);
+  result.result = run(result.the_case);
+  return result;
+}
+
+std::string describe(const FaultCase& the_case) {
+  std::string text = "seed " + std::to_string(the_case.seed) + ": " + the_case.scenario.name +
+                     ", " + std::to_string(the_case.scenario.vehicles.size()) + " cars, " +
+                     (the_case.run.lab.is_logical ? "logical" : "real") + " time, endpoints of " +
+                     (the_case.run.lab.transport == Transport::kLab ? "the lab" : "loopback") +
+                     "\n";
+  for (const Fault& fault : the_case.run.faults) text += "  " + to_string(fault) + "\n";
+  return text;
+}
+
+void FaultTotals::add(const FaultRunResult& result) {
+  ++runs;
+  if (!result.violations.empty()) ++failed;
+  car_steps += result.car_steps;
+  planned += result.planned;
+  smallest_distance_m = std::min(smallest_distance_m, result.smallest_distance_m);
+}
+
+std::string describe(const FaultTotals& totals) {
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "%llu runs, %llu failed, %llu car-steps, %llu with a new plan, cars came as close as %.3f m",
+      static_cast<unsigned long long>(totals.runs), static_cast<unsigned long long>(totals.failed),
+      static_cast<unsigned long long>(totals.car_steps),
+      static_cast<unsigned long long>(totals.planned), totals.smallest_distance_m);
+  return text.data();
+}
+
+std::vector<FaultKind> fault_kinds_of(const std::vector<std::string>& names) {
+  std::vector<FaultKind> kinds;
+  for (const FaultKind kind : all_fault_kinds()) {
+    if (names.empty() || std::ranges::find(names, to_string(kind)) != names.end()) {
+      kinds.push_back(kind);
+    }
+  }
+  return kinds;
+}
+
+}  // namespace hlc::closed_loop

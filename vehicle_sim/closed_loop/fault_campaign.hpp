@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/closed_loop/fault_run.hpp"
+
+namespace hlc::closed_loop {
+
+struct FaultCampaignSettings {
+  std::filesystem::path scenario_folder;  ///< holds circle.yaml and paper_three_cars.yaml
+  std::size_t cars{};                     ///< 3 ... 8; 0: as the seed has it
+  std::vector<FaultKind> kinds;           ///< of the faults; empty: no faults
+};
+
+/// What a seed stands for.
+struct FaultCase {
+  std::uint64_t seed{};
+  Scenario scenario;
+  FaultRunSettings run;
+};
+
+/// The seed, the scenario, and the numbered faults, each in a line.
+[[nodiscard]] std::string describe(const FaultCase& the_case);
+
+/// A seed that fails, with the fewest of its faults.
+struct Shrunk {
+  FaultCase the_case;
+  std::vector<std::size_t> kept;  ///< indices of the faults that are left
+  FaultRunResult result;
+};
+
+/// Runs with faults, one for each seed. A seed chooses
+///   * the scenario: cars on a circle that all want to the other side, or (three cars) the paper's
+///     map with random starts;
+///   * real time or (one in four) logical time, the endpoints of the lab or of loopback;
+///   * the faults (draw_faults), and every delay.
+/// Scenarios are read and automata built once; then any number of threads may run.
+class FaultCampaign {
+ public:
+  /// @throws std::invalid_argument, std::runtime_error if a scenario cannot be read
+  explicit FaultCampaign(FaultCampaignSettings settings);
+
+  [[nodiscard]] FaultCase draw(std::uint64_t seed) const;
+  /// With some of its faults only. @throws std::invalid_argument if there is no such fault
+  [[nodiscard]] FaultCase draw(std::uint64_t seed, const std::vector<std::size_t>& kept) const;
+  [[nodiscard]] static FaultRunResult run(const FaultCase& the_case, const Trace& trace = {}) {
+    return run_with_faults(the_case.scenario, the_case.run, trace);
+  }
+  /// @pre the seed fails
+  [[nodiscard]] Shrunk shrink(std::uint64_t seed) const;
+
+ private:
+  FaultCampaignSettings settings_;
+  std::map<std::size_t, Scenario> circles_;  ///< by number of cars
+  std::optional<Scenario> paper_;            ///< three cars
+};
+
+/// What many runs came to.
+struct FaultTotals {
+  std::uint64_t runs{};
+  std::uint64_t failed{};
+  std::uint64_t car_steps{};
+  std::uint64_t planned{};
+  double smallest_distance_m{1e9};
+  void add(const FaultRunResult& result);
+};
+/// "100 runs, 0 failed, 12345 car-steps, ..."
+[[nodiscard]] std::string describe(const FaultTotals& totals);
+
+/// Of these names; all if there are none. @pre each is the name of a kind
+[[nodiscard]] std::vector<FaultKind> fault_kinds_of(const std::vector<std::string>& names);
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,233 @@
+#include "vehicle_sim/closed_loop/fault_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "hlc_bridge/messages/node_names.hpp"
+#include "vehicle_sim/closed_loop/seeded_random.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr Nanoseconds kMs = kNanosecondsPerMillisecond;
+
+constexpr std::array kKinds{FaultKind::kLose,   FaultKind::kWithhold, FaultKind::kDelay,
+                            FaultKind::kRepeat, FaultKind::kReorder,  FaultKind::kCut,
+                            FaultKind::kKill,   FaultKind::kFreeze,   FaultKind::kStep,
+                            FaultKind::kDrift};
+
+bool is_of_process(FaultKind kind) { return kind >= FaultKind::kKill; }
+bool holds_up(FaultKind kind) { return kind == FaultKind::kKill || kind == FaultKind::kFreeze; }
+bool sets_clock(FaultKind kind) { return kind == FaultKind::kStep || kind == FaultKind::kDrift; }
+
+class Draw {
+ public:
+  Draw(std::uint64_t seed, const FaultPlanSettings& settings)
+      : random_(seed), settings_(settings) {}
+
+  std::vector<Fault> faults() {
+    std::vector<Fault> faults;
+    const std::size_t count = 1 + random_.below(settings_.most_faults);
+    for (std::size_t i = 0; i < count; ++i) add(faults);
+    std::ranges::stable_sort(faults, {}, &Fault::begin);
+    return faults;
+  }
+
+ private:
+  void add(std::vector<Fault>& faults) {
+    Fault fault{.kind = settings_.kinds[random_.below(settings_.kinds.size())]};
+    set_time(fault);
+    if (is_of_process(fault.kind)) {
+      set_process(fault);
+    } else {
+      set_way(fault);
+    }
+    set_amount(fault);
+    if (excludes_any(fault, faults)) return;
+    faults.push_back(fault);
+    // Most cuts are of a cable: they hold both ways.
+    if (fault.kind != FaultKind::kCut || !random_.chance(0.7)) return;
+    std::swap(fault.process, fault.peer);
+    faults.push_back(fault);
+  }
+
+  /// Short ones as often as long ones: of each order of magnitude.
+  Nanoseconds duration(Nanoseconds least, Nanoseconds most) {
+    const double share = random_.share();
+    const double ratio = static_cast<double>(most) / static_cast<double>(least);
+    return static_cast<Nanoseconds>(static_cast<double>(least) * std::pow(ratio, share));
+  }
+
+  void set_time(Fault& fault) {
+    const bool is_process = is_of_process(fault.kind);
+    const Nanoseconds span = settings_.last - settings_.first;
+    const Nanoseconds lasts = std::min(
+        is_process ? duration(10 * kMs, 8000 * kMs) : duration(50 * kMs, 6000 * kMs), span);
+    fault.begin = settings_.first + random_.below(span - lasts + 1);
+    fault.end = fault.begin + lasts;
+  }
+
+  std::string any_process(bool with_vehicles, bool with_lab_control) {
+    const std::uint8_t id = settings_.vehicle_ids[random_.below(settings_.vehicle_ids.size())];
+    if (with_lab_control && random_.chance(0.1)) return kLabControlName;
+    switch (random_.below(with_vehicles ? 3 : 2)) {
+      case 0:
+        return controller_name(id);
+      case 1:
+        return middleware_name(id);
+      default:
+        return vehicle_name(id);
+    }
+  }
+
+  void set_process(Fault& fault) {
+    const bool is_clock = sets_clock(fault.kind);
+    fault.process = any_process(is_clock, is_clock || fault.kind == FaultKind::kFreeze);
+  }
+
+  void set_way(Fault& fault) {
+    if (fault.kind == FaultKind::kCut || random_.chance(0.6))
+      fault.process = any_process(true, true);
+    if (fault.kind == FaultKind::kCut || random_.chance(0.4)) {
+      do {
+        fault.peer = any_process(true, true);
+      } while (fault.peer == fault.process);
+    }
+    // Everybody, or nobody: a network that is overloaded.
+    if (fault.kind == FaultKind::kCut && random_.chance(0.3)) fault.peer.clear();
+  }
+
+  std::int64_t either_way(Nanoseconds most) {
+    const auto amount = static_cast<std::int64_t>(random_.between(1, most));
+    return random_.chance(0.5) ? amount : -amount;
+  }
+
+  void set_amount(Fault& fault) {
+    const bool is_vehicle = fault.process.starts_with("vehicle");
+    switch (fault.kind) {
+      case FaultKind::kLose:
+      case FaultKind::kWithhold:
+      case FaultKind::kRepeat:
+      case FaultKind::kReorder:
+        fault.share = random_.chance(0.2) ? 1.0 : random_.share();
+        fault.amount = static_cast<std::int64_t>(duration(1 * kMs, 400 * kMs));
+        break;
+      case FaultKind::kDelay:
+        fault.amount = static_cast<std::int64_t>(duration(1 * kMs, 400 * kMs));
+        break;
+      case FaultKind::kStep:
+        fault.amount = either_way(is_vehicle ? 2 * kMs : 300 * kMs);
+        break;
+      case FaultKind::kDrift:
+        fault.amount = either_way(is_vehicle ? 200'000 : 2 * kMs);
+        break;
+      case FaultKind::kCut:
+      case FaultKind::kKill:
+      case FaultKind::kFreeze:
+        break;
+    }
+  }
+
+  static bool excludes_any(const Fault& fault, const std::vector<Fault>& faults) {
+    return std::ranges::any_of(faults, [&](const Fault& other) {
+      const bool same_resource = (holds_up(fault.kind) && holds_up(other.kind)) ||
+                                 (sets_clock(fault.kind) && sets_clock(other.kind));
+      return same_resource && fault.process == other.process && fault.begin <= other.end &&
+             other.begin <= fault.end;
+    });
+  }
+
+  SeededRandom random_;
+  const FaultPlanSettings& settings_;
+};
+
+std::string seconds(Nanoseconds time) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f s", 1e-9 * static_cast<double>(time));
+  return text.data();
+}
+
+std::string amount_text(const Fault& fault) {
+  std::array<char, 64> text{};
+  const double amount_ms = 1e-6 * static_cast<double>(fault.amount);
+  switch (fault.kind) {
+    case FaultKind::kLose:
+    case FaultKind::kWithhold:
+      std::snprintf(text.data(), text.size(), ", %.0f %%", 100.0 * fault.share);
+      break;
+    case FaultKind::kRepeat:
+    case FaultKind::kReorder:
+      std::snprintf(text.data(), text.size(), ", %.0f %%, up to %.1f ms", 100.0 * fault.share,
+                    amount_ms);
+      break;
+    case FaultKind::kDelay:
+      std::snprintf(text.data(), text.size(), ", up to %.1f ms", amount_ms);
+      break;
+    case FaultKind::kStep:
+      std::snprintf(text.data(), text.size(), ", %+.3f ms", amount_ms);
+      break;
+    case FaultKind::kDrift:
+      std::snprintf(text.data(), text.size(), ", %+.3f ms/s", amount_ms);
+      break;
+    case FaultKind::kCut:
+    case FaultKind::kKill:
+    case FaultKind::kFreeze:
+      break;
+  }
+  return text.data();
+}
+
+}  // namespace
+
+const char* to_string(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kLose:
+      return "lose";
+    case FaultKind::kWithhold:
+      return "withhold";
+    case FaultKind::kDelay:
+      return "delay";
+    case FaultKind::kRepeat:
+      return "repeat";
+    case FaultKind::kReorder:
+      return "reorder";
+    case FaultKind::kCut:
+      return "cut";
+    case FaultKind::kKill:
+      return "kill";
+    case FaultKind::kFreeze:
+      return "freeze";
+    case FaultKind::kStep:
+      return "step";
+    case FaultKind::kDrift:
+      return "drift";
+  }
+  return "";
+}
+
+std::span<const FaultKind> all_fault_kinds() { return kKinds; }
+
+std::string to_string(const Fault& fault) {
+  const auto name = [](const std::string& process) {
+    return process.empty() ? std::string("anybody") : process;
+  };
+  std::string text = seconds(fault.begin) + " ... " + seconds(fault.end) + ": " +
+                     to_string(fault.kind) + " " + name(fault.process);
+  if (!is_of_process(fault.kind)) text += " -> " + name(fault.peer);
+  return text + amount_text(fault);
+}
+
+std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& settings) {
+  if (settings.kinds.empty()) return {};
+  return Draw(seed, settings).faults();
+}
+
+Nanoseconds end_of(std::span<const Fault> faults) {
+  Nanoseconds end = 0;
+  for (const Fault& fault : faults) end = std::max(end, fault.end);
+  return end;
+}
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/messages/time_grid.hpp"
+#include "vehicle_sim/closed_loop/simulated_network.hpp"
+
+namespace hlc::closed_loop {
+
+enum class FaultKind : std::uint8_t {
+  kLose,      ///< a share of the messages is lost on the way; reliable topics send them again
+  kWithhold,  ///< a share of the messages never comes, whatever the topic promises
+  kDelay,     ///< messages take up to `amount` longer
+  kRepeat,    ///< a share of the messages comes twice
+  kReorder,   ///< a share of the messages comes up to `amount` later, and others do not wait for it
+  kCut,       ///< nothing passes, no sign of life either
+  kKill,      ///< the process is killed, and started again at the end
+  kFreeze,    ///< the process stands still until the end
+  kStep,      ///< the process's real-time clock is set by `amount`, and back at the end
+  kDrift,     ///< its clocks run faster or slower by `amount` ns in a second until the end
+};
+
+/// One thing that goes wrong for a while. Times are true times since the begin of the run.
+struct Fault {
+  FaultKind kind{};
+  Nanoseconds begin{};
+  Nanoseconds end{};
+  std::string process;  ///< kKill ... kDrift; of the others the writer's, empty: any
+  std::string peer;     ///< of the others the reader's, empty: any
+  double share{};
+  std::int64_t amount{};
+  friend bool operator==(const Fault&, const Fault&) = default;
+};
+
+/// By name, for flags: "lose", "withhold", ...
+[[nodiscard]] const char* to_string(FaultKind kind);
+/// All kinds, in the order of their declaration.
+[[nodiscard]] std::span<const FaultKind> all_fault_kinds();
+/// "2.150 s ... 3.200 s: cut middleware_1 -> vehicle_raspberry_1"
+[[nodiscard]] std::string to_string(const Fault& fault);
+
+struct FaultPlanSettings {
+  std::vector<std::uint8_t> vehicle_ids;
+  std::vector<FaultKind> kinds;                  ///< of which faults are drawn; empty: none are
+  Nanoseconds first{};                           ///< no fault begins earlier
+  Nanoseconds last{20 * kNanosecondsPerSecond};  ///< all are over by then
+  std::size_t most_faults{6};
+};
+
+/// Faults of a seed, at least one, by time of their begin. Those of one process that exclude each
+/// other (killed while frozen) are left out.
+///
+/// What is drawn: processes are killed or stand still for 10 ms ... 8 s, networks are bad for 50 ms
+/// ... 6 s, cuts separate two processes, or one from all, one way or both. Clocks of
+/// controllers and middlewares are set by up to 300 ms, which is more than a step; those of the
+/// vehicles by up to 2 ms only: a vehicle that drives at another time than all others believe is
+/// not where its plan says, and nothing but the safety margin (10 mm) covers that.
+[[nodiscard]] std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& settings);
+
+/// The end of the last one; 0 without faults.
+[[nodiscard]] Nanoseconds end_of(std::span<const Fault> faults);
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,164 @@
+#include "vehicle_sim/closed_loop/invariants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/coordination/commit.hpp"
+#include "planner/coordination/missing.hpp"
+#include "planner/coordination/report.hpp"
+#include "planner/geometry/polygon.hpp"
+
+namespace hlc::closed_loop {
+
+// --- footprints ---------------------------------------------------------------------------------
+
+FootprintsCheck::FootprintsCheck(const Footprint& footprint,
+                                 const std::map<std::uint8_t, Pose>& starts)
+    : footprint_(footprint),
+      circumradius_m_(0.5 * std::hypot(footprint.length_m, footprint.width_m)) {
+  for (const auto& [vehicle, start] : starts) cars_[vehicle].start = start;
+}
+
+const Pose& FootprintsCheck::Car::at(std::uint64_t tick) const {
+  if (poses.empty() || tick < first) return start;
+  return tick < end() ? poses[tick - first] : poses.back();
+}
+
+void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose) {
+  Car& car = cars_.at(vehicle);
+  if (car.poses.empty()) {
+    car.first = tick;
+    if (!next_ || tick < *next_) next_ = tick;
+  }
+  while (car.end() < tick) car.poses.push_back(car.poses.back());
+  if (tick >= car.end()) car.poses.push_back(pose);
+}
+
+void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
+  if (!next_) return;
+  std::uint64_t end = ~std::uint64_t{0};
+  for (const auto& [vehicle, car] : cars_) {
+    if (!car.has_ended && !car.poses.empty()) end = std::min(end, car.end());
+  }
+  if (end == ~std::uint64_t{0}) return;
+  for (; *next_ < end; ++*next_) {
+    for (auto a = cars_.begin(); a != cars_.end(); ++a) {
+      for (auto b = std::next(a); b != cars_.end(); ++b) {
+        const Pose& pose_a = a->second.at(*next_);
+        const Pose& pose_b = b->second.at(*next_);
+        const double centres_m = std::hypot(pose_a.x_m - pose_b.x_m, pose_a.y_m - pose_b.y_m);
+        if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) continue;
+        const double gap_m =
+            distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
+        smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
+        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second) continue;
+        violations.push_back({.at = at,
+                              .check = "footprints",
+                              .text = "vehicles " + std::to_string(a->first) + " and " +
+                                      std::to_string(b->first) + " touch in tick " +
+                                      std::to_string(*next_)});
+      }
+    }
+  }
+}
+
+// --- plans --------------------------------------------------------------------------------------
+
+bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
+  return now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
+}
+
+void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
+  const VehicleId vehicle = report.vehicle;
+  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
+    in_force_.erase(vehicle);
+  }
+  const auto before = in_force_.find(vehicle);
+  if (before != in_force_.end()) before->second.last_report = report.step;
+  const auto predicted = predicted_.find(vehicle);
+  if (report.status != StepStatus::kPlanned || predicted == predicted_.end() ||
+      predicted->second.step != report.step) {
+    return;
+  }
+  OccupiedAreas& areas = in_force_[vehicle].areas;
+  in_force_[vehicle].last_report = report.step;
+  areas = std::move(predicted->second.areas);
+  predicted_.erase(predicted);
+  for (const auto& [other, plan] : in_force_) {
+    const StepIndex from = std::max(areas.first, plan.areas.first);
+    if (other == vehicle || has_run_out(plan, report.step) ||
+        are_free(areas, plan.areas, from, horizon_steps_) ||
+        !met_.insert(std::minmax(vehicle, other)).second) {
+      continue;
+    }
+    violations.push_back({.at = at,
+                          .check = "plans",
+                          .text = "plans in force of vehicles " + std::to_string(other.value) +
+                                  " and " + std::to_string(vehicle.value) + " meet from step " +
+                                  std::to_string(from.value) + " on"});
+  }
+}
+
+// --- reasons ------------------------------------------------------------------------------------
+
+void ReasonsCheck::log(const std::string& process, const machine::LogLine& line, Nanoseconds at) {
+  Lines& lines = lines_[process];
+  lines.last = at;
+  if (line.severity != machine::Severity::kInfo) lines.has_complained = true;
+}
+
+void ReasonsCheck::driven(const std::string& vehicle, bool follows, Nanoseconds at) {
+  Lines& lines = lines_[vehicle];
+  if (lines.follows && !follows) lines.stopped = at;
+  lines.follows = follows;
+}
+
+void ReasonsCheck::ended(const std::string& process, int exit_code, Nanoseconds at,
+                         Violations& violations) {
+  const Lines& lines = lines_[process];
+  if (exit_code == kExitGood || exit_code == kExitInterrupted || lines.has_complained) return;
+  violations.push_back(
+      {.at = at,
+       .check = "reasons",
+       .text = process + " ended with code " + std::to_string(exit_code) + " and did not log why"});
+}
+
+void ReasonsCheck::judge(Nanoseconds at, Violations& violations) {
+  for (auto& [process, lines] : lines_) {
+    const auto stopped = std::exchange(lines.stopped, std::nullopt);
+    if (!stopped || (lines.last && *lines.last >= *stopped)) continue;
+    violations.push_back(
+        {.at = at, .check = "reasons", .text = process + " stopped and did not log why"});
+  }
+}
+
+// --- planning -----------------------------------------------------------------------------------
+
+void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
+  const Report& report = record.report;
+  last_[report.vehicle.value] =
+      std::string(to_string(report.status)) + ", " + to_string(report.reason);
+  if (at < calm_from_) return;
+  const bool cannot =
+      report.reason == FallbackReason::kInfeasible || report.reason == FallbackReason::kConflict ||
+      report.reason == FallbackReason::kBudget || report.reason == FallbackReason::kOffRoute ||
+      report.status == StepStatus::kDriveOut;
+  if (cannot || report.status == StepStatus::kPlanned) plans_[report.vehicle.value] = true;
+}
+
+void PlanningCheck::judge(const std::vector<std::uint8_t>& able, Nanoseconds at,
+                          Violations& violations) const {
+  for (const std::uint8_t vehicle : able) {
+    if (plans_.contains(vehicle)) continue;
+    const auto last = last_.find(vehicle);
+    violations.push_back({.at = at,
+                          .check = "planning",
+                          .text = "vehicle " + std::to_string(vehicle) +
+                                  " plans nothing 5 s after the last fault; its last report: " +
+                                  (last == last_.end() ? "none" : last->second)});
+  }
+}
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/machine/log_line.hpp"
+#include "hlc_bridge/messages/run_messages.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+#include "planner/coordination/messages.hpp"
+#include "planner/geometry/footprint.hpp"
+#include "planner/geometry/pose.hpp"
+
+/// What must hold in a run whatever goes wrong, each as a small judge that is told what happens.
+namespace hlc::closed_loop {
+
+/// Something that must not be.
+struct Violation {
+  Nanoseconds at{};   ///< true time since the begin of the run
+  std::string check;  ///< "footprints", "plans", "waits", "reasons", "planning"
+  std::string text;   ///< one line
+};
+using Violations = std::vector<Violation>;
+
+/// Driven footprints (without margin) never touch.
+///
+/// Poses of one instant are compared: a tick is judged once every vehicle has driven it. Who has
+/// not begun stands at its start, who has ended stands where it was.
+class FootprintsCheck {
+ public:
+  FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
+
+  /// @param tick  number of the vehicles' tick
+  void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose);
+  void ended(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = true; }
+  /// Judges the ticks that all have driven by now.
+  void judge(Nanoseconds at, Violations& violations);
+  /// Smallest distance so far [m].
+  [[nodiscard]] double smallest_distance_m() const { return smallest_distance_m_; }
+
+ private:
+  struct Car {
+    Pose start;
+    std::uint64_t first{};    ///< tick of poses[0]
+    std::vector<Pose> poses;  ///< of the ticks since then
+    bool has_ended{};
+    [[nodiscard]] std::uint64_t end() const { return first + poses.size(); }
+    [[nodiscard]] const Pose& at(std::uint64_t tick) const;
+  };
+
+  Footprint footprint_;
+  double circumradius_m_;
+  std::map<std::uint8_t, Car> cars_;
+  std::optional<std::uint64_t> next_;  ///< tick to be judged
+  std::set<std::pair<std::uint8_t, std::uint8_t>> touched_;
+  double smallest_distance_m_{1e9};
+};
+
+/// Plans in force are free of each other pair by pair, until both stand, whenever one of them
+/// changes. A plan is what its vehicle has told the others of it (Prediction::areas, with margin
+/// and predicted drift), since that is what they keep clear of: the step under way has been told
+/// before. Final areas are not compared: the last area of a horizon holds the final one but for 2
+/// um (Plan::areas_from), which nobody keeps clear of. It comes into force with a report `planned`,
+/// and stays when its controller is gone, until the next controller stands by: its vehicle has been
+/// seen standing for a horizon.
+///
+/// Who has reported nothing for horizon + 1 + kSilentSteps steps has run out of every plan that it
+/// can have agreed to, and counts with where it stands for the others (stands_for_good in
+/// missing.hpp).
+///
+/// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives what
+/// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew.
+class PlansCheck {
+ public:
+  explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
+
+  void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
+  void reported(const Report& report, Nanoseconds at, Violations& violations);
+
+ private:
+  using Pair = std::pair<VehicleId, VehicleId>;
+
+  struct InForce {
+    OccupiedAreas areas;
+    StepIndex last_report;
+  };
+  [[nodiscard]] bool has_run_out(const InForce& plan, StepIndex now) const;
+
+  std::size_t horizon_steps_;
+  std::map<VehicleId, Prediction> predicted_;
+  std::map<VehicleId, InForce> in_force_;
+  std::set<Pair> met_;
+};
+
+/// Whoever stops has said why: a process that ends with a code that is not good, in a warning or an
+/// error of its log; a vehicle that follows no command any more, in a line of its log.
+class ReasonsCheck {
+ public:
+  void started(const std::string& process) { lines_[process] = {}; }
+  void log(const std::string& process, const machine::LogLine& line, Nanoseconds at);
+  /// One tick of a vehicle.
+  void driven(const std::string& vehicle, bool follows, Nanoseconds at);
+  void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
+  /// To be called between two turns, so that lines of a turn are known when its ticks are judged.
+  void judge(Nanoseconds at, Violations& violations);
+
+ private:
+  struct Lines {
+    bool has_complained{};  ///< in a warning or an error
+    std::optional<Nanoseconds> last;
+    bool follows{};
+    std::optional<Nanoseconds> stopped;  ///< and has not been judged yet
+  };
+  std::map<std::string, Lines> lines_;
+};
+
+/// Within 5 s after the last fault everybody who can plan has planned something new. Who cannot:
+/// who has ended, whose search found that there is no way (kInfeasible, kBudget), whose vehicle
+/// fits no route (kOffRoute), who is told to drive out; and whose plan meets another one
+/// (kConflict): it has heard everybody and is boxed in, as cars on a circle that all want through
+/// its centre are without any fault. What is judged is that nobody is left who is missing, late,
+/// not seen, or silent.
+class PlanningCheck {
+ public:
+  static constexpr Nanoseconds kPatience = 5 * kNanosecondsPerSecond;
+
+  /// @param calm_from  end of the last fault, true time since the begin of the run
+  explicit PlanningCheck(Nanoseconds calm_from) : calm_from_(calm_from) {}
+
+  void report(const ReportRecord& record, Nanoseconds at);
+  /// To be called at calm_from + kPatience.
+  /// @param able  vehicles whose processes are all there
+  void judge(const std::vector<std::uint8_t>& able, Nanoseconds at, Violations& violations) const;
+
+ private:
+  Nanoseconds calm_from_;
+  std::map<std::uint8_t, std::string> last_;  ///< what it reported last
+  std::map<std::uint8_t, bool> plans_;
+};
+
+}  // namespace hlc::closed_loop

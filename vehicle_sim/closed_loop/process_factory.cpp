@@ -1,0 +1,133 @@
+#include "vehicle_sim/closed_loop/process_factory.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "hlc_bridge/lab_control/logical_run.hpp"
+#include "hlc_bridge/lab_control/real_time_run.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
+#include "vehicle_sim/closed_loop/controller_host.hpp"
+#include "vehicle_sim/closed_loop/lab_control_host.hpp"
+#include "vehicle_sim/closed_loop/middleware_host.hpp"
+#include "vehicle_sim/closed_loop/seeded_random.hpp"
+#include "vehicle_sim/closed_loop/vehicle_host.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr Nanoseconds kStartupTimeout = 30 * kNanosecondsPerSecond;
+constexpr Nanoseconds kProgressInterval = 60 * kNanosecondsPerSecond;
+
+template <class Host>
+std::unique_ptr<SimulatedProcess> wrapped(const ProcessPlace& place, Host host,
+                                          typename Host::Machine machine) {
+  return std::make_unique<MachineProcess<Host>>(place, std::move(host), std::move(machine),
+                                                kStartupTimeout);
+}
+
+LabControlMachine lab_control(const Scenario& scenario, const LabSettings& settings,
+                              const std::vector<std::uint8_t>& ids) {
+  const double step_s = scenario.subgraph->automaton().step_s;
+  LabRunSettings run{.vehicle_ids = ids,
+                     .period = static_cast<Nanoseconds>(std::llround(1e9 * step_s)),
+                     .steps = settings.steps,
+                     .startup_timeout = kStartupTimeout};
+  if (settings.is_logical) {
+    return {std::make_unique<LogicalRun>(std::move(run)), kProgressInterval};
+  }
+  run.on_death = OnDeath::kContinue;
+  return {std::make_unique<RealTimeRun>(std::move(run)), kProgressInterval};
+}
+
+VehicleMachine vehicle(std::uint8_t id, const Pose& start, const LabSettings& settings) {
+  return VehicleMachine(
+      {.vehicle = {.vehicle_id = id, .start = start, .noise_seed = mixed(settings.seed, id)},
+       .rules = settings.is_logical ? machine::logical_rules() : machine::real_rules(kVehicleStays),
+       .startup_timeout = kStartupTimeout});
+}
+
+MiddlewareMachine middleware(std::uint8_t id, const LabSettings& settings) {
+  return MiddlewareMachine({.vehicle_ids = {id},
+                            .startup_timeout = kStartupTimeout,
+                            .rules = settings.is_logical ? logical_middleware_rules(false)
+                                                         : real_middleware_rules(false)});
+}
+
+HlcMachine controller(const Scenario& scenario, std::uint8_t id, const LabSettings& settings) {
+  const bool keeps_commands = settings.transport == Transport::kLoopback;
+  const HlcRules rules = settings.is_logical
+                             ? rules_in_logical_time(keeps_commands)
+                             : rules_in_real_time(keeps_commands, StepDeadlines{}, kStartupTimeout);
+  return {{.rules = rules,
+           .startup_timeout = kStartupTimeout,
+           .reconfiguration = scenario.reconfiguration},
+          make_controller(scenario, VehicleId{id})};
+}
+
+}  // namespace
+
+std::string name_of(const ProcessKey& key) {
+  switch (key.role) {
+    case Role::kLabControl:
+      return kLabControlName;
+    case Role::kVehicle:
+      return vehicle_name(key.vehicle);
+    case Role::kMiddleware:
+      return middleware_name(key.vehicle);
+    case Role::kController:
+      return controller_name(key.vehicle);
+  }
+  return {};
+}
+
+ProcessFactory::ProcessFactory(const Scenario& scenario, const LabSettings& settings)
+    : scenario_(&scenario), settings_(settings) {
+  for (const ScenarioVehicle& one : scenario.vehicles) ids_.push_back(one.id.value);
+}
+
+std::vector<ProcessKey> ProcessFactory::processes() const {
+  std::vector<ProcessKey> keys{{.role = Role::kLabControl}};
+  for (const std::uint8_t id : ids_) {
+    for (const Role role : {Role::kVehicle, Role::kMiddleware, Role::kController}) {
+      keys.push_back({.role = role, .vehicle = id});
+    }
+  }
+  return keys;
+}
+
+NodeDescription ProcessFactory::description(const ProcessKey& key) const {
+  switch (key.role) {
+    case Role::kLabControl:
+      return LabControlHost::description(ids_, settings_.is_logical);
+    case Role::kVehicle:
+      return VehicleHost::description(key.vehicle);
+    case Role::kMiddleware:
+      return MiddlewareHost::description(key.vehicle, ids_);
+    case Role::kController:
+      return ControllerHost::description(key.vehicle);
+  }
+  return {};
+}
+
+std::unique_ptr<SimulatedProcess> ProcessFactory::make(const ProcessKey& key,
+                                                       const ProcessPlace& place,
+                                                       const std::optional<Pose>& start) const {
+  switch (key.role) {
+    case Role::kLabControl:
+      return wrapped(place, LabControlHost(), lab_control(*scenario_, settings_, ids_));
+    case Role::kVehicle:
+      return wrapped(place, VehicleHost(key.vehicle),
+                     vehicle(key.vehicle, start.value_or(first_pose(key.vehicle)), settings_));
+    case Role::kMiddleware:
+      return wrapped(place, MiddlewareHost(key.vehicle, ids_), middleware(key.vehicle, settings_));
+    case Role::kController:
+      return wrapped(place, ControllerHost(), controller(*scenario_, key.vehicle, settings_));
+  }
+  return nullptr;
+}
+
+Pose ProcessFactory::first_pose(std::uint8_t vehicle) const {
+  return measured_start(*scenario_, vehicle_of(*scenario_, VehicleId{vehicle}));
+}
+
+}  // namespace hlc::closed_loop

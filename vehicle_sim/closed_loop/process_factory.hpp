@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/closed_loop/simulated_network.hpp"
+#include "vehicle_sim/closed_loop/simulated_process.hpp"
+
+namespace hlc::closed_loop {
+
+enum class Role : std::uint8_t { kLabControl, kVehicle, kMiddleware, kController };
+
+/// Which process of a run.
+struct ProcessKey {
+  Role role{};
+  std::uint8_t vehicle{};  ///< 0: the lab control's
+};
+/// The name that its participants bear (messages/node_names.hpp).
+[[nodiscard]] std::string name_of(const ProcessKey& key);
+
+struct LabSettings {
+  /// Delays, clocks, starts of processes and noise of measurements.
+  std::uint64_t seed{};
+  bool is_logical{};
+  Transport transport{};
+  std::uint64_t steps{100};  ///< of the run
+};
+
+/// Makes the processes of a scenario's run, each as its program would: machine, rules, endpoints.
+class ProcessFactory {
+ public:
+  ProcessFactory(const Scenario& scenario, const LabSettings& settings);
+
+  [[nodiscard]] const std::vector<std::uint8_t>& vehicle_ids() const { return ids_; }
+  /// In the order in which they are numbered everywhere: the lab control, then by vehicle.
+  [[nodiscard]] std::vector<ProcessKey> processes() const;
+  [[nodiscard]] NodeDescription description(const ProcessKey& key) const;
+  /// @param start  of a vehicle that has driven before: where it stands
+  [[nodiscard]] std::unique_ptr<SimulatedProcess> make(const ProcessKey& key,
+                                                       const ProcessPlace& place,
+                                                       const std::optional<Pose>& start) const;
+  /// Where the vehicle stands at first; heading_rad is the yaw.
+  [[nodiscard]] Pose first_pose(std::uint8_t vehicle) const;
+
+ private:
+  const Scenario* scenario_;
+  LabSettings settings_;
+  std::vector<std::uint8_t> ids_;
+};
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,173 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/machine/machine.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
+#include "vehicle_sim/closed_loop/event_queue.hpp"
+#include "vehicle_sim/closed_loop/seeded_random.hpp"
+#include "vehicle_sim/closed_loop/topics.hpp"
+
+namespace hlc::closed_loop {
+
+/// What a process has on the network. Its name is on every domain of its topics.
+struct NodeDescription {
+  std::string name;
+  std::vector<Topic> writes;
+  std::vector<Topic> reads;
+};
+
+/// What may happen to messages on their way while it lasts. Shares are probabilities of a message.
+struct Disturbance {
+  std::string from;     ///< name of the writer's process; empty: any
+  std::string to;       ///< of the reader's
+  double lost{};        ///< on the way: a reliable topic sends again, later; others do not
+  double withheld{};    ///< lost for good, whatever the topic promises
+  double repeated{};    ///< comes twice, the second time up to `repeat_delay` later
+  double overtaken{};   ///< comes up to `overtake_delay` later, and others do not wait for it
+  Nanoseconds delay{};  ///< every message takes up to so much longer
+  Nanoseconds repeat_delay{};
+  Nanoseconds overtake_delay{};
+  friend bool operator==(const Disturbance&, const Disturbance&) = default;
+};
+
+/// Nothing passes from one to the other, no sign of life either.
+struct Cut {
+  std::string from;
+  std::string to;
+  std::optional<Domain> domain;  ///< none: all
+  friend bool operator==(const Cut&, const Cut&) = default;
+};
+
+struct NetworkOptions {
+  std::uint64_t seed{};
+  Transport transport{};
+  Nanoseconds lease{2 * kNanosecondsPerSecond};  ///< as participant_qos.hpp has it
+  Nanoseconds least_delay{100'000};
+  Nanoseconds most_delay{1'000'000};
+};
+
+/// The network of all processes of a run, with the properties of DDS that the machines rely on:
+///
+/// * A process *sees* another one of its domains from the announcement on that reaches it, until
+/// the
+///   other one leaves, or until nothing has come from it for the lease. Announcements come eight
+///   times in a lease. Who is seen once and not any more is lost. Names may be borne by several.
+/// * A writer reaches a reader while each sees the other. What is written before is lost to it, but
+///   on topics that are kept for late ones.
+/// * Who stands still for longer than the lease may miss the others for a moment when it goes on.
+/// * What a reliable topic loses is sent again, in the order of writing; while nothing passes the
+///   last `depth` messages of a writer are kept for that. Other topics lose it.
+///
+/// Every delay is a number of seed, channel, and count of its messages: what is disturbed at one
+/// place changes no delay at another.
+class SimulatedNetwork {
+ public:
+  SimulatedNetwork(EventQueue& queue, NetworkOptions options) : queue_(&queue), options_(options) {}
+
+  // Processes. A node is never used again.
+  NodeId join(const NodeDescription& description);
+  /// It ends: the others learn it at once.
+  void leave(NodeId node);
+  /// It is killed: the others miss it when its lease has run out.
+  void vanish(NodeId node);
+  /// It stands still: what comes waits, and it shows no sign of life.
+  void freeze(NodeId node);
+  void thaw(NodeId node);
+
+  // Faults.
+  void add(const Cut& cut);
+  void remove(const Cut& cut);
+  void add(const Disturbance& disturbance) { disturbances_.push_back(disturbance); }
+  void remove(const Disturbance& disturbance);
+
+  /// @param topic  index among the description's `writes`
+  void publish(NodeId node, std::size_t topic, Message message);
+
+  /// What was planned for now: an arrival or a sight.
+  struct Arrival {
+    NodeId node{};
+    std::size_t topic{};  ///< index among the reader's `reads`
+    SharedMessage message;
+  };
+  /// Nothing if the reader does not hear the writer any more.
+  [[nodiscard]] std::optional<Arrival> arrive(Event event);
+  /// True if `event.node` now sees somebody whom it did not see, or misses somebody.
+  [[nodiscard]] bool look(const Event& event);
+
+  /// Whom a node sees on a domain.
+  [[nodiscard]] machine::Participants participants(NodeId node, Domain domain) const;
+  /// Names of those that read what the node writes there (as far as it knows).
+  [[nodiscard]] std::set<std::string> readers(NodeId node, std::size_t topic) const;
+  /// Names of those that write what the node reads there.
+  [[nodiscard]] std::set<std::string> writers(NodeId node, std::size_t topic) const;
+
+  [[nodiscard]] const std::string& name(NodeId node) const { return nodes_[node].name; }
+
+ private:
+  struct Sight {
+    bool is_open{true};  ///< signs of life pass
+    bool is_seen{};
+    std::uint32_t generation{};
+  };
+  struct Node {
+    std::string name;
+    std::vector<Topic> writes;
+    std::vector<Topic> reads;
+    std::set<Domain> domains;
+    bool is_gone{};
+    bool is_frozen{};
+    Nanoseconds frozen_at{};
+    /// By topic written: channels to all readers.
+    std::vector<std::vector<std::uint32_t>> outlets;
+    /// By topic written: what late ones get.
+    std::vector<std::deque<SharedMessage>> kept;
+    /// By domain: of others, as this one sees them.
+    std::array<std::map<NodeId, Sight>, kNumDomains> sights;
+    std::array<machine::Participants, kNumDomains> participants;
+  };
+  struct Channel {
+    NodeId from{};
+    NodeId to{};
+    std::uint32_t outlet{};  ///< index of the topic among the writer's
+    std::uint32_t inlet{};   ///< and among the reader's
+    TopicRules rules;
+    std::uint64_t seed{};
+    std::uint64_t count{};
+    Nanoseconds last_arrival{};
+    std::deque<SharedMessage> waiting;
+  };
+
+  void miss_some(NodeId node);
+  void connect(NodeId from, NodeId to);
+  [[nodiscard]] bool sees(NodeId observer, NodeId other, Domain domain) const;
+  [[nodiscard]] bool is_cut(NodeId from, NodeId to, Domain domain) const;
+  [[nodiscard]] bool passes(const Channel& channel) const;
+  [[nodiscard]] bool is_disturbed_by(const Disturbance& disturbance, const Channel& channel) const;
+  void send(std::uint32_t index, const SharedMessage& message);
+  void transmit(std::uint32_t index, const SharedMessage& message);
+  void flush(NodeId from, NodeId to);
+  void update_sight(NodeId observer, NodeId other, Domain domain);
+  void update_sights_of(NodeId other);
+  void note_names(NodeId observer, NodeId other, Domain domain);
+
+  EventQueue* queue_;
+  NetworkOptions options_;
+  std::vector<Node> nodes_;
+  std::vector<Channel> channels_;
+  /// By writer and reader.
+  std::map<std::pair<NodeId, NodeId>, std::vector<std::uint32_t>> between_;
+  std::vector<Cut> cuts_;
+  std::vector<Disturbance> disturbances_;
+  std::uint64_t num_sights_{};
+};
+
+}  // namespace hlc::closed_loop
