@@ -41,7 +41,7 @@ void add_figures(const SearchResult& result, const Subgraph& on, Report& report)
   report.gap_m2 = result.status == SearchStatus::kOptimal ? 0.0 : result.cost - result.lower_bound;
 }
 
-/// The command that the plan would become is looked at before anybody is told of it.
+/// The command that the plan would become is looked at before the plan is published.
 bool is_drivable(const Plan& plan, const CandidateInputs& inputs,
                  const UniversalAutomaton& automaton) {
   if (!inputs.lab) return true;

@@ -9,7 +9,8 @@
 namespace hlc {
 
 /// Which vehicles may meet within the horizon: i and j are coupled if what they can reach
-/// intersects (undirected). The answer is the same in every controller that heard the same traffic.
+/// intersects (undirected). The answer is the same in every controller that received the same
+/// traffic.
 class CouplingGraph {
  public:
   /// @param traffic  of the same step, every vehicle once; not kept

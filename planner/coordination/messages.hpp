@@ -8,7 +8,7 @@
 #include "planner/geometry/polygon.hpp"
 #include "planner/geometry/pose.hpp"
 
-/// What controllers tell each other in one control step, as plain data.
+/// What controllers publish in one control step, as plain data.
 namespace hlc {
 
 struct VehicleId {
@@ -47,7 +47,7 @@ struct Traffic {
   /// Contains everything that the vehicle can occupy from t(k) until t(k + 1 + horizon_steps),
   /// whatever it plans; safety margin included.
   ConvexPolygon reachable_area_m;
-  /// Vehicles that the sender has not heard for several steps. Who finds itself here keeps its
+  /// Vehicles that the sender has not received for several steps. Who finds itself here keeps its
   /// running plan: the sender may soon take it for a standing obstacle (missing.hpp).
   std::vector<VehicleId> silent;
 };
@@ -62,7 +62,7 @@ struct Prediction {
 
 /// False for a message that no controller sends: an empty area (which would mean that the sender is
 /// nowhere), or areas that do not begin at t(k) in traffic, at t(k+1) in a prediction. It counts as
-/// not heard.
+/// not received.
 [[nodiscard]] bool is_well_formed(const Traffic& traffic);
 [[nodiscard]] bool is_well_formed(const Prediction& prediction);
 

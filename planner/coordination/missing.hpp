@@ -32,18 +32,18 @@ struct MissingVehicleRules {
 [[nodiscard]] ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                                            const MissingVehicleRules& rules);
 
-/// A vehicle that was not heard for this many steps in a row is listed in Traffic::silent. Who
-/// hears that of itself from a vehicle that it is coupled with agrees to nothing new.
+/// A vehicle that was not received for this many steps in a row is listed in Traffic::silent. Who
+/// finds itself listed by a vehicle that it is coupled with agrees to nothing new.
 inline constexpr std::uint64_t kSilentSteps = 3;
 
 /// A fresh state shows the vehicle standing.
 [[nodiscard]] bool is_seen_standing(const MeasuredVehicle& measured,
                                     const MissingVehicleRules& rules);
 
-/// What is remembered of a vehicle that says nothing.
+/// What is remembered of a vehicle that publishes nothing.
 struct Silence {
   StepIndex now;
-  StepIndex last_sign_of_life;  ///< last step in which it spoke or its process was there
+  StepIndex last_sign_of_life;  ///< last step in which it published or its process was there
   StepIndex last_not_standing;  ///< last step in which the state list did not show it standing
 };
 
@@ -52,12 +52,13 @@ struct Silence {
 /// driving when it was last seen moving: it stood in every list of the last horizon_steps + 1 +
 /// kSilentSteps steps.
 ///
-/// Silence alone does not suffice. A controller that is not heard may live, agree to something with
-/// others, and begin to drive at any time; and of two that do not hear each other each would take
-/// the other for an obstacle, and both would drive off at once. So a vehicle whose process is still
-/// there is missing for as long as it says nothing, and the others keep out of its way.
-/// Assumption: who neither is heard on the controllers' network nor shows any sign of life on the
-/// lab's for this long cannot command its vehicle either, since commands take the lab's network.
+/// Silence alone does not suffice. A controller that is not received may live, agree to something
+/// with others, and begin to drive at any time; and of two that do not receive each other each
+/// would take the other for an obstacle, and both would drive off at once. So a vehicle whose
+/// process is still there is missing for as long as it is silent, and the others keep out of its
+/// way. Assumption: who neither is received on the controllers' network nor shows any sign of life
+/// on the lab's for this long cannot command its vehicle either, since commands take the lab's
+/// network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 
 /// The footprint of a standing vehicle with its margin.

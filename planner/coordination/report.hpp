@@ -21,7 +21,7 @@ enum class FallbackReason : std::uint8_t {
   /// The search used up its expansions before it found a plan; or, of a vehicle that stands, one
   /// that looked for a way into its lanes (lane_entry.hpp) did so when it departed.
   kBudget,
-  kMissing,     ///< a coupled vehicle said nothing and its reachable set leaves no room
+  kMissing,     ///< a coupled vehicle was silent and its reachable set leaves no room
   kConflict,    ///< the new plan meets another vehicle's new or running plan
   kNeighbour,   ///< commit rule `agreed`: a vehicle of the same component fell back
   kDeviation,   ///< the own vehicle is too far from its planned pose, or not seen
@@ -66,7 +66,7 @@ struct Report {
   std::uint64_t expanded{};
   std::uint32_t level{};           ///< computation level, 0 plans first
   std::vector<VehicleId> coupled;  ///< vehicles coupled with this one
-  std::vector<VehicleId> missing;  ///< vehicles that said nothing
+  std::vector<VehicleId> missing;  ///< vehicles that were silent
   /// footprint_deviation_m, at the time of the measured state; of a vehicle that fits no route, how
   /// far its footprint reaches beyond the lanes of the nearest.
   double deviation_m{};

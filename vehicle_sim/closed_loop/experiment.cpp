@@ -101,7 +101,7 @@ class Lab {
     return 1e-9 * static_cast<double>(wall_clock_() - from);
   }
 
-  /// Everybody is there, hears everybody and asks for its first tick.
+  /// Everybody is there, receives everybody and asks for its first tick.
   void appear() {
     std::set<std::string> timers;
     for (const Member& member : members_) {

@@ -18,7 +18,7 @@ using namespace east_bound;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// One step of a controller that is alone or hears what is given; returns its report.
+/// One step of a controller that is alone or receives what is given; returns its report.
 Report step(Controller& one, const Observation& observation,
             const std::vector<Traffic>& traffic = {},
             const std::vector<Prediction>& predictions = {},
