@@ -203,7 +203,7 @@ class Asker {
     ask();
     const auto deadline = Clock::now() + seconds(flags_.in_s + flags_.timeout_s);
     while (!stops() && (flags_.follow || (!is_settled() && Clock::now() < deadline))) {
-      tell_answers(flags_.follow ? Clock::now() + std::chrono::hours{1} : deadline);
+      print_answers(flags_.follow ? Clock::now() + std::chrono::hours{1} : deadline);
     }
     return exit_code();
   }
@@ -271,7 +271,7 @@ class Asker {
   }
 
   /// Waits for answers at most until then, and tells those that come.
-  void tell_answers(Clock::time_point until) {
+  void print_answers(Clock::time_point until) {
     static_cast<void>(signal_.wait_until(until, [this] { return stop_ || !answers_.empty(); }));
     const auto answers = signal_.locked([this] { return std::exchange(answers_, {}); });
     for (const hlc::AutomatonAnswer& answer : answers) {

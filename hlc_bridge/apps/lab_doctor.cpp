@@ -60,7 +60,7 @@ hlc::ListenOptions listen_options(const Flags& flags) {
 }
 
 /// @return whether nothing is bad
-bool tell(const std::vector<hlc::Finding>& findings) {
+bool print(const std::vector<hlc::Finding>& findings) {
   bool is_good = true;
   for (const hlc::Finding& finding : findings) {
     const char* const mark = finding.verdict == hlc::Verdict::kGood   ? "good"
@@ -94,11 +94,11 @@ int main(int argc, char** argv) {
     }
     signals.on_stop([&stop](int) { stop = true; });
     findings.push_back(hlc::leftovers(hlc::shared_memory_files()));
-    const hlc::Heard heard =
-        hlc::listen(options, [&stop](const hlc::Heard&) { return stop.load(); });
-    std::ranges::move(hlc::diagnose(flags.vehicle_ids, heard, hlc::program_version()),
+    const hlc::Received received =
+        hlc::listen(options, [&stop](const hlc::Received&) { return stop.load(); });
+    std::ranges::move(hlc::diagnose(flags.vehicle_ids, received, hlc::program_version()),
                       std::back_inserter(findings));
-    is_good = tell(findings);
+    is_good = print(findings);
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
   return is_good ? 0 : 1;

@@ -58,7 +58,7 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
   hlc::write_file(run / "summary.json", hlc::summary_json(summary));
   hlc::keep_configuration(run, hlc::files_of(scenario));
   std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  const std::string fault = hlc::fault_of(summary);
+  const std::string fault = hlc::driving_fault(summary);
   if (fault.empty()) return hlc::kExitGood;
   std::cerr << "summarize: " << fault << '\n';
   return hlc::kExitDrivenBadly;

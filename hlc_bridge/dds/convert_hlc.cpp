@@ -117,7 +117,7 @@ bool is_known(StepStatus status) {
     case StepStatus::kStandby:
     case StepStatus::kPlanned:
     case StepStatus::kFallback:
-    case StepStatus::kDriveOut:
+    case StepStatus::kMinimalRiskStop:
       return true;
   }
   return false;
@@ -154,7 +154,7 @@ bool is_known(PlanQuality quality) {
 bool is_known(RunPhase phase) {
   switch (phase) {
     case RunPhase::kRunning:
-    case RunPhase::kDriveOut:
+    case RunPhase::kMinimalRiskStop:
       return true;
   }
   return false;

@@ -362,7 +362,7 @@ void to_wire(const LogLevel& message, ::LogLevel& wire) {
 Incoming<LogLevel> from_wire(const ::LogLevel& wire) { return {LogLevel{wire.log_level()}, 0}; }
 
 void to_wire(const GoalState& message, ::CommonroadDDSGoalState& wire) {
-  wire = std::any_cast<const ::CommonroadDDSGoalState&>(message.carried);
+  wire = std::any_cast<const ::CommonroadDDSGoalState&>(message.payload);
 }
 
 Incoming<GoalState> from_wire(const ::CommonroadDDSGoalState& wire) {

@@ -20,10 +20,10 @@ struct ListenOptions {
   std::chrono::milliseconds time{3000};
 };
 
-/// Joins the domains and listens, for `time` or until `is_enough(what was heard so far)`. Sends
+/// Joins the domains and listens, for `time` or until `is_enough(what was received so far)`. Sends
 /// nothing but requests for the lab control's period: a run goes on undisturbed.
 /// @throws std::invalid_argument, std::runtime_error if a domain cannot be joined
-[[nodiscard]] Heard listen(const ListenOptions& options,
-                           const std::function<bool(const Heard&)>& is_enough);
+[[nodiscard]] Received listen(const ListenOptions& options,
+                              const std::function<bool(const Received&)>& is_enough);
 
 }  // namespace hlc

@@ -87,7 +87,7 @@ Nanoseconds ControlStep::deadline() const {
     case StepPhase::kIdle:
       break;
   }
-  return deadline_in_step(list_, deadlines_->settle);
+  return deadline_in_step(list_, deadlines_->commit);
 }
 
 WakeUp ControlStep::wake_up() const {

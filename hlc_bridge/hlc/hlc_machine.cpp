@@ -186,7 +186,7 @@ bool HlcMachine::prepare(const Instant& now) {
   subgraphs_.begin_step(controller, current_.list, observation.step, start_.first_step(), actions_);
   current_.reconfiguring_ns = cpu_time_() - from;
   if (current_.is_running) {
-    controller.set_drives_out(life_.drives_out());
+    controller.set_minimal_risk_stop(life_.is_minimal_risk_stop());
     step_.begin(current_.list, observation, now, actions_);
     phase_ = Phase::kStepping;
     return false;

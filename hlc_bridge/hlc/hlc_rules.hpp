@@ -12,7 +12,7 @@ namespace hlc {
 struct StepDeadlines {
   double traffic{0.20};
   double predecessors{0.55};
-  double settle{0.75};
+  double commit{0.75};
   double command{0.90};     ///< later than this the plan in force stays, and the miss is counted
   double look_ahead{0.50};  ///< later than this policies do not look ahead in this step
 };

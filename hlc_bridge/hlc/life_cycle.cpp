@@ -80,7 +80,7 @@ void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bo
 
 std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
                                         HlcActions& actions) const {
-  if (middleware_.is_lost_for_good(wall) || (middleware_.is_lost() && drives_out_)) {
+  if (middleware_.is_lost_for_good(wall) || (middleware_.is_lost() && minimal_risk_stop_)) {
     return readiness_.is_ready() ? kExitDied : kExitMissing;
   }
   if (readiness_.leaves_to_duplicate(wall - *began_at_)) {

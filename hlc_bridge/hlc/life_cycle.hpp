@@ -29,14 +29,18 @@ class LifeCycle {
   LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout);
 
   void receive(const HlcPeers& peers);
-  void receive(const RunState& state) { drives_out_ |= state.phase == RunPhase::kDriveOut; }
+  void receive(const RunState& state) {
+    minimal_risk_stop_ |= state.phase == RunPhase::kMinimalRiskStop;
+  }
   /// A list has come. @param wall  now
   void receive_list(Nanoseconds wall);
 
   [[nodiscard]] Readiness& readiness() { return readiness_; }
   [[nodiscard]] const Readiness& readiness() const { return readiness_; }
   /// The plan in force is to be driven to its end: the lab control says so, or is lost.
-  [[nodiscard]] bool drives_out() const { return drives_out_ || lab_control_.is_lost(); }
+  [[nodiscard]] bool is_minimal_risk_stop() const {
+    return minimal_risk_stop_ || lab_control_.is_lost();
+  }
   [[nodiscard]] bool has_stop_request_readers() const { return stop_request_readers_ > 0; }
 
   /// At every advance. @param has_started  the experiment has (ExperimentStart)
@@ -68,7 +72,7 @@ class LifeCycle {
   machine::LabControlWatch lab_control_;
   bool is_lab_control_absent_{};  ///< by name
   std::size_t stop_request_readers_{};
-  bool drives_out_{};
+  bool minimal_risk_stop_{};
   std::optional<Nanoseconds> began_at_;  ///< first advance
   machine::WaitNotice peers_notice_{0};  ///< for those who are missing
   machine::WaitNotice list_notice_{0};   ///< for lists

@@ -10,14 +10,14 @@
 
 #include "hlc_bridge/hlc/weight_design.hpp"
 #include "hlc_bridge/messages/automaton_messages.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 
 namespace hlc {
 
 /// What requests are prepared on and for, the same for all requests of a run.
 struct RequestBase {
   PreparedSubgraph subgraph;       ///< the scenario's
-  std::vector<double> limits_mps;  ///< that may be laid on what is asked for (SubgraphChoice)
+  std::vector<double> limits_mps;  ///< that may be laid on what is asked for (SubgraphSelector)
   std::size_t horizon_steps{};
   SearchOptions search;
 };
@@ -49,11 +49,11 @@ class Reconfiguration {
   /// @param now  the step before which it came
   [[nodiscard]] std::vector<AutomatonAnswer> take(PreparedRequest prepared, StepIndex now);
 
-  /// To be called before every step, before SubgraphChoice::begin_step. Tells `choice` if a request
-  /// holds from this step on, and says so; the answer's text, the name of what is then planned on,
-  /// is known only after that.
-  [[nodiscard]] std::optional<AutomatonAnswer> begin_step(SubgraphChoice& choice, StepIndex step,
-                                                          Nanoseconds t_now);
+  /// To be called before every step, before SubgraphSelector::begin_step. Passes the request to
+  /// `selector` if a request holds from this step on, and says so; the answer's text, the name of
+  /// what is then planned on, is known only after that.
+  [[nodiscard]] std::optional<AutomatonAnswer> begin_step(SubgraphSelector& selector,
+                                                          StepIndex step, Nanoseconds t_now);
 
  private:
   std::uint64_t newest_id_{};

@@ -7,18 +7,18 @@
 
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "hlc_bridge/hlc/reconfiguration.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 
 namespace hlc {
 
 /// Which subgraph a controller plans on, step by step: requests of the operator from their arrival
-/// until they are in force (Reconfiguration), zones and policies (SubgraphChoice). Every request is
-/// answered, and every switch is logged.
+/// until they are in force (Reconfiguration), zones and policies (SubgraphSelector). Every request
+/// is answered, and every switch is logged.
 class SubgraphSwitching {
  public:
   /// @pre check_reconfiguration throws nothing
   SubgraphSwitching(const Controller& controller, const ReconfigurationSettings& settings)
-      : choice_(controller, settings) {}
+      : selector_(controller, settings) {}
 
   /// What requests are to be prepared on and for.
   [[nodiscard]] RequestBase request_base(const Controller& controller) const;
@@ -36,16 +36,16 @@ class SubgraphSwitching {
   void begin_step(Controller& controller, const VehicleStateList& list, StepIndex step,
                   std::optional<StepIndex> first_step, HlcActions& actions);
 
-  [[nodiscard]] bool looks_ahead() const { return choice_.looks_ahead(); }
+  [[nodiscard]] bool looks_ahead() const { return selector_.looks_ahead(); }
   /// After every step of the experiment, when nobody waits for the vehicle any more.
   void end_step(const Controller& controller, const Report& report, bool may_look_ahead) {
-    choice_.end_step(controller, report, may_look_ahead);
+    selector_.end_step(controller, report, may_look_ahead);
   }
 
   static constexpr std::size_t kMaxWaiting = 16;
 
  private:
-  SubgraphChoice choice_;
+  SubgraphSelector selector_;
   Reconfiguration reconfiguration_;
   std::deque<AutomatonRequest> waiting_;
   bool is_in_work_{};

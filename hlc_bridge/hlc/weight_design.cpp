@@ -111,7 +111,7 @@ std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
 }
 
 void WeightDesign::check(const Subgraph& subgraph) const {
-  for (const TrimId from : subgraph.starts()) {
+  for (const TrimId from : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(from)) {
       const double speed_mps = top_speed_mps(*edge.maneuver);
       if (speed_mps <= top_speed_mps_ + kSpeedRounding_mps) continue;
@@ -123,7 +123,7 @@ void WeightDesign::check(const Subgraph& subgraph) const {
     }
   }
   if (!lab_) return;
-  if (const std::string fault = lab_fault_of(subgraph, *lab_); !fault.empty()) {
+  if (const std::string fault = validate_for_lab(subgraph, *lab_); !fault.empty()) {
     throw std::invalid_argument(fault + " by the lab");
   }
 }

@@ -51,7 +51,7 @@ void LabRun::report(const ReportRecord& record) {
   const std::uint64_t step = record.report.step.value;
   std::uint64_t& last_step = last_reports_.try_emplace(id, step).first->second;
   last_step = std::max(last_step, step);
-  just_heard_.insert(id);
+  just_received_.insert(id);
   note_progress();
   if (record.report.status != StepStatus::kStandby) {
     driving_.insert(id);
@@ -64,9 +64,9 @@ std::optional<std::uint64_t> LabRun::last_report(std::uint8_t vehicle_id) const 
   return found == last_reports_.end() ? std::nullopt : std::optional{found->second};
 }
 
-Nanoseconds LabRun::last_heard(std::uint8_t vehicle_id) const {
-  const auto found = last_heard_.find(vehicle_id);
-  return found == last_heard_.end() ? 0 : found->second;
+Nanoseconds LabRun::last_received(std::uint8_t vehicle_id) const {
+  const auto found = last_received_.find(vehicle_id);
+  return found == last_received_.end() ? 0 : found->second;
 }
 
 void LabRun::interrupt() {
@@ -85,8 +85,8 @@ LabRunActions LabRun::advance(Nanoseconds now) {
     return actions;
   }
   now_ = std::max(now_, now);
-  for (const std::uint8_t id : std::exchange(just_heard_, {})) {
-    last_heard_[id] = now_;
+  for (const std::uint8_t id : std::exchange(just_received_, {})) {
+    last_received_[id] = now_;
   }
   if (!started_ || progress_) {
     last_progress_ = now_;
@@ -151,7 +151,7 @@ std::vector<std::string> LabRun::unreached_timers() const {
 bool LabRun::is_back(const std::string& process) const {
   if (alive_.count(process) == 0 || lost_.count(process) != 0) return false;
   for (const std::uint8_t id : settings_.vehicle_ids) {
-    if (process == controller_name(id)) return last_heard(id) > died_at_.at(process);
+    if (process == controller_name(id)) return last_received(id) > died_at_.at(process);
   }
   return true;
 }
@@ -194,8 +194,8 @@ void LabRun::mark_dead(const std::string& process, const std::string& sign,
     return;
   }
   drop(process);
-  const bool leaves_as_told = phase_ == Phase::kBraking && lost_.count(process) != 0;
-  if (leaves_as_told) {
+  const bool is_expected_exit = phase_ == Phase::kBraking && lost_.count(process) != 0;
+  if (is_expected_exit) {
     return;
   }
   actions.deaths.push_back({process, sign});
@@ -206,9 +206,9 @@ void LabRun::mark_dead(const std::string& process, const std::string& sign,
   }
   fail(kExitDied, "");
   if (phase_ == Phase::kRunning) {
-    phase_ = Phase::kDriveOut;
-    drive_out_since_ = clock() == kNever ? 0 : clock();
-    actions.run_state = RunPhase::kDriveOut;
+    phase_ = Phase::kMinimalRiskStop;
+    minimal_risk_stop_since_ = clock() == kNever ? 0 : clock();
+    actions.run_state = RunPhase::kMinimalRiskStop;
   }
 }
 
@@ -225,7 +225,7 @@ void LabRun::record_death(const Death& death) {
 }
 
 void LabRun::leave_running_phases(LabRunActions& actions) {
-  if (phase_ != Phase::kRunning && phase_ != Phase::kDriveOut) {
+  if (phase_ != Phase::kRunning && phase_ != Phase::kMinimalRiskStop) {
     return;
   }
   if (end_asked_) {
@@ -264,8 +264,8 @@ Nanoseconds LabRun::phase_end() const {
     case Phase::kRunning:
       return result_.first_step ? (*result_.first_step + settings_.steps + 1) * settings_.period
                                 : began_clock_ + kStandbyTimeout;
-    case Phase::kDriveOut:
-      return drive_out_since_ + kDriveOutTime;
+    case Phase::kMinimalRiskStop:
+      return minimal_risk_stop_since_ + kMinimalRiskStopTime;
     case Phase::kBraking:
       if (result_.exit_code == kExitInterrupted && now_ - braking_since_wall_ >= kInterruptTime) {
         return 0;

@@ -30,7 +30,7 @@ struct LabRunSettings {
 };
 
 /// After a death the others drive out their plans for this long before the stop symbol.
-inline constexpr Nanoseconds kDriveOutTime = 3 * kNanosecondsPerSecond;
+inline constexpr Nanoseconds kMinimalRiskStopTime = 3 * kNanosecondsPerSecond;
 /// Vehicles brake for 50 ticks after the stop symbol; one more may be under way.
 inline constexpr Nanoseconds kBrakingTime = 51 * kVehiclePeriod;
 /// A process that owes an answer this long (wall time, since the last answer of anybody) is dead.
@@ -80,7 +80,7 @@ struct LabRunResult {
 /// kinds of run, LogicalRun and RealTimeRun.
 class LabRun {
  public:
-  enum class Phase : std::uint8_t { kGathering, kRunning, kDriveOut, kBraking, kFinished };
+  enum class Phase : std::uint8_t { kGathering, kRunning, kMinimalRiskStop, kBraking, kFinished };
 
   explicit LabRun(LabRunSettings settings);
   virtual ~LabRun() = default;
@@ -154,7 +154,7 @@ class LabRun {
   /// Step up to which the controller has reported; nothing before its first report.
   [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
   /// Wall time (of advance) at which the controller's last report was there; 0 before the first.
-  [[nodiscard]] Nanoseconds last_heard(std::uint8_t vehicle_id) const;
+  [[nodiscard]] Nanoseconds last_received(std::uint8_t vehicle_id) const;
   [[nodiscard]] bool has_left_standby(std::uint8_t vehicle_id) const {
     return driving_.count(vehicle_id) != 0;
   }
@@ -185,8 +185,8 @@ class LabRun {
   std::set<std::string> dropped_;
   std::map<std::string, Nanoseconds> died_at_;          ///< wall
   std::map<std::uint8_t, std::uint64_t> last_reports_;  ///< step, by vehicle
-  std::map<std::uint8_t, Nanoseconds> last_heard_;      ///< wall, by vehicle
-  std::set<std::uint8_t> just_heard_;                   ///< reported since the last advance
+  std::map<std::uint8_t, Nanoseconds> last_received_;   ///< wall, by vehicle
+  std::set<std::uint8_t> just_received_;                ///< reported since the last advance
   std::set<std::uint8_t> driving_;                      ///< vehicles that have left standby
   std::set<std::string> trigger_readers_;
   bool end_asked_{};  ///< interrupted, or a controller asked for the stop
@@ -197,8 +197,8 @@ class LabRun {
   Nanoseconds last_progress_{};  ///< wall
   Nanoseconds began_{};          ///< wall
   Nanoseconds began_clock_{};
-  Nanoseconds drive_out_since_{};  ///< clock
-  Nanoseconds braking_since_{};    ///< clock
+  Nanoseconds minimal_risk_stop_since_{};  ///< clock
+  Nanoseconds braking_since_{};            ///< clock
   Nanoseconds braking_since_wall_{};
 };
 

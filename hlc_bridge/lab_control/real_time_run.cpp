@@ -66,7 +66,7 @@ Nanoseconds RealTimeRun::report_due(std::uint8_t vehicle_id) const {
   if (!start_ || silenced_.count(vehicle_id) != 0) {
     return kNever;
   }
-  return std::max(*start_, last_heard(vehicle_id)) + kReportTimeout;
+  return std::max(*start_, last_received(vehicle_id)) + kReportTimeout;
 }
 
 Nanoseconds RealTimeRun::drive_due(std::uint8_t vehicle_id) const {

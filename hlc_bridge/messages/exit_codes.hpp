@@ -8,7 +8,7 @@ inline constexpr int kExitNotWritten = 1;  ///< good, but something asked for wa
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitMissing = 3;  ///< somebody did not appear in time
 inline constexpr int kExitDied = 4;     ///< somebody died during the run, or this process failed
-inline constexpr int kExitDrivenBadly = 5;  ///< see fault_of in driving_fault.hpp
+inline constexpr int kExitDrivenBadly = 5;  ///< see driving_fault in driving_fault.hpp
 inline constexpr int kExitInterrupted = 130;
 
 }  // namespace hlc

@@ -155,7 +155,7 @@ struct LogLevel {
 /// scenario. Middlewares carry it on and read nothing of it: what is in it only `hlc_bridge/dds`
 /// knows.
 struct GoalState {
-  std::any carried;
+  std::any payload;
 };
 
 /// What a Visualization draws of its points. In the lab's order.

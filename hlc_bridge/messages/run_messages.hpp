@@ -18,7 +18,7 @@ struct ReportRecord {
 
 enum class RunPhase : std::uint8_t {
   kRunning,
-  kDriveOut,  ///< plan nothing new; drive the running plan to its end
+  kMinimalRiskStop,  ///< plan nothing new; drive the running plan to its end
 };
 
 /// Said by lab control to all controllers.

@@ -67,7 +67,7 @@ struct HlcProcessOptions {
 ///
 /// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
 /// the step from which it holds, and answers. In logical time that step waits for what is being
-/// prepared. Without being asked it follows its zones and policies (SubgraphChoice); those that
+/// prepared. Without being asked it follows its zones and policies (SubgraphSelector); those that
 /// look ahead do so after the step's command has been sent.
 class HlcProcess {
  public:

@@ -44,7 +44,7 @@ std::optional<Enum> enum_from(const std::string& name, std::uint8_t count) {
   return std::nullopt;
 }
 
-constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kDriveOut) + 1;
+constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kMinimalRiskStop) + 1;
 constexpr std::uint8_t kQualities = static_cast<std::uint8_t>(PlanQuality::kUnproven) + 1;
 constexpr std::uint8_t kReasons = static_cast<std::uint8_t>(FallbackReason::kOffRoute) + 1;
 

@@ -9,15 +9,15 @@ std::string danger_of(const RunSummary& summary) {
     return "vehicles touched each other " + std::to_string(summary.collisions) + " times";
   }
   for (const VehicleSummary& vehicle : summary.vehicles) {
-    if (vehicle.astray_steps == 0) continue;
+    if (vehicle.steps_outside_announced_area == 0) continue;
     return "vehicle " + std::to_string(vehicle.id.value) +
            " was outside the areas that it had told the others in " +
-           std::to_string(vehicle.astray_steps) + " steps";
+           std::to_string(vehicle.steps_outside_announced_area) + " steps";
   }
   return "";
 }
 
-std::string fault_of(const RunSummary& summary) {
+std::string driving_fault(const RunSummary& summary) {
   if (std::string danger = danger_of(summary); !danger.empty()) return danger;
   const double margin_m = summary.description.automaton->automaton().vehicle.safety_margin_m;
   for (const VehicleSummary& vehicle : summary.vehicles) {

@@ -29,9 +29,9 @@ const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
   if (next == nullptr || next->step != row.step + 1) return nullptr;
   const Report& report = row.record.report;
   // Who stands and is set down anew may go on in another equilibrium.
-  const bool is_own_step = report.maneuver == kOwnStepLabel;
-  const TrimId to = is_own_step ? report.planned_trim : next->record.report.planned_trim;
-  if (to == report.planned_trim && !is_own_step) return nullptr;
+  const bool is_self_loop = report.maneuver == kSelfLoopLabel;
+  const TrimId to = is_self_loop ? report.planned_trim : next->record.report.planned_trim;
+  if (to == report.planned_trim && !is_self_loop) return nullptr;
   return automaton.find(report.planned_trim, to, report.maneuver);
 }
 

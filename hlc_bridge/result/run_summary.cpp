@@ -54,7 +54,7 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
       planning_s.push_back(static_cast<double>(row->record.planning_ns) * kSecondsPerNanosecond);
-      summary.overlong_plans += planning_s.back() > step_s ? 1U : 0U;
+      summary.plans_exceeding_step += planning_s.back() > step_s ? 1U : 0U;
     }
   }
   if (found > 0) summary.budget_share = static_cast<double>(budget) / static_cast<double>(found);
@@ -143,7 +143,7 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
   }
   tracking.write(summary);
   const double margin_m = automaton.vehicle.safety_margin_m;
-  summary.astray_steps =
+  summary.steps_outside_announced_area =
       static_cast<std::size_t>(std::ranges::count_if(rows, [margin_m](const StepRecord* row) {
         return row->record.report.reason == FallbackReason::kDeviation &&
                row->record.report.deviation_m > margin_m;

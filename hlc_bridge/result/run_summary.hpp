@@ -26,12 +26,12 @@ struct VehicleSummary {
   /// those after them until the vehicle is back: their areas hold the drift
   /// (planner/controller/drift.hpp), and the controller reports a vehicle that is not in them.
   std::optional<double> deviation_max_m;
-  std::size_t
-      astray_steps{};  ///< steps in which the controller found its vehicle outside its areas
-  std::optional<Statistics> generated;  ///< vertices per step in which the vehicle planned
+  std::size_t steps_outside_announced_area{};  ///< steps in which the controller found its vehicle
+                                               ///< outside its areas
+  std::optional<Statistics> generated;         ///< vertices per step in which the vehicle planned
   std::optional<Statistics> expanded;
   std::optional<Statistics> planning_s;  ///< of those steps
-  std::size_t overlong_plans{};          ///< steps whose search alone took longer than a step
+  std::size_t plans_exceeding_step{};    ///< steps whose search alone took longer than a step
   /// Of the steps in which a plan was found, the share in which it is only the best within the
   /// budget.
   std::optional<double> budget_share;

@@ -85,7 +85,7 @@ void print_labels(const AutomatonFile& file) {
       "way\n");
   std::printf("%-12s %6s %19s %19s %19s %15s\n", "label", "edges", "dx [m]", "dy [m]", "dpsi [rad]",
               "v_max [m/s]");
-  std::vector<std::string> labels{hlc::kOwnStepLabel};
+  std::vector<std::string> labels{hlc::kSelfLoopLabel};
   labels.insert(labels.end(), file.labels.begin(), file.labels.end());
   for (const std::string& label : labels) {
     std::size_t edges = 0;
@@ -128,7 +128,7 @@ void print_subgraphs(const AutomatonFile& file) {
     }
     std::printf("%-12s %-12s %-10s %6zu %6zu %6zu ", spec.name.c_str(), joined(spec.labels).c_str(),
                 spec.rule == hlc::EdgeRule::kChain ? "chain" : "reachable", subgraph.trims().size(),
-                edges, subgraph.starts().size() - subgraph.trims().size());
+                edges, subgraph.start_trims().size() - subgraph.trims().size());
     for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
       const std::size_t steps = subgraph.distance_to_standstill({i});
       std::printf(" %s", steps == hlc::Subgraph::kNever ? "-" : std::to_string(steps).c_str());

@@ -8,7 +8,7 @@
 namespace hlc {
 
 const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::string& label) const {
-  const std::string& wanted = from == to ? kOwnStepLabel : label;
+  const std::string& wanted = from == to ? kSelfLoopLabel : label;
   const auto found = std::find_if(maneuvers.begin(), maneuvers.end(), [&](const Maneuver& m) {
     return m.from == from && m.to == to && m.label == wanted;
   });

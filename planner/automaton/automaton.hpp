@@ -24,7 +24,7 @@ struct Trim {
 };
 
 /// Label of every trim's own step.
-inline const std::string kOwnStepLabel = "trim";
+inline const std::string kSelfLoopLabel = "trim";
 
 /// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step,
 /// the trim driven for one step, for every label).

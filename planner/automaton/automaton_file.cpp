@@ -157,7 +157,7 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   m.from = {entry.required<std::size_t>("from", trims) - 1};
   m.to = {entry.required<std::size_t>("to", trims) - 1};
   m.label = entry.required<std::string>("label",
-                                        m.from == m.to ? one_of({kOwnStepLabel}) : one_of(labels));
+                                        m.from == m.to ? one_of({kSelfLoopLabel}) : one_of(labels));
   m.duration_s = automaton.step_s;
   const auto end = entry.list("displacement", 3, "x, y and heading");
   m.displacement = {end[0].as<double>(), end[1].as<double>(), end[2].as<double>()};
@@ -169,7 +169,7 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   m.swept_area_m = read_area(entry, "swept_area_m");
   m.lane_area_m = read_area(entry, "lane_area_m");
   entry.check_no_unknown_keys();
-  const std::string fault = fault_of(m, automaton);
+  const std::string fault = validate(m, automaton);
   if (!fault.empty()) {
     entry.fail("label", fmt::format("a maneuver that its vehicle can drive: {} -> {}: {}",
                                     m.from.index + 1, m.to.index + 1, fault));
@@ -187,7 +187,7 @@ void read_trims(const Node& node, UniversalAutomaton& automaton) {
 
 void check_subgraphs(const Node& node, const AutomatonFile& file) {
   for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
-    if (file.automaton->find({i}, {i}, kOwnStepLabel) == nullptr) {
+    if (file.automaton->find({i}, {i}, kSelfLoopLabel) == nullptr) {
       node.fail("maneuvers",
                 fmt::format("the own step of every trim; that of trim {} is missing", i + 1));
     }

@@ -53,7 +53,7 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
 /// False if it cannot be read, too: who reads it as a configuration then says why.
 [[nodiscard]] bool is_automaton_file(const std::filesystem::path& path);
 
-/// Reads a file and checks it: version, hash, each maneuver (fault_of in maneuver_check.hpp), and
+/// Reads a file and checks it: version, hash, each maneuver (validate in maneuver_check.hpp), and
 /// that it holds what its subgraphs need. Whether it still is what its configuration says is
 /// another question: built_automaton.hpp.
 ///

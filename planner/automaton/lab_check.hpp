@@ -15,6 +15,6 @@ namespace hlc {
 /// maneuver. So if this finds nothing, no plan on the subgraph has a curve_fault, wherever it
 /// leads: what is found in a command is a fault of the program or of its data.
 /// @pre point_interval_s divides the step length
-[[nodiscard]] std::string lab_fault_of(const Subgraph& subgraph, const LabLimits& limits);
+[[nodiscard]] std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits);
 
 }  // namespace hlc

@@ -29,7 +29,7 @@ double distance(const Pose& a, const Pose& b) {
                   std::abs(a.heading_rad - b.heading_rad));
 }
 
-std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton) {
+std::string validate_ends(const Maneuver& m, const UniversalAutomaton& automaton) {
   if (m.duration_s != automaton.step_s) return "its duration is not the step";
   if (m.inputs.empty() || m.states.size() != m.inputs.size() + 1) {
     return "it has " + std::to_string(m.inputs.size()) + " inputs and " +
@@ -45,7 +45,7 @@ std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton
   return "";
 }
 
-std::string fault_of_bounds(const Maneuver& m, const UniversalAutomaton& automaton) {
+std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automaton) {
   const VehicleLimits& limits = automaton.limits;
   for (const Input& u : m.inputs) {
     if (!is_bounded(u.acceleration_mps2, -limits.acceleration_mps2, limits.acceleration_mps2)) {
@@ -94,7 +94,7 @@ State integrated_again(const Maneuver& m, std::size_t k, const VehicleParameters
   return state;
 }
 
-std::string fault_of_motion(const Maneuver& m, const VehicleParameters& vehicle) {
+std::string validate_motion(const Maneuver& m, const VehicleParameters& vehicle) {
   const double tolerance =
       (m.from == m.to ? kSame : 1e-6) *
       std::max(1.0, top_speed_mps(m) * m.duration_s / static_cast<double>(m.inputs.size()));
@@ -120,7 +120,7 @@ bool contains_footprint(const ConvexPolygon& area_m, const Pose& pose, double ma
          });
 }
 
-std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automaton) {
+std::string validate_areas(const Maneuver& m, const UniversalAutomaton& automaton) {
   const VehicleParameters& vehicle = automaton.vehicle;
   const std::size_t halves = 2 * m.inputs.size();
   for (std::size_t i = 0; i <= halves; ++i) {
@@ -142,11 +142,11 @@ std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automato
 
 }  // namespace
 
-std::string fault_of(const Maneuver& maneuver, const UniversalAutomaton& automaton) {
-  std::string fault = fault_of_ends(maneuver, automaton);
-  if (fault.empty()) fault = fault_of_bounds(maneuver, automaton);
-  if (fault.empty()) fault = fault_of_motion(maneuver, automaton.vehicle);
-  if (fault.empty()) fault = fault_of_areas(maneuver, automaton);
+std::string validate(const Maneuver& maneuver, const UniversalAutomaton& automaton) {
+  std::string fault = validate_ends(maneuver, automaton);
+  if (fault.empty()) fault = validate_bounds(maneuver, automaton);
+  if (fault.empty()) fault = validate_motion(maneuver, automaton.vehicle);
+  if (fault.empty()) fault = validate_areas(maneuver, automaton);
   return fault;
 }
 

@@ -19,6 +19,6 @@ namespace hlc {
 ///   than 1); a trim's own step follows the exact arc to 1e-9;
 /// * carry areas that contain the footprint at every state and midway between two (1e-9 m): the
 ///   swept area with margin for planned heading and driven yaw, the lane area without.
-[[nodiscard]] std::string fault_of(const Maneuver& maneuver, const UniversalAutomaton& automaton);
+[[nodiscard]] std::string validate(const Maneuver& maneuver, const UniversalAutomaton& automaton);
 
 }  // namespace hlc

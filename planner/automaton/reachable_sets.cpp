@@ -105,11 +105,11 @@ ConvexPolygon containing(std::vector<Point> points_m, std::size_t steps) {
 
 ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
     : max_steps_(max_steps), num_trims_(subgraph.automaton().trims.size()) {
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     max_steps_left_ = std::max(max_steps_left_, subgraph.distance_to_standstill(trim));
   }
   shifts_.resize(num_trims_);
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       const Pose& end = edge.maneuver->displacement;
       shifts_[trim.index].push_back(
@@ -146,7 +146,7 @@ void ReachableSets::compute_reach(const Subgraph& subgraph, std::size_t steps_le
   SetPerTrim sets_m(num_trims_);
   for (std::size_t steps = 0; steps <= max_steps_; ++steps) {
     SetPerTrim next_m(num_trims_);
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       if (steps > 0) {
         next_m[trim.index] = hull_over_successors(trim, sets_m);
       } else if (subgraph.distance_to_standstill(trim) <= steps_left) {
@@ -167,7 +167,7 @@ void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
   SetPerTrim until_m(num_trims_);
   for (std::size_t step = 0; step <= max_steps_; ++step) {
     SetPerTrim next_m(num_trims_);
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       std::vector<Point>& set_m = next_m[trim.index];
       if (step == 0) {
         set_m = standing_area_m(subgraph.automaton(), trim);

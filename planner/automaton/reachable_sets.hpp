@@ -31,8 +31,8 @@ struct Reach {
 };
 
 /// What a subgraph can reach, in the frame of the start pose. Tables, computed once per subgraph,
-/// for every trim that planning may start from (Subgraph::starts). For the paper's 12 trims and 9
-/// steps that takes 3 ms, for 95 trims with 5000 edges 0.7 s (Release, one core).
+/// for every trim that planning may start from (Subgraph::start_trims). For the paper's 12 trims
+/// and 9 steps that takes 3 ms, for 95 trims with 5000 edges 0.7 s (Release, one core).
 ///
 /// With T_tu the displacement of the edge t -> u, the sets after m steps follow from those before:
 ///

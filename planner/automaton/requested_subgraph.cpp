@@ -63,7 +63,7 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
 
 /// Keeps the order of the declaration, which the rule of chains goes by: a new trim comes before
 /// the first with a larger number.
-void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
+void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (contains(spec.trims, trim))
     refuse("trim " + as_text(trim) + " on: it is on, allowed trims that are off");
@@ -71,7 +71,7 @@ void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId t
                     trim);
 }
 
-void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
+void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (!contains(spec.trims, trim))
     refuse("trim " + as_text(trim) + " off: it is off, allowed trims that are on");
@@ -82,15 +82,15 @@ void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId 
   std::erase_if(spec.edges, names_it);
 }
 
-void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
+void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
-  if (std::erase_if(spec.off, [&](const EdgesOff& off) { return off.edge == edge; }) == 0) {
+  if (std::erase_if(spec.off, [&](const DisabledEdges& off) { return off.edge == edge; }) == 0) {
     refuse("edge " + as_text(edge) + " on: the scenario's subgraph does not have it off");
   }
 }
 
-void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
+void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
   spec.off.push_back({edge, std::nullopt});
@@ -141,10 +141,10 @@ SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request
   SubgraphSpec spec = base.spec();
   spec.name = name_of(spec.name, request);
   change_labels(spec, automaton, request);
-  for (const TrimId trim : request.trims_on) switch_on(spec, automaton, trim);
-  for (const TrimId trim : request.trims_off) switch_off(spec, automaton, trim);
-  for (const TrimPair& edge : request.edges_on) switch_on(spec, automaton, edge);
-  for (const TrimPair& edge : request.edges_off) switch_off(spec, automaton, edge);
+  for (const TrimId trim : request.trims_on) enable(spec, automaton, trim);
+  for (const TrimId trim : request.trims_off) disable(spec, automaton, trim);
+  for (const TrimPair& edge : request.edges_on) enable(spec, automaton, edge);
+  for (const TrimPair& edge : request.edges_off) disable(spec, automaton, edge);
   if (request.max_speed_mps) limit_speed(spec, automaton, *request.max_speed_mps);
   return spec;
 }

@@ -20,10 +20,10 @@ enum class EdgeRule {
 };
 
 /// Edges that are off: those from one trim to another with that label, or with every label.
-struct EdgesOff {
+struct DisabledEdges {
   TrimPair edge;
   std::optional<std::string> label;
-  friend bool operator==(const EdgesOff&, const EdgesOff&) = default;
+  friend bool operator==(const DisabledEdges&, const DisabledEdges&) = default;
 };
 
 /// Labels of the edges from one trim to another, instead of those of the subgraph.
@@ -46,7 +46,7 @@ struct SubgraphSpec {
   /// maneuver between trims of 0.8 m/s reaches 2 m/s. One that ends in a trim at the limit exceeds
   /// it by the rounding of its last state: 1e-6 m/s are let pass.
   std::optional<double> max_speed_mps{};
-  std::vector<EdgesOff> off{};
+  std::vector<DisabledEdges> off{};
   std::vector<EdgeLabels> edges{};
   friend bool operator==(const SubgraphSpec&, const SubgraphSpec&) = default;
 };
@@ -106,11 +106,11 @@ class Subgraph {
     return automaton_;
   }
   [[nodiscard]] const SubgraphSpec& spec() const { return spec_; }
-  [[nodiscard]] bool is_on(TrimId trim) const;
+  [[nodiscard]] bool is_enabled(TrimId trim) const;
   /// The trims that are on, in the order of the declaration.
   [[nodiscard]] std::span<const TrimId> trims() const { return trims_; }
   /// The trims that planning may start from: those that are on and those with a way out, sorted.
-  [[nodiscard]] std::span<const TrimId> starts() const { return starts_; }
+  [[nodiscard]] std::span<const TrimId> start_trims() const { return start_trims_; }
 
   /// Edges out of `trim`, sorted by target, then by label in the order of the declaration. Of a
   /// trim that is off: its exit edges (none if it has no way out).
@@ -146,8 +146,8 @@ class Subgraph {
   SubgraphSpec spec_;
   TrimId standstill_;
   std::vector<TrimId> trims_;
-  std::vector<TrimId> starts_;
-  std::vector<bool> is_on_;
+  std::vector<TrimId> start_trims_;
+  std::vector<bool> is_enabled_;
   std::vector<std::vector<Edge>> successors_;
   std::vector<std::size_t> distance_to_standstill_;
   /// By steps left, then trim. What is permitted with the last number of steps is so with more.

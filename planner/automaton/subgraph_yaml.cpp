@@ -88,7 +88,7 @@ void read_edge_labels(const Node& entry, const SubgraphContext& context, Subgrap
 
 /// Checks an entry of `off` between other trims. Edges out of trims that are on are those of the
 /// subgraph; any other edge of the automaton may lead out of a trim that is off (see Subgraph).
-void check_off(const Node& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
+void check_off(const Node& one, const DisabledEdges& off, const std::vector<TrimPair>& pairs,
                const SubgraphContext& context, const SubgraphSpec& spec) {
   const bool is_left_from =
       !contains(spec.trims, off.edge.from) ||
@@ -104,7 +104,7 @@ void check_off(const Node& one, const EdgesOff& off, const std::vector<TrimPair>
 void read_off(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
   for (const Node& one : entry.optional_list("off")) {
-    EdgesOff off{read_pair(one, context), std::nullopt};
+    DisabledEdges off{read_pair(one, context), std::nullopt};
     if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
     one.check_no_unknown_keys();
     if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
@@ -226,7 +226,7 @@ std::string to_yaml(const SubgraphSpec& spec) {
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {
-    text += ", off: " + list_of(spec.off, [](const EdgesOff& off) {
+    text += ", off: " + list_of(spec.off, [](const DisabledEdges& off) {
               return fmt::format("{{{}{}}}", ends(off.edge),
                                  off.label ? ", label: " + quoted_yaml(*off.label) : "");
             });

@@ -53,7 +53,7 @@ using Stopwatch = std::function<std::uint64_t()>;
 class ControlLoop {
  public:
   /// @param controller  not owned; must outlive this object; between the steps its owner may do
-  /// with it what it likes (switch_to, set_drives_out)
+  /// with it what it likes (switch_to, set_minimal_risk_stop)
   /// @param stopwatch   measures planning_ns; absent: 0
   explicit ControlLoop(Controller& controller, Stopwatch stopwatch = {});
 

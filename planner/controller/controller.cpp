@@ -246,7 +246,7 @@ HorizonProblem Controller::pose_problem() const {
 }
 
 bool Controller::may_plan() const {
-  return !drives_out_ && step_.obstacle == FallbackReason::kNone;
+  return !minimal_risk_stop_ && step_.obstacle == FallbackReason::kNone;
 }
 
 Prediction Controller::plan(std::span<const Prediction> received) {
@@ -366,8 +366,8 @@ Report Controller::finish(bool accepted, FallbackReason reason) {
                                         step_.observation.step);
     report.status = StepStatus::kPlanned;
   } else {
-    report.status = drives_out_ ? StepStatus::kDriveOut : StepStatus::kFallback;
-    report.reason = drives_out_ ? FallbackReason::kNone : reason;
+    report.status = minimal_risk_stop_ ? StepStatus::kMinimalRiskStop : StepStatus::kFallback;
+    report.reason = minimal_risk_stop_ ? FallbackReason::kNone : reason;
   }
   step_.candidate.plan.reset();
   return report;

@@ -85,7 +85,7 @@ class Controller {
 
   /// From the next step on nothing new is planned, and the plan in force is driven to its end; or
   /// planning goes on, from what is left of it.
-  void set_drives_out(bool drives_out) { drives_out_ = drives_out; }
+  void set_minimal_risk_stop(bool is_requested) { minimal_risk_stop_ = is_requested; }
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
   [[nodiscard]] Traffic observe(const Observation& observation);
@@ -201,7 +201,7 @@ class Controller {
   DrivableArea drivable_area_;
   Neighbours neighbours_;
   std::optional<PlanInForce> in_force_;
-  bool drives_out_{false};
+  bool minimal_risk_stop_{false};
   Step step_;
   std::optional<HorizonProblem> former_problem_;  ///< for `warm_up`
 };

@@ -24,7 +24,8 @@ void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
   for (std::size_t i = 0; i < routes_->size(); ++i) {
     const DrivableRoute& route = (*routes_)[i];
     const Placement placement = placement_on(route, pose, footprint);
-    const double cost_m = misfit_m(placement) + (fits(placement, route) ? 0.0 : kUnfitCost_m);
+    const double cost_m =
+        placement_cost_m(placement) + (fits(placement, route) ? 0.0 : kUnfitCost_m);
     if (least_m && cost_m >= *least_m) continue;
     least_m = cost_m;
     route_ = i;

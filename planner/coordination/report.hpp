@@ -9,10 +9,10 @@ namespace hlc {
 
 /// What a controller does in a step.
 enum class StepStatus : std::uint8_t {
-  kStandby,   ///< before the start: stands, waits
-  kPlanned,   ///< the new plan is in force
-  kFallback,  ///< the previous plan, shifted by one step, stays in force
-  kDriveOut,  ///< told to end: the running plan is driven to its end, nothing new is planned
+  kStandby,          ///< before the start: stands, waits
+  kPlanned,          ///< the new plan is in force
+  kFallback,         ///< the previous plan, shifted by one step, stays in force
+  kMinimalRiskStop,  ///< told to end: the running plan is driven to its end, nothing new is planned
 };
 
 enum class FallbackReason : std::uint8_t {

@@ -34,7 +34,7 @@ Maneuver self_loop(TrimId id, const AutomatonConfiguration& configuration) {
   Maneuver step;
   step.from = id;
   step.to = id;
-  step.label = kOwnStepLabel;
+  step.label = kSelfLoopLabel;
   step.duration_s = configuration.step_s;
   step.inputs.assign(configuration.intervals, Input{});
   for (std::size_t k = 0; k <= configuration.intervals; ++k) {
@@ -301,7 +301,7 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   maneuver.states = std::move(solution.states);
   maneuver.criteria = std::move(solution.criteria);
   complete(maneuver, configuration);
-  if (const std::string fault = fault_of(maneuver, without_maneuvers(configuration));
+  if (const std::string fault = validate(maneuver, without_maneuvers(configuration));
       !fault.empty()) {
     fail(task, configuration, configuration.places.intervals, "more",
          fault + " with " + std::to_string(configuration.intervals) + " intervals");

@@ -39,7 +39,7 @@ struct DesignTask {
 ///
 /// @throws std::invalid_argument with one line naming configuration, edge, label and reason if the
 /// maneuver is infeasible or was not found (see ManeuverSolution::reason), or if its intervals are
-/// so long that one Runge-Kutta step does not follow the model (see fault_of)
+/// so long that one Runge-Kutta step does not follow the model (see validate)
 [[nodiscard]] Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task);
 
 /// The same for many, one after the other, in their order. Of two mirrored ones only the first is

@@ -100,12 +100,12 @@ LabelledCriterion read_criterion(const Node& entry) {
   }
   criterion.label = entry.required<std::string>("name");
   const std::vector<std::string> names = criterion_names();
-  if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
+  if (criterion.label.empty() || criterion.label == kSelfLoopLabel ||
       has_control_characters(criterion.label) ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
     entry.fail("name", fmt::format("one line of text, a name of its own: neither empty, nor '{}', "
                                    "nor a criterion's",
-                                   kOwnStepLabel));
+                                   kSelfLoopLabel));
   }
   if (entry.has("minimise")) {
     read_front_point(entry, criterion);

@@ -89,8 +89,8 @@ std::vector<Point> forward_points(const std::vector<DriveSample>& drive, const P
 
 /// Each centre to the mean of the points nearest to it, again and again until none moves.
 /// @return how many points are nearest to each centre
-std::vector<std::size_t> settle_centres(const std::vector<Point>& points,
-                                        std::vector<Point>& centres) {
+std::vector<std::size_t> converge_centres(const std::vector<Point>& points,
+                                          std::vector<Point>& centres) {
   std::vector<std::size_t> sizes;
   for (int i = 0; i < kMaxIterations; ++i) {
     std::vector<Point> sums(centres.size(), Point::Zero());
@@ -158,7 +158,7 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   }
 
   std::vector<Point> centres = scattered(points, count - 1);
-  const std::vector<std::size_t> sizes = settle_centres(points, centres);
+  const std::vector<std::size_t> sizes = converge_centres(points, centres);
   std::vector<ChosenTrim> moving;
   const std::size_t counted = drive.size() - reversing;
   const auto total = static_cast<double>(counted);

@@ -20,7 +20,7 @@ class LookAhead final : public Policy {
  public:
   explicit LookAhead(LookAheadSettings settings);
 
-  std::optional<SubgraphRequest> wish(const PolicyView& view) override;
+  std::optional<SubgraphRequest> propose(const PolicyView& view) override;
   std::vector<SubgraphRequest> choices() const override { return settings_.candidates; }
   bool looks_ahead() const override { return true; }
   void look_ahead(const Controller& controller, const PreparedFor& prepared) override;

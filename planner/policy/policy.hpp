@@ -28,7 +28,7 @@ class Policy {
   virtual ~Policy() = default;
 
   /// What it would ask for from this step on; none: it has no opinion. Called once per step.
-  [[nodiscard]] virtual std::optional<SubgraphRequest> wish(const PolicyView& view) = 0;
+  [[nodiscard]] virtual std::optional<SubgraphRequest> propose(const PolicyView& view) = 0;
 
   /// All that it may ever ask for: that is prepared before the first step.
   [[nodiscard]] virtual std::vector<SubgraphRequest> choices() const = 0;

@@ -10,9 +10,9 @@ namespace {
 /// nearer, so any way is a shortest one.
 std::size_t most_exit_steps(const Subgraph& subgraph) {
   std::size_t most = 0;
-  for (const TrimId start : subgraph.starts()) {
+  for (const TrimId start : subgraph.start_trims()) {
     std::size_t steps = 0;
-    for (TrimId at = start; !subgraph.is_on(at); ++steps) {
+    for (TrimId at = start; !subgraph.is_enabled(at); ++steps) {
       const auto edges = subgraph.successors(at);
       const auto exit =
           std::ranges::find_if(edges, [at](const Edge& edge) { return edge.to != at; });

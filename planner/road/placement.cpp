@@ -128,13 +128,13 @@ Placement best_place(const ReferencePath& path, const Pose& pose) {
     // Most are too far away, wherever they lead: none of their points is nearer than the first by
     // more than the length.
     const double from_first_m = (pose.position_m() - path.points_m()[i]).norm();
-    if (from_first_m - (joints[i + 1] - joints[i]) > misfit_m(best)) continue;
+    if (from_first_m - (joints[i + 1] - joints[i]) > placement_cost_m(best)) continue;
     const auto projection = path.project_within(pose.position_m(), joints[i], joints[i + 1]);
     const double heading_rad = path.heading_rad_at((joints[i] + joints[i + 1]) / 2.0);
     const Placement one{.s_m = projection.s_m,
                         .distance_m = projection.distance_m,
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
-    if (misfit_m(one) < misfit_m(best)) best = one;
+    if (placement_cost_m(one) < placement_cost_m(best)) best = one;
   }
   return best;
 }
@@ -143,7 +143,7 @@ Placement best_place(const ReferencePath& path, const Pose& pose) {
 
 double Placement::beyond_m() const { return std::max(beyond_left_m, beyond_right_m); }
 
-double misfit_m(const Placement& placement) {
+double placement_cost_m(const Placement& placement) {
   return placement.distance_m + kFront_m * std::abs(placement.turned_rad);
 }
 

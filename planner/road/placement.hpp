@@ -51,7 +51,7 @@ inline constexpr double kFitsTurned_rad = 0.6;
                                      const Footprint& footprint);
 
 /// The measure by which places are compared, above [m].
-[[nodiscard]] double misfit_m(const Placement& placement);
+[[nodiscard]] double placement_cost_m(const Placement& placement);
 
 /// By how much the drivable area is widened on each side, and where.
 struct Widening {

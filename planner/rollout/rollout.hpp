@@ -6,7 +6,7 @@
 
 #include "planner/controller/controller.hpp"
 #include "planner/controller/joint_step.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace hlc {
@@ -43,7 +43,7 @@ class Rollout {
   [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
 
   std::vector<std::unique_ptr<Controller>> controllers_;
-  std::vector<SubgraphChoice> choices_;  ///< in the order of the controllers, or none
+  std::vector<SubgraphSelector> choices_;  ///< in the order of the controllers, or none
   JointStepRules rules_;
   StepIndex next_step_{0};
 };

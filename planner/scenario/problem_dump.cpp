@@ -46,7 +46,7 @@ void ProblemDump::write(const Controller& controller) const {
                          folder_ / name);
     }
   };
-  write_all(controller.entry_problems(), "joining");
+  write_all(controller.entry_problems(), "lane_entry");
   write_all(controller.problems(), "search");
 }
 

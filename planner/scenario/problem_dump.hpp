@@ -14,7 +14,7 @@ namespace hlc {
 /// something). Steps without a search write nothing. Replays of these files of a step take together
 /// the vertices that the step's report counts. The problems by which a vehicle that stands finds
 /// out where it may drive off to, without other vehicles (lane_entry.hpp), are in
-/// vehicle_<id>_step_<k>_joining_<i>.json; their vertices count nowhere.
+/// vehicle_<id>_step_<k>_lane_entry_<i>.json; their vertices count nowhere.
 class ProblemDump {
  public:
   /// Makes the folder if need be.

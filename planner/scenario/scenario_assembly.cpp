@@ -62,7 +62,7 @@ void check_standstill_is_near(const Node& node, const Scenario& scenario) {
 
 void check_lab(const Scenario& scenario) {
   if (!scenario.lab) return;
-  const std::string fault = lab_fault_of(*scenario.subgraph, *scenario.lab);
+  const std::string fault = validate_for_lab(*scenario.subgraph, *scenario.lab);
   if (fault.empty()) return;
   throw std::invalid_argument(
       fmt::format("{}: subgraph {}, {} by {}", scenario.automaton_file.string(),

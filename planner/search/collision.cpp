@@ -32,7 +32,7 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
     : reachable_(reachable) {
   std::size_t max_vertices = 0;
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       for (const ConvexPolygon* area_m :
            {&edge.maneuver->swept_area_m, &edge.maneuver->lane_area_m}) {

@@ -9,7 +9,7 @@ namespace {
 
 double longest_displacement_m(const Subgraph& subgraph) {
   double longest_m = 0.0;
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       longest_m = std::max(longest_m, edge.maneuver->displacement.position_m().norm());
     }

@@ -79,7 +79,8 @@ class CostToGoFunction {
                    const HorizonProblem& problem, CostToGo kind);
 
   /// @param depth  steps already done, 0 ... n
-  /// @pre `trim` is one of the subgraph's `starts` and can stand within the n - depth steps left
+  /// @pre `trim` is one of the subgraph's `start_trims` and can stand within the n - depth steps
+  /// left
   [[nodiscard]] double operator()(TrimId trim, std::size_t depth, const Frame& frame) const;
 
  private:

@@ -42,7 +42,7 @@ void reset(SearchResult& result);
 /// Ends a search that gives up: with its best path so far, whose maneuvers, poses and cost are
 /// already in `result`, or without one. A path that costs no more than the bound is optimal.
 /// @param lower_bound  no path that is still open costs less [m^2]
-void give_up(bool has_path, double lower_bound, SearchResult& result);
+void stop_early(bool has_path, double lower_bound, SearchResult& result);
 
 /// The engine that `options` name, from `options.factory` if that is given.
 /// @param subgraph, reachable  must outlive the engine; `reachable` belongs to `subgraph`

@@ -22,9 +22,9 @@ TEST(SearchBenchmark, ASetIsMeasuredOnceAndColumnsAreExplained) {
 TEST(SearchBenchmark, BadSetsAreRefusedInOneLine) {
   struct Case {
     const char* flags;
-    const char* said;
+    const char* message;
   };
-  for (const auto& [flags, said] :
+  for (const auto& [flags, message] :
        {Case{"--sets three_cars,three_cars", "--sets = three_cars twice, allowed each once"},
         Case{"--sets three_cars,four_cars",
              "--sets: four_cars, allowed three_cars, three_cars_corr"},
@@ -32,7 +32,7 @@ TEST(SearchBenchmark, BadSetsAreRefusedInOneLine) {
         Case{"--only fast", "--only: fast, allowed plain, "}}) {
     const Outcome outcome = run_program(std::string("search_benchmark --problems 1 ") + flags);
     EXPECT_EQ(outcome.exit_code, 2) << flags;
-    EXPECT_THAT(outcome.output, HasSubstr(said));
+    EXPECT_THAT(outcome.output, HasSubstr(message));
     EXPECT_THAT(outcome.output, HasSubstr(", allowed "));
     EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
   }

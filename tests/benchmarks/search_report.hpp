@@ -13,8 +13,8 @@ namespace hlc::test {
 struct Solved {
   double time_us{};
   bool has_plan{};
-  bool gave_up{};  ///< neither a best plan nor a proof that there is none
-  double cost{};   ///< [m^2]; only with a plan
+  bool stopped_early{};  ///< neither a best plan nor a proof that there is none
+  double cost{};         ///< [m^2]; only with a plan
   std::size_t generated{};
   std::size_t expanded{};
 };

@@ -141,7 +141,7 @@ std::optional<std::string> room_of(const std::string& path) {
 }
 
 /// What is wrong with one include, or nothing.
-std::optional<std::string> fault_of(const std::string& file, const std::string& header) {
+std::optional<std::string> violation(const std::string& file, const std::string& header) {
   for (const Outside& rule : kOutside) {
     if (std::regex_match(header, std::regex(rule.header)) &&
         !std::regex_match(file, std::regex(rule.files))) {
@@ -180,7 +180,7 @@ TEST(House, EveryIncludeFollowsAnArrow) {
       ++num_files;
       ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
       for (const std::string& header : includes_of(entry.path())) {
-        const std::optional<std::string> fault = fault_of(file, header);
+        const std::optional<std::string> fault = violation(file, header);
         EXPECT_FALSE(fault) << *fault;
       }
     }
@@ -189,29 +189,31 @@ TEST(House, EveryIncludeFollowsAnArrow) {
 }
 
 TEST(House, AnArrowThatRunsUpIsNoticed) {
-  EXPECT_TRUE(fault_of("planner/geometry/pose.cpp", "planner/search/search_engine.hpp"));
-  EXPECT_TRUE(fault_of("hlc_bridge/process/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
-  EXPECT_TRUE(fault_of("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
-  EXPECT_FALSE(fault_of("planner/search/search_engine.hpp", "planner/geometry/pose.hpp"));
+  EXPECT_TRUE(violation("planner/geometry/pose.cpp", "planner/search/search_engine.hpp"));
+  EXPECT_TRUE(violation("hlc_bridge/process/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
+  EXPECT_TRUE(violation("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
+  EXPECT_FALSE(violation("planner/search/search_engine.hpp", "planner/geometry/pose.hpp"));
 }
 
 TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
-  EXPECT_TRUE(fault_of("planner/search/collision.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
   EXPECT_TRUE(
-      fault_of("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
-  EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "chrono"));
-  EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "spdlog/spdlog.h"));
-  EXPECT_TRUE(fault_of("planner/search/collision.cpp", "ompl/base/Planner.h"));
-  EXPECT_TRUE(fault_of("planner/search/best_first/best_first_search.cpp", "ompl/base/Planner.h"));
-  EXPECT_TRUE(fault_of("planner/search/search_engine.cpp", "planner/search/ompl/ompl_engine.hpp"));
-  EXPECT_FALSE(fault_of("planner/search/best_first/best_first_search.cpp",
-                        "ompl/datastructures/BinaryHeap.h"));
-  EXPECT_TRUE(fault_of("planner/maneuver_design/pareto_front.cpp",
-                       "planner/maneuver_design/solver/attempt.hpp"));
-  EXPECT_TRUE(fault_of("planner/maneuver_design/solver/attempt.cpp",
-                       "planner/maneuver_design/pareto_front.hpp"));
-  EXPECT_TRUE(fault_of("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
-  EXPECT_FALSE(fault_of("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+      violation("planner/search/collision.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_TRUE(
+      violation("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_TRUE(violation("planner/controller/controller.cpp", "chrono"));
+  EXPECT_TRUE(violation("planner/controller/controller.cpp", "spdlog/spdlog.h"));
+  EXPECT_TRUE(violation("planner/search/collision.cpp", "ompl/base/Planner.h"));
+  EXPECT_TRUE(violation("planner/search/best_first/best_first_search.cpp", "ompl/base/Planner.h"));
+  EXPECT_TRUE(violation("planner/search/search_engine.cpp", "planner/search/ompl/ompl_engine.hpp"));
+  EXPECT_FALSE(violation("planner/search/best_first/best_first_search.cpp",
+                         "ompl/datastructures/BinaryHeap.h"));
+  EXPECT_TRUE(violation("planner/maneuver_design/pareto_front.cpp",
+                        "planner/maneuver_design/solver/attempt.hpp"));
+  EXPECT_TRUE(violation("planner/maneuver_design/solver/attempt.cpp",
+                        "planner/maneuver_design/pareto_front.hpp"));
+  EXPECT_TRUE(violation("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
+  EXPECT_FALSE(
+      violation("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
 }
 
 }  // namespace

@@ -275,7 +275,7 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
   run.strike(kVictim, "high_level_controller_2", SIGSTOP);
   const bool was_dead = eventually(60s, [&] {
     const std::optional<Report> last = last_report(run.lab.reports(), {1});
-    return last && last->status == StepStatus::kDriveOut &&
+    return last && last->status == StepStatus::kMinimalRiskStop &&
            real_time_now() > run.fault + kStandingTime;
   });
   const Nanoseconds goes_on = real_time_now();

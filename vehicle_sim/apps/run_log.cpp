@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Short values as they are, of long ones nothing.
-std::string told(const Json& value) {
+std::string text_of(const Json& value) {
   const std::string text = value.dump();
   return value.is_array() && text.size() > 40 ? "" : " " + text;
 }
@@ -49,7 +49,7 @@ std::string differences(const std::string& there, const std::string& wanted) {
     if (key == "files") {
       keys += differing_files(before[key], value);
     } else if (key != "program") {
-      keys += told(before[key]);
+      keys += text_of(before[key]);
     }
   }
   return keys.empty() ? "first line" : keys;

@@ -33,9 +33,9 @@ struct RunFigures {
   double planning_mean_ms{};  ///< processor time (Clocks::cpu)
   double planning_std_ms{};
   double planning_max_ms{};
-  double overlong_share{};    ///< of the plans, those that took longer than a step
-  double deviation_max_mm{};  ///< footprint to plan, any tick; without drift near full lock
-  double wall_s{};            ///< of the whole run; its parts as in WallTimes
+  double exceeding_step_share{};  ///< of the plans, those that took longer than a step
+  double deviation_max_mm{};      ///< footprint to plan, any tick; without drift near full lock
+  double wall_s{};                ///< of the whole run; its parts as in WallTimes
   double wall_planning_s{};
   double wall_coordination_s{};
   double wall_vehicles_s{};

@@ -17,7 +17,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/controller/joint_step.hpp"
 #include "planner/coordination/priority.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc {
@@ -29,8 +29,8 @@ struct Member {
   SimulatedVehicle vehicle;
   HlcCore hlc;
   ControlLoop loop;  ///< over the controller of `hlc`
-  SubgraphChoice choice;
-  bool was_told_to_stop{};
+  SubgraphSelector choice;
+  bool is_stop_requested{};
   bool has_left{};
 };
 
@@ -65,7 +65,7 @@ class Lab {
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
       HlcCore hlc(make_controller(scenario, vehicle.id));
       ControlLoop loop(hlc.controller(), cpu_clock_);
-      SubgraphChoice choice(hlc.controller(), scenario.reconfiguration);
+      SubgraphSelector choice(hlc.controller(), scenario.reconfiguration);
       members_.push_back({.id = id,
                           .vehicle = SimulatedVehicle(simulated),
                           .hlc = std::move(hlc),
@@ -133,7 +133,7 @@ class Lab {
     const SimulatedVehicle::Tick done = member.vehicle.tick(t);
     states_.add(member.id, done.state);
     experiment_.drives[member.id].push_back(done.driven);
-    if (member.was_told_to_stop && !member.vehicle.is_braking()) {
+    if (member.is_stop_requested && !member.vehicle.is_braking()) {
       member.has_left = true;
       alive_.erase(vehicle_name(member.id));
       lost_.insert(vehicle_name(member.id));
@@ -224,7 +224,7 @@ class Lab {
   void stop() {
     for (Member& member : members_) {
       member.vehicle.brake();
-      member.was_told_to_stop = true;
+      member.is_stop_requested = true;
     }
   }
 

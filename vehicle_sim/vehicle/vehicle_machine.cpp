@@ -63,7 +63,7 @@ void VehicleMachine::take(const SystemTrigger& trigger) {
 std::vector<VehicleMachine::Action> VehicleMachine::advance(const Instant& now) {
   Actions actions;
   if (exit_code_) return actions;
-  if (is_told_to_end_) {
+  if (is_end_requested_) {
     exit_code_ = kExitGood;
     return actions;
   }

@@ -82,7 +82,7 @@ class VehicleMachine {
   void take(const Parameter& parameter) { start_up_.take(parameter); }
   void take(const SystemTrigger& trigger);
   void take(VehiclePresence presence) { presence_ = std::move(presence); }
-  void take(const machine::StopSignal& /*signal*/) { is_told_to_end_ = true; }
+  void take(const machine::StopSignal& /*signal*/) { is_end_requested_ = true; }
 
   [[nodiscard]] bool is_prepared(const Instant& now, Actions& actions);
   [[nodiscard]] std::string parameter_fault() const;
@@ -106,9 +106,9 @@ class VehicleMachine {
   VehiclePresence presence_;
   Nanoseconds newest_answer_{};  ///< largest create_stamp received
   bool gave_up_waiting_{};
-  bool stop_symbol_{};     ///< has come, and the next tick brakes
-  bool is_stopping_{};     ///< it brakes
-  bool is_told_to_end_{};  ///< at once
+  bool stop_symbol_{};       ///< has come, and the next tick brakes
+  bool is_stopping_{};       ///< it brakes
+  bool is_end_requested_{};  ///< at once
   FollowerStatus last_status_{FollowerStatus::kNoCommand};
   std::optional<int> exit_code_;
 };

@@ -42,7 +42,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
       costs_(subgraph, options.criterion_weights, reachable.max_steps()),
       steps_(subgraph.automaton().trims.size()) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
                                     subgraph.distance_to_standstill(edge.to),
@@ -79,11 +79,11 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       end_at_goal(taken.vertex, problem, has_incumbent, result);
       break;
     }
-    const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
-    if (result.expanded == options_.max_expansions || is_told_to_stop) {
+    const bool is_stop_requested = result.expanded % kStopInterval == 0 && stop();
+    if (result.expanded == options_.max_expansions || is_stop_requested) {
       // Every other entry of the open list has no smaller f.
       const double open_cost = taken.cost_estimate + static_cast<double>(n) * costs_.least();
-      give_up(has_incumbent, lower_bound(open_cost, problem), result);
+      stop_early(has_incumbent, lower_bound(open_cost, problem), result);
       break;
     }
     expand(taken.vertex, problem, cost_to_go, open);

@@ -77,7 +77,7 @@ class BranchAndBound::Core {
         instructions(available(most)),
         kernel(kernel_of(instructions)) {
     std::size_t most_corners = 0;
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       for (const Edge& edge : subgraph.successors(trim)) {
         most_corners = std::max({most_corners, edge.maneuver->swept_area_m.vertices_m.size(),
                                  edge.maneuver->lane_area_m.vertices_m.size()});
@@ -147,7 +147,7 @@ class BranchAndBound::Core {
     search.best_y = best_y.data();
     search.generated = 1;
     search.expanded = 0;
-    search.gave_up = false;
+    search.stopped_early = false;
     search.lower_bound = 0.0;
 
     const Frame start = to_frame(problem.start);
@@ -249,7 +249,7 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
   result.expanded = search.expanded;
   const bool has_path = search.best_cost < kNoPath;
   if (has_path) write_best(problem, result);
-  if (search.gave_up) {
+  if (search.stopped_early) {
     // Keys stand for f but for their last bits, which number the children.
     constexpr double kLastBit = std::numeric_limits<double>::epsilon();
     search.lower_bound *= 1.0 - kLastBit * static_cast<double>(core_->tables.view().index_mask + 1);
@@ -257,7 +257,7 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
     const double of_open = search.lower_bound + static_cast<double>(n) * costs.least();
     // The start's own bound is tighter than that of some of its children, now and then.
     const double of_start = least_cost_of_problem(subgraph_, reachable_, costs, problem);
-    give_up(has_path, std::max(of_open, of_start), result);
+    stop_early(has_path, std::max(of_open, of_start), result);
   } else if (has_path) {
     result.status = SearchStatus::kOptimal;
     result.reason = NoPath::kNone;

@@ -96,7 +96,8 @@ class BranchAndBound final : public SearchEngine {
   /// @param problem  must stay as it is while `is_free` is asked
   void prepare(const HorizonProblem& problem);
   /// As CollisionCheck::is_free, for the problem prepared last.
-  /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`; 1 <= step <= horizon
+  /// @pre `maneuver` is an edge of the subgraph out of one of its `start_trims`; 1 <= step <=
+  /// horizon
   [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
 
  private:

@@ -283,7 +283,7 @@ struct Search {
   // Out.
   std::uint64_t generated;
   std::uint64_t expanded;
-  bool gave_up;
+  bool stopped_early;
   double lower_bound;  ///< of what is still open, if it gave up
 };
 

@@ -355,13 +355,13 @@ HLC_INLINE std::uint64_t bits(double value) {
   return result;
 }
 
-void give_up(Search& search, std::size_t depth, double bound) {
+void stop_early(Search& search, std::size_t depth, double bound) {
   for (std::size_t k = 0; k <= depth; ++k) {
     const double open = search.path[k].next_key;
     bound = open < bound ? open : bound;
   }
   search.lower_bound = bound;
-  search.gave_up = true;
+  search.stopped_early = true;
 }
 
 /// Expansions between two looks at whether to stop.
@@ -378,10 +378,10 @@ void run(Search& search) {
   const Plan& plan = *search.plan;
   const std::size_t n = plan.horizon_steps;
   if (search.max_expansions == 0 || search.stop(search.stop_context)) {
-    search.gave_up = true;  // the caller knows a bound for the start
+    search.stopped_early = true;  // the caller knows a bound for the start
     return;
   }
-  std::uint64_t look_at = next_look(search);
+  std::uint64_t next_check = next_look(search);
   VertexData* vertex = search.path;
   std::size_t depth = 0;
   double best = search.best_cost;
@@ -438,13 +438,13 @@ void run(Search& search) {
       key = vertex->next_key;
     }
 
-    if (search.expanded == look_at) {
-      if (look_at == search.max_expansions || search.stop(search.stop_context)) {
-        give_up(search, depth, key);
+    if (search.expanded == next_check) {
+      if (next_check == search.max_expansions || search.stop(search.stop_context)) {
+        stop_early(search, depth, key);
         search.best_cost = best;
         return;
       }
-      look_at = next_look(search);
+      next_check = next_look(search);
       has_patience = best < kNoPath || search.expanded < kPatience;
     }
     ++depth;

@@ -372,7 +372,7 @@ void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reach
   reach_steps_ = std::max<std::size_t>(reachable.max_steps(), 1);
   const std::size_t rows = max_steps_left_ + 1;
   reach_.resize(num_trims_ * rows * reach_steps_ * kReachSize);
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (std::size_t left = 0; left < rows; ++left) {
       for (std::size_t steps = 0; steps < reach_steps_; ++steps) {
         const Reach& reach = reachable.reach(trim, steps, left);

@@ -91,7 +91,7 @@ PositionBounds reach_of(const ReachableSets& reachable, const HorizonProblem& pr
 
 int max_edges(const Subgraph& subgraph) {
   std::size_t most = 1;
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     most = std::max(most, subgraph.successors(trim).size());
   }
   return static_cast<int>(most);

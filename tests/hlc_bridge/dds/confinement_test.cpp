@@ -164,9 +164,9 @@ TEST(LabTransport, APeerWithTheLibrarysDefaultsHearsUsAndIsHeard) {
   ::VehicleState state;
   state.vehicle_id(7);
   EXPECT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
-    theirs.write(state);  // volatile and best effort: until it is heard
-    return std::ranges::any_of(mailbox.now(),
-                               [](const VehicleState& heard) { return heard.vehicle_id == 7; });
+    theirs.write(state);  // volatile and best effort: until it is received
+    return std::ranges::any_of(
+        mailbox.now(), [](const VehicleState& received) { return received.vehicle_id == 7; });
   }));
   EXPECT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
     return writer.write(VehicleState{.vehicle_id = 8}) && theirs.reads(8);

@@ -69,7 +69,7 @@ class DrivenMachine {
   /// What comes from outside, and all that is done then without time passing.
   void on(HlcEvent event) {
     feed(std::move(event));
-    settle();
+    advance_until_idle();
   }
   /// ... while the thread is not running.
   void feed(HlcEvent event) { machine_.on(std::move(event)); }
@@ -85,7 +85,7 @@ class DrivenMachine {
   }
 
   /// As the shell: advances until the machine has nothing to do any more at this instant.
-  void settle() {
+  void advance_until_idle() {
     for (int i = 0; i < 100 && !exit_code(); ++i) {
       static_cast<void>(advance());
       if (!is_due()) return;
@@ -96,12 +96,12 @@ class DrivenMachine {
   /// Time passes; the machine is advanced when it asks for it.
   void pass(Nanoseconds duration) {
     const Nanoseconds until = now_.wall + duration;
-    settle();
+    advance_until_idle();
     while (!exit_code()) {
       const std::optional<Nanoseconds> wait = time_to_wake_up();
       if (!wait || now_.wall + *wait > until) break;
       move_clocks(*wait);
-      settle();
+      advance_until_idle();
     }
     move_clocks(until - now_.wall);
   }

@@ -217,7 +217,7 @@ TEST(HlcMachineLoss, LeavesWithoutItsMiddlewareAtOnceWhenEverybodyDrivesOutOrTim
   DrivenMachine one(real_time());
   one.on(peers());
   start(one);
-  one.on(RunState{.phase = RunPhase::kDriveOut});
+  one.on(RunState{.phase = RunPhase::kMinimalRiskStop});
   EXPECT_FALSE(one.exit_code());
   one.on(without_middleware());
   EXPECT_EQ(one.exit_code(), kExitDied);
@@ -238,7 +238,7 @@ TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
   one.on(alone);
   EXPECT_TRUE(one.has_logged("lab_control is gone"));
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kDriveOut);
+  EXPECT_EQ(last_status(one), StepStatus::kMinimalRiskStop);
   one.on(peers());
   EXPECT_TRUE(one.has_logged("lab_control is back"));
   one.next_list(standing());
@@ -249,7 +249,7 @@ TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
   one.on(alone);
   one.pass(machine::LabControlWatch::kGap);
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kDriveOut);
+  EXPECT_EQ(last_status(one), StepStatus::kMinimalRiskStop);
   one.pass(kControllerStays);
   EXPECT_EQ(one.exit_code(), kExitDied);
 }

@@ -123,7 +123,7 @@ class Turmoil {
       case 0:
         return one_.on(any_peers());
       case 1:
-        return one_.on(pick(8) == 0 ? RunState{.phase = RunPhase::kDriveOut}
+        return one_.on(pick(8) == 0 ? RunState{.phase = RunPhase::kMinimalRiskStop}
                                     : RunState{.start = pick(2) * one_.now().run});
       case 2:
         return one_.on(any_traffic());

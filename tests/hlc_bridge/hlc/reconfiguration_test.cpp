@@ -31,13 +31,13 @@ class ReconfigurationTest : public testing::Test {
     return reconfiguration_.take(prepare(base(), request), {step}).back();
   }
   std::optional<AutomatonAnswer> begin(std::uint64_t step) {
-    const auto answer = reconfiguration_.begin_step(choice_, {step}, step * kStep);
-    EXPECT_EQ(choice_.begin_step(*controller_, {step}, StepIndex{0}, {}), answer.has_value());
+    const auto answer = reconfiguration_.begin_step(selector_, {step}, step * kStep);
+    EXPECT_EQ(selector_.begin_step(*controller_, {step}, StepIndex{0}, {}), answer.has_value());
     return answer;
   }
   [[nodiscard]] RequestBase base() const {
-    return {.subgraph = choice_.base(),
-            .limits_mps = choice_.limits_mps(),
+    return {.subgraph = selector_.base(),
+            .limits_mps = selector_.limits_mps(),
             .horizon_steps = scenario().horizon_steps,
             .search = scenario().search};
   }
@@ -46,7 +46,7 @@ class ReconfigurationTest : public testing::Test {
   }
 
   std::unique_ptr<Controller> controller_ = make_controller(scenario(), kRed);
-  SubgraphChoice choice_{*controller_, {}};
+  SubgraphSelector selector_{*controller_, {}};
   Reconfiguration reconfiguration_;
 };
 

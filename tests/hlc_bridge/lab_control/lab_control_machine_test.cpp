@@ -110,7 +110,7 @@ TEST_F(LogicalLabControl, WhoOwesAnAnswerForTooLongIsDead) {
   ASSERT_EQ(of<Log>(actions).size(), 1U);
   EXPECT_EQ(of<Log>(actions)[0].level, 1);
   ASSERT_EQ(of<RunState>(actions).size(), 1U);
-  EXPECT_EQ(of<RunState>(actions)[0].phase, RunPhase::kDriveOut);
+  EXPECT_EQ(of<RunState>(actions)[0].phase, RunPhase::kMinimalRiskStop);
 }
 
 TEST_F(LogicalLabControl, ShowsHowFarTheRunIs) {

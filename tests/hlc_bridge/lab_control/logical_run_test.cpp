@@ -78,8 +78,8 @@ TEST(LogicalRun, DeathsDoNotBlockAndAreNamed) {
       EXPECT_EQ(fault.process, middleware_name(id));
       EXPECT_EQ(lab.result().deaths[i].process, controller_name(id));
     }
-    ASSERT_TRUE(lab.death_told_at() && lab.stopped_at());
-    EXPECT_NEAR(static_cast<double>(*lab.stopped_at() - *lab.death_told_at()), 3e9, 21e6);
+    ASSERT_TRUE(lab.death_reported_at() && lab.stopped_at());
+    EXPECT_NEAR(static_cast<double>(*lab.stopped_at() - *lab.death_reported_at()), 3e9, 21e6);
     EXPECT_GE(lab.released().back() + kListOffset, *lab.stopped_at() + kSecond);
   }
 }

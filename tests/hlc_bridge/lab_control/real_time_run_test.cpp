@@ -224,7 +224,7 @@ TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   const LabRunActions actions = run_.advance(kStart + 2 * kSecond);
   ASSERT_EQ(actions.deaths.size(), 1U);
   EXPECT_EQ(actions.deaths.front().process, middleware_name(2));
-  EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
+  EXPECT_EQ(actions.run_state, RunPhase::kMinimalRiskStop);
   EXPECT_THAT(actions.triggers, IsEmpty());
   for (Nanoseconds t = kStart + 2 * kSecond; t < kStart + 5 * kSecond; t += kPeriod) {
     run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
@@ -283,7 +283,7 @@ TEST_F(RealTimeRunTest, AControllerThatHangsIsNamedThoughItsParticipantLives) {
   const LabRunActions actions = run_.advance(due);
   ASSERT_EQ(actions.deaths.size(), 1U);
   EXPECT_EQ(actions.deaths.front().process, controller_name(2));
-  EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
+  EXPECT_EQ(actions.run_state, RunPhase::kMinimalRiskStop);
   EXPECT_EQ(run_.result().exit_code, kExitDied);
 }
 

@@ -42,7 +42,7 @@ struct StartUpTest : testing::Test {
     actions.clear();
     return start_up.connect(now, missing, actions);
   }
-  void tell_everything() {
+  void publish_everything() {
     start_up.take({kPeriodParameter, std::uint64_t{200}});
     start_up.take({kActiveIdsParameter, std::vector<std::int32_t>{1, 2}});
   }
@@ -60,7 +60,7 @@ TEST_F(StartUpTest, AsksForWhatIsMissingAgainAndAgain) {
   start_up.take({kPeriodParameter, std::uint64_t{200}});
   EXPECT_FALSE(learn(*start_up.wake_up()));
   EXPECT_THAT(requested(actions), ElementsAre(kActiveIdsParameter));
-  tell_everything();
+  publish_everything();
   EXPECT_TRUE(learn(kBegin + StartUp::kRequestInterval + 1));
   EXPECT_EQ(start_up.wake_up(), std::nullopt);
   EXPECT_TRUE(actions.empty());
@@ -90,7 +90,7 @@ TEST_F(StartUpTest, ALabControlThatDoesNotAnswerIsMissed) {
 
 TEST_F(StartUpTest, WaitsForEverybodyWithinTheSameTime) {
   EXPECT_FALSE(learn(kBegin));
-  tell_everything();
+  publish_everything();
   EXPECT_TRUE(learn(kBegin + kTimeout - 10));
   EXPECT_FALSE(connect(kBegin + kTimeout - 10, "a, b"));
   EXPECT_THAT(logged(actions), ElementsAre(info("waiting for a, b")));
@@ -101,7 +101,7 @@ TEST_F(StartUpTest, WaitsForEverybodyWithinTheSameTime) {
 }
 
 TEST_F(StartUpTest, GoesOnWhenEverybodyIsThere) {
-  tell_everything();
+  publish_everything();
   EXPECT_TRUE(learn(kBegin));
   EXPECT_FALSE(connect(kBegin, "a"));
   EXPECT_EQ(start_up.wake_up(), kBegin + 2 * kNanosecondsPerSecond);

@@ -85,7 +85,7 @@ class MiddlewareInMemory {
     advance();
   }
 
-  void tell_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
+  void publish_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
     post(Parameter{.name = kPeriodParameter, .value = period_ms});
     on(Parameter{.name = kActiveIdsParameter, .value = active_ids});
   }

@@ -77,7 +77,7 @@ TEST(MiddlewareMachineProperty, WithPatienceListsDependOnNothingButTheMessages) 
     test::MiddlewareInMemory run{
         {.vehicle_ids = controllers, .rules = logical_middleware_rules(false)}};
     run.begin_in_logical_time();
-    run.tell_parameters(200, active);
+    run.publish_parameters(200, active);
     run.on(run.everybody(here));
 
     std::size_t forwarded = 0;
@@ -130,7 +130,7 @@ class RandomLife {
  public:
   explicit RandomLife(std::uint64_t seed) : random_{seed} {
     run_.on(run_.everybody({1, 2, 3}));
-    run_.tell_parameters(200, {1, 2, 3});
+    run_.publish_parameters(200, {1, 2, 3});
   }
 
   void step() {
@@ -161,7 +161,7 @@ class RandomLife {
         }
         break;
       case 5:
-        run_.tell_parameters(200, {1, 2, 3});
+        run_.publish_parameters(200, {1, 2, 3});
         break;
       case 6:
         run_.on(chance(random_, 50) ? run_.everybody({1, 2, 3}) : MiddlewarePeers{});

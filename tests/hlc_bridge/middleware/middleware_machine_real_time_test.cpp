@@ -21,7 +21,7 @@ class ImpatientMiddlewareTest : public testing::Test {
               .keep_running = keep_running,
               .startup_timeout = 30 * kNanosecondsPerSecond,
               .rules = real_middleware_rules(false)}} {
-    run_.tell_parameters(200, {1, 2});
+    run_.publish_parameters(200, {1, 2});
     run_.on(run_.everybody({1, 2}));
     pass_period();
     run_.forget_actions();
@@ -164,7 +164,7 @@ TEST_F(KeptRunningMiddlewareTest, ServesTheNextExperimentWithItsVehicles) {
   controller_ready();
   pass_period();
   EXPECT_TRUE(run_.all<ReadyStatus>().empty()) << "the next experiment is not known yet";
-  run_.tell_parameters(200, {1, 2, 5});
+  run_.publish_parameters(200, {1, 2, 5});
   pass_period();
   EXPECT_EQ(run_.all<ReadyStatus>().size(), 1U);
   EXPECT_THAT(run_.all<SubscribeToVehicles>().back().vehicle_ids, ElementsAre(1, 2, 5));
@@ -186,7 +186,7 @@ TEST_F(KeptRunningMiddlewareTest, AStopDuringTheStartDoesNotHideTheParameters) {
   test::MiddlewareInMemory run{
       {.vehicle_ids = {1}, .keep_running = true, .rules = real_middleware_rules(false)}};
   run.on(SystemTrigger{kStopSymbol});
-  run.tell_parameters(200, {1});
+  run.publish_parameters(200, {1});
   EXPECT_TRUE(run.machine().wake_up().run);
 }
 

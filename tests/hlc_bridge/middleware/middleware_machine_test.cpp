@@ -36,7 +36,7 @@ TEST_F(MiddlewareStartTest, AsksForTheParametersUntilTheyAreTold) {
   ASSERT_TRUE(run_.machine().wake_up().wall);
   run_.wait(*run_.machine().wake_up().wall - run_.now().wall);
   EXPECT_EQ(run_.all<ParameterRequest>().size(), 4U);
-  run_.tell_parameters(200, {1, 2});
+  run_.publish_parameters(200, {1, 2});
   ASSERT_EQ(run_.all<SubscribeToVehicles>().size(), 1U);
   EXPECT_THAT(run_.all<SubscribeToVehicles>()[0].vehicle_ids, ElementsAre(1, 2));
   EXPECT_FALSE(run_.machine().wake_up().run) << "asks for no tick before all are connected";
@@ -54,7 +54,7 @@ TEST_F(MiddlewareStartTest, EndsIfTheLabControlTellsNothing) {
 }
 
 TEST_F(MiddlewareStartTest, NamesWhoeverDoesNotAppearInTime) {
-  run_.tell_parameters(200, {1, 2});
+  run_.publish_parameters(200, {1, 2});
   MiddlewarePeers peers = run_.everybody({1, 2});
   peers.controllers_are_matched = false;
   peers.state_publishers.erase(2);
@@ -68,7 +68,7 @@ TEST_F(MiddlewareStartTest, NamesWhoeverDoesNotAppearInTime) {
 }
 
 TEST_F(MiddlewareStartTest, RefusesParametersWithoutItsVehicle) {
-  run_.tell_parameters(200, {2, 3});
+  run_.publish_parameters(200, {2, 3});
   EXPECT_EQ(run_.machine().exit_code(), kExitBadInput);
   EXPECT_EQ(run_.count_lines(kActiveIdsParameter), 1U);
 }
@@ -89,7 +89,7 @@ class PatientMiddlewareTest : public testing::Test {
               .startup_timeout = kStartupTimeout,
               .rules = logical_middleware_rules(beside_lab_programs)}} {
     run_.begin_in_logical_time();
-    run_.tell_parameters(200, {1, 2});
+    run_.publish_parameters(200, {1, 2});
     run_.on(run_.everybody({1, 2}));
   }
 

@@ -69,8 +69,8 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
   FakeMiddleware middleware{local()};
   Others others{controllers()};
   const auto reports = [&] { return others.reports.now(); };
-  const auto drives_out = [&] {
-    return !reports().empty() && reports().back().report.status == StepStatus::kDriveOut;
+  const auto is_stopping = [&] {
+    return !reports().empty() && reports().back().report.status == StepStatus::kMinimalRiskStop;
   };
   ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
   ASSERT_TRUE(gets_ready(middleware));
@@ -80,12 +80,12 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
   const std::size_t before = reports().size();  // it looks for the centre once a step
   ASSERT_TRUE(comes_to(middleware, [&] { return reports().size() >= before + 3; }));
   EXPECT_NE(reports().back().report.status, StepStatus::kStandby);
-  ASSERT_FALSE(drives_out());
+  ASSERT_FALSE(is_stopping());
 
   centre.leave();
-  ASSERT_TRUE(comes_to(middleware, drives_out));
+  ASSERT_TRUE(comes_to(middleware, is_stopping));
   centre.listen();
-  EXPECT_TRUE(comes_to(middleware, [&] { return !drives_out(); }));
+  EXPECT_TRUE(comes_to(middleware, [&] { return !is_stopping(); }));
   EXPECT_FALSE(has_ended());
 
   centre.leave();
@@ -181,7 +181,7 @@ TEST_F(UnwrittenHlcProcessTest, DrivesOnAndSaysByItsExitCodeThatSomethingWasNotW
 class LogListener : public spdlog::sinks::base_sink<std::mutex> {
  public:
   /// The thread that logged a line with this text; 0: nobody.
-  [[nodiscard]] std::size_t thread_that_said(const std::string& text) {
+  [[nodiscard]] std::size_t thread_that_logged(const std::string& text) {
     const std::lock_guard lock{mutex_};
     for (const auto& [thread, line] : lines_) {
       if (line.find(text) != std::string::npos) return thread;
@@ -222,9 +222,9 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
   list.states[0].pose.x_m = std::numeric_limits<double>::quiet_NaN();
   const std::string line = "topic vehicleStateList: what came holds something that is not valid";
   ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), kBetweenLists, [&] { return log().thread_that_said(line) != 0; },
+      soon(), kBetweenLists, [&] { return log().thread_that_logged(line) != 0; },
       [&] { middleware.lists.write(list); }));
-  EXPECT_EQ(log().thread_that_said(line), log().thread_that_said("ready, waits for a trigger"));
+  EXPECT_EQ(log().thread_that_logged(line), log().thread_that_logged("ready, waits for a trigger"));
 }
 
 TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
@@ -232,7 +232,7 @@ TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
   ASSERT_TRUE(gets_ready(middleware));
   EXPECT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists,
-      [&] { return log().thread_that_said("waits: middleware_1 has sent no state list") != 0; },
+      [&] { return log().thread_that_logged("waits: middleware_1 has sent no state list") != 0; },
       [] {}));
 }
 
@@ -247,19 +247,20 @@ TEST_F(ListenedToHlcProcessTest, OutlivesAMomentInWhichAllOthersAreGone) {
   middleware->triggers.write({.next_start = 1});
   ASSERT_TRUE(comes_to(*middleware, [&] { return centre.is_known(); }));
 
-  const auto has_said = [&](const char* text) { return log().thread_that_said(text) != 0; };
+  const auto has_logged = [&](const char* text) { return log().thread_that_logged(text) != 0; };
   middleware = nullptr;
   centre.leave();
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists,
       [&] {
-        return has_said("lab_control is gone") && has_said("nothing reaches the vehicle any more");
+        return has_logged("lab_control is gone") &&
+               has_logged("nothing reaches the vehicle any more");
       },
       [] {}));
   middleware = std::make_unique<FakeMiddleware>(local());
   centre.listen();
   EXPECT_TRUE(comes_to(*middleware, [&] {
-    return has_said("lab_control is back") && has_said("middleware_1 is back");
+    return has_logged("lab_control is back") && has_logged("middleware_1 is back");
   }));
   const std::size_t before = others.reports.now().size();
   EXPECT_TRUE(comes_to(*middleware, [&] { return others.reports.now().size() > before; }));

@@ -56,7 +56,7 @@ TEST_F(HlcProcessTest, LeavesWithoutItsMiddlewareWhenTheOthersDriveOut) {
   auto middleware = std::make_unique<FakeMiddleware>(local());
   ASSERT_TRUE(gets_ready(*middleware));
   ASSERT_TRUE(run_states.wait_for_matched(1, soon()));
-  run_states.write({.phase = RunPhase::kDriveOut, .start = 0});
+  run_states.write({.phase = RunPhase::kMinimalRiskStop, .start = 0});
   middleware = nullptr;
   ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
@@ -82,9 +82,9 @@ TEST_F(ImpatientHlcProcessTest, LeavesWhenItsMiddlewareStaysAway) {
 }
 
 TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
-  const Participant twin{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  const Participant duplicate{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(twin.wait_for({controller_name(1)}, soon()));
+  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, soon()));
   ASSERT_TRUE(middleware.lists.wait_for_matched(1, soon()));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const auto has_left = [this] {
@@ -100,8 +100,8 @@ TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
 TEST_F(HlcProcessTest, StaysWhenAnotherControllerOfItsVehicleComesLater) {
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(gets_ready(middleware));
-  const Participant twin{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
-  ASSERT_TRUE(twin.wait_for({controller_name(1)}, soon()));
+  const Participant duplicate{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, soon()));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const std::size_t before = middleware.commands.now().size();
   EXPECT_TRUE(Signal{}.repeat_until(
@@ -158,13 +158,13 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   EXPECT_EQ(state.text, "1: standby");
   EXPECT_NEAR(state.points_m.at(0).x(), start.x_m, 0.01);
 
-  const bool is_told = Signal{}.repeat_until(
+  const bool is_logged = Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{10}, [&] { return !lab_control.log.wait_for(0).empty(); },
       [] {
         spdlog::info("not for an operator who asks for critical lines alone");
         spdlog::error("the operator's line");
       });
-  ASSERT_TRUE(is_told);
+  ASSERT_TRUE(is_logged);
   for (const Log& line : lab_control.log.wait_for(1)) {
     EXPECT_EQ(line.content, "the operator's line");
     EXPECT_EQ(line.id, "high_level_controller");

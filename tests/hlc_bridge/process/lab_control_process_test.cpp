@@ -51,7 +51,7 @@ class FakeVehicle {
         reports_{std::make_unique<Writer<ReportRecord>>(*controller_, topics::report())},
         triggers_{vehicle_, topics::system_trigger(),
                   [this](const SystemTrigger& trigger) {
-                    signal_.post([&] { heard_.push_back(trigger.next_start); });
+                    signal_.post([&] { received_.push_back(trigger.next_start); });
                   },
                   [this] { signal_.notify(); }},
         middleware_triggers_{middleware_, topics::system_trigger()},
@@ -93,11 +93,11 @@ class FakeVehicle {
     vehicle_ready_.write({vehicle_name(1), 0});
     middleware_ready_.write({middleware_name(1), kListOffset});
     while (true) {
-      static_cast<void>(signal_.wait_until(soon(), [this] { return ends_ || !heard_.empty(); }));
-      const auto [heard, ends, dies_at] = signal_.locked([this] {
-        return std::tuple{std::exchange(heard_, {}), ends_, controller_dies_at_};
+      static_cast<void>(signal_.wait_until(soon(), [this] { return ends_ || !received_.empty(); }));
+      const auto [received, ends, dies_at] = signal_.locked([this] {
+        return std::tuple{std::exchange(received_, {}), ends_, controller_dies_at_};
       });
-      for (const Nanoseconds tick : heard) {
+      for (const Nanoseconds tick : received) {
         answer(tick, dies_at);
       }
       if (ends) {
@@ -131,7 +131,7 @@ class FakeVehicle {
   }
 
   Signal signal_;
-  std::deque<Nanoseconds> heard_;
+  std::deque<Nanoseconds> received_;
   Nanoseconds vehicle_tick_{};
   bool ends_{};
   std::uint64_t controller_dies_at_{~std::uint64_t{0}};

@@ -30,7 +30,7 @@ class PlannedMotionTest : public testing::Test {
       report.vehicle = VehicleId{4};
       report.planned_pose = pose;
       report.planned_trim = TrimId{kTrims[k]};
-      report.maneuver = k == 2 ? kOwnStepLabel : "test";
+      report.maneuver = k == 2 ? kSelfLoopLabel : "test";
       rows_.push_back(row);
       if (k + 1 == std::size(kTrims)) break;
       maneuvers_.push_back(automaton_.find({kTrims[k]}, {kTrims[k + 1]}, "test"));
@@ -99,9 +99,9 @@ TEST_F(PlannedMotionTest, ManeuversBetweenTheSameTrimsAreToldApartByTheirLabels)
 
 // A car that stands is set down anew, in another equilibrium.
 TEST_F(PlannedMotionTest, StandingIsTheOwnStepWhateverTheNextTrimIs) {
-  rows_[0].record.report.maneuver = kOwnStepLabel;
+  rows_[0].record.report.maneuver = kSelfLoopLabel;
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_),
-            automaton_.find({0}, {0}, kOwnStepLabel));
+            automaton_.find({0}, {0}, kSelfLoopLabel));
 }
 
 TEST_F(PlannedMotionTest, WithoutAPlanOrANextRowThereIsNone) {

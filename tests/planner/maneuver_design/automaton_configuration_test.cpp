@@ -211,9 +211,10 @@ TEST(AutomatonConfiguration, RefusesNumbersThatNoVehicleHas) {
                                                {"steering_rate_radps", "6.2", "10000"},
                                                {"speed_max_mps", "3.7", "1000"},
                                                {"step_s", "0.2", "100"}}) {
-    const std::string said = message(key + ": " + value, key + ": 1e5");
-    EXPECT_NE(said.find(key + " = 1e5, allowed a number > 0 and <= " + allowed), std::string::npos)
-        << said;
+    const std::string error_text = message(key + ": " + value, key + ": 1e5");
+    EXPECT_NE(error_text.find(key + " = 1e5, allowed a number > 0 and <= " + allowed),
+              std::string::npos)
+        << error_text;
   }
 }
 

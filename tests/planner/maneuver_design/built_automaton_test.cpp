@@ -37,7 +37,8 @@ class BuiltAutomaton : public testing::Test {
     return content.str();
   }
 
-  /// What is said to the file with one piece replaced; with `forged`, the hash is made to fit.
+  /// What is error_text to the file with one piece replaced; with `forged`, the hash is made to
+  /// fit.
   [[nodiscard]] std::string refusal(const std::string& piece, const std::string& replacement,
                                     bool forged) const {
     std::string edited = text();
@@ -133,12 +134,13 @@ TEST_F(BuiltAutomaton, LeavesNothingBesideTheFile) {
 }
 
 TEST_F(BuiltAutomaton, AnEditedFileIsRefusedWithTheCommandThatBuildsItAnew) {
-  const std::string said = refusal("length_m: 0.22", "length_m: 0.21", false);
-  EXPECT_EQ(said.substr(0, 26), "DIR/automaton.yaml:2: sha2");
-  EXPECT_NE(said.find("allowed the hash of the file's other lines: it was edited or damaged; build "
+  const std::string error_text = refusal("length_m: 0.22", "length_m: 0.21", false);
+  EXPECT_EQ(error_text.substr(0, 26), "DIR/automaton.yaml:2: sha2");
+  EXPECT_NE(
+      error_text.find("allowed the hash of the file's other lines: it was edited or damaged; build "
                       "it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
-            std::string::npos)
-      << said;
+      std::string::npos)
+      << error_text;
 }
 
 TEST_F(BuiltAutomaton, AStaleFileIsRefusedWithTheCommandThatBuildsItAnew) {
@@ -234,15 +236,15 @@ TEST_F(BuiltAutomaton, WhatTheVehicleCannotDriveIsRefusedEvenWithAHashThatFits) 
             std::string::npos);
 }
 
-// Each thing that `fault_of` promises, spoiled in a maneuver that is good.
+// Each thing that `validate` promises, spoiled in a maneuver that is good.
 TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
   const UniversalAutomaton& automaton = *file_.automaton;
   for (const Maneuver& good : automaton.maneuvers) {
-    ASSERT_EQ(fault_of(good, automaton), "");
+    ASSERT_EQ(validate(good, automaton), "");
     const auto fault = [&](auto spoil) {
       Maneuver spoiled = good;
       spoil(spoiled);
-      return fault_of(spoiled, automaton);
+      return validate(spoiled, automaton);
     };
     EXPECT_EQ(fault([](Maneuver& m) { m.duration_s = 0.3; }), "its duration is not the step");
     EXPECT_NE(fault([](Maneuver& m) { m.states.pop_back(); }), "");

@@ -248,9 +248,9 @@ TEST(Fallback, ACarThatCameToStandInACornerOfItsLanesIsLedOut) {
       return (to_m - from_m).norm();
     };
     static_cast<void>(steps(start));
-    controller.set_drives_out(true);
+    controller.set_minimal_risk_stop(true);
     static_cast<void>(steps(12));
-    controller.set_drives_out(false);
+    controller.set_minimal_risk_stop(false);
     static_cast<void>(steps(14));
     EXPECT_GT(steps(6), 0.3);
   }

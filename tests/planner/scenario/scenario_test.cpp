@@ -157,8 +157,8 @@ TEST(Scenario, AVehicleTakesItsOwnRouteAndOneThatIsNotNamedTheRouteThatItFits) {
     EXPECT_TRUE(controller_at(scenario, vehicle.id, pose)->fits_route());
     const auto guest = controller_at(scenario, {17}, pose);
     EXPECT_TRUE(guest->fits_route());
-    EXPECT_LE(misfit_m(*guest->placement()),
-              misfit_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
+    EXPECT_LE(placement_cost_m(*guest->placement()),
+              placement_cost_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
     EXPECT_EQ(guest->routes().size(), 3U);
   }
   const Pose green = measured_start(scenario, scenario.vehicles[2]);

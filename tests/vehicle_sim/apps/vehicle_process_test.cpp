@@ -81,7 +81,7 @@ class Lab {
       const bool is_asked = signal_.wait_until(
           deadline, [this] { return is_closed_ || ready_ || !requests_.empty(); });
       if (!is_asked || signal_.locked([this] { return ready_.has_value(); })) {
-        return is_asked && is_heard();
+        return is_asked && is_received();
       }
       for (const std::string& name :
            signal_.locked([this] { return std::exchange(requests_, {}); })) {
@@ -107,7 +107,7 @@ class Lab {
     signal_.post([this] { is_closed_ = true; });
   }
   /// The vehicle has matched this lab when it is ready, but not yet the other way round.
-  [[nodiscard]] bool is_heard() const {
+  [[nodiscard]] bool is_received() const {
     const auto deadline = Clock::now() + seconds(60);
     return trigger_writer_.wait_for_matched(1, deadline) &&
            command_writer_.wait_for_matched(1, deadline);
@@ -283,7 +283,7 @@ TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
     EXPECT_EQ(state.create_stamp % kVehiclePeriod, 0U);
     EXPECT_EQ(state.pose, kStart);
   }
-  ASSERT_TRUE(lab.is_heard());
+  ASSERT_TRUE(lab.is_received());
   lab.stop();
   EXPECT_EQ(exit_code(), kExitGood);
 }

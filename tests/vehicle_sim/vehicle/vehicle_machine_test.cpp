@@ -71,14 +71,14 @@ class LogicalVehicle : public testing::Test {
     has_begun_ = true;
     return advance();
   }
-  void tell_parameters(const std::vector<std::int32_t>& ids = {kId, kId + 1}) {
+  void publish_parameters(const std::vector<std::int32_t>& ids = {kId, kId + 1}) {
     vehicle_.on(Parameter{kPeriodParameter, kPeriod / kNanosecondsPerMillisecond});
     vehicle_.on(Parameter{kActiveIdsParameter, ids});
   }
   /// Until it wants its first tick.
   void prepare() {
     vehicle_.on(everybody());
-    tell_parameters();
+    publish_parameters();
     EXPECT_THAT(advance(), IsEmpty());
     ASSERT_EQ(vehicle_.wake_up().run, 0U);
   }
@@ -99,7 +99,7 @@ class LogicalVehicle : public testing::Test {
 TEST_F(LogicalVehicle, LearnsTheParametersAndWaitsForEverybodyBeforeItsFirstTick) {
   EXPECT_EQ(of<ParameterRequest>(advance()).size(), 2U);
   EXPECT_EQ(vehicle_.awaited(), 1U);
-  tell_parameters();
+  publish_parameters();
   VehiclePresence presence = everybody();
   presence.state_readers.names.erase(middleware_name(kId + 1));
   vehicle_.on(presence);
@@ -116,7 +116,7 @@ TEST_F(LogicalVehicle, LearnsTheParametersAndWaitsForEverybodyBeforeItsFirstTick
 }
 
 TEST_F(LogicalVehicle, WhoDoesNotAppearInTimeIsMissed) {
-  tell_parameters();
+  publish_parameters();
   static_cast<void>(advance());
   wall_ += 30 * kNanosecondsPerSecond;
   EXPECT_THAT(of<LogLine>(advance()),
@@ -126,7 +126,7 @@ TEST_F(LogicalVehicle, WhoDoesNotAppearInTimeIsMissed) {
 }
 
 TEST_F(LogicalVehicle, AVehicleThatIsNotActiveIsBadInput) {
-  tell_parameters({1, 2});
+  publish_parameters({1, 2});
   EXPECT_THAT(
       of<LogLine>(advance()),
       ElementsAre(machine::error("--vehicle_id=3 is not among the active_vehicle_ids: 1, 2")));
@@ -177,7 +177,7 @@ TEST_F(LogicalVehicle, AmongTheLabsProgramsNobodyIsWaitedForBeforeTheFirstComman
   VehicleMachineOptions lab = options(machine::logical_rules());
   lab.is_among_lab_programs = true;
   vehicle_ = VehicleMachine(lab);
-  tell_parameters();
+  publish_parameters();
   VehiclePresence presence = everybody();
   presence.state_readers = {1, {"middleware of the lab"}};
   presence.command_writers = {1, {"middleware of the lab"}};

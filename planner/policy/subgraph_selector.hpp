@@ -34,11 +34,11 @@ namespace hlc {
 ///
 /// Everything that may be asked for is prepared at the start, under every limit, so that a switch
 /// costs hardly more than a planner. No clock, no thread.
-class SubgraphChoice {
+class SubgraphSelector {
  public:
   /// @param controller  on the scenario's own subgraph
   /// @pre check_reconfiguration throws nothing
-  SubgraphChoice(const Controller& controller, const ReconfigurationSettings& settings);
+  SubgraphSelector(const Controller& controller, const ReconfigurationSettings& settings);
 
   /// The scenario's own subgraph and the limits: what a request of the operator has to be prepared
   /// on and for.
@@ -82,10 +82,10 @@ class SubgraphChoice {
 
   std::shared_ptr<const PreparedChoice> operator_;
   std::optional<Report> last_;
-  SubgraphRequest wished_;                  ///< by the policies
-  std::size_t wished_by_{kNoPolicyCounts};  ///< the policy that did, by its place
-  std::optional<StepIndex> wished_since_;   ///< none: they have not changed it yet
-  std::size_t counts_{kNoPolicyCounts};     ///< the first with an opinion in the last step
+  SubgraphRequest proposed_;                  ///< by the policies
+  std::size_t proposed_by_{kNoPolicyCounts};  ///< the policy that did, by its place
+  std::optional<StepIndex> proposed_since_;   ///< none: they have not changed it yet
+  std::size_t counts_{kNoPolicyCounts};       ///< the first with an opinion in the last step
 };
 
 }  // namespace hlc

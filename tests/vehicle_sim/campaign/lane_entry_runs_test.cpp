@@ -18,7 +18,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc::joining_test {
+namespace hlc::lane_entry_runs_test {
 namespace {
 
 /// Where cars stand: everywhere where one is to be driven (placement.hpp), and some way beyond.
@@ -166,9 +166,9 @@ bool stands_and_says_so(const Joined& joined) {
   return joined.off_route == kSteps && joined.driven_m < 1e-6;
 }
 
-class Joining : public testing::TestWithParam<std::string> {};
+class LaneEntry : public testing::TestWithParam<std::string> {};
 
-TEST_P(Joining, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
+TEST_P(LaneEntry, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
   const Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   Joined all;
@@ -208,7 +208,7 @@ TEST_P(Joining, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
       1e3 * most_m);
 }
 
-TEST_P(Joining, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
+TEST_P(LaneEntry, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
   const Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   std::size_t cannot = 0;
@@ -232,7 +232,7 @@ TEST_P(Joining, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
   EXPECT_LE(cannot, 3 * seeds / 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Joining, testing::Values("paper_three_cars", "lab_three_cars"),
+INSTANTIATE_TEST_SUITE_P(All, LaneEntry, testing::Values("paper_three_cars", "lab_three_cars"),
                          [](const auto& one) { return one.param; });
 
 TEST(Fitting, ACarThatFitsNoRouteHoldsUpTheStartAndSaysSo) {
@@ -248,4 +248,4 @@ TEST(Fitting, ACarThatFitsNoRouteHoldsUpTheStartAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace hlc::joining_test
+}  // namespace hlc::lane_entry_runs_test
