@@ -1,4 +1,4 @@
-// Asks controllers that drive to plan on another subgraph, and tells what they answer.
+// Requests another subgraph from running controllers and prints their answers.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -48,7 +48,7 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--vehicle", flags.vehicles, "vehicles that are asked, e.g. 1,2; default: all")
+  app.add_option("--vehicle", flags.vehicles, "vehicles to ask, e.g. 1,2; default: all")
       ->delimiter(',')
       ->check(hlc::vehicle_id_range());
   auto* const criterion =
@@ -57,7 +57,7 @@ void declare(CLI::App& app, Flags& flags) {
           ->delimiter(',');
   app.add_option("--weights", flags.weights,
                  "instead: maneuvers that are optimal for a weighted sum of criteria, e.g. "
-                 "J1=0.3,J2=0.7; what is not there is made beside the run")
+                 "J1=0.3,J2=0.7; missing maneuvers are computed in the background")
       ->delimiter(',')
       ->excludes(criterion);
   app.add_option("--max_speed", flags.max_speed_mps, "speed limit [m/s]; default: the scenario's")
@@ -69,7 +69,7 @@ void declare(CLI::App& app, Flags& flags) {
   add_trims("--trims_on", flags.trims_on, "trims beside the scenario's, numbered from 1");
   add_trims("--trims_off", flags.trims_off, "trims of the scenario's that are not to be used");
   app.add_option("--edges_on", flags.edges_on,
-                 "edges that the scenario has off, from:to, e.g. 2:3,3:2")
+                 "edges that the scenario disables, from:to, e.g. 2:3,3:2")
       ->delimiter(',');
   app.add_option("--edges_off", flags.edges_off, "edges that are not to be used, from:to")
       ->delimiter(',');
@@ -81,12 +81,12 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->excludes(in_s);
   app.add_option("--timeout_s", flags.timeout_s,
-                 "how long answers are waited for, after the request's time")
+                 "how long to wait for answers after the request's time")
       ->capture_default_str()
       ->check(hlc::within(0.1, 3600.0));
   app.add_flag("--follow", flags.follow,
-               "stay until stopped: controllers that come later are asked, too, and every answer "
-               "is told");
+               "stay until stopped: controllers that appear later are asked, too, and every answer "
+               "is printed");
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   hlc::declare_controller_peers(app, flags.controller_peers);
@@ -94,8 +94,8 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "A request is a change of the scenario's subgraph, not of the last request: without any it "
       "asks for the scenario's own, or for what the vehicle's policies say. A zone's speed limit "
-      "holds whatever is asked for. Exit codes: 0 in force, 1 somebody refused, 2 bad input, "
-      "3 somebody did not answer.");
+      "holds whatever is asked for. Exit codes: 0 in force, 1 a controller refused, 2 bad input, "
+      "3 a controller did not answer.");
 }
 
 std::vector<hlc::TrimId> trims_of(const std::vector<int>& numbers) {
@@ -184,7 +184,7 @@ const char* word_for(hlc::RequestOutcome outcome) {
   return "?";
 }
 
-/// One request and the answers to it.
+/// One request and its answers.
 class Asker {
  public:
   explicit Asker(const Flags& flags)
@@ -221,7 +221,7 @@ class Asker {
     return signal_.locked([this] { return stop_; });
   }
 
-  /// Of those that are there and hear us and whom we hear. Without --vehicle whoever is there a
+  /// Controllers that are matched in both directions. Without --vehicle: all that are matched one
   /// second after the first one.
   bool find_controllers() {
     const auto hears = [this](int id) {
@@ -260,7 +260,8 @@ class Asker {
     id_ = now;
     const auto in = static_cast<hlc::Nanoseconds>(1e9 * flags_.in_s);
     const hlc::Nanoseconds valid_from = in > 0 ? now + in : flags_.valid_from_ns;
-    // Whoever comes later is asked, too: the topic keeps the last request of every vehicle.
+    // Controllers that appear later are asked, too: the topic keeps the last request of every
+    // vehicle.
     for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
       if (!flags_.vehicles.empty() && !asked_.contains(id)) continue;
       writer_.write({.vehicle = {static_cast<std::uint8_t>(id)},
@@ -270,12 +271,12 @@ class Asker {
     }
   }
 
-  /// Waits for answers at most until then, and tells those that come.
+  /// Waits until `until` at the latest and prints the answers received.
   void print_answers(Clock::time_point until) {
     static_cast<void>(signal_.wait_until(until, [this] { return stop_ || !answers_.empty(); }));
     const auto answers = signal_.locked([this] { return std::exchange(answers_, {}); });
     for (const hlc::AutomatonAnswer& answer : answers) {
-      if (answer.id != id_) continue;  // to somebody else's request
+      if (answer.id != id_) continue;  // to another request
       outcomes_[answer.vehicle.value] = answer.outcome;
       std::cout << "vehicle " << int{answer.vehicle.value} << ": " << word_for(answer.outcome)
                 << (answer.outcome == hlc::RequestOutcome::kInForce

@@ -1,5 +1,5 @@
-// Writes a run folder as a CommonRoad 2020a file: map, planning problems, planned and driven
-// motion every 10 ms.
+// Writes a run folder as a CommonRoad 2020a file: map, planning problems, planned and driven motion
+// every 10 ms.
 #include <filesystem>
 #include <stdexcept>
 #include <string>

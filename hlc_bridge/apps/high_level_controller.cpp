@@ -38,11 +38,11 @@ struct Flags {
   hlc::ScenarioChoices scenario;
 };
 
-/// What is driven if nobody says what, as the lab control centre does not.
+/// Scenario driven without the flag --scenario: the lab control centre does not pass it.
 constexpr const char* kDefaultScenario = "lab_three_cars";
 
-/// A file as it is; a name means scenarios/<name>.yaml beside the program, where installing puts
-/// them.
+/// A file as it is; a name means scenarios/<name>.yaml beside the program, where the installation
+/// puts them.
 std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
   const std::filesystem::path name = chosen.empty() ? kDefaultScenario : chosen;
   if (std::filesystem::exists(name) || name.has_extension()) return name;
@@ -65,7 +65,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--node_id", flags.node_id,
                  "name in the log; default: high_level_controller_<id>");
   app.add_option("--dds_initial_peer", flags.dds_initial_peer,
-                 "accepted and ignored: the lab's scripts pass it, no program reads it");
+                 "accepted and ignored: the lab's scripts pass it, but no program reads it");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
@@ -74,17 +74,18 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option(
       "--dump-problems,--dump_problems", flags.problem_folder,
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
-      "written after a step's command; what is planned stays the same, but in real time "
-      "a slow disk may make the next step late. Refused if a policy drives (give --policy none)");
+      "written after a step's command; plans stay the same, but in real time "
+      "a slow disk may delay the next step. Refused if a policy drives (give --policy none)");
   app.add_option("--thread_priority", flags.thread_priority,
-                 "real-time priority of the thread that plans, where the system allows it; 0: none")
+                 "real-time priority of the planning thread, where the system allows it; 0: none")
       ->capture_default_str()
       ->check(hlc::whole(0, hlc::kMaxThreadPriority));
-  app.add_option("--core", flags.core, "processor core on which it plans; default: any")
+  app.add_option("--core", flags.core, "processor core of the planning thread; default: any")
       ->check(hlc::whole(0, hlc::kMaxCore));
   flags.network.declare(app);
   app.footer(
-      "Exit codes: 0 good, 1 good but --dump-problems has not written all, 2 bad input, 3 somebody "
+      "Exit codes: 0 good, 1 good but --dump-problems has not written all, 2 bad input, 3 a "
+      "participant "
       "did not appear, 4 the middleware or lab control "
       "died.");
 }

@@ -1,4 +1,5 @@
-// The lab control of a run: starts, releases the ticks of logical time, watches, stops, records.
+// The lab control of a run: starts it, releases the ticks of logical time, monitors, stops and
+// records it.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -45,12 +46,13 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
   app.add_option(
          "--on_death", flags.on_death,
-         "stop: drive out the plans, then end the run; continue (real time): go on, and who "
-         "died may be started again")
+         "stop: minimal-risk stop of all cars, then end of the run; continue (real time): go on; a "
+         "process that died may be restarted")
       ->capture_default_str()
       ->check(CLI::IsMember({"stop", "continue"}));
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 somebody died during the run "
+      "Exit codes: 0 good, 2 bad input, 3 a process did not appear, 4 a process died during the "
+      "run "
       "(--on_death continue: and was not back at its end), 130 interrupted.");
 }
 
@@ -101,7 +103,7 @@ hlc::LabControlOptions process_options(const Flags& flags) {
 int main(int argc, char** argv) {
   hlc::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_color_mt(hlc::kLabControlName));
-  CLI::App app{"Lab control: starts, clocks, watches, stops and records a run.",
+  CLI::App app{"Lab control: starts, clocks, monitors, stops and records a run.",
                hlc::kLabControlName};
   Flags flags;
   declare(app, flags);

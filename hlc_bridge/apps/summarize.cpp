@@ -1,5 +1,5 @@
-// Reads a run folder, writes steps.csv, timing.csv, summary.json and what was configured, prints
-// the table.
+// Reads a run folder, writes steps.csv, timing.csv, summary.json and the run's configuration,
+// prints the table.
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -31,7 +31,7 @@ hlc::Drives drives_of(const std::filesystem::path& run, const hlc::RunFacts& fac
   for (const std::uint8_t id : facts.vehicle_ids) {
     if (drives.contains(id)) continue;
     std::cerr << "summarize: " << hlc::drive_file(run, id).string()
-              << " is not there; nothing is said about what vehicle " << id + 0 << " drove\n";
+              << " is missing; the result of vehicle " << id + 0 << " has no driven values\n";
   }
   return drives;
 }
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
   std::optional<std::uint64_t> noise_seed;
   app.add_option("--run", run, "run folder")->required();
   hlc::declare_scenario_flags(app, choices);
-  app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
+  app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: no noise")
       ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
       "Exit codes: 0 good, 2 bad input or an output that cannot be written, 5 driven, but a "

@@ -37,10 +37,10 @@ PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
   return result;
 }
 
-/// A search takes no coordinates beyond.
+/// The search accepts no larger coordinates.
 bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= kLargestCoordinate_m; }
 
-/// Without corners that come twice in a row.
+/// Without consecutive duplicate corners.
 ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {
   ConvexPolygon result;
   auto& vertices = result.vertices_m;
@@ -307,7 +307,7 @@ Incoming<Outcome> from_wire(const OutcomeMessage& wire) {
                           .wants_fallback = wire.wants_fallback()});
 }
 
-// A name that nobody would take is cut: without the report its sender would seem dead.
+// A name that is too long is cut: without the report its sender would seem dead.
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,

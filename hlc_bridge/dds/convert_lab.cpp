@@ -35,7 +35,7 @@ std::vector<Wire> all_to_wire(const std::vector<Message>& messages) {
   return result;
 }
 
-// The valid ones of them; the others are counted in `invalid`.
+// The valid ones; the others are counted in `invalid`.
 template <class Message, class Wire>
 std::vector<Message> valid_ones(const std::vector<Wire>& wire, std::uint64_t& invalid) {
   std::vector<Message> result;

@@ -45,7 +45,7 @@ void set_lease(const ParticipantOptions& options, DomainParticipantQos& qos) {
   discovery.initial_announcements = {5, to_duration(100ms)};
 }
 
-// A list of peers takes the place of multicast, which goes on being asked here.
+// A list of peers replaces multicast, which is to stay in use here.
 void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
   if (options.peers.empty()) return;
   auto& initial_peers = qos.wire_protocol().builtin.initialPeersList;
@@ -60,7 +60,7 @@ void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
   }
 }
 
-// As the lab's own clients do it.
+// As in the lab's own clients.
 void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::SIMPLE;
@@ -94,7 +94,7 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::CLIENT;
   discovery.m_DiscoveryServers.push_back(server);
   discovery.discoveryServer_client_syncperiod = to_duration(250ms);
-  // Any port of ours, unicast: a client needs no multicast.
+  // Any free port, unicast: a client needs no multicast.
   qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(frtps::Locator_t{});
 }
 

@@ -94,7 +94,7 @@ Finding of_middleware(const Received& received) {
           "must share /dev/shm: no private container)"};
 }
 
-/// Others than this machine's; those of the lab's own programs are not known.
+/// Machines with another version than this one's; those of the lab's own programs are unknown.
 std::vector<Finding> of_versions(const Received& received, const std::string& version) {
   std::vector<Finding> findings;
   for (const auto& [name, other] : received.versions) {

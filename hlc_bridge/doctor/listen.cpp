@@ -17,7 +17,7 @@ namespace hlc {
 namespace {
 
 constexpr const char* kName = "lab_doctor";
-constexpr std::uint8_t kVehicles = 30;  // as many as the lab has room for
+constexpr std::uint8_t kVehicles = 30;  // the most that a lab has
 constexpr std::chrono::milliseconds kRequestPause{500};
 
 Participant on_domain(const ListenOptions& options, std::optional<int> domain, DomainRole role) {

@@ -8,7 +8,8 @@ namespace {
 // Leases are 2 s in real time and 10 s in logical time (ParticipantOptions::logical_time).
 constexpr Nanoseconds kDuplicatePatience = 4 * kNanosecondsPerSecond;
 constexpr Nanoseconds kDuplicatePatienceInLogicalTime = 12 * kNanosecondsPerSecond;
-/// The others wait 10 s for who waits (kMessageTimeout). What takes longer is in force later.
+/// The others wait 10 s for a controller (kMessageTimeout). A preparation that takes longer is in
+/// force later.
 constexpr Nanoseconds kPreparationPatience = 8 * kNanosecondsPerSecond;
 
 }  // namespace

@@ -53,7 +53,8 @@ void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
   }
 }
 
-/// Of lists only where they come by the clock: elsewhere they come as fast as everybody is done.
+/// Missing lists are reported only where they come by the clock: in logical time they come as fast
+/// as all processes are done.
 void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
     actions.info("waits: " + readiness_.missing());

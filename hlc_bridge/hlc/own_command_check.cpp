@@ -7,7 +7,7 @@
 namespace hlc {
 namespace {
 
-/// Times from the first point on.
+/// Times relative to the first point.
 std::vector<TimedPoint> timed_points(const TrajectoryCommand& command) {
   std::vector<TimedPoint> points;
   for (const TrajectoryPoint& point : command.points) {

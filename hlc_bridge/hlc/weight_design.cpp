@@ -40,7 +40,7 @@ void check_weights(const std::vector<CriterionWeight>& weights) {
   if (sum <= 0.0) refuse_weights("all 0, allowed at least one above 0");
 }
 
-/// It may have been edited since the automaton was built.
+/// The configuration may have been edited since the automaton was built.
 bool describes(const AutomatonConfiguration& configuration, const UniversalAutomaton& automaton) {
   return configuration.trims == automaton.trims && configuration.step_s == automaton.step_s &&
          to_yaml(configuration.limits) == to_yaml(automaton.limits) &&

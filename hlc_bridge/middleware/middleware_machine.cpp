@@ -137,7 +137,7 @@ void MiddlewareMachine::start(const Instant& now) {
   phase_ = Phase::kIdle;
 }
 
-/// Nothing of the run may be lost, since ticks wait for it.
+/// No message of the run may be lost, since ticks wait for it.
 std::string MiddlewareMachine::missing_peers() const {
   std::vector<std::string> missing;
   if (!peers_.lab_control_is_matched) missing.emplace_back(kLabControlName);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the copy of a file lies.
+/// Location of a file's copy.
 fs::path copy_of(const fs::path& run_folder, const fs::path& file) {
   const fs::path full = fs::absolute(file).lexically_normal();
   return run_folder / "configuration" / full.parent_path().filename() / full.filename();

@@ -28,7 +28,7 @@ std::vector<Nanoseconds> instants(const Drive& a, const Drive& b, Nanoseconds fr
   return times;
 }
 
-/// A vehicle whose record has ended stands where it was seen last: it can still be hit.
+/// A vehicle whose record has ended stands at its last position: others can still hit it.
 std::optional<Pose> pose_at(const Drive& drive, Nanoseconds t) {
   return !drive.empty() && t > drive.back().t ? drive.back().pose : driven_pose_at(drive, t);
 }

@@ -63,7 +63,7 @@ void LogicalTimer::on_trigger(Nanoseconds next_start) {
     const std::lock_guard lock{mutex_};
     last_trigger_ = std::chrono::steady_clock::now();
     if (next_start != wanted_) {
-      return;  // meant for other timers; nobody is woken, for that costs time in every tick
+      return;  // for other timers; waking a thread would cost time in every tick
     }
     released_ = true;
   }

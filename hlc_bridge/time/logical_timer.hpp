@@ -10,22 +10,22 @@
 
 namespace hlc {
 
-/// Ticks released one by one by the lab control (lab wire contract, 5.3): the timer says which tick
-/// it wants next (ReadyStatus), waits for a SystemTrigger with exactly that time, gives the tick,
-/// and so on. Time starts at the offset. Knows no DDS: the owner writes the ready status and passes
-/// on the triggers.
+/// Ticks released one by one by the lab control (lab wire contract, 5.3): the timer publishes which
+/// tick it wants next (ReadyStatus), waits for a SystemTrigger with exactly that time, delivers the
+/// tick, and so on. Time starts at the offset. Knows no DDS: the owner writes the ready status and
+/// forwards the triggers.
 ///
-/// Calling wait_next says that everything which the previous tick had to do is done.
+/// Calling wait_next means that all work of the previous tick is done.
 ///
-/// A lab control can hang while its participant still announces itself. Then no trigger comes any
-/// more, not even for other timers, and after `patience` of wall time the timer ends by itself. In
-/// a run that goes on, the longest time without a trigger is that in which the lab control finds
-/// out that somebody is dead: kMessageTimeout + 2 s = 12 s.
+/// A lab control can stop responding while its participant still announces itself. Then no trigger
+/// arrives, not even for other timers, and after `patience` of wall time the timer ends. In a
+/// healthy run, the longest time without a trigger is that in which the lab control detects a
+/// death: kMessageTimeout + 2 s = 12 s.
 class LogicalTimer : public Timer {
  public:
   static constexpr std::chrono::seconds kPatience{60};
 
-  /// What a process's timer takes: the first trigger may come as late as the last process appears.
+  /// Patience of a process's timer: the first trigger may come as late as the last process appears.
   [[nodiscard]] static std::chrono::seconds patience_for(std::chrono::seconds startup_timeout) {
     return std::max(kPatience, startup_timeout + kPatience / 2);
   }
@@ -41,8 +41,8 @@ class LogicalTimer : public Timer {
   void stop() override;
 
   /// To be called with next_start of every SystemTrigger, from any thread. Triggers for other times
-  /// than the one waited for have no effect. The stop symbol ends the timer; a process that goes on
-  /// ticking after the stop (a vehicle that brakes) does not pass it on.
+  /// than the awaited one have no effect. The stop symbol ends the timer; a process that continues
+  /// to tick after the stop (a vehicle that brakes) does not forward it.
   void on_trigger(Nanoseconds next_start);
 
   /// True if the timer has ended because no trigger came for too long.

@@ -9,14 +9,14 @@
 
 namespace hlc {
 
-/// The tick that a real timer gives at time `now` after the tick `previous`.
+/// The tick that a real timer delivers at time `now` after the tick `previous`.
 struct RealTick {
-  Nanoseconds time{};      ///< in the future: wait for it; now or before: give it at once
+  Nanoseconds time{};      ///< in the future: wait for it; now or before: deliver it at once
   std::uint64_t missed{};  ///< ticks between `previous` and it that are skipped
 };
 
-/// The latest tick not after `now` if it comes after `previous` (a tick that is late by less than a
-/// period is given late, older ones are skipped), else previous + period. @pre period > 0
+/// The latest tick not after `now` if it comes after `previous` (a tick late by less than a period
+/// is delivered late, older ones are skipped), otherwise previous + period. @pre period > 0
 [[nodiscard]] RealTick next_real_tick(Nanoseconds previous, Nanoseconds now, Nanoseconds period);
 
 /// The first k * period + offset after `now`. @pre period > 0, offset < period
@@ -24,8 +24,8 @@ struct RealTick {
 
 /// Ticks by the computer's clock. The first tick is the first after construction.
 ///
-/// Ticks never repeat or go back. If the computer's clock is set back, the timer waits until it has
-/// caught up.
+/// Ticks never repeat or go back. If the computer's clock is set back, the timer waits until the
+/// clock has caught up.
 class RealTimer : public Timer {
  public:
   /// Throws std::invalid_argument unless 0 <= offset < period.
@@ -34,7 +34,7 @@ class RealTimer : public Timer {
   [[nodiscard]] std::optional<Nanoseconds> wait_next() override;
   void stop() override;
 
-  /// Ticks skipped so far because the caller came back too late. For the thread that calls
+  /// Ticks skipped so far because the caller returned too late. For the thread that calls
   /// wait_next.
   [[nodiscard]] std::uint64_t missed() const { return missed_; }
 

@@ -15,8 +15,8 @@ class Timer {
   Timer& operator=(const Timer&) = delete;
   virtual ~Timer() = default;
 
-  /// Waits for the next tick and returns its time; nothing as soon as the timer is stopped, and
-  /// from then on. To be called from one thread.
+  /// Waits for the next tick and returns its time; nothing from the moment the timer is stopped. To
+  /// be called from one thread.
   [[nodiscard]] virtual std::optional<Nanoseconds> wait_next() = 0;
 
   /// Ends the timer, also while another thread is in wait_next. From any thread, any number of

@@ -5,15 +5,15 @@
 
 namespace hlc {
 
-/// When somebody who waits is to say for whom: after 2 s, then after twice the time of before, up
-/// to every minute.
+/// When a waiting process is to log for whom it waits: after 2 s, then at doubling intervals, up to
+/// a minute.
 class WaitNotice {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit WaitNotice(Clock::time_point since = Clock::now()) : next_at_(since + pause_) {}
 
-  /// True if it is time at `now`; the next time is later then.
+  /// True if a notice is due at `now`; schedules the next one.
   [[nodiscard]] bool is_due(Clock::time_point now = Clock::now()) {
     if (now < next_at_) return false;
     pause_ = std::min<Clock::duration>(2 * pause_, std::chrono::minutes{1});
