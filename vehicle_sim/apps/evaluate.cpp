@@ -30,7 +30,7 @@ struct Choices {
   bool keep_runs{false};
   std::filesystem::path out;
   hlc::FigureChoices figures;
-  bool is_sweep{false};  ///< else a campaign
+  bool is_sweep{false};  ///< otherwise a campaign
   std::filesystem::path sweep;
 };
 
@@ -55,12 +55,12 @@ std::string command_line(int argc, char** argv) {
 
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
-/// Everything that the campaign reads. What cannot be read is bad input.
+/// All input of the campaign. A file that cannot be read is bad input.
 hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
   }
-  // Tables and figures tell scenarios by their names.
+  // Tables and figures identify scenarios by their names.
   std::vector<std::string> names;
   for (const auto& file : choices.plan.scenarios) names.push_back(file.stem().string());
   hlc::check_each_once("--scenario", names);
@@ -109,7 +109,7 @@ hlc::Campaign read(Choices& choices) {
 
 void draw(const hlc::Campaign& campaign, Choices& choices) {
   if (choices.figures.names.empty()) return;
-  choices.figures.say = [](const std::string& what) {
+  choices.figures.log = [](const std::string& what) {
     std::cerr << "evaluate: draws " << what << '\n';
   };
   const auto files = hlc::draw_figures(campaign, choices.figures, figure_folder(choices));
@@ -163,9 +163,7 @@ int run(Choices choices, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Drives many whole runs within this process and compares them with the paper's Table 2.",
-      "evaluate"};
+  CLI::App app{"Simulates many runs and compares them with the paper's Table 2.", "evaluate"};
   Choices choices;
   choices.plan.profiles = {"default"};
   choices.scenario_folder = "launch_scripts/scenarios";
@@ -188,7 +186,7 @@ int main(int argc, char** argv) {
                  "scenario's own")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
-                 "how many starts: the scenario's own, then random ones on the routes")
+                 "number of starts: the scenario's own, then random ones on the routes")
       ->check(hlc::whole(1, 100'000))
       ->capture_default_str();
   app.add_option("--seed", choices.plan.seed, "of the random starts")
@@ -220,7 +218,7 @@ int main(int argc, char** argv) {
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
-      "a file that says which settings take which values (launch_scripts/sweeps/README.md): drives "
+      "a file with the settings and their values (launch_scripts/sweeps/README.md): drives "
       "every combination instead of a campaign, writes sweep.csv and sweep.md");
   for (CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
@@ -230,11 +228,11 @@ int main(int argc, char** argv) {
   }
   app.footer(
       "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
-      "input, 3 a record, table, figure or what is printed cannot be written; what is there "
+      "input, 3 a record, table, figure or the printed output cannot be written; existing "
       "stays.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
-  // A run that fails is recorded: what else goes wrong is an output.
+  // A failed run is recorded; any other error concerns an output.
   return hlc::exit_code_of(
       "evaluate", [&] { return run(choices, command_line(argc, argv)); }, kExitNotWritten);
 }

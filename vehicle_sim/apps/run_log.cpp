@@ -20,13 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Short values as they are, of long ones nothing.
+/// Short values as they are; empty for long ones.
 std::string text_of(const Json& value) {
   const std::string text = value.dump();
   return value.is_array() && text.size() > 40 ? "" : " " + text;
 }
 
-/// Which of the files that a campaign reads are others.
+/// Which of the campaign's input files have changed.
 std::string differing_files(const Json& before, const Json& now) {
   std::string names;
   for (const Json& file : now) {
@@ -36,7 +36,7 @@ std::string differing_files(const Json& before, const Json& now) {
   return names;
 }
 
-/// In what two headings differ, and what is there.
+/// The difference of two headings, with the existing values.
 std::string differences(const std::string& there, const std::string& wanted) {
   const Json before = Json::parse(there, nullptr, false);
   const Json now = Json::parse(wanted);
@@ -119,7 +119,7 @@ void RunLog::open() {
     refuse("holds the campaign of other choices, other files or another program (there: " +
            differences(lines.front(), heading_) + ")");
   }
-  lines.pop_back();  // behind the last line break: empty, or a line that was not finished
+  lines.pop_back();  // behind the last line break: empty, or an incomplete line
   std::string kept = heading_ + "\n";
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Json record = Json::parse(lines[i], nullptr, false);
@@ -161,7 +161,7 @@ void RunLog::append(std::size_t run, const std::string& line) {
   std::ofstream stream(file, std::ios::app);
   stream << line << '\n' << std::flush;
   if (!stream) {
-    // What is half written must not become the begin of the next line.
+    // An incomplete line must not become the begin of the next one.
     stream.close();
     std::filesystem::resize_file(file, size);
     throw std::runtime_error(file.string() + ": cannot be written");

@@ -29,15 +29,16 @@ struct VehicleProcessOptions {
 };
 
 /// One simulated vehicle on the lab domain: the endpoints and the record of a VehicleMachine. In
-/// real time it publishes its states whoever is there, in logical time it waits for everybody.
+/// real time it publishes its states without waiting, in logical time it waits for all
+/// participants.
 class VehicleProcess {
  public:
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit VehicleProcess(VehicleProcessOptions options);
   ~VehicleProcess();
 
-  /// Until the stop symbol has come and the vehicle has braked, or `stop` is called. The exit code:
-  /// also 3 if somebody needed did not appear, and 4 if the lab control dies.
+  /// Until the stop symbol was received and the vehicle has braked, or `stop` is called. The exit
+  /// code: also 3 if a required participant did not appear, and 4 if the lab control dies.
   [[nodiscard]] int run();
 
   /// Ends the run soon. From any thread.
@@ -45,7 +46,7 @@ class VehicleProcess {
 
  private:
   friend class Shell<VehicleMachine>;
-  /// What only the lab's programs send and receive: on its transport.
+  /// Endpoints for messages that only the lab's programs send and receive: on the lab's transport.
   struct LabEndpoints;
 
   [[nodiscard]] VehiclePresence presence() const;
@@ -61,7 +62,7 @@ class VehicleProcess {
   std::optional<DriveRecorder> recorder_;
   Shell<VehicleMachine> shell_;
 
-  // Readers last: they are destroyed first, and no callback comes after that.
+  // Readers last: they are destroyed first, and no callback is called after that.
   Participant lab_;
   Writer<VehicleState> state_writer_;
   Writer<ReadyStatus> ready_writer_;

@@ -17,7 +17,7 @@ std::string key_of(const CampaignRun& run) {
          run.policy.value_or("");
 }
 
-/// As it is driven without a policy.
+/// The scenario as driven without a policy.
 CampaignRun fixed(CampaignRun run) {
   run.policy.reset();
   return run;
@@ -145,7 +145,7 @@ CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> nois
   if (facts.exit_code != 0) throw std::runtime_error(facts.reason);
   std::vector<StepRecord> rows = step_records(experiment.reports, experiment.drives, facts);
   std::erase_if(rows, [first_step](const StepRecord& row) { return row.step < first_step; });
-  // Encounters are looked for from the first step of the facts on.
+  // Encounters are searched from the first step of the facts on.
   facts.first_step = facts.first_step.value() + first_step;
   facts.steps -= std::min(facts.steps, first_step);
   CampaignResult result{

@@ -11,7 +11,7 @@ namespace hlc {
 
 struct CampaignResult;
 
-/// What tables and reports need of one run.
+/// The figures of one run for tables and reports.
 struct RunFigures {
   std::string scenario;
   std::string profile;
@@ -50,10 +50,10 @@ struct RunFigures {
   std::map<std::string, double> subgraph_shares;  ///< by name
 };
 
-/// True if a policy chose what was planned on.
+/// True if a policy chose the subgraph.
 [[nodiscard]] inline bool has_policy(const RunFigures& run) { return run.policy != kNoPolicy; }
 
-/// What was planned on, as tables and figures name it: "B", "policy zones".
+/// The subgraph or policy, as tables and figures name it: "B", "policy zones".
 [[nodiscard]] std::string planned_on(const std::string& subgraph, const std::string& policy);
 [[nodiscard]] inline std::string planned_on(const RunFigures& run) {
   return planned_on(run.subgraph, run.policy);

@@ -101,7 +101,7 @@ void read_scenarios(const Node& node, SweepPlan& plan) {
   for (const Node& entry : node.list("scenarios")) {
     const std::filesystem::path scenario = beside(plan.file, entry.as<std::string>());
     if (!std::filesystem::is_regular_file(scenario)) entry.fail("a scenario's file");
-    // Reports tell scenarios by their names.
+    // Reports identify scenarios by their names.
     if (std::ranges::any_of(plan.scenarios, [&](const std::filesystem::path& one) {
           return one.stem() == scenario.stem();
         })) {
@@ -183,7 +183,7 @@ SweepPlan read_sweep(const std::filesystem::path& file) {
   plan.starts = node.optional<std::size_t>("starts", 1, between(1.0, 100000.0));
   plan.seed = node.optional<std::size_t>("seed", 1);
   if (node.has("steps")) {
-    // More than the flying lap's first step: something must be left to judge.
+    // More than the flying lap's first step: some steps must remain for the evaluation.
     plan.steps = node.required<std::size_t>(
         "steps", between(static_cast<double>(kFlyingStep) + 1.0, 100000.0));
   }

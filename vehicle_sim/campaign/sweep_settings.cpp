@@ -3,7 +3,7 @@
 namespace hlc {
 namespace {
 
-/// The search of 2022 knows neither an incumbent nor a way off after a standstill.
+/// The search of 2022 has neither an incumbent nor a way out after a standstill.
 void set_search(const SweepValue& value, Scenario& scenario) {
   const Profile of = profile_from_name(value.text == "2022" ? value.text : "default");
   scenario.search.engine =

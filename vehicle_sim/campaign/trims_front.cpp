@@ -17,7 +17,7 @@ const std::vector<TrimId>& trims_of(const Sweep& sweep, std::size_t combination)
   return trims->trims;
 }
 
-/// The settings of a combination in words, trims first.
+/// The settings of a combination as text, trims first.
 std::string name_of(const Sweep& sweep, std::size_t combination) {
   const SweepCombination& values = sweep.combinations()[combination];
   std::string name = value_of(sweep.plan(), values, kTrimsSetting)->text;
@@ -39,7 +39,7 @@ bool beats(const TrimsQuality& a, const TrimsQuality& b) {
          (a.moving < b.moving || a.error_mean_mm < b.error_mean_mm);
 }
 
-/// Of all choices with these trims, how many beat it.
+/// Number of choices with these trims that are better.
 std::string place_of(const std::vector<TrimsQuality>& choices, const TrimsQuality& choice) {
   const auto better =
       std::ranges::count_if(choices, [&](const TrimsQuality& one) { return beats(one, choice); });

@@ -38,7 +38,7 @@ VehicleMachine::VehicleMachine(const VehicleMachineOptions& options)
       vehicle_(options.vehicle),
       start_up_(options.startup_timeout),
       lab_control_(options.rules.lab_control_grace),
-      // The lab's controllers do not answer before the start. Ours is received soon enough.
+      // The lab's controllers do not answer before the start. Ours does so soon enough.
       gave_up_waiting_(options.is_among_lab_programs) {}
 
 // --- events -------------------------------------------------------------------------------------
@@ -131,7 +131,8 @@ std::string VehicleMachine::parameter_fault() const {
   return {};
 }
 
-/// A state or a command of the run that nobody receives is lost, and then a tick would wait for it.
+/// A state or a command without a receiver is lost, and then a tick would wait for it. Among the
+/// lab's programs: any receiver.
 /// Among the lab's programs: of anybody.
 bool VehicleMachine::is_connected() const {
   if (presence_.ready_readers == 0 || presence_.trigger_writers == 0) return false;
@@ -222,8 +223,8 @@ void VehicleMachine::log_why_it_stops(const SimulatedVehicle::Tick& done, Action
   last_status_ = done.status;
 }
 
-/// Without it the plan is driven to its end before the vehicle leaves; one that brakes leaves as it
-/// was told to.
+/// Without the lab control the plan is driven to its end before the vehicle leaves; a braking
+/// vehicle leaves as requested.
 void VehicleMachine::watch_lab_control(Nanoseconds wall, Actions& actions) {
   if (!lab_control_.is_over(presence_.lab.lost.contains(kLabControlName), wall)) return;
   if (is_stopping_ || stop_symbol_) {
