@@ -50,7 +50,7 @@ hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, 
   return hlc::assembled(configuration, std::move(maneuvers));
 }
 
-/// A speed limit may have taken maneuvers away.
+/// A speed limit may have removed maneuvers.
 void check_subgraphs(const hlc::AutomatonFile& file, const hlc::ConfigurationPlaces& places) {
   for (std::size_t i = 0; i < file.subgraphs.size(); ++i) {
     try {

@@ -23,7 +23,7 @@
 
 namespace {
 
-constexpr double kWindow_s = 0.2;  // long enough that measurement noise does not pass for steering
+constexpr double kWindow_s = 0.2;  // long enough that measurement noise is not taken for steering
 
 /// Columns of a drive, by name.
 class DriveTable {
@@ -85,7 +85,7 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
   return hlc::drive_samples(points, kWindow_s, vehicle);
 }
 
-/// Vehicle and limits of a configuration, of which nothing else need be there.
+/// Vehicle and limits of a configuration; its other keys may be absent.
 struct Car {
   std::string name{"the uCar"};
   hlc::VehicleParameters vehicle;
@@ -112,7 +112,7 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
   if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
   if (limits.curvature_max_per_m) std::printf(", curvature %g 1/m", *limits.curvature_max_per_m);
   std::printf("; wheelbase %g m\n", car.vehicle.wheelbase_m);
-  std::printf("# Trims that stand for %s; the share of the drive that each stands for.\ntrims:\n",
+  std::printf("# Trims that represent %s; the share of the drive that each represents.\ntrims:\n",
               drive.filename().c_str());
   for (std::size_t i = 0; i < trims.size(); ++i) {
     const hlc::Trim& trim = trims[i].trim;
@@ -122,7 +122,7 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
   }
 }
 
-/// What is said of samples that do not count as they are.
+/// Samples that do not count as they are.
 struct Notes {
   std::size_t outside{};
   std::size_t reversing{};
@@ -215,7 +215,7 @@ int main(int argc, char** argv) {
       try {
         return read_drive(drive, car.vehicle);
       } catch (const std::runtime_error& error) {
-        throw std::invalid_argument(error.what());  // the drive is the user's
+        throw std::invalid_argument(error.what());  // the drive is user input
       }
     }();
     try {

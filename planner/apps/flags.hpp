@@ -24,17 +24,17 @@
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/scenario.hpp"
 
-/// What the command lines of all programs have in common: `--name=value` and `--name value`,
-/// `--help` and `--version`, unknown flags refused, one line and exit code 2 for bad ones.
+/// Common to the command lines of all programs: `--name=value` and `--name value`, `--help` and
+/// `--version`, unknown flags refused, one line and exit code 2 for bad ones.
 namespace hlc {
 
-/// One line about what is wrong, whatever the names of files and keys in it hold.
+/// Prints an error in one line, even if names of files and keys in it contain line breaks.
 inline void complain(const std::string& program, const std::string& message) {
   std::cerr << program << ": " << escaped(message) << '\n';
 }
 
-/// What is printed waits in a buffer: whether it came to its end shows only here.
-/// @throws std::runtime_error if some of it did not
+/// Standard output is buffered: write errors show only here.
+/// @throws std::runtime_error if some output could not be written
 inline void flush_standard_output() {
   errno = 0;
   const bool is_flushed = std::fflush(stdout) == 0;
@@ -44,7 +44,7 @@ inline void flush_standard_output() {
                            (reason == 0 ? "" : ": " + std::generic_category().message(reason)));
 }
 
-/// A validator by what is good and what is allowed then.
+/// A validator from a predicate and the description of good values.
 /// @param shown  in the help, beside the flag's type; empty: nothing
 template <class IsGood>
 [[nodiscard]] CLI::Validator allowing(IsGood is_good, const std::string& allowed,
@@ -56,7 +56,7 @@ template <class IsGood>
       shown);
 }
 
-/// For flags of that type, whatever value of it: CLI11 would not say what is allowed.
+/// For flags of that type, without further bounds: CLI11 would not describe the good values.
 template <class Type>
 [[nodiscard]] CLI::Validator of_type(const std::string& allowed) {
   const auto is_good = [](const std::string& text) {
@@ -66,8 +66,7 @@ template <class Type>
   return allowing(is_good, allowed, "");
 }
 
-/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range lets
-/// pass.
+/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range accepts.
 inline CLI::Validator within(double min, double max) {
   const std::string allowed = std::isfinite(min) && std::isfinite(max)
                                   ? shortest_text(min) + " ... " + shortest_text(max)
@@ -80,8 +79,8 @@ inline CLI::Validator within(double min, double max) {
   return allowing(is_good, allowed, allowed);
 }
 
-/// For flags with whole numbers: digits alone. CLI11 takes "-5" for a large unsigned number, and
-/// one that is too large for the largest.
+/// For flags with whole numbers: digits only. CLI11 converts "-5" to a large unsigned number, and a
+/// number that is too large to the largest.
 inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
   const std::string allowed = fmt::format("{} ... {}", min, max);
   const auto is_good = [min, max](const std::string& text) {
@@ -108,7 +107,7 @@ inline CLI::Validator among(const std::vector<std::string>& names) {
   return allowing(is_good, allowed, allowed);
 }
 
-/// Checks of the type alone, after those that a flag has of its own.
+/// Checks of the type alone, after the flag's own checks.
 inline void check_types(CLI::App& app) {
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
     const std::string type = option->get_type_name();
@@ -119,9 +118,9 @@ inline void check_types(CLI::App& app) {
   }
 }
 
-/// Nothing if the flags are good; else the exit code: 0 after the help or the version, 2 after one
-/// line about the bad flag, `failed`, as exit_code_of has it, after one line about a help that is
-/// not out.
+/// Nothing if the flags are good; otherwise the exit code: 0 after the help or the version, 2 after
+/// one line about the bad flag, `failed`, as in exit_code_of, after one line about a help that
+/// could not be printed.
 inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int failed = 1) {
   check_types(app);
   app.set_version_flag(
@@ -151,9 +150,9 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
   }
 }
 
-/// Runs the program's work, which returns nothing or an exit code. That code, or 0, if it is good
-/// and all that it printed is out; 2 after one line about bad input (std::invalid_argument),
-/// `failed` after one line about anything else.
+/// Runs the program's work, which returns nothing or an exit code. Returns that code, or 0, if the
+/// work succeeds and all its output is written; 2 after one line about bad input
+/// (std::invalid_argument), `failed` after one line about any other error.
 template <class Work>
 int exit_code_of(const char* program, Work work, int failed = 1) {
   try {
@@ -174,7 +173,7 @@ int exit_code_of(const char* program, Work work, int failed = 1) {
   }
 }
 
-/// @throws std::invalid_argument naming the flag for a value that is there twice
+/// @throws std::invalid_argument naming the flag for a duplicate value
 template <class Value>
 void check_each_once(const std::string& flag, const std::vector<Value>& values) {
   for (auto value = values.begin(); value != values.end(); ++value) {
@@ -188,7 +187,7 @@ inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
   app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
   app.add_option("--engine", choices.engine,
-                 std::string("what plans: ") + kEngineChoices +
+                 std::string("search engine: ") + kEngineChoices +
                      " (default: the scenario's, else the profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--policy", choices.policy,

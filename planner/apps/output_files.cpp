@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 bool are_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  // Absolute first: of a path without any folder that exists, weakly_canonical leaves `x` and makes
-  // `./x` absolute.
+  // Absolute first: for a path without any existing folder, weakly_canonical leaves `x` relative
+  // and makes `./x` absolute.
   const fs::path full_a = fs::weakly_canonical(fs::absolute(a), error);
   if (error) return false;
   const fs::path full_b = fs::weakly_canonical(fs::absolute(b), error);
@@ -26,13 +26,13 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// What is allowed instead of this file alone; empty if it is good.
+/// Description of a good file instead of this one; empty if it is good.
 std::string objection_to(const fs::path& file) {
   if (file.empty()) return "the name of a file";
   std::error_code error;
   const fs::path folder = folder_of(file);
   if (!fs::is_directory(folder, error)) return "a file in a folder that exists";
-  // Of a link itself: /dev/stdout may lead to a regular file.
+  // The link itself is checked: /dev/stdout may lead to a regular file.
   const fs::file_status status = fs::symlink_status(file, error);
   if (!file.has_filename() ||
       !(status.type() == fs::file_type::not_found || status.type() == fs::file_type::regular)) {

@@ -1,5 +1,5 @@
-// The Pareto front of the maneuvers between two trims, as a table and as a plot in the manner of
-// the paper's Fig. 1:
+// The Pareto front of the maneuvers between two trims, as a table and as a plot in the style of the
+// paper's Fig. 1:
 //
 //     pareto_front launch_scripts/automata/pareto_example.yaml --from 0 0 --to 2.3 0.62
 //         --points 31 --out front.csv --plot front.svg
@@ -59,7 +59,7 @@ void declare(CLI::App& app, Flags& flags) {
       app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
           ->check(hlc::within(kShortest_s, kLongest_s));
   app.add_option("--free_duration", flags.free_duration_s,
-                 "MIN MAX [s]: each maneuver lasts what is best for it within these bounds, for "
+                 "MIN MAX [s]: each maneuver has its own best duration within these bounds, for "
                  "criteria such as travel_time; the table has a column `duration` then")
       ->expected(2)
       ->check(hlc::within(kShortest_s, kLongest_s))
@@ -100,7 +100,7 @@ void check_trim(const char* flag, const std::vector<double>& trim,
                               " ... " + steering + " rad");
 }
 
-/// Durations are free within the bounds; the search starts as near to step_s as they let it.
+/// Durations are free within the bounds; the search starts at the duration nearest to step_s.
 void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& problem) {
   if (bounds_s[0] > bounds_s[1]) {
     throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", allowed MIN <= MAX");

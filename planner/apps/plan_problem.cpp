@@ -1,5 +1,5 @@
-// Solves one planning problem from a file alone: what a controller decided in one step, or a
-// problem written by hand.
+// Solves a single planning problem from a file: a controller's planning step, or a problem written
+// by hand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFallback = 1;
 constexpr int kExitFailed = 2;
-/// The shortest of several calls is told: the first one also allocates and fills caches.
+/// The shortest of several calls is reported: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
 constexpr double kEnough_us = 2e4;
 

@@ -1,5 +1,5 @@
-// Proposes a budget of expansions for a deadline, from what this machine does with the problems of
-// a scenario. A run never measures: the budget stays a number in the scenario file.
+// Proposes a budget of expansions for a deadline, measured on this machine with the problems of a
+// scenario. A run never measures: the budget stays a number in the scenario file.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,11 +23,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFailed = 2;
 
-/// Searches of fewer expansions say little about the time of one: preparing the search is most of
-/// it. They say how long that takes.
+/// Searches of fewer expansions do not show the time of one: most of their time is the preparation
+/// of the search, which they measure.
 constexpr std::size_t kTelling = 1000;
 constexpr int kCalls = 3;
-/// The tree of a long horizon has no end: measuring stops here.
+/// The tree of a long horizon is practically infinite: measuring stops here.
 constexpr std::size_t kMeasured = 300'000;
 
 struct Flags {
@@ -78,7 +78,7 @@ std::vector<hlc::HorizonProblem> problems_of(const hlc::Scenario& scenario) {
   return problems;
 }
 
-/// No path has a free end, so all of the tree is searched.
+/// No path has a free end, so the whole tree is searched.
 hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
   constexpr double kFar_m = 1e3;
   const hlc::Point at = problem.start.position_m();
@@ -89,7 +89,7 @@ hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
   return problem;
 }
 
-/// The shortest time of some calls: what else the machine does is not the search's.
+/// The shortest time of some calls, without the load of other processes.
 double time_s(hlc::SearchEngine& engine, const hlc::HorizonProblem& problem,
               std::size_t& expanded) {
   double shortest_s = std::numeric_limits<double>::infinity();
@@ -138,8 +138,8 @@ Measurements measure(const hlc::Scenario& scenario,
     result.slowest.push_back(*ordinary);
   }
 
-  // The problem with the most obstacles and boundary, since each of them is looked at; but one
-  // whose way is not blocked at once.
+  // The problem with the most obstacles and boundary, since each of them is checked; but one whose
+  // way is not blocked at once.
   const auto size = [](const hlc::HorizonProblem& problem) {
     std::size_t count = problem.boundary_m.size();
     for (const auto& areas_m : problem.obstacles_m) count += areas_m.size();
@@ -155,7 +155,7 @@ Measurements measure(const hlc::Scenario& scenario,
     const Measured within_lanes = measured(*engine, hardest, "all ends blocked");
     if (within_lanes.expansions < kTelling) continue;
     result.slowest.push_back(within_lanes);
-    hardest.boundary_m.clear();  // far more of the tree is free
+    hardest.boundary_m.clear();  // much more of the tree is free
     result.slowest.push_back(measured(*engine, hardest, "the same without lanes"));
     break;
   }

@@ -64,7 +64,7 @@ void append_maneuver(std::string& text, const Maneuver& m) {
   append_table(text, "lane_area_m", m.lane_area_m.vertices_m);
 }
 
-/// Everything but the line with the hash, which comes second.
+/// Everything except the line with the hash, which comes second.
 std::string text_without_hash(const AutomatonFile& file) {
   const UniversalAutomaton& automaton = *file.automaton;
   std::string text = fmt::format("automaton_schema: {}\n", kAutomatonSchema);
@@ -201,7 +201,7 @@ void check_subgraphs(const Node& node, const AutomatonFile& file) {
   }
 }
 
-/// The path as a shell takes it, in quotes if it needs them.
+/// The path as a shell word, quoted if necessary.
 std::string shell_word(const std::filesystem::path& path) {
   const std::string text = path.string();
   const bool is_plain = text.find_first_not_of(
@@ -213,7 +213,7 @@ std::string shell_word(const std::filesystem::path& path) {
   return word + "'";
 }
 
-/// Before anything else is read: another version may have other keys.
+/// Checked before anything else is read: another version may have other keys.
 void check_version(const Node& node, const std::filesystem::path& path) {
   if (!node.has("automaton_schema")) {
     throw std::invalid_argument(path.string() +
@@ -248,7 +248,7 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
 bool is_automaton_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
-  // The first line is enough: large files are read once.
+  // The first line is sufficient: large files are read once.
   std::ifstream stream(path, std::ios::binary);
   std::string line;
   return std::getline(stream, line) && line.starts_with("automaton_schema:");

@@ -23,7 +23,7 @@ std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
 std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  // A trim explains its maneuvers: first the trims.
+  // Trims first: a fault of a trim explains those of its maneuvers.
   for (const bool self_loops : {true, false}) {
     for (const TrimId trim : subgraph.start_trims()) {
       for (const Edge& edge : subgraph.successors(trim)) {

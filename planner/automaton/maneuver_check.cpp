@@ -78,7 +78,7 @@ std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automat
   return "";
 }
 
-/// Where the model leads from state k in one interval.
+/// State k integrated over one interval.
 State integrated_again(const Maneuver& m, std::size_t k, const VehicleParameters& vehicle) {
   constexpr int kFiner = 10;
   const double interval_s = m.duration_s / static_cast<double>(m.inputs.size());

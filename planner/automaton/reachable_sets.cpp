@@ -14,7 +14,7 @@ namespace {
 /// Kept vertices of a swept area's hull; the recursion itself uses all of them.
 constexpr std::size_t kMaxReachVertices = 16;
 
-/// The extreme points in eight directions, counter-clockwise; one may stand there several times.
+/// The extreme points in eight directions, counter-clockwise; points may repeat.
 std::array<Point, 8> extreme_points(const std::vector<Point>& points_m) {
   const std::array<Point, 8> directions{Point{1, 0},  Point{1, 1},   Point{0, 1},  Point{-1, 1},
                                         Point{-1, 0}, Point{-1, -1}, Point{0, -1}, Point{1, -1}};
@@ -33,7 +33,7 @@ std::array<Point, 8> extreme_points(const std::vector<Point>& points_m) {
 }
 
 /// Drops points that lie clearly inside the polygon of the extreme points: they are no vertices of
-/// the hull, and sorting what is left is quicker by far.
+/// the hull, and sorting the remaining ones is much faster.
 void drop_inner_points(std::vector<Point>& points_m) {
   constexpr std::size_t kFew = 64;
   if (points_m.size() < kFew) return;
@@ -126,8 +126,8 @@ ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
   shifts_.clear();
 }
 
-/// Vertices of the hull of what the successors hold, each seen through its edge:
-/// hull of union over successors u of T_tu * sets[u].
+/// Vertices of the hull of the successors' sets, each seen through its edge: hull of union over
+/// successors u of T_tu * sets[u].
 std::vector<Point> ReachableSets::hull_over_successors(TrimId trim,
                                                        const SetPerTrim& sets_m) const {
   std::vector<Point> points_m;

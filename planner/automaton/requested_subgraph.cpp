@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
 
-/// As people count them, from 1.
+/// Numbered from 1, for users.
 std::string as_text(TrimId trim) { return std::to_string(trim.index + 1); }
 
 std::string as_text(const TrimPair& edge) { return as_text(edge.from) + " -> " + as_text(edge.to); }
@@ -61,8 +61,8 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
   spec.edges.clear();
 }
 
-/// Keeps the order of the declaration, which the rule of chains goes by: a new trim comes before
-/// the first with a larger number.
+/// Keeps the order of the declaration, which the chain rule depends on: a new trim comes before the
+/// first one with a larger number.
 void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (contains(spec.trims, trim))

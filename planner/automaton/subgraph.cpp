@@ -27,8 +27,8 @@ bool holds_twice(const std::vector<T>& list, const T& value) {
 }
 
 /// True if constant inputs that make the change within one step are within the limits. Without a
-/// friction circle and a limit on the curvature there are none otherwise: v and delta are linear in
-/// the inputs.
+/// friction circle and a limit on the curvature there are no other limits: v and delta are linear
+/// in the inputs.
 bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle,
                   const VehicleLimits& limits, double step_s) {
   constexpr double kRounding = 1.0 + 1e-9;
@@ -86,7 +86,7 @@ const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
   return nullptr;
 }
 
-/// Which maneuvers may be exit edges, from what is preferred to what is taken at last.
+/// Candidates for exit edges, in order of preference.
 struct ExitChoice {
   bool under_speed_limit;  ///< only of a subgraph with a limit: not faster than both their trims
   bool any_label;
@@ -107,7 +107,7 @@ bool allows(const ExitChoice& choice, const Maneuver& maneuver, const SubgraphSp
   return !choice.under_speed_limit || !speeds_up(maneuver, trims);
 }
 
-/// An equilibrium that is off can be held, too.
+/// A disabled equilibrium can be held, too.
 void add_standing_if_disabled(bool is_enabled, const Trim& trim, TrimId id,
                               const std::vector<const Maneuver*>& maneuvers,
                               std::vector<Edge>& edges) {
@@ -229,7 +229,7 @@ void Subgraph::switch_trims_on() {
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 }
 
-/// Fills successors_ of the trims that are on.
+/// Fills successors_ of the enabled trims.
 void Subgraph::switch_edges_on() {
   const std::vector<TrimPair> pairs =
       rule_edges(spec_.rule, automaton_->trims, spec_.trims, automaton_->vehicle,
@@ -283,8 +283,8 @@ void Subgraph::measure_distances() {
   }
 }
 
-/// Of the maneuvers out of a trim those into a trim that is nearer to the trims that are on, by the
-/// labels and speeds that rule 2 of Subgraph prefers; none if there is no way out.
+/// The maneuvers out of a trim into a trim that is nearer to the enabled trims, by the labels and
+/// speeds that rule 2 of Subgraph prefers; none if there is no way out.
 std::vector<Edge> Subgraph::exits_among(const std::vector<const Maneuver*>& maneuvers,
                                         const std::vector<bool>& is_nearer) const {
   std::vector<Edge> exits;
@@ -301,11 +301,11 @@ std::vector<Edge> Subgraph::exits_among(const std::vector<const Maneuver*>& mane
   return exits;
 }
 
-/// Fills successors_ and distances of the trims that are off, and start_trims_.
+/// Fills successors_ and distances of the disabled trims, and start_trims_.
 void Subgraph::add_exits() {
   const std::vector<Trim>& trims = automaton_->trims;
   const ManeuversFrom held = maneuvers_from(*automaton_);
-  // Trims by exit distance: the trims that are on are left at once, then ring after ring.
+  // Trims by exit distance: the enabled trims are left at once, then ring after ring.
   std::vector<bool> is_nearer = is_enabled_;
   std::vector<TrimId> ring;
   do {

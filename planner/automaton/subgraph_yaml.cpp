@@ -64,7 +64,7 @@ TrimPair read_pair(const Node& entry, const SubgraphContext& context) {
   return {as_trim(from), as_trim(to)};
 }
 
-/// The pairs that the rule gives among the declared trims.
+/// The rule's pairs among the declared trims.
 std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& context) {
   return rule_edges(spec.rule, context.trims, spec.trims, context.vehicle, context.limits,
                     context.step_s);
@@ -86,8 +86,8 @@ void read_edge_labels(const Node& entry, const SubgraphContext& context, Subgrap
   }
 }
 
-/// Checks an entry of `off` between other trims. Edges out of trims that are on are those of the
-/// subgraph; any other edge of the automaton may lead out of a trim that is off (see Subgraph).
+/// Checks an entry of `off` between other trims. Edges out of enabled trims are those of the
+/// subgraph; any other edge of the automaton may lead out of a disabled trim (see Subgraph).
 void check_off(const Node& one, const DisabledEdges& off, const std::vector<TrimPair>& pairs,
                const SubgraphContext& context, const SubgraphSpec& spec) {
   const bool is_left_from =

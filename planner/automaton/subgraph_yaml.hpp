@@ -8,14 +8,14 @@
 
 namespace hlc {
 
-/// What the subgraphs of a file belong to.
+/// The file's part that its subgraphs refer to.
 struct SubgraphContext {
   const std::vector<Trim>& trims;
   const VehicleParameters& vehicle;
   const VehicleLimits& limits;
   double step_s{};
   std::size_t horizon_steps{};
-  const std::vector<std::string>& labels;  ///< that the automaton has
+  const std::vector<std::string>& labels;  ///< of the automaton
 };
 
 /// Reads the list `subgraphs` of a configuration or automaton file. Each entry:

@@ -19,7 +19,7 @@ bool parse(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Takes a CSV text apart, row by row.
+/// Splits a CSV text row by row.
 class RowScanner {
  public:
   /// @param begin  of the second line
@@ -56,7 +56,7 @@ class RowScanner {
     return field;
   }
 
-  /// Nothing if the text ends within it.
+  /// Nothing if the text ends within the field.
   std::optional<std::string> quoted() {
     const std::size_t begin_line = line_;
     std::string field;

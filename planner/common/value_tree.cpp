@@ -13,9 +13,9 @@
 namespace hlc {
 namespace {
 
-/// Whoever prints or frees a value goes into it as deep as it is.
+/// Printing and freeing a value recurse to its depth.
 constexpr std::size_t kDeepest = 100;
-/// Aliases of YAML multiply what a short text holds.
+/// Aliases of YAML can multiply the values of a short text.
 constexpr std::size_t kMostValues = 10'000'000;
 constexpr std::size_t kLongestPath = 200;
 constexpr std::size_t kLongestShown = 60;
@@ -91,7 +91,7 @@ Value& ValueTreeBuilder::add(Value::Kind kind, int line) {
     return root_;
   }
   Value& parent = *open_.back();
-  // A map's entry was made with its key.
+  // The entry of a map was made with its key.
   if (parent.kind == Value::Kind::kList) parent.values.push_back({.line = line});
   Value& value = parent.values.back();
   value.kind = kind;

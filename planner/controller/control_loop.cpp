@@ -51,7 +51,7 @@ void ControlLoop::keep(const Message& message) {
   std::get<Received<Message>>(received_)[message.step].insert_or_assign(message.vehicle, message);
 }
 
-/// Those of this step, by sender.
+/// Messages of this step, by sender.
 template <class Message>
 std::vector<Message> ControlLoop::received() const {
   std::vector<Message> result;

@@ -9,7 +9,7 @@
 namespace hlc {
 namespace {
 
-/// Share of the safety margin that is kept for the error of a prediction of one step.
+/// Share of the safety margin that is reserved for the error of a one-step prediction.
 constexpr double kUnderWayShare = 0.2;
 
 }  // namespace
@@ -36,7 +36,7 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   moved_.reset();
   outside_area_m_ = {};
   deviation_m_ = 0.0;
-  if (own == nullptr) {  // nobody knows where the vehicle is: it may stand somewhere on its plan
+  if (own == nullptr) {  // the vehicle's position is unknown: it may stand anywhere on its plan
     moved_ = plan_;
     outside_area_m_ = footprint_area(vehicle.footprint, last_seen_, vehicle.safety_margin_m);
     return {.deviation_m = 0.0, .is_disturbed = true};
@@ -44,7 +44,8 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   last_seen_ = own->pose;
   const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
   seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};
-  if (now.value < plan_.first().value + steps_back) return {};  // just anchored, where it was seen
+  if (now.value < plan_.first().value + steps_back)
+    return {};  // just anchored at its measured pose
   seen_.step.value -= steps_back;
   seen_.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
   const State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
@@ -70,7 +71,7 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   return result;
 }
 
-/// True if the footprint lies in the area that the others know of that step.
+/// True if the footprint lies in the area announced for that step.
 bool PlanInForce::is_inside_announced(const Pose& measured, StepIndex step,
                                       double reserve_m) const {
   if (step < announced_.first) return false;
@@ -79,7 +80,8 @@ bool PlanInForce::is_inside_announced(const Pose& measured, StepIndex step,
   return contains(announced_.during(step), area);
 }
 
-/// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.
+/// True if a vehicle that follows `plan` from now on stays in the area announced for the current
+/// step.
 bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const {
   const double reserve_m = kUnderWayShare * automaton_->vehicle.safety_margin_m;
   const std::vector<PredictedInstant> drive =
@@ -89,9 +91,9 @@ bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const 
   });
 }
 
-/// Of a vehicle outside its areas also where it is if it stays where it was measured, if it drives
-/// on beside its plan as it is, and what lies between all these. So too of a vehicle that is not
-/// seen any more: it may have stopped on the way.
+/// For a vehicle outside its areas also its pose if it stays where it was measured, if it continues
+/// beside its plan, and the hull of all these. The same for a vehicle that is not seen any more: it
+/// may have stopped on the way.
 OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = announced_.final_area_m};
   if (from < plan_.end()) areas.areas_m.reserve(plan_.end().value - from.value);

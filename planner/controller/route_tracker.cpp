@@ -9,7 +9,7 @@ namespace {
 /// The path is searched this far behind the last projection, for a vehicle that was moved a little.
 constexpr double kProjectionBack_m = 0.3;
 
-/// A route that the vehicle fits is better than any that it does not.
+/// A route that the vehicle fits is better than any that it does not fit.
 constexpr double kUnfitCost_m = 1e6;
 
 }  // namespace

@@ -46,8 +46,8 @@ std::vector<double> increasing_numbers(const Node& map, const std::string& key,
   return numbers;
 }
 
-/// Standstill, then every speed with every steering angle that friction circle and limit on the
-/// curvature allow it.
+/// Standstill, then every speed with every steering angle that friction circle and curvature limit
+/// permit.
 std::vector<Trim> grid_trims(const Node& file, const VehicleParameters& vehicle,
                              const VehicleLimits& limits) {
   const Node grid = file.map("trims");

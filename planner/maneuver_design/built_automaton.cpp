@@ -42,7 +42,7 @@ std::string canonical_text(const AutomatonConfiguration& c) {
   return text;
 }
 
-/// None if it is not there, or if a built automaton bears its name.
+/// None if the file does not exist, or if a built automaton has its name.
 std::optional<std::filesystem::path> configuration_beside(const AutomatonFile& file,
                                                           const std::filesystem::path& path) {
   std::filesystem::path beside = path.parent_path() / file.configuration_file;

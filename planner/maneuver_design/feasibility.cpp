@@ -22,7 +22,7 @@ Words words_of(const Channel& channel) {
                             : Words{"steering", " rad", "steering rate", " rad/s"};
 }
 
-/// True if each trim, driven by itself, satisfies every g_i.
+/// True if each trim alone satisfies every g_i.
 bool trims_satisfy_path_constraints(const ManeuverProblem& problem, std::ostream& reason) {
   bool good = true;
   for (const Trim& trim : {problem.from, problem.to}) {
