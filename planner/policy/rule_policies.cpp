@@ -6,7 +6,7 @@
 namespace hlc {
 namespace {
 
-/// Times are multiples of a step, which a double does not hold.
+/// Times are multiples of a step, which a double does not represent exactly.
 constexpr double kRounding_s = 1e-6;
 
 class TimePolicy final : public Policy {

@@ -9,9 +9,9 @@
 namespace hlc {
 namespace {
 
-/// Times are multiples of a step, which a double does not hold.
+/// Times are multiples of a step, which a double does not represent exactly.
 constexpr double kStepRounding_s = 1e-6;
-/// Beside those in which a vehicle slows down: see the header.
+/// Added to the steps in which a vehicle slows down: see the header.
 constexpr std::size_t kStepsUntilItSlowsDown = 3;
 
 }  // namespace
@@ -67,7 +67,7 @@ void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
       .time_s = seconds_since(start), .last = last_ ? &*last_ : nullptr, .battery_v = battery_v};
   SubgraphRequest proposed;
   counts_ = kNoPolicyCounts;
-  for (std::size_t i = 0; i < policies_.size(); ++i) {  // all are asked: they remember
+  for (std::size_t i = 0; i < policies_.size(); ++i) {  // all are called: they have a state
     const std::optional<SubgraphRequest> proposal = policies_[i]->propose(view);
     if (!proposal || counts_ != kNoPolicyCounts) continue;
     proposed = *proposal;

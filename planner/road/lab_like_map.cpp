@@ -63,7 +63,7 @@ Pose shifted(const Pose& pose, double left_m) {
           .heading_rad = pose.heading_rad};
 }
 
-/// Turned by pi about the middle of the map.
+/// Turned by pi about the centre of the map.
 Pose turned(const Pose& pose) {
   return {.x_m = 4.5 - pose.x_m,
           .y_m = 4.0 - pose.y_m,
@@ -81,7 +81,7 @@ Line sampled(const CurvatureCurve& curve, double from_s_m, double to_s_m) {
 }
 
 /// The line, bent so that it begins at pose `begin` and ends at pose `end`: a cubic Hermite
-/// polynomial takes up what position and direction lack there. @pre points evenly spaced
+/// polynomial adds the missing position and direction. @pre points evenly spaced
 Line bent(Line line, const Pose& begin, const Pose& end) {
   const double intervals = static_cast<double>(line.size() - 1);
   const double length = intervals * (line[1].position_m() - line[0].position_m()).norm();
@@ -114,8 +114,8 @@ Line stretch(const CurvatureCurve& curve, double from_s_m, double to_s_m, const 
   return bent(sampled(curve, from_s_m, to_s_m), begin, end);
 }
 
-/// The mirror image about the vertical (`x`) or horizontal (`y`) middle line of the map, driven the
-/// other way round, so that driving stays clockwise.
+/// The mirror image about the vertical (`x`) or horizontal (`y`) centre line of the map, driven in
+/// the opposite direction, so that driving stays clockwise.
 Line mirrored_x(Line line) {
   std::reverse(line.begin(), line.end());
   for (Pose& pose : line) {
@@ -223,7 +223,7 @@ RoadNetwork lab_like_map() {
     add_lane(map, line, kLeft_m);
   }
   // Where blue leaves and green joins the ring, the lane between that ring and the second lanes:
-  // what red drives at the mirrored place.
+  // red's lane at the mirrored place.
   const Line beside_blue =
       bent(mirrored_x(red_line[3]), blue_leave.front(), shifted(blue_leave.back(), kLeft_m));
   const Line beside_green =

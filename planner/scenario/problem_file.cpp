@@ -141,7 +141,7 @@ void read_start(const Node& node, const Subgraph& subgraph, HorizonProblem& prob
   problem.start_trim = read_trim(node, subgraph);
 }
 
-/// A maneuver of the whole automaton: a plan in force may hold what is off by now.
+/// A maneuver of the whole automaton: a plan in force may hold disabled ones.
 std::vector<const Maneuver*> read_incumbent(const Node& root, const Subgraph& subgraph,
                                             const HorizonProblem& problem) {
   std::vector<const Maneuver*> incumbent;

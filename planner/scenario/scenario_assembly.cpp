@@ -21,7 +21,7 @@
 namespace hlc {
 namespace {
 
-/// The command line's engine, else the file's, else the profile's.
+/// The command line's engine, otherwise the file's, otherwise the profile's.
 SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices& choices,
                             const Profile& profile) {
   SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
@@ -69,7 +69,7 @@ void check_lab(const Scenario& scenario) {
                   scenario.subgraph->spec().name, fault, scenario.lab_file->string()));
 }
 
-/// The command line's policy, else the file's.
+/// The command line's policy, otherwise the file's.
 void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
                    Scenario& scenario) {
   scenario.policies = values.policies;
@@ -114,7 +114,7 @@ Route build_route_of(const RouteValues& values, const LaneletMap& map) {
 }
 
 ScenarioVehicle place_vehicle(const VehicleValues& values, const Route& route) {
-  // Its arc length has no other bounds than its route's.
+  // A range that bounds every arc length: only the route's own bounds hold.
   static_cast<void>(values.node.required<double>("start_m", between(0.0, route.path.length_m())));
   const double heading_rad = route.path.heading_rad_at(values.start_m);
   const Point position = route.path.at(values.start_m) +
@@ -189,7 +189,7 @@ void check_starts(const ScenarioValues& values, const Scenario& scenario) {
   values.vehicles[second].node.fail("start_m", allowed);
 }
 
-/// A zone that nobody comes through is a mistake: where it should be, nobody would slow down.
+/// A zone that no route passes is a mistake: its limit would never hold.
 void check_zones(const Node& node, const Scenario& scenario) {
   for (const auto& [name, settings] : scenario.policies) {
     for (std::size_t i = 0; i < settings.zones.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace hlc {
 namespace {
 
-/// The command line's, else the file's.
+/// The command line's, otherwise the file's.
 const SubgraphSpec& chosen_subgraph(const ScenarioValues& values, const ScenarioChoices& choices,
                                     const std::vector<SubgraphSpec>& subgraphs) {
   const std::string name = choices.subgraph.value_or(values.subgraph);
@@ -22,7 +22,7 @@ const SubgraphSpec& chosen_subgraph(const ScenarioValues& values, const Scenario
   values.node.fail("subgraph", names_of(subgraphs));
 }
 
-/// What does not depend on the automaton.
+/// The inputs that do not depend on the automaton.
 ScenarioInputs load_map(const ScenarioValues& values, const ScenarioChoices& choices) {
   ScenarioInputs inputs;
   if (values.circle) {

@@ -13,7 +13,7 @@
 namespace hlc {
 namespace {
 
-/// A car may be started so far off its place, to see what becomes of it.
+/// A car may be started this far off its place, to test its behaviour there.
 constexpr double kMostBeside_m = 10.0;
 constexpr double kMostTurned_rad = std::numbers::pi;
 

@@ -14,7 +14,7 @@
 namespace hlc {
 namespace {
 
-/// Uniform in [0, 1); the standard leaves its own distribution to the library.
+/// Uniform in [0, 1), independent of the library: the standard does not fix its own distribution.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
 
 }  // namespace

@@ -11,10 +11,10 @@
 namespace hlc {
 namespace {
 
-/// Expansions between two questions to the stop condition.
+/// Expansions between two checks of the stop condition.
 constexpr std::size_t kStopInterval = 64;
 
-/// Programmer's mistakes only; see the preconditions in the header.
+/// For programmer's mistakes only; see the preconditions in the header.
 [[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable,
                                      CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
@@ -104,7 +104,7 @@ void BestFirstSearch::end_at_goal(VertexId goal, const HorizonProblem& problem, 
   result.reason = NoPath::kNone;
 }
 
-/// What every path costs at least, if by the cost-to-go it is `estimate`.
+/// Least cost of any path, given its `estimate` by the cost-to-go.
 double BestFirstSearch::lower_bound(double estimate, const HorizonProblem& problem) const {
   if (is_admissible(options_.cost_to_go)) return estimate;
   return least_cost_of_problem(subgraph_, reachable_, costs_, problem);
