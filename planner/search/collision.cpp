@@ -48,7 +48,7 @@ void CollisionCheck::prepare(const HorizonProblem& problem) {
   const std::size_t horizon_steps = problem.horizon_steps();
   assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps);
 
-  // Rounding must not leave out what only just touches.
+  // Rounding must not drop an area that only just touches.
   constexpr double kSlackM = 1e-6;
   const Point start_m = problem.start.position_m();
   double farthest_m = 0.0;

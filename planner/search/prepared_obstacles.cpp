@@ -7,12 +7,12 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-// The kernel reads corners and boundaries as they lie in memory.
+// The kernel reads corners and boundaries directly from memory.
 static_assert(sizeof(Point) == 2 * sizeof(double));
 static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v<Segment>);
 
-/// As many as PieceData of a polygon with so many corners. Each but the last takes kNextPiece of
-/// the triangles at its first corner.
+/// Number of PieceData for a polygon with this many corners. Each except the last takes kNextPiece
+/// of the triangles at its first corner.
 std::size_t pieces_of(std::size_t corners) { return (corners - 2 + kNextPiece - 1) / kNextPiece; }
 
 template <class T>

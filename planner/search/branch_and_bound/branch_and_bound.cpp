@@ -30,7 +30,7 @@ using branch_and_bound::VertexData;
 
 using Instructions = BranchAndBound::Instructions;
 
-/// The last of those up to `most` that the processor has.
+/// The most advanced instruction set up to `most` that the processor has.
 Instructions available(Instructions most) {
 #ifdef HLC_AVX_KERNELS
   const bool has_avx2 = __builtin_cpu_supports("avx2");
@@ -115,7 +115,8 @@ class BranchAndBound::Core {
         path[k].keys = &keys_[k * tables.most_edges()];
       }
     }
-    // As far as reference points may be from the start, if places seen from a vertex are to count.
+    // Largest distance of reference points from the start for which coordinates seen from a vertex
+    // are used.
     const double far_m = tables.counted_m() - static_cast<double>(n) * tables.longest_m();
     const double squared_far_m2 = far_m > 0.0 ? far_m * far_m : -1.0;
     plan.is_far = false;
@@ -166,7 +167,7 @@ class BranchAndBound::Core {
     kernel.prepare(plan, path[0]);
   }
 
-  /// The test of CollisionCheck, where the kernel's is too close to call.
+  /// The test of CollisionCheck, for cases that are too close for the kernel.
   [[nodiscard]] bool decides(const Question& question) const {
     const Maneuver& maneuver = *tables.maneuver(question.edge);
     const Frame start = frame_of(*question.vertex);
@@ -250,12 +251,12 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
   const bool has_path = search.best_cost < kNoPath;
   if (has_path) write_best(problem, result);
   if (search.stopped_early) {
-    // Keys stand for f but for their last bits, which number the children.
+    // Keys equal f except for their last bits, which number the children.
     constexpr double kLastBit = std::numeric_limits<double>::epsilon();
     search.lower_bound *= 1.0 - kLastBit * static_cast<double>(core_->tables.view().index_mask + 1);
     const EdgeCosts& costs = core_->costs;
     const double of_open = search.lower_bound + static_cast<double>(n) * costs.least();
-    // The start's own bound is tighter than that of some of its children, now and then.
+    // The start's own bound is sometimes tighter than that of some of its children.
     const double of_start = least_cost_of_problem(subgraph_, reachable_, costs, problem);
     stop_early(has_path, std::max(of_open, of_start), result);
   } else if (has_path) {

@@ -17,7 +17,7 @@ namespace {
 
 using ControlType = oc::DiscreteControlSpace::ControlType;
 
-/// A footprint of room around what can be reached.
+/// Adds a footprint of room to the reachable box.
 constexpr double kRoom_m = 0.1;
 
 class ManeuverPropagator final : public oc::StatePropagator {

@@ -31,8 +31,8 @@ std::size_t expansions_from_text(const std::string& text) {
   return value;
 }
 
-/// Written into the states of `former`, if that is a path as long which nobody else has: making
-/// states takes longer than many a search.
+/// Written into the states of `former`, if that is a path of the same length without another owner:
+/// making states takes longer than many a search.
 ob::PathPtr make_geometric_path(const ob::SpaceInformationPtr& si, const HorizonProblem& problem,
                                 const SearchResult& plan, ob::PathPtr former) {
   const std::size_t num_states = plan.maneuvers.size() + 1;
@@ -73,7 +73,7 @@ RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si
   declare_parameters();
 }
 
-/// Whoever changes a parameter has the engine made anew by the next `solve`.
+/// After a change of a parameter the next `solve` makes a new engine.
 void RecedingHorizonPlanner::declare_parameters() {
   const auto declare = [this](const std::string& name, const std::string& allowed, auto set,
                               auto get) {
