@@ -36,7 +36,7 @@ while (($#)); do
 done
 case "$preset" in
   release | debug | asan | tsan | coverage) ;;
-  *) echo "build.sh: --preset = $preset, allowed release, debug, asan, tsan, coverage" >&2; exit 2 ;;
+  *) echo "build.sh: --preset = $preset, must be one of release, debug, asan, tsan, coverage" >&2; exit 2 ;;
 esac
 
 mkdir -p "$root/build/$preset"

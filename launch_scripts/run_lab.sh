@@ -61,7 +61,7 @@ while (($#)); do
   shift
   name=${name#--}
   [[ $name != dump-problems ]] || name=dump_problems
-  [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , allowed a new or an empty folder"
+  [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a new or an empty folder"
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | steps | simulated_time | \
       noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
@@ -70,23 +70,23 @@ while (($#)); do
   esac
 done
 [[ $simulated_time == true || $simulated_time == false ]] ||
-  fail "--simulated_time = $simulated_time, allowed true, false"
+  fail "--simulated_time = $simulated_time, must be one of true, false"
 [[ $on_death == stop || ($on_death == continue && $simulated_time == false) ]] ||
-  fail "--on_death = $on_death, allowed stop, and in real time continue"
-[[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
-whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
+  fail "--on_death = $on_death, must be stop, or in real time continue"
+[[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, must be one of loopback, lab"
+whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
 for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
 in_range() { # flag, value, from, to
-  [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, allowed $3 ... $4"
+  [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, must be in $3 ... $4"
 }
 in_range steps "$steps" 1 10000
 in_range startup_timeout_s "$startup_timeout_s" 1 3000
 in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
-[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
+[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 case "$preset" in
   release | debug | asan | tsan) ;;
-  *) fail "--preset = $preset, allowed release, debug, asan, tsan" ;;
+  *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
 esac
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
@@ -111,7 +111,7 @@ steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
 if [[ -n $dump_problems ]]; then
   driven_by=$("$bin/show_scenario" "${check[@]}" --print_policy) || exit 2
   [[ $driven_by == none ]] ||
-    fail "--dump-problems with policy $driven_by, allowed with --policy none: a problem names a subgraph of the automaton's file"
+    fail "--dump-problems with policy $driven_by, must be used with --policy none: a problem names a subgraph of the automaton's file"
 fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 
@@ -133,7 +133,7 @@ block_is_free() { # first domain
 if [[ -n $dds_domain ]]; then
   dds_domain=$((10#$dds_domain))
   ((dds_domain + largest_id <= 50)) ||
-    fail "--dds_domain = $dds_domain, allowed 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
+    fail "--dds_domain = $dds_domain, must be in 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
   block_is_free "$dds_domain" ||
     fail "--dds_domain = $dds_domain: another run uses one of $dds_domain ... $((dds_domain + largest_id))"
 else
@@ -146,10 +146,10 @@ else
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
 
-allowed="allowed a new or an empty folder"
+required="must be a new or an empty folder"
 check_new_or_empty() { # flag, folder
-  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is no folder, $allowed"
-  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $allowed"
+  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is no folder, $required"
+  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $required"
 }
 made=()
 make_folder() { # flag, folder
@@ -157,11 +157,11 @@ make_folder() { # flag, folder
   [[ -d $2 ]] || made=("$2" "${made[@]}")
   if ! mkdir -p -- "$2" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
-    fail "--$1 = $2: the folder cannot be made, $allowed"
+    fail "--$1 = $2: the folder cannot be made, $required"
   fi
   if ! probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) || ! rm -- "$probe" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
-    fail "--$1 = $2: nothing can be written there, $allowed that may be written to"
+    fail "--$1 = $2: nothing can be written there, $required that is writable"
   fi
 }
 [[ -z $out ]] || check_new_or_empty out "$out"

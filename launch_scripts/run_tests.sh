@@ -53,7 +53,7 @@ while (($#)); do
     *) [[ -z $folder ]] || fail "FOLDER = $1, already given as $folder"
       folder=${1#"$root"/} folder=${folder#./} folder=${folder#tests/} folder=${folder%/}
       test_folders | grep -qxF -e "$folder" ||
-        fail "FOLDER = $1, allowed $(test_folders | paste -sd ' ' | sed 's/ /, /g')" ;;
+        fail "FOLDER = $1, must be one of $(test_folders | paste -sd ' ' | sed 's/ /, /g')" ;;
   esac
   shift
 done

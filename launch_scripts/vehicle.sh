@@ -65,7 +65,7 @@ take_flags() {
     shift
     name=${name#--}
     [[ $name != dump-problems ]] || name=dump_problems
-    [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , allowed a folder"
+    [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a folder"
     [[ $name == out || $name == only || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
     printf -v "$name" '%s' "$value"
   done
@@ -79,23 +79,23 @@ if [[ -n $only && -n $out && -e $flags_file ]]; then
 fi
 case "$only" in
   "" | hlc | middleware | vehicle) ;;
-  *) fail "--only = $only, allowed hlc, middleware, vehicle" ;;
+  *) fail "--only = $only, must be one of hlc, middleware, vehicle" ;;
 esac
-[[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, allowed stop, continue"
-[[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, allowed 1 ... 30"
+[[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, must be one of stop, continue"
+[[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, must be in 1 ... 30"
 id=$((10#$id))
-whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
+whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
 for name in cars dds_domain middleware_domain controller_domain noise_seed startup_timeout_s; do
   whole_number "$name" "${!name}"
 done
-[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
+[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + id))
 [[ -n $out ]] || out=$root/runs/vehicle_$id
 if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
-  fail "--out = $out: a finished run, allowed a new folder, or --only for one that is under way"
+  fail "--out = $out: a finished run, must be a new folder, or --only for one that is under way"
 fi
 
 # run_lab.sh has reserved its domains for itself, and says so. By hand a domain is shared with other vehicles.
@@ -112,7 +112,7 @@ if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; 
 fi
 if [[ -n $dump_problems ]]; then # other vehicles of the run may write there, too
   { mkdir -p -- "$dump_problems" && probe=$(mktemp -- "$dump_problems/XXXXXX") && rm -- "$probe"; } 2>/dev/null ||
-    fail "--dump-problems = $dump_problems: nothing can be written there, allowed a folder that can be made and written to"
+    fail "--dump-problems = $dump_problems: nothing can be written there, must be a folder that can be made and written to"
   dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
@@ -135,7 +135,7 @@ fi
 if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
   pose=$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
-  [[ -n $pose ]] || fail "--id = $id, allowed $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
+  [[ -n $pose ]] || fail "--id = $id, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
 fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"

@@ -109,7 +109,7 @@ hlc::TrimId trim_of(const std::string& flag, const std::string& edge, std::strin
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), trim);
   if (error != std::errc{} || end != number.data() + number.size() || trim == 0) {
     throw std::invalid_argument(flag + ": '" + hlc::one_line(edge) +
-                                "', allowed from:to with numbers of trims, from 1");
+                                "', must be from:to with numbers of trims, from 1");
   }
   return {trim - 1};
 }
@@ -136,7 +136,7 @@ std::vector<hlc::CriterionWeight> weights_of(const std::vector<std::string>& tex
     if (one.criterion.empty() || error != std::errc{} || end != text.data() + text.size() ||
         !std::isfinite(one.weight) || one.weight < 0.0) {
       throw std::invalid_argument("--weights: '" + hlc::one_line(text) +
-                                  "', allowed criterion=number, at least 0");
+                                  "', must be criterion=number, number >= 0");
     }
     weights.push_back(std::move(one));
   }

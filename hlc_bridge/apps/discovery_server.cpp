@@ -53,10 +53,10 @@ void check_can_listen(const std::string& ip, std::uint16_t port) {
   if (result == 0) return;
   if (error == EADDRNOTAVAIL) {
     throw std::invalid_argument("--discovery_server_ip: " + ip +
-                                " is not allowed, an address of this machine");
+                                ", must be an address of this machine");
   }
   throw std::invalid_argument("--discovery_server_port: " + std::to_string(port) +
-                              " is not allowed, one that is free here");
+                              ", must be free on this machine");
 }
 
 /// Serves until it is stopped.

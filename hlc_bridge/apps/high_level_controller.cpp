@@ -150,9 +150,10 @@ int main(int argc, char** argv) {
     flags.scenario.file = scenario_file(flags.scenario.file);
     scenario = hlc::read_scenario(flags.scenario);
     if (flags.problem_folder && scenario->policy != hlc::kNoPolicy) {
-      throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
-                                  ", allowed with --policy none: a problem names a subgraph that "
-                                  "the automaton's file declares");
+      throw std::invalid_argument(
+          "--dump-problems with policy " + scenario->policy +
+          ", must be used with --policy none: a problem names a subgraph that "
+          "the automaton's file declares");
     }
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;

@@ -72,7 +72,7 @@ hlc::LabControlOptions process_options(const Flags& flags) {
   if (flags.on_death == "continue") {
     if (flags.network.simulated_time) {
       throw std::invalid_argument(
-          "--on_death = continue with --simulated_time = true, allowed stop: logical time waits "
+          "--on_death = continue with --simulated_time = true, must be stop: logical time waits "
           "for "
           "everybody");
     }

@@ -69,14 +69,14 @@ hlc::MiddlewareOptions process_options(const Flags& flags) {
   options.offset = flags.offset_nanoseconds;
   options.startup_timeout = flags.network.startup_timeout();
   if (flags.wait_for_start) {
-    throw std::invalid_argument("--wait_for_start = true, allowed false");
+    throw std::invalid_argument("--wait_for_start = true, must be false");
   }
   if (options.logical_time && options.keep_running) {
     throw std::invalid_argument("--keep_running needs --simulated_time=false");
   }
   if (options.logical_time && options.offset != hlc::kListOffset) {
     throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +
-                                ", allowed 1 in logical time");
+                                ", must be 1 in logical time");
   }
   return options;
 }

@@ -54,7 +54,7 @@ void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
   for (const std::string& address : addresses) {
     frtps::Locator_t locator;  // port 0: those of the domain
     if (!frtps::IPLocator::setIPv4(locator, address)) {
-      throw std::invalid_argument("peer \"" + address + "\", allowed IPv4 addresses");
+      throw std::invalid_argument("peer \"" + address + "\", must be an IPv4 address");
     }
     initial_peers.push_back(locator);
   }

@@ -32,8 +32,8 @@ std::string placement_line(const Controller& controller) {
   }
   return vehicle_text(controller) + " fits no route: nearest is " + route +
          text_of(
-             " at %.3f m; it reaches %.0f mm beyond the lanes (allowed %.0f mm), is turned by "
-             "%.3f rad (allowed %.3f rad)",
+             " at %.3f m; it reaches %.0f mm beyond the lanes (must be <= %.0f mm), is turned by "
+             "%.3f rad (must be <= %.3f rad)",
              placement.s_m, 1e3 * std::max(0.0, placement.beyond_m()), 1e3 * kFitsBeyond_m,
              placement.turned_rad, kFitsTurned_rad) +
          (placement.is_on_ground ? "" : ", and is not on the map");

@@ -27,17 +27,17 @@ void check_weights(const std::vector<CriterionWeight>& weights) {
     if (std::ranges::find(known, criterion) == known.end()) {
       std::string names;
       for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-      refuse_weights("criterion '" + one_line(criterion) + "', allowed " + names);
+      refuse_weights("criterion '" + one_line(criterion) + "', must be one of " + names);
     }
     if (std::ranges::count(weights, criterion, &CriterionWeight::criterion) > 1) {
       refuse_weights(criterion + " is listed twice");
     }
     if (!(weight >= 0.0) || !std::isfinite(weight)) {
-      refuse_weights(criterion + " = " + shortest_text(weight) + ", allowed at least 0");
+      refuse_weights(criterion + " = " + shortest_text(weight) + ", must be >= 0");
     }
     sum += weight;
   }
-  if (sum <= 0.0) refuse_weights("all 0, allowed at least one above 0");
+  if (sum <= 0.0) refuse_weights("all 0, at least one must be > 0");
 }
 
 /// The configuration may have been edited since the automaton was built.
@@ -117,8 +117,8 @@ void WeightDesign::check(const Subgraph& subgraph) const {
       if (speed_mps <= top_speed_mps_ + kSpeedRounding_mps) continue;
       throw std::invalid_argument("maneuver " + std::to_string(from.index + 1) + " -> " +
                                   std::to_string(edge.to.index + 1) + " (" + edge.maneuver->label +
-                                  ") reaches " + shortest_text(speed_mps) + " m/s, allowed " +
-                                  shortest_text(top_speed_mps_) +
+                                  ") reaches " + shortest_text(speed_mps) +
+                                  " m/s, must be <= " + shortest_text(top_speed_mps_) +
                                   ", the most that the scenario's automaton holds");
     }
   }

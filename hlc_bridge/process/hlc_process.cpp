@@ -115,7 +115,7 @@ void HlcProcess::prepare_thread() const {
                  options_.node_id);
   }
   if (options_.core && !stay_on_core(*options_.core)) {
-    spdlog::warn("{}: --core = {}: this machine has no such core for it, allowed 0 ... {}",
+    spdlog::warn("{}: --core = {}: this machine has no such core for it, must be in 0 ... {}",
                  options_.node_id, *options_.core, std::thread::hardware_concurrency() - 1);
   }
 }

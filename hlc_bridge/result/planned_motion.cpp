@@ -54,7 +54,7 @@ std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanos
     if (maneuver == nullptr) {
       refuse(*rows[k], "no maneuver from trim " + number_of(report.planned_trim) + " to " +
                            number_of(rows[k + 1]->record.report.planned_trim) + " with label '" +
-                           one_line(report.maneuver) + "', allowed those of the automaton");
+                           one_line(report.maneuver) + "', must be in the automaton");
     }
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
     for (Nanoseconds t = interval; t < period; t += interval) {

@@ -51,7 +51,7 @@ template <class IsGood>
                                       const std::string& shown) {
   return CLI::Validator(
       [is_good, allowed](std::string& text) {
-        return is_good(text) ? std::string{} : one_line(text) + ", allowed " + allowed;
+        return is_good(text) ? std::string{} : one_line(text) + ", must be " + allowed;
       },
       shown);
 }
@@ -68,28 +68,28 @@ template <class Type>
 
 /// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range accepts.
 inline CLI::Validator within(double min, double max) {
-  const std::string allowed = std::isfinite(min) && std::isfinite(max)
-                                  ? shortest_text(min) + " ... " + shortest_text(max)
-                                  : "a finite number";
+  const bool is_bounded = std::isfinite(min) && std::isfinite(max);
+  const std::string shown =
+      is_bounded ? shortest_text(min) + " ... " + shortest_text(max) : "a finite number";
   const auto is_good = [min, max](const std::string& text) {
     double value{};
     return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= min &&
            value <= max;
   };
-  return allowing(is_good, allowed, allowed);
+  return allowing(is_good, (is_bounded ? "in " : "") + shown, shown);
 }
 
 /// For flags with whole numbers: digits only. CLI11 converts "-5" to a large unsigned number, and a
 /// number that is too large to the largest.
 inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
-  const std::string allowed = fmt::format("{} ... {}", min, max);
+  const std::string shown = fmt::format("{} ... {}", min, max);
   const auto is_good = [min, max](const std::string& text) {
     std::uint64_t value{};
     const char* const end = text.data() + text.size();
     const auto [read_until, error] = std::from_chars(text.data(), end, value);
     return error == std::errc{} && read_until == end && value >= min && value <= max;
   };
-  return allowing(is_good, allowed, allowed);
+  return allowing(is_good, "in " + shown, shown);
 }
 
 /// The same for every finite number.
@@ -100,11 +100,11 @@ inline CLI::Validator finite() {
 
 /// For flags with names.
 inline CLI::Validator among(const std::vector<std::string>& names) {
-  const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
+  const std::string shown = fmt::format("{}", fmt::join(names, ", "));
   const auto is_good = [names](const std::string& text) {
     return std::ranges::find(names, text) != names.end();
   };
-  return allowing(is_good, allowed, allowed);
+  return allowing(is_good, "one of " + shown, shown);
 }
 
 /// Checks of the type alone, after the flag's own checks.
@@ -139,10 +139,10 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
       return failed;
     }
   } catch (const CLI::ExtrasError& error) {
-    complain(app.get_name(), std::string(error.what()) + ", allowed what --help lists");
+    complain(app.get_name(), std::string(error.what()) + ", must be a flag that --help lists");
     return 2;
   } catch (const CLI::ArgumentMismatch& error) {
-    complain(app.get_name(), std::string(error.what()) + ", allowed with a value");
+    complain(app.get_name(), std::string(error.what()) + ", must have a value");
     return 2;
   } catch (const CLI::ParseError& error) {
     complain(app.get_name(), error.what());
@@ -178,7 +178,7 @@ template <class Value>
 void check_each_once(const std::string& flag, const std::vector<Value>& values) {
   for (auto value = values.begin(); value != values.end(); ++value) {
     if (std::find(values.begin(), value, *value) == value) continue;
-    throw std::invalid_argument(fmt::format("{} = {} twice, allowed each once", flag, *value));
+    throw std::invalid_argument(fmt::format("{} = {} twice, must be unique", flag, *value));
   }
 }
 

@@ -238,11 +238,11 @@ void check_can_be_compared(const hlc::ProblemFile& file, const std::filesystem::
   }
   const auto& weights = file.search.criterion_weights;
   if (weights.empty()) return;
-  throw std::invalid_argument(path.string() + ": search.criterion_weights." +
-                              weights.front().criterion + " = " +
-                              hlc::shortest_text(weights.front().weight_m2) +
-                              ", allowed none: the planners are compared by the distance from the "
-                              "reference alone");
+  throw std::invalid_argument(
+      path.string() + ": search.criterion_weights." + weights.front().criterion + " = " +
+      hlc::shortest_text(weights.front().weight_m2) +
+      ", must be absent: the planners are compared by the distance from the "
+      "reference alone");
 }
 
 int run(const Flags& flags) {

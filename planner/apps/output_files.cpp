@@ -31,14 +31,14 @@ std::string objection_to(const fs::path& file) {
   if (file.empty()) return "the name of a file";
   std::error_code error;
   const fs::path folder = folder_of(file);
-  if (!fs::is_directory(folder, error)) return "a file in a folder that exists";
+  if (!fs::is_directory(folder, error)) return "a file in an existing folder";
   // The link itself is checked: /dev/stdout may lead to a regular file.
   const fs::file_status status = fs::symlink_status(file, error);
   if (!file.has_filename() ||
       !(status.type() == fs::file_type::not_found || status.type() == fs::file_type::regular)) {
     return "a new or a regular file";
   }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) return "a file in a folder that may be written to";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) return "a file in a writable folder";
   return "";
 }
 
@@ -56,7 +56,7 @@ void check_output_files(const std::vector<OutputFile>& outputs,
     if (!output.file) continue;
     const auto fail = [&output](const std::string& allowed) {
       throw std::invalid_argument(output.flag + " = " + one_line(output.file->string()) +
-                                  ", allowed " + allowed);
+                                  ", must be " + allowed);
     };
     const std::string objection = objection_to(*output.file);
     if (!objection.empty()) fail(objection);

@@ -94,7 +94,7 @@ void check_trim(const char* flag, const std::vector<double>& trim,
     return;
   }
   const std::string steering = hlc::shortest_text(limits.steering_max_rad);
-  throw std::invalid_argument(std::string(flag) + " = " + printed(trim) + ", allowed " +
+  throw std::invalid_argument(std::string(flag) + " = " + printed(trim) + ", must be in " +
                               hlc::shortest_text(limits.speed_min_mps) + " ... " +
                               hlc::shortest_text(limits.speed_max_mps) + " m/s and -" + steering +
                               " ... " + steering + " rad");
@@ -103,7 +103,7 @@ void check_trim(const char* flag, const std::vector<double>& trim,
 /// Durations are free within the bounds; the search starts at the duration nearest to step_s.
 void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& problem) {
   if (bounds_s[0] > bounds_s[1]) {
-    throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", allowed MIN <= MAX");
+    throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", must be MIN <= MAX");
   }
   problem.free_duration = {bounds_s[0], bounds_s[1]};
   problem.duration_s = std::clamp(problem.duration_s, bounds_s[0], bounds_s[1]);
@@ -112,7 +112,7 @@ void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& pr
 hlc::ParetoProblem problem_of(const Flags& flags) {
   if (flags.criteria[0] == flags.criteria[1]) {
     throw std::invalid_argument("--criteria = " + flags.criteria[0] + " " + flags.criteria[1] +
-                                ", allowed two that differ");
+                                ", must be two different ones");
   }
   const hlc::AutomatonConfiguration c = hlc::read_automaton_configuration(flags.configuration);
   check_trim("--from", flags.from, c.limits);

@@ -177,14 +177,15 @@ int run(const Flags& flags) {
   const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
   const std::vector<hlc::HorizonProblem> problems = problems_of(scenario);
   if (problems.empty()) {
-    throw std::invalid_argument(flags.scenario.file.string() +
-                                ": nothing is planned in its steps, allowed one that drives");
+    throw std::invalid_argument(
+        flags.scenario.file.string() +
+        ": nothing is planned in its steps, must be a scenario that drives");
   }
   const Measurements found = measure(scenario, problems);
   if (found.slowest.empty()) {
     throw std::invalid_argument(flags.scenario.file.string() + ": no search expands " +
                                 std::to_string(kTelling) +
-                                " vertices, allowed a scenario that takes some searching");
+                                " vertices, must be a scenario with harder searches");
   }
   std::printf(
       "%s: engine %s, cost-to-go %s, horizon %zu, subgraph %s; %zu problems of %zu steps\n\n",
@@ -218,9 +219,8 @@ int run(const Flags& flags) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Proposes max_expansions for a scenario: measures the expansions per second of its engine on "
-      "this machine, with the scenario's problems and with one in which all of the tree is "
-      "searched "
-      "in vain, and takes the slowest.",
+      "this machine, with the scenario's problems and with one in which the whole tree is "
+      "searched without a result, and takes the slowest.",
       "propose_budget"};
   Flags flags;
   declare(app, flags);

@@ -189,14 +189,15 @@ void check_subgraphs(const Node& node, const AutomatonFile& file) {
   for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
     if (file.automaton->find({i}, {i}, kSelfLoopLabel) == nullptr) {
       node.fail("maneuvers",
-                fmt::format("the own step of every trim; that of trim {} is missing", i + 1));
+                fmt::format("a list with the self-loop of every trim; that of trim {} is missing",
+                            i + 1));
     }
   }
   for (const SubgraphSpec& spec : file.subgraphs) {
     try {
       check_driving(Subgraph(file.automaton, spec), file.horizon_steps);
     } catch (const std::invalid_argument& error) {
-      node.fail("subgraphs", std::string("what the maneuvers allow: ") + error.what());
+      node.fail("subgraphs", std::string("possible with the maneuvers: ") + error.what());
     }
   }
 }
@@ -217,7 +218,7 @@ std::string shell_word(const std::filesystem::path& path) {
 void check_version(const Node& node, const std::filesystem::path& path) {
   if (!node.has("automaton_schema")) {
     throw std::invalid_argument(path.string() +
-                                ":1: no built automaton, allowed a file of build_automaton");
+                                ":1: no built automaton, must be a file of build_automaton");
   }
   if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
   node.fail("automaton_schema",

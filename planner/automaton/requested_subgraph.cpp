@@ -33,7 +33,8 @@ bool contains(const std::vector<TrimId>& trims, TrimId trim) {
 
 void check_trim(TrimId trim, const UniversalAutomaton& automaton) {
   if (trim.index >= automaton.trims.size()) {
-    refuse("trim " + as_text(trim) + ", allowed 1 ... " + std::to_string(automaton.trims.size()));
+    refuse("trim " + as_text(trim) + ", must be in 1 ... " +
+           std::to_string(automaton.trims.size()));
   }
 }
 
@@ -41,7 +42,8 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
                    const SubgraphRequest& request) {
   const std::vector<std::string>& labels = request.labels;
   if (!request.weights.empty()) {
-    if (!labels.empty()) refuse("labels " + listed(labels) + " and weights, allowed one of both");
+    if (!labels.empty())
+      refuse("labels " + listed(labels) + " and weights, must be only one of both");
     spec.labels = {label_of(request.weights)};
     spec.edges.clear();
     return;
@@ -53,8 +55,8 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
   }
   for (const std::string& label : labels) {
     if (!known.contains(label)) {
-      refuse("label '" + one_line(label) + "', allowed " + listed(known) +
-             ", which the automaton holds");
+      refuse("label '" + one_line(label) + "', must be one of " + listed(known) +
+             " in the automaton");
     }
   }
   spec.labels = labels;
@@ -66,7 +68,7 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
 void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (contains(spec.trims, trim))
-    refuse("trim " + as_text(trim) + " on: it is on, allowed trims that are off");
+    refuse("trim " + as_text(trim) + " on: must be disabled, is enabled");
   spec.trims.insert(std::ranges::find_if(spec.trims, [trim](TrimId other) { return other > trim; }),
                     trim);
 }
@@ -74,7 +76,7 @@ void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim
 void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (!contains(spec.trims, trim))
-    refuse("trim " + as_text(trim) + " off: it is off, allowed trims that are on");
+    refuse("trim " + as_text(trim) + " off: must be enabled, is disabled");
   std::erase(spec.trims, trim);
   const auto names_it = [trim](const auto& one) {
     return one.edge.from == trim || one.edge.to == trim;
@@ -86,7 +88,7 @@ void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimP
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
   if (std::erase_if(spec.off, [&](const DisabledEdges& off) { return off.edge == edge; }) == 0) {
-    refuse("edge " + as_text(edge) + " on: the scenario's subgraph does not have it off");
+    refuse("edge " + as_text(edge) + " on: must be disabled in the scenario's subgraph");
   }
 }
 
@@ -103,8 +105,8 @@ void limit_speed(SubgraphSpec& spec, const UniversalAutomaton& automaton, double
     if (speed_mps > 0.0) slowest_mps = std::min(slowest_mps, speed_mps);
   }
   if (!(max_speed_mps >= slowest_mps) || !std::isfinite(max_speed_mps)) {
-    refuse("speed limit " + shortest_text(max_speed_mps) + " m/s, allowed at least " +
-           shortest_text(slowest_mps) + ", the slowest moving trim that is on");
+    refuse("speed limit " + shortest_text(max_speed_mps) +
+           " m/s, must be >= " + shortest_text(slowest_mps) + ", the slowest enabled moving trim");
   }
   spec.max_speed_mps = max_speed_mps;
 }

@@ -175,7 +175,7 @@ void Subgraph::fail(const std::string& reason) const {
 void Subgraph::check_trim(TrimId trim) const {
   const std::size_t count = automaton_->trims.size();
   if (trim.index < count) return;
-  fail("trim " + printed(trim) + ", allowed 1 ... " + std::to_string(count));
+  fail("trim " + printed(trim) + ", must be in 1 ... " + std::to_string(count));
 }
 
 void Subgraph::check_labels(const std::vector<std::string>& labels) const {
@@ -207,7 +207,7 @@ void Subgraph::check_spec() const {
     check_trim(off.edge.from);
     check_trim(off.edge.to);
     if (off.edge.from == off.edge.to && stands(off.edge.from)) {
-      fail("edge " + printed(off.edge) + " is off, but standing must be possible");
+      fail("edge " + printed(off.edge) + " is disabled, but standing must be possible");
     }
   }
 }
@@ -236,7 +236,7 @@ void Subgraph::switch_edges_on() {
                  automaton_->limits, automaton_->step_s);
   for (const EdgeLabels& one : spec_.edges) {
     if (!std::binary_search(pairs.begin(), pairs.end(), one.edge)) {
-      fail("labels for edge " + printed(one.edge) + ", which its rule does not give");
+      fail("labels for edge " + printed(one.edge) + ", which is not an edge of its rule");
     }
   }
   const ManeuversFrom held = maneuvers_from(*automaton_);
@@ -379,7 +379,7 @@ void check_driving(const Subgraph& subgraph, std::size_t horizon_steps) {
     const std::size_t steps = subgraph.distance_to_standstill(trim);
     if (steps > horizon_steps) {
       fail(trim, " needs " + std::to_string(steps) +
-                     " steps to standstill, allowed the horizon of " +
+                     " steps to standstill, must be <= the horizon of " +
                      std::to_string(horizon_steps));
     }
   }

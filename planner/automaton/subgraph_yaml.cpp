@@ -30,12 +30,12 @@ std::vector<TrimId> read_trims(const Node& entry, const SubgraphContext& context
   }
   for (const Node& one : entry.list("trims")) {
     const TrimId trim = as_trim(one.as<std::size_t>(trim_numbers(context)));
-    if (contains(result, trim)) one.fail("each trim once");
+    if (contains(result, trim)) one.fail("unique");
     result.push_back(trim);
   }
   if (std::none_of(result.begin(), result.end(),
                    [&](TrimId id) { return context.trims[id.index].is_equilibrium(); })) {
-    entry.fail("trims", "a list that holds a trim of speed 0");
+    entry.fail("trims", "a list with a trim of speed 0");
   }
   return result;
 }
@@ -44,9 +44,9 @@ std::vector<std::string> read_label_list(const Node& entry, const SubgraphContex
   std::vector<std::string> labels;
   for (const Node& one : entry.list("labels")) {
     labels.push_back(one.as<std::string>(one_of(context.labels)));
-    if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("each label once");
+    if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("unique");
   }
-  if (labels.empty()) entry.fail("labels", "at least one label");
+  if (labels.empty()) entry.fail("labels", "a list with at least one label");
   return labels;
 }
 
@@ -54,7 +54,7 @@ std::vector<std::string> read_labels(const Node& entry, const SubgraphContext& c
   if (!entry.has("labels")) {
     return {entry.required<std::string>("label", one_of(context.labels))};
   }
-  if (entry.has("label")) entry.fail("label", "either `label` or `labels`");
+  if (entry.has("label")) entry.fail("label", "given without `labels`");
   return read_label_list(entry, context);
 }
 
@@ -79,7 +79,7 @@ void read_edge_labels(const Node& entry, const SubgraphContext& context, Subgrap
     }
     if (std::any_of(spec.edges.begin(), spec.edges.end(),
                     [&](const EdgeLabels& other) { return other.edge == pair; })) {
-      one.fail("each edge once");
+      one.fail("unique");
     }
     spec.edges.push_back({pair, read_label_list(one, context)});
     one.check_no_unknown_keys();
@@ -111,10 +111,10 @@ void read_off(const Node& entry, const SubgraphContext& context, SubgraphSpec& s
       one.fail("to", "an edge other than standing, which must be possible");
     }
     if (off.edge.from == off.edge.to && off.label) {
-      one.fail("label", "none for a self-loop, which is the same for all labels");
+      one.fail("label", "absent for a self-loop, which is the same for all labels");
     }
     if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
-    if (contains(spec.off, off)) one.fail("each edge once");
+    if (contains(spec.off, off)) one.fail("unique");
     spec.off.push_back(std::move(off));
   }
 }
@@ -156,9 +156,8 @@ void check_connected(const Node& entry, const SubgraphContext& context, const Su
   for (const TrimId trim : spec.trims) {
     if (is_too_fast(trim)) continue;
     if (from_start[trim.index] == Subgraph::kNever) {
-      entry.fail("trims",
-                 fmt::format("trims that hang together: no edges lead from trim {} to trim {}",
-                             standing.front().index + 1, trim.index + 1));
+      entry.fail("trims", fmt::format("connected trims: no edges lead from trim {} to trim {}",
+                                      standing.front().index + 1, trim.index + 1));
     }
     if (to_stand[trim.index] > context.horizon_steps) {
       const std::string needed = to_stand[trim.index] == Subgraph::kNever
@@ -216,7 +215,7 @@ std::vector<SubgraphSpec> read_subgraphs(const Node& file, const SubgraphContext
     }
     subgraphs.push_back(std::move(spec));
   }
-  if (subgraphs.empty()) file.fail("subgraphs", "at least one subgraph");
+  if (subgraphs.empty()) file.fail("subgraphs", "a list with at least one subgraph");
   return subgraphs;
 }
 

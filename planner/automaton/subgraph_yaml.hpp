@@ -31,7 +31,7 @@ struct SubgraphContext {
 ///                            with a label that it has
 ///     edges: list of {from, to, labels: [...]}     labels of single edges, instead of the above
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...": also if the
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ...": also if the
 /// trims do not hang together (each must be reached from the first trim of speed 0 and reach
 /// standstill within the horizon, over the edges that the rule gives and `off` leaves; what a speed
 /// limit takes away is known only once the maneuvers are, see Subgraph)

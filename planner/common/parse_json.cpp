@@ -88,12 +88,12 @@ class TreeEvents : public json::json_sax_t {
       const std::size_t begin = reason.find('\'') + 1;
       const std::string path = tree_.path();
       throw std::invalid_argument(
-          fmt::format("{}: line {}: {} = {}, allowed a finite number", name_, line_,
+          fmt::format("{}: line {}: {} = {}, must be a finite number", name_, line_,
                       path.empty() ? "a number" : path,
                       one_line(reason.substr(begin, reason.rfind('\'') - begin))));
     }
     throw std::invalid_argument(
-        fmt::format("{}: {}, allowed one JSON object (RFC 8259)", name_, reason_of(error)));
+        fmt::format("{}: {}, must be one JSON object (RFC 8259)", name_, reason_of(error)));
   }
 
   [[nodiscard]] Value take() { return tree_.take(); }

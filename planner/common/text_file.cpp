@@ -37,7 +37,7 @@ void write_file(const fs::path& path, std::string_view text) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw std::runtime_error(path.string() + ": cannot be written, allowed a regular file");
+    throw std::runtime_error(path.string() + ": cannot be written, must be a regular file");
   }
   const auto [temporary, file] = new_file_beside(path);
   if (file != nullptr) {
@@ -65,7 +65,7 @@ std::string read_regular_file(const fs::path& path, std::string_view allowed) {
     // The same message for every cause.
   }
   throw std::invalid_argument(
-      fmt::format("{}: cannot be read, allowed {}", path.string(), allowed));
+      fmt::format("{}: cannot be read, must be {}", path.string(), allowed));
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

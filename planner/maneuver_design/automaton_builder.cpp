@@ -81,7 +81,7 @@ std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
 [[noreturn]] void fail(const DesignTask& task, const AutomatonConfiguration& configuration,
                        const std::string& key, const std::string& allowed,
                        const std::string& reason) {
-  throw std::invalid_argument((key.empty() ? configuration.source : key + ", allowed " + allowed) +
+  throw std::invalid_argument((key.empty() ? configuration.source : key + ", must be " + allowed) +
                               (key.empty() ? ": " : "; ") + "maneuver " +
                               std::to_string(task.edge.from.index + 1) + " -> " +
                               std::to_string(task.edge.to.index + 1) + " (" +

@@ -84,7 +84,7 @@ struct AutomatonConfiguration {
 ///     subgraphs:  list of subgraphs, see read_subgraphs (planner/automaton/subgraph_yaml.hpp);
 ///                 their labels are names of `criteria`
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", for whatever
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ...", for whatever
 /// is missing, unknown, of the wrong type or outside its range: trims must respect the limits and
 /// differ, names must differ, subgraphs must hang together, and standstill must be within the
 /// horizon of each of their trims.

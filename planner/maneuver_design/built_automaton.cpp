@@ -76,7 +76,8 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
   const AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
   if (configuration_sha256(configuration) == file.configuration_sha256) return;
   throw std::invalid_argument(fmt::format(
-      "{}: stale, built from another state of {}, allowed what it says now; build it anew: {}",
+      "{}: stale, built from another state of {}, must be built from its current state; rebuild "
+      "it: {}",
       path.string(), configuration_path.string(), rebuild_command(file, path, configuration_path)));
 }
 

@@ -28,10 +28,10 @@ const Lanelet& find_lanelet(const LaneletMap& map, LaneletId id) {
 void check_joint(const Lanelet& from, const Lanelet& to, const Point& end_m, const Point& begin_m) {
   const double gap_m = (end_m - begin_m).norm();
   if (gap_m > kMaxJointGap_m) {
-    throw std::runtime_error("route: lanelet " + std::to_string(to.id) + " begins " +
-                             in_millimetres(gap_m) + " from the end of lanelet " +
-                             std::to_string(from.id) + ", at most " +
-                             in_millimetres(kMaxJointGap_m) + " is allowed");
+    throw std::runtime_error("route: gap from the end of lanelet " + std::to_string(from.id) +
+                             " to the begin of lanelet " + std::to_string(to.id) + " = " +
+                             in_millimetres(gap_m) +
+                             ", must be <= " + in_millimetres(kMaxJointGap_m));
   }
 }
 

@@ -25,11 +25,12 @@ void check_weights(const std::vector<PlanningWeight>& weights,
                    const std::vector<std::string>& known) {
   for (const auto& [criterion, weight_m2] : weights) {
     if (std::ranges::find(known, criterion) == known.end()) {
-      throw std::invalid_argument("criterion_weights: " + criterion + ", allowed " + joined(known));
+      throw std::invalid_argument("criterion_weights: " + criterion + ", must be one of " +
+                                  joined(known));
     }
     if (!(weight_m2 >= 0.0 && weight_m2 <= SearchOptions::kMostWeight_m2)) {
       throw std::invalid_argument("criterion_weights: " + criterion + " = " +
-                                  std::to_string(weight_m2) + ", allowed numbers from 0 to 1e9");
+                                  std::to_string(weight_m2) + ", must be in 0 ... 1e9");
     }
   }
 }

@@ -145,7 +145,7 @@ TEST_F(Scripts, AFolderForProblemsThatIsNotGoodIsRefusedBeforeAnythingStarts) {
     EXPECT_EQ(run.wait_for(60s), 2) << output();
     EXPECT_NE(output().find("run_lab.sh: --dump-problems = " + problems), std::string::npos)
         << output();
-    EXPECT_NE(output().find("allowed a new or an empty folder"), std::string::npos) << output();
+    EXPECT_NE(output().find("must be a new or an empty folder"), std::string::npos) << output();
     EXPECT_EQ(std::ranges::count(output(), '\n'), 1) << output();
     EXPECT_FALSE(std::filesystem::exists(out));
   }
@@ -329,7 +329,7 @@ TEST_F(Scripts, AFinishedRunIsNotWrittenOver) {
 TEST_F(Scripts, LogicalTimeDoesNotGoOnAfterADeath) {
   ChildProcess run = run_lab({"--on_death", "continue", "--out", (folder_ / "run").string()});
   EXPECT_EQ(run.wait_for(60s), 2);
-  EXPECT_NE(output().find("--on_death = continue, allowed stop"), std::string::npos) << output();
+  EXPECT_NE(output().find("--on_death = continue, must be stop"), std::string::npos) << output();
 }
 
 TEST_F(Scripts, ALabControlThatHangsIsEnded) {

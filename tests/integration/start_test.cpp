@@ -91,7 +91,7 @@ TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
       << lab.log("lab_control");
   const std::string log = lab.log("high_level_controller_1");
   EXPECT_NE(log.find("fits no route: nearest is"), std::string::npos) << log;
-  EXPECT_NE(log.find("mm beyond the lanes (allowed 150 mm)"), std::string::npos) << log;
+  EXPECT_NE(log.find("mm beyond the lanes (must be <= 150 mm)"), std::string::npos) << log;
   EXPECT_LT(way_m(read_drive(drive_file(lab.folder(), 1))), 1e-6);
 }
 

@@ -264,7 +264,7 @@ def run_controls(
     if anew := first_set_anew(run):
         all_controls += controls_of_plans_set_anew(anew)
     elif needs_set_anew:
-        raise BadInput(f"{folder}: no plan is set down anew, allowed a run with such plans")
+        raise BadInput(f"{folder}: no plan is set down anew, must be a run with such plans")
     all_hold = True
     for control in all_controls:
         root = copy.deepcopy(good)

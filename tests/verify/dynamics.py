@@ -58,7 +58,7 @@ class Error:
         """What exceeds the tolerance of a step of that length."""
         scale = duration_s / TOLERANCE_STEP_S
         return [
-            f"{name} {1e3 * value:.3g} {unit}, allowed {1e3 * scale * allowed:.3g}"
+            f"{name} {1e3 * value:.3g} {unit}, must be <= {1e3 * scale * allowed:.3g}"
             for name, value, unit, allowed in (
                 ("position", self.position_m, "mm", POSITION_M),
                 ("speed", self.speed_mps, "mm/s", SPEED_MPS),

@@ -25,7 +25,7 @@ def read_facts(folder: Path) -> tuple[list[int], float]:
         facts = json.loads(file.read_text(encoding="utf-8"))
         return list(facts["vehicle_ids"]), 1e-9 * (facts["steps"] - 1) * facts["period_ns"]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise BadInput(f"{file}: {error!r}, allowed a run folder's file") from error
+        raise BadInput(f"{file}: {error!r}, must be a run folder's file") from error
 
 
 def check_whole(run: Run, folder: Path) -> tuple[list[Finding], str]:
@@ -84,7 +84,7 @@ def check_driving(run: Run) -> tuple[list[Finding], str]:
             i = off_m.index(max(off_m))
             text = (
                 f"vehicle {vehicle}, {i * h:.2f} s: {1e3 * off_m[i]:.1f} mm off its plan, "
-                f"allowed {1e3 * OFF_PLAN_M:.0f}"
+                f"must be <= {1e3 * OFF_PLAN_M:.0f}"
             )
             findings.append(Finding("driving", text))
     return findings, f"at most {1e3 * farthest_m:.1f} mm off the plan"

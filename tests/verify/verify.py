@@ -124,7 +124,7 @@ def main() -> int:
     parser.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="run folder")
     arguments = parser.parse_args()
     if arguments.xml and len(arguments.runs) != 1:
-        parser.error(f"--xml {arguments.xml}: {len(arguments.runs)} run folders, allowed one")
+        parser.error(f"--xml {arguments.xml}: {len(arguments.runs)} run folders, must be one")
     try:
         accepted = [verify(arguments.export, folder, arguments.xml) for folder in arguments.runs]
         if arguments.controls:

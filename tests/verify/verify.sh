@@ -41,14 +41,14 @@ while (($#)); do
       shift ;;
     -*) fail "unknown flag $1 (see --help)" ;;
     *)
-      [[ -d $1 ]] || fail "$1 is no folder, allowed run folders"
+      [[ -d $1 ]] || fail "$1 is no folder, must be run folders"
       runs+=("$1") ;;
   esac
   shift
 done
 if ((${#xml[@]} > 0)); then
   [[ -f ${xml[1]} ]] || fail "--xml ${xml[1]} is no file"
-  ((${#runs[@]} == 1)) || fail "--xml with ${#runs[@]} run folders, allowed one"
+  ((${#runs[@]} == 1)) || fail "--xml with ${#runs[@]} run folders, must be one"
 fi
 [[ -x $bin/export_commonroad ]] || fail "no export_commonroad in $bin; build first, or give --bin"
 

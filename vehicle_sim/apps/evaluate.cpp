@@ -43,7 +43,7 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
   if (std::filesystem::exists(name) && std::filesystem::is_regular_file(name)) return name;
   const std::filesystem::path file = choices.scenario_folder / (name + ".yaml");
   if (std::filesystem::exists(file)) return file;
-  throw std::invalid_argument("--scenario = " + name + ", allowed a file or the name of one in " +
+  throw std::invalid_argument("--scenario = " + name + ", must be a file or the name of one in " +
                               choices.scenario_folder.string());
 }
 
@@ -68,7 +68,7 @@ hlc::Campaign read(Choices& choices) {
   hlc::check_each_once("--subgraphs", choices.plan.subgraphs);
   hlc::check_each_once("--policies", choices.plan.policies);
   if (std::ranges::find(choices.plan.policies, "") != choices.plan.policies.end()) {
-    throw std::invalid_argument("--policies: an empty name, allowed those of the scenario");
+    throw std::invalid_argument("--policies: an empty name, must be a policy of the scenario");
   }
   hlc::FigureChoices& figures = choices.figures;
   const auto is_asked_for = [&](const char* name) {
@@ -79,7 +79,7 @@ hlc::Campaign read(Choices& choices) {
   if (!figures.pareto_configuration.empty() && !is_asked_for("pareto_set")) {
     throw std::invalid_argument(
         "--pareto_configuration = " + figures.pareto_configuration.string() +
-        ", allowed with --figures=pareto_set");
+        ", must be used with --figures=pareto_set");
   }
   if (figures.pareto_configuration.empty()) {
     figures.pareto_configuration =
@@ -90,7 +90,7 @@ hlc::Campaign read(Choices& choices) {
   if (!figures.names.empty() && std::filesystem::exists(folder) &&
       !std::filesystem::is_directory(folder)) {
     throw std::invalid_argument("--out = " + choices.out.string() +
-                                ": figures is no folder, allowed a folder or nothing there");
+                                ": figures must be a folder or absent");
   }
   try {
     hlc::check_figures(figures);
@@ -99,7 +99,8 @@ hlc::Campaign read(Choices& choices) {
       return campaign.scenario_of(run).vehicles.size() == 1;
     };
     if (!draws_all && is_asked_for("distance") && std::ranges::all_of(campaign.runs(), is_alone)) {
-      throw std::invalid_argument("--figures = distance, allowed with a scenario of several cars");
+      throw std::invalid_argument(
+          "--figures = distance, must be used with a scenario of several cars");
     }
     return campaign;
   } catch (const std::runtime_error& error) {

@@ -64,8 +64,8 @@ RunLog::RunLog(std::filesystem::path folder, std::string heading)
     std::filesystem::create_directories(folder_, error);
     if (error) {
       throw std::invalid_argument(
-          fmt::format("--out = {}: cannot be made, {}, allowed a folder that can be written to",
-                      folder_.string(), error.message()));
+          fmt::format("--out = {}: cannot be made, {}, must be a writable folder", folder_.string(),
+                      error.message()));
     }
   }
   if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
@@ -82,7 +82,7 @@ RunLog::~RunLog() { ::close(lock_); }
 
 void RunLog::refuse(const std::string& what) const {
   throw std::invalid_argument(fmt::format(
-      "--out = {}: {}, allowed a new folder or that of the same campaign", folder_.string(), what));
+      "--out = {}: {}, must be a new folder or that of the same campaign", folder_.string(), what));
 }
 
 void RunLog::lock() {
@@ -92,10 +92,10 @@ void RunLog::lock() {
   if (lock_ >= 0) ::close(lock_);
   const std::string out = "--out = " + folder_.string() + ": ";
   if (reason == EWOULDBLOCK) {
-    throw std::invalid_argument(out + "another evaluate writes to it, allowed one at a time");
+    throw std::invalid_argument(out + "another evaluate is running there, must be one at a time");
   }
   throw std::invalid_argument(out + "cannot be locked, " + std::generic_category().message(reason) +
-                              ", allowed a folder that can be read and written");
+                              ", must be a readable and writable folder");
 }
 
 void RunLog::open() {

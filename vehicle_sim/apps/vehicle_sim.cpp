@@ -59,7 +59,7 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
   hlc::check_domain_id("--dds_domain", flags.network.dds_domain);
   if (!(flags.gains_scale >= 0.0 && flags.gains_scale <= kMaxGainsScale)) {
     throw std::invalid_argument("--gains_scale: " + std::to_string(flags.gains_scale) +
-                                " is not allowed, 0 to 10");
+                                ", must be in 0 ... 10");
   }
   return {.vehicle = {.vehicle_id = id,
                       .start = hlc::start_pose(id, flags.pose),

@@ -83,7 +83,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combination
     if (same->second == key.first) continue;
     throw std::invalid_argument(scenario.file.string() + ": name = " + scenario.name + " as in " +
                                 plan_.scenarios[same->second].string() +
-                                ", allowed scenarios of different names");
+                                ", scenario names must be unique");
   }
   if (plan_.starts == 1) return;
   for (const auto& [key, scenario] : scenarios_) {

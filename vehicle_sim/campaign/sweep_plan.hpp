@@ -51,7 +51,7 @@ struct SweepPlan {
 ///
 /// Every combination is driven in every scenario, with every subgraph, from every start.
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
 [[nodiscard]] SweepPlan read_sweep(const std::filesystem::path& file);
 
 /// For each axis of the plan the index of its value.

@@ -58,7 +58,7 @@ std::string complaint(const ManeuverProblem& problem, const ManeuverSolution& so
   if (solution.first_order_residual > kFirstOrderTolerance) {
     std::ostringstream reason;
     reason << "the solver stopped where the first-order residual is "
-           << solution.first_order_residual << ", allowed " << kFirstOrderTolerance;
+           << solution.first_order_residual << ", must be <= " << kFirstOrderTolerance;
     return reason.str();
   }
   return {};

@@ -26,7 +26,7 @@ std::size_t expansions_from_text(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || value == 0) {
-    throw std::invalid_argument("max_expansions = " + text + ", allowed whole numbers from 1");
+    throw std::invalid_argument("max_expansions = " + text + ", must be a whole number >= 1");
   }
   return value;
 }

@@ -37,8 +37,8 @@ TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
   const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
   const std::string turned = line_of({3}, compose(start, {0.0, 0.0, 2.0}));
   EXPECT_THAT(turned, HasSubstr("vehicle 3 fits no route: nearest is green at"));
-  EXPECT_THAT(turned, HasSubstr("(allowed 150 mm)"));
-  EXPECT_THAT(turned, HasSubstr("(allowed 0.600 rad)"));
+  EXPECT_THAT(turned, HasSubstr("(must be <= 150 mm)"));
+  EXPECT_THAT(turned, HasSubstr("(must be <= 0.600 rad)"));
   EXPECT_THAT(line_of({3}, {-1.0, -1.0, 0.0}), HasSubstr("is not on the map"));
 }
 

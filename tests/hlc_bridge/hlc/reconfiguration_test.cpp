@@ -97,7 +97,7 @@ TEST_F(ReconfigurationTest, ARefusedRequestLeavesWhatIsInForceAndWhatWaits) {
   EXPECT_EQ(take(slow(2, 0.5, 5 * kStep), 2).outcome, RequestOutcome::kAccepted);
   const AutomatonAnswer refused = take(slow(3, 0.1), 2);
   EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
-  EXPECT_NE(refused.text.find("speed limit 0.1 m/s, allowed at least 0.4"), std::string::npos);
+  EXPECT_NE(refused.text.find("speed limit 0.1 m/s, must be >= 0.4"), std::string::npos);
   EXPECT_FALSE(begin(3));
   EXPECT_EQ(limit_mps(), 0.6);
   ASSERT_TRUE(begin(5));
@@ -139,7 +139,7 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
   const AutomatonAnswer refused =
       reconfiguration_.take(prepare(base(), unknown, &weights), {2}).back();
   EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
-  EXPECT_NE(refused.text.find("'J9', allowed J1"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("'J9', must be one of J1"), std::string::npos) << refused.text;
   EXPECT_FALSE(begin(2));
   EXPECT_EQ(controller_->subgraph().spec().name, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
 }

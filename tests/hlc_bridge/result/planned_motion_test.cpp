@@ -118,7 +118,7 @@ TEST_F(PlannedMotionTest, IsNotKnownOfAManeuverThatTheAutomatonDoesNotHold) {
   EXPECT_THAT([this] { static_cast<void>(motion()); },
               ThrowsMessage<std::runtime_error>(
                   "vehicle 4, step 1: no maneuver from trim 7 to 8 with label 'J1 0.3\\nJ2 0.7', "
-                  "allowed those of the automaton"));
+                  "must be in the automaton"));
 }
 
 TEST_F(PlannedMotionTest, IsNotKnownOfTrimsThatTheAutomatonDoesNotHold) {

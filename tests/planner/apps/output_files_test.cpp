@@ -44,15 +44,15 @@ TEST_F(OutputFiles, NewAndRegularFilesAndNoneAreGood) {
 TEST_F(OutputFiles, WhatCannotBeAFileIsRefused) {
   fs::create_directory("folder");
   fs::create_symlink("old.csv", "link.csv");
-  EXPECT_EQ(error_text({{"--out", ""}}), "--out = , allowed the name of a file");
+  EXPECT_EQ(error_text({{"--out", ""}}), "--out = , must be the name of a file");
   EXPECT_EQ(error_text({{"--out", "no/new.csv"}}),
-            "--out = no/new.csv, allowed a file in a folder that exists");
+            "--out = no/new.csv, must be a file in an existing folder");
   EXPECT_EQ(error_text({{"--out", "old.csv/new.csv"}}),
-            "--out = old.csv/new.csv, allowed a file in a folder that exists");
+            "--out = old.csv/new.csv, must be a file in an existing folder");
   for (const char* const other :
        {"folder", "folder/", ".", "link.csv", "/dev/stdout", "/dev/null"}) {
     EXPECT_EQ(error_text({{"--out", other}}),
-              "--out = " + std::string(other) + ", allowed a new or a regular file");
+              "--out = " + std::string(other) + ", must be a new or a regular file");
   }
 }
 
@@ -61,7 +61,7 @@ TEST_F(OutputFiles, AFolderThatMayNotBeWrittenToIsRefused) {
   fs::create_directory("folder");
   fs::permissions("folder", fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(error_text({{"--out", "folder/new.csv"}}),
-            "--out = folder/new.csv, allowed a file in a folder that may be written to");
+            "--out = folder/new.csv, must be a file in a writable folder");
 }
 
 TEST_F(OutputFiles, AnInputIsRefusedUnderAnyName) {
@@ -69,7 +69,7 @@ TEST_F(OutputFiles, AnInputIsRefusedUnderAnyName) {
   for (const std::string& name : std::vector<std::string>{"car.yaml", "./car.yaml", "hard.yaml",
                                                           (folder_ / "car.yaml").string()}) {
     EXPECT_EQ(error_text({{"--out", "new.csv"}, {"--plot", name}}),
-              "--plot = " + name + ", allowed a file other than the input");
+              "--plot = " + name + ", must be a file other than the input");
   }
 }
 
@@ -77,7 +77,7 @@ TEST_F(OutputFiles, TwoOutputsInOneFileAreRefusedAlsoIfItIsNew) {
   for (const std::string& name :
        std::vector<std::string>{"new.csv", "./new.csv", (folder_ / "new.csv").string()}) {
     EXPECT_EQ(error_text({{"--out", "new.csv"}, {"--table", {}}, {"--plot", name}}),
-              "--plot = " + name + ", allowed a file other than that of --out");
+              "--plot = " + name + ", must be a file other than that of --out");
   }
 }
 

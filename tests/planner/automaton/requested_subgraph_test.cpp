@@ -98,22 +98,22 @@ TEST(SubgraphRequest, ATrimThatComesBackStandsWhereItWas) {
 }
 
 TEST(SubgraphRequest, RefusesWhatCannotBeInOneLine) {
-  EXPECT_THAT(refusal({.labels = {"J7"}}), HasSubstr("label 'J7', allowed J1, J2, J3"));
+  EXPECT_THAT(refusal({.labels = {"J7"}}), HasSubstr("label 'J7', must be one of J1, J2, J3"));
   EXPECT_THAT(refusal({.labels = {"J1", "J1"}}), HasSubstr("label 'J1' is listed twice"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = 0.3}),
-              HasSubstr("speed limit 0.3 m/s, allowed at least 0.4"));
+              HasSubstr("speed limit 0.3 m/s, must be >= 0.4"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = std::nan("")}), HasSubstr("speed limit nan"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = INFINITY}), HasSubstr("speed limit inf"));
   SubgraphRequest request;
   request.trims_off = {trim(1)};
   EXPECT_THAT(refusal(request), HasSubstr("no trim of speed 0"));
   request.trims_off = {trim(13)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 13, allowed 1 ... 12"));
+  EXPECT_THAT(refusal(request), HasSubstr("trim 13, must be in 1 ... 12"));
   request.trims_off = {trim(3), trim(3)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 3 off: it is off"));
+  EXPECT_THAT(refusal(request), HasSubstr("trim 3 off: must be enabled"));
   request = {};
   request.trims_on = {trim(3)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 3 on: it is on"));
+  EXPECT_THAT(refusal(request), HasSubstr("trim 3 on: must be disabled"));
   request = {};
   request.edges_on = {{trim(2), trim(3)}};
   EXPECT_THAT(refusal(request), HasSubstr("edge 2 -> 3 on"));

@@ -98,7 +98,7 @@ TEST(Subgraph, RefusesAnEdgeThatTheAutomatonDoesNotHold) {
 TEST(Subgraph, RefusesTrimsThatAreUnknownOrListedTwiceOrNeverStand) {
   SubgraphSpec wrong = spec("B");
   wrong.trims = {pi(1), pi(13)};
-  EXPECT_EQ(refusal(wrong), "subgraph 'B': trim 13, allowed 1 ... 12");
+  EXPECT_EQ(refusal(wrong), "subgraph 'B': trim 13, must be in 1 ... 12");
   wrong.trims = {pi(1), pi(7), pi(1)};
   EXPECT_EQ(refusal(wrong), "subgraph 'B': trim 1 is listed twice");
   wrong.trims = {pi(6), pi(7)};
@@ -113,7 +113,7 @@ TEST(Subgraph, RefusesLabelsAndEdgesThatMakeNoSense) {
   EXPECT_EQ(refusal(wrong), "subgraph 'B': label 'J2' is listed twice");
   wrong = spec("B");
   wrong.off = {{{pi(1), pi(1)}, std::nullopt}};
-  EXPECT_EQ(refusal(wrong), "subgraph 'B': edge 1 -> 1 is off, but standing must be possible");
+  EXPECT_EQ(refusal(wrong), "subgraph 'B': edge 1 -> 1 is disabled, but standing must be possible");
   wrong.off = {{{pi(7), pi(1)}, std::nullopt},
                {{pi(7), pi(6)}, std::nullopt},
                {{pi(7), pi(8)}, std::nullopt}};

@@ -349,7 +349,7 @@ TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
                  "slow.yaml: maneuver 1 -> 5 (J2): speed 0 -> 0.7 m/s in 0.2 s needs acceleration "
-                 "3.5 m/s^2, allowed 3 m/s^2; shortest feasible duration 0.233333 s");
+                 "3.5 m/s^2, must be <= 3 m/s^2; shortest feasible duration 0.233333 s");
   }
 }
 

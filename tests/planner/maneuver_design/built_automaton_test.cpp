@@ -137,7 +137,7 @@ TEST_F(BuiltAutomaton, AnEditedFileIsRefusedWithTheCommandThatBuildsItAnew) {
   const std::string error_text = refusal("length_m: 0.22", "length_m: 0.21", false);
   EXPECT_EQ(error_text.substr(0, 26), "DIR/automaton.yaml:2: sha2");
   EXPECT_NE(
-      error_text.find("allowed the hash of the file's other lines: it was edited or damaged; build "
+      error_text.find("must be the hash of the file's other lines: it was edited or damaged; build "
                       "it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
       std::string::npos)
       << error_text;
@@ -147,9 +147,10 @@ TEST_F(BuiltAutomaton, AStaleFileIsRefusedWithTheCommandThatBuildsItAnew) {
   std::string changed = configuration_text_;
   changed.replace(changed.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 11");
   write("car.yaml", changed);
-  EXPECT_EQ(refusal(),
-            "DIR/automaton.yaml: stale, built from another state of DIR/car.yaml, allowed what it "
-            "says now; build it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
+  EXPECT_EQ(
+      refusal(),
+      "DIR/automaton.yaml: stale, built from another state of DIR/car.yaml, must be built from its "
+      "says now; build it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
   fs::remove(folder_ / "car.yaml");
   EXPECT_EQ(refusal(), "accepted");
 }
@@ -217,7 +218,7 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
 
 TEST_F(BuiltAutomaton, AnotherVersionIsRefusedWhateverItsKeysAre) {
   const std::string message =
-      "DIR/automaton.yaml:1: automaton_schema = 2, allowed 1; build the file anew from its "
+      "DIR/automaton.yaml:1: automaton_schema = 2, must be 1; build the file anew from its "
       "configuration: build_automaton CONFIG.yaml --out DIR/automaton.yaml";
   EXPECT_EQ(refusal("automaton_schema: 1", "automaton_schema: 2", true), message);
   write("automaton.yaml", "automaton_schema: 2\nbuilt_from: another.yaml\n");
@@ -293,7 +294,7 @@ TEST_F(BuiltAutomaton, AFileThatLacksWhatItsSubgraphsNeedIsRefused) {
   automaton.maneuvers.erase(automaton.maneuvers.begin());
   lacking.automaton = std::make_shared<const UniversalAutomaton>(automaton);
   write_automaton_file(lacking, path_);
-  EXPECT_NE(refusal().find("the own step of every trim; that of trim 1 is missing"),
+  EXPECT_NE(refusal().find("the self-loop of every trim; that of trim 1 is missing"),
             std::string::npos);
 }
 

@@ -85,9 +85,9 @@ TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
     return error_of([&] { static_cast<void>(read_lab(file, 0.2)); });
   };
   EXPECT_THAT(error_text("curvature_min_per_m: -3.960", "curvature_min_per_m: 3.960"),
-              AllOf(HasSubstr(":5: curvature_min_per_m = 3.960"), HasSubstr("allowed")));
+              AllOf(HasSubstr(":5: curvature_min_per_m = 3.960"), HasSubstr("must be")));
   EXPECT_THAT(error_text("point_interval_s: 0.025", "point_interval_s: 0.03"),
-              HasSubstr("point_interval_s = 0.03, allowed what divides the automaton's step of "
+              HasSubstr("point_interval_s = 0.03, must be a divisor of the automaton's step of "
                         "0.2 s"));
   EXPECT_THAT(error_text("x_max_m: 4.5", "x_max_m: -4.5"), HasSubstr("area.x_max_m = -4.5"));
   EXPECT_THAT(error_text("y_max_m: 4.0", "y_top_m: 4.0"), HasSubstr("y_max_m"));
@@ -100,9 +100,10 @@ TEST(Lab, ThePapersAutomatonIsRefusedWithTheTrimThatIsTooTight) {
                                         "automata/lab.yaml", "automata/paper.yaml");
   const std::string error_text =
       error_of([&] { static_cast<void>(read_scenario({.file = file})); });
-  EXPECT_THAT(error_text,
-              AllOf(HasSubstr("automata/paper.yaml: subgraph B, trim 2: curvature = -4.31"),
-                    HasSubstr(" 1/m, allowed -3.96 ... 4.316 by "), EndsWith("labs/cpm_lab.yaml")));
+  EXPECT_THAT(
+      error_text,
+      AllOf(HasSubstr("automata/paper.yaml: subgraph B, trim 2: curvature = -4.31"),
+            HasSubstr(" 1/m, must be in -3.96 ... 4.316 by "), EndsWith("labs/cpm_lab.yaml")));
   EXPECT_EQ(error_text.find('\n'), std::string::npos);
 }
 

@@ -165,7 +165,7 @@ TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
     FAIL() << "made";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()),
-              "--dump-problems = /proc/nowhere, allowed a folder that can be made and written to");
+              "--dump-problems = /proc/nowhere, must be a folder that can be made and written to");
   }
 }
 

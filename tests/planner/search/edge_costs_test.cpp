@@ -159,11 +159,11 @@ std::string refusal_of(const std::vector<PlanningWeight>& weights) {
 
 TEST(EdgeCosts, RefusesUnknownCriteriaAndWeightsThatAreNone) {
   EXPECT_EQ(refusal_of({{"effort", 0.0}}), "");
-  EXPECT_EQ(refusal_of({{"J7", 1.0}}), "criterion_weights: J7, allowed progress, effort");
-  EXPECT_THAT(refusal_of({{"effort", -0.5}}), testing::HasSubstr("allowed numbers from 0 to 1e9"));
-  EXPECT_THAT(refusal_of({{"effort", 1.1e9}}), testing::HasSubstr("allowed numbers from 0 to 1e9"));
+  EXPECT_EQ(refusal_of({{"J7", 1.0}}), "criterion_weights: J7, must be one of progress, effort");
+  EXPECT_THAT(refusal_of({{"effort", -0.5}}), testing::HasSubstr("must be in 0 ... 1e9"));
+  EXPECT_THAT(refusal_of({{"effort", 1.1e9}}), testing::HasSubstr("must be in 0 ... 1e9"));
   EXPECT_THAT(refusal_of({{"effort", std::numeric_limits<double>::quiet_NaN()}}),
-              testing::HasSubstr("allowed numbers from 0"));
+              testing::HasSubstr("must be in 0 ..."));
 }
 
 }  // namespace
