@@ -89,7 +89,7 @@ TEST(Route, GapOfFiveMillimetresIsClosedAndALargerOneIsRefused) {
       1.5, 1e-12);
   EXPECT_THAT(error_of(map_of({first, straight(2, 1.006, 1.5, 0.0)}), {1, 2}, false),
               AllOf(HasSubstr("from the end of lanelet 1 to the begin of lanelet 2 = 6.0 mm"),
-                    HasSubstr("at most 5.0 mm")));
+                    HasSubstr("must be <= 5.0 mm")));
 }
 
 TEST(Route, CircuitMustClose) {
