@@ -12,7 +12,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
                           (default paper_three_cars; also paper_red_alone, circle)
   --profile NAME          default: every plan optimal, safe whatever message is lost
                           2022: the rules under which the paper's numbers arose
-  --engine NAME           what plans: branch_and_bound (default profile) or best_first (profile 2022); the same called
+  --engine NAME           search engine: branch_and_bound (default profile) or best_first (profile 2022); the same called
                           through OMPL's planner interface: ompl_branch_and_bound, ompl_best_first
   --subgraph NAME         of the automaton, instead of the scenario's
   --policy NAME           by which the cars change the subgraph themselves, or none, instead of the scenario's
@@ -22,7 +22,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --simulated_time BOOL   true: logical time, as fast as the machine can (default); false: real time
   --noise_seed N          measurement noise of the simulated cars from this seed (default: none)
   --gains_scale X         gains of the simulated cars' followers (default 1)
-  --on_death WHAT         stop (default): when a process dies, the others drive out their plans and the run ends;
+  --on_death WHAT         stop (default): when a process dies, the others make a minimal-risk stop and the run ends;
                           continue (real time): it goes on, and a controller that was killed may be started again
                           (launch_scripts/vehicle.sh --id N --only hlc --out DIR)
   --transport NAME        loopback (default) or lab
@@ -148,7 +148,7 @@ fi
 
 required="must be a new or an empty folder"
 check_new_or_empty() { # flag, folder
-  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is no folder, $required"
+  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is not a folder, $required"
   [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $required"
 }
 made=()
@@ -157,7 +157,7 @@ make_folder() { # flag, folder
   [[ -d $2 ]] || made=("$2" "${made[@]}")
   if ! mkdir -p -- "$2" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
-    fail "--$1 = $2: the folder cannot be made, $required"
+    fail "--$1 = $2: the folder cannot be created, $required"
   fi
   if ! probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) || ! rm -- "$probe" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
@@ -205,7 +205,7 @@ startup_timeout_s: $startup_timeout_s
 programs: $(quoted "$(realpath "$bin")")
 TEXT
 
-# Runs a command that is told to end when this script is gone, even by SIGKILL.
+# Runs a command that gets SIGTERM when this script ends, even by SIGKILL.
 with_me() { exec setpriv --pdeathsig TERM -- "$@"; }
 
 children=() lab_control=""
@@ -264,7 +264,7 @@ while any_runs "$lab_control" && any_runs "${vehicles[@]}"; do
 done
 any_runs "$lab_control" && wait_until $((SECONDS + startup_timeout_s + 15))
 if ! any_runs "${vehicles[@]}" && any_runs "$lab_control"; then
-  echo "lab_control hangs" >&2
+  echo "lab_control not responding" >&2
   kill -KILL "$lab_control"
 fi
 wait "$lab_control"

@@ -105,7 +105,7 @@ setup=()
 [[ ${presets[0]} != coverage ]] || setup=(--coverage)
 ./launch_scripts/setup.sh "${setup[@]}" || exit 1
 code=0
-failed=() # said again at the end: the sanitizers' output is long
+failed=() # repeated at the end: the sanitizers' output is long
 for ((i = 0; i < ${#presets[@]}; i++)); do
   choose "${presets[i]}"
   ./launch_scripts/build.sh "${build[@]}" || exit 1

@@ -112,7 +112,7 @@ if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; 
 fi
 if [[ -n $dump_problems ]]; then # other vehicles of the run may write there, too
   { mkdir -p -- "$dump_problems" && probe=$(mktemp -- "$dump_problems/XXXXXX") && rm -- "$probe"; } 2>/dev/null ||
-    fail "--dump-problems = $dump_problems: nothing can be written there, must be a folder that can be made and written to"
+    fail "--dump-problems = $dump_problems: nothing can be written there, must be a folder that can be created and written to"
   dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
@@ -160,7 +160,7 @@ if [[ -n $only ]]; then
   pid=$(awk -v name="$process" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_$id.pids" 2>/dev/null)
   program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)" " (deleted)") # built anew meanwhile
   [[ ! $program =~ ^(vehicle_sim|middleware|high_level_controller)$ ]] ||
-    fail "--only = $only: $process still runs, end it first: kill -9 $pid"
+    fail "--only = $only: $process still running; stop it first: kill -9 $pid"
 fi
 
 scenario=$(realpath "$scenario") bin=$(realpath "$bin")
@@ -187,7 +187,7 @@ start() { # what --only calls it, name, program and flags
   local name=$2
   [[ -z $only || $only == "$1" ]] || return 0
   shift 2
-  # Told to end when this script is gone, even by SIGKILL.
+  # Gets SIGTERM when this script ends, even by SIGKILL.
   [[ -n $only ]] || : >"$out/logs/$name.log"
   setpriv --pdeathsig TERM -- "$@" >>"$out/logs/$name.log" 2>&1 </dev/null &
   names[$!]=$name
@@ -210,7 +210,7 @@ while true; do
     code=$?
     if ((code > 128)) && [[ $on_death == continue ]]; then
       which=${names[$pid]%_*}
-      echo "${names[$pid]} was killed; again: $0 --id $id --only ${which/high_level_controller/hlc} --out $out" >&2
+      echo "${names[$pid]} was killed; restart: $0 --id $id --only ${which/high_level_controller/hlc} --out $out" >&2
     elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code

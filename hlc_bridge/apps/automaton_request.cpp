@@ -249,8 +249,8 @@ class Asker {
             (missing.empty() ? "" : ", ") + hlc::controller_name(static_cast<std::uint8_t>(id));
       }
     }
-    std::cerr << "automaton_request: not there on domain " << participant_.options().domain_id
-              << ": " << (missing.empty() ? "any controller" : missing)
+    std::cerr << "automaton_request: missing on domain " << participant_.options().domain_id << ": "
+              << (missing.empty() ? "any controller" : missing)
               << " (see --dds_domain and --transport)\n";
     return false;
   }
@@ -305,8 +305,7 @@ class Asker {
       }
     }
     if (!silent.empty()) {
-      std::cerr << "automaton_request: not in force yet, and not refused: vehicles " << silent
-                << '\n';
+      std::cerr << "automaton_request: no final answer from vehicles " << silent << '\n';
       return hlc::kExitMissing;
     }
     return is_refused ? kExitRefused : hlc::kExitGood;

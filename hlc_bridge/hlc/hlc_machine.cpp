@@ -73,7 +73,7 @@ void HlcMachine::take(const AutomatonRequest& request) {
 
 void HlcMachine::take(const AfterStepFailure& failure) {
   ending_.unwritten = "from step " + std::to_string(controller().last_step().value) +
-                      " on nothing is written: " + failure.reason;
+                      " on not written: " + failure.reason;
   actions_.error(ending_.unwritten);
 }
 

@@ -45,10 +45,10 @@ void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
       return;
     case machine::LabControlWatch::Change::kLost:
       actions.error(std::string(kLabControlName) +
-                    " is gone; the running plan is driven to its end");
+                    " lost; minimal-risk stop: driving the plan in force to its end");
       return;
     case machine::LabControlWatch::Change::kBack:
-      actions.info(std::string(kLabControlName) + " is back; planning goes on");
+      actions.info(std::string(kLabControlName) + " is back; planning resumed");
       return;
   }
 }
@@ -57,11 +57,11 @@ void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
 /// as all processes are done.
 void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
-    actions.info("waits: " + readiness_.missing());
+    actions.info("waiting: " + readiness_.missing());
   }
   if (readiness_.is_ready() && !rules_.answers_every_list && list_notice_.is_due(wall)) {
     const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
-    actions.warn("waits: " + middleware_.name() + " has sent no state list for " +
+    actions.warn("waiting: no state list from " + middleware_.name() + " for " +
                  std::to_string(silence / kNanosecondsPerSecond) + " s");
   }
 }
@@ -73,7 +73,7 @@ void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bo
   repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
   if (!repeats_ready_ || wall < next_ready_at_) return;
   if (next_ready_at_ == 0 && rules_.start == StartRule::kAtTrigger) {
-    actions.info("ready, waits for a trigger");
+    actions.info("ready; waiting for the start trigger");
   }
   actions.add(ReadyStatus{.source_id = controller_ready_id(vehicle_.value)});
   next_ready_at_ = wall + kReadyRepeat;

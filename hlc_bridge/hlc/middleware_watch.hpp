@@ -29,7 +29,7 @@ class MiddlewareWatch {
   void look(Nanoseconds wall, HlcActions& actions) {
     if (is_absent_ == lost_at_.has_value()) return;
     if (is_absent_) {
-      actions.error(name_ + " is gone; nothing reaches the vehicle any more");
+      actions.error(name_ + " lost; no commands reach the vehicle");
       lost_at_ = wall;
     } else {
       actions.info(name_ + " is back");

@@ -25,8 +25,8 @@ std::string placement_line(const Controller& controller) {
   const Placement& placement = controller.placement().value();
   const std::string& route = controller.route().name;
   if (controller.fits_route()) {
-    return vehicle_text(controller) + " takes route " + route +
-           (controller.routes().size() > 1 ? ", which it fits best," : "") +
+    return vehicle_text(controller) + " selects route " + route +
+           (controller.routes().size() > 1 ? " (best fit)" : "") +
            text_of(" at %.3f m, %.0f mm beside its path, turned by %.3f rad", placement.s_m,
                    1e3 * placement.distance_m, placement.turned_rad);
   }
@@ -41,12 +41,12 @@ std::string placement_line(const Controller& controller) {
 
 std::string stuck_line(const Controller& controller, FallbackReason reason) {
   if (reason == FallbackReason::kBudget) {
-    return vehicle_text(controller) + " has no new plan: its search used up max_expansions = " +
+    return vehicle_text(controller) + ": no new plan, the search used up max_expansions = " +
            std::to_string(controller.options().search.max_expansions);
   }
   const auto n = controller.options().horizon_steps;
   return vehicle_text(controller) + " stands: no plan of " + std::to_string(n) +
-         " steps leads from there into the lanes of route " + controller.route().name;
+         " steps leads into the lanes of route " + controller.route().name;
 }
 
 }  // namespace hlc

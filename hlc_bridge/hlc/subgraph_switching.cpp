@@ -9,7 +9,7 @@ namespace hlc {
 namespace {
 
 std::string switch_line(const std::string& subgraph, StepIndex step) {
-  return "plans on subgraph " + subgraph + " from step " + std::to_string(step.value) + " on";
+  return "planning on subgraph " + subgraph + " from step " + std::to_string(step.value) + " on";
 }
 
 void publish(const AutomatonAnswer& answer, HlcActions& actions) {
@@ -21,7 +21,7 @@ void publish(const AutomatonAnswer& answer, HlcActions& actions) {
       return actions.info(switch_line(answer.text, answer.step));
     case RequestOutcome::kRefused:
     case RequestOutcome::kStale:
-      return actions.warn("a request for another subgraph is refused: " + answer.text);
+      return actions.warn("subgraph request refused: " + answer.text);
   }
 }
 

@@ -81,7 +81,7 @@ void LabControlMachine::append(const LabRunActions& todo, Nanoseconds wall, Acti
 void LabControlMachine::show_progress(Nanoseconds wall, Actions& actions) {
   if (!progress_.is_due(wall)) return;
   if (run_->phase() == LabRun::Phase::kGathering) {
-    actions.emplace_back(ProgressText{"waiting, " + run_->waiting_for()});
+    actions.emplace_back(ProgressText{"waiting: " + run_->waiting_for()});
     return;
   }
   const LabRunSettings& settings = run_->settings();

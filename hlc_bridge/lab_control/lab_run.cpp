@@ -76,7 +76,7 @@ void LabRun::interrupt() {
 
 void LabRun::stop_requested(std::uint8_t vehicle_id) {
   end_asked_ = true;
-  fail(kExitDied, controller_name(vehicle_id) + " asked for the stop");
+  fail(kExitDied, controller_name(vehicle_id) + " requested the stop");
 }
 
 LabRunActions LabRun::advance(Nanoseconds now) {
@@ -173,7 +173,7 @@ void LabRun::update_returns(LabRunActions& actions) {
 void LabRun::update_deaths(LabRunActions& actions) {
   for (const std::string& process : processes_) {
     if (lost_.count(process) != 0) {
-      mark_dead(process, "its participant has left or fallen silent", actions);
+      mark_dead(process, "participant left or lease expired", actions);
     }
   }
   for (const Death& death : overdue()) {
@@ -182,7 +182,7 @@ void LabRun::update_deaths(LabRunActions& actions) {
   const std::vector<std::string> pending = pending_replies();
   if (!pending.empty() && now_ - last_progress_ >= kAnswerTimeout) {
     for (const std::string& process : pending) {
-      mark_dead(process, "it owes an answer for too long", actions);
+      mark_dead(process, "answer overdue", actions);
     }
     last_progress_ = now_;
   }
@@ -323,11 +323,11 @@ std::string LabRun::waiting_for() const {
   }
   const std::vector<std::string> unreached = unreached_timers();
   if (absent.empty() && waiting.empty() && !unreached.empty()) {
-    waiting.push_back("triggers, which do not yet reach " + join(unreached));
+    waiting.push_back("triggers, not yet matched by " + join(unreached));
   }
   std::string line;
   if (!absent.empty()) {
-    line += "not there: " + join(absent);
+    line += "missing: " + join(absent);
   }
   if (!waiting.empty()) {
     line += (absent.empty() ? "" : "; ") + ("not ready: " + join(waiting));
@@ -348,8 +348,8 @@ std::string LabRun::standby_line() const {
   for (const std::uint8_t id : settings_.vehicle_ids) {
     names.push_back(controller_name(id) + (last_report(id) ? "" : " (silent)"));
   }
-  return "after " + seconds(kStandbyTimeout) + " nobody has left standby: " + join(names) +
-         "; is every vehicle's state valid?";
+  return "no vehicle left standby within " + seconds(kStandbyTimeout) + ": " + join(names) +
+         "; check that every vehicle's state is valid";
 }
 
 }  // namespace hlc

@@ -118,7 +118,7 @@ class LabRun {
   [[nodiscard]] bool finished() const { return phase_ == Phase::kFinished; }
   /// Steps that have begun, 0 before k0; at most `steps`.
   [[nodiscard]] std::uint64_t steps_begun() const;
-  /// Before the beginning: "not there: a, b; not ready: c".
+  /// Before the beginning: "missing: a, b; not ready: c".
   [[nodiscard]] std::string waiting_for() const;
   /// Complete once finished.
   [[nodiscard]] const LabRunResult& result() const { return result_; }

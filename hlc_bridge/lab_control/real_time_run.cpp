@@ -81,9 +81,9 @@ std::vector<Death> RealTimeRun::overdue() const {
   std::vector<Death> deaths;
   for (const std::uint8_t id : settings().vehicle_ids) {
     if (now() >= report_due(id)) {
-      deaths.push_back({controller_name(id), "it has not reported for too long"});
+      deaths.push_back({controller_name(id), "report overdue"});
     } else if (now() >= drive_due(id)) {
-      deaths.push_back({controller_name(id), "it stays on standby while others drive"});
+      deaths.push_back({controller_name(id), "on standby while others drive"});
     }
   }
   return deaths;

@@ -163,7 +163,7 @@ void MiddlewareMachine::look_for_end(const Instant& now) {
   if (ending_.is_asked || cycle_.is_stopped()) return leave(kExitGood, now);
   if (phase_ == Phase::kStarting) return;
   if (grace_.is_over(peers_.lab_control_is_lost, now.wall)) {
-    actions_.emplace_back(machine::error(std::string{kLabControlName} + " is gone"));
+    actions_.emplace_back(machine::error(std::string{kLabControlName} + " lost"));
     leave(kExitDied, now);
   }
 }

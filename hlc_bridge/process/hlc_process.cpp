@@ -111,11 +111,11 @@ void HlcProcess::prepare_thread() const {
   make_code_resident();
   reserve_heap(kHeapReserve);
   if (options_.thread_priority > 0 && !take_precedence(options_.thread_priority)) {
-    spdlog::info("{}: no real-time priority (ulimit -r): others may interrupt a plan",
+    spdlog::info("{}: no real-time priority (ulimit -r): planning may be preempted",
                  options_.node_id);
   }
   if (options_.core && !stay_on_core(*options_.core)) {
-    spdlog::warn("{}: --core = {}: this machine has no such core for it, must be in 0 ... {}",
+    spdlog::warn("{}: --core = {}: no such core for this process, must be in 0 ... {}",
                  options_.node_id, *options_.core, std::thread::hardware_concurrency() - 1);
   }
 }

@@ -48,7 +48,7 @@ std::optional<ReportFile> make_report_file(const std::filesystem::path& folder) 
   const std::filesystem::path file = folder / "reports.csv";
   if (error || std::filesystem::exists(file)) {
     throw std::invalid_argument("--out = " + folder.string() +
-                                ", must be a folder that can be made and holds no reports.csv");
+                                ", must be a folder that can be created and holds no reports.csv");
   }
   return std::optional<ReportFile>{std::in_place, file};
 }

@@ -93,9 +93,9 @@ AutomatonConfiguration read_configuration_of(const std::filesystem::path& path) 
   const AutomatonFile file = read_automaton_file(path);
   const auto beside = configuration_beside(file, path);
   if (!beside) {
-    throw std::invalid_argument(fmt::format(
-        "{}: its configuration {} is not beside it, without which no maneuvers can be designed",
-        path.string(), file.configuration_file));
+    throw std::invalid_argument(
+        fmt::format("{}: configuration {} not found in its folder, needed to design maneuvers",
+                    path.string(), file.configuration_file));
   }
   check_is_current(file, path, *beside);
   AutomatonConfiguration configuration = read_automaton_configuration(*beside);

@@ -22,7 +22,7 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
   std::filesystem::create_directories(folder_, error);
   if (error || access(folder_.c_str(), W_OK | X_OK) != 0) {
     throw std::invalid_argument("--dump-problems = " + folder_.string() +
-                                ", must be a folder that can be made and written to");
+                                ", must be a folder that can be created and written to");
   }
 }
 

@@ -168,7 +168,7 @@ class FaultyRun {
       for (std::uint64_t j = 1; j <= lab.scenario().horizon_steps; ++j) {
         const auto planned = sample(command->second.points, now + j * kPeriod);
         if (!planned) {
-          ADD_FAILURE() << "the command of step " << report.step.value << " ends before its plan";
+          ADD_FAILURE() << "command of step " << report.step.value << " ends before its plan";
           break;
         }
         const double reach_m = top_speed_mps * 1e-9 * static_cast<double>(j * kPeriod);

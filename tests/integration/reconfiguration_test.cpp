@@ -76,7 +76,8 @@ TEST_F(Reconfiguration, ASpeedLimitHoldsForTheVehicleThatIsAskedUntilTheScenario
   EXPECT_EQ(slow.code, 0) << slow.output;
   EXPECT_THAT(slow.output, HasSubstr("vehicle 2: in force from step"));
   EXPECT_THAT(slow.output, HasSubstr("B, at most 0.7 m/s"));
-  EXPECT_THAT(lab_.log("high_level_controller_2"), HasSubstr("plans on subgraph B, at most 0.7"));
+  EXPECT_THAT(lab_.log("high_level_controller_2"),
+              HasSubstr("planning on subgraph B, at most 0.7"));
   constexpr double kBetween_mps = 0.76;  // of the trims' 0.7 and 0.8 m/s
   EXPECT_TRUE(eventually(
       kPatience,

@@ -76,7 +76,7 @@ TEST_F(Start, ACarBesideItsLaneDrivesOntoItsReference) {
     last_error_m = std::max(last_error_m, error_m(drive[i]));
   }
   EXPECT_LT(last_error_m, 0.07) << "as on every lap";
-  EXPECT_NE(lab.log("high_level_controller_1").find("takes route"), std::string::npos);
+  EXPECT_NE(lab.log("high_level_controller_1").find("selects route"), std::string::npos);
 }
 
 TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
@@ -199,7 +199,7 @@ TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
   ReturningRun run(GetParam().scenario, GetParam().transport);
   const std::string controller = "high_level_controller_2";
   ASSERT_NO_FATAL_FAILURE(
-      run.kill_and_start_again("middleware", {2}, {{controller, "middleware_2 is gone"}}));
+      run.kill_and_start_again("middleware", {2}, {{controller, "middleware_2 lost"}}));
   run.expect_good_end();
   EXPECT_NE(run.lab.log(controller).find("middleware_2 is back"), std::string::npos)
       << run.lab.log(controller);

@@ -189,7 +189,7 @@ void run_on_one_machine(const FaultPlan& plan, const std::string& transport, boo
 
 void run_over_network(const FaultPlan& plan, bool keep, SoakResult& result) {
   const Network network(true);
-  if (!network.is_made()) throw std::runtime_error("the network cannot be made");
+  if (!network.is_made()) throw std::runtime_error("the network cannot be created");
   LabOverNetwork lab(network, kStepsOfAFaultyRun);
   if (eventually(kStartTime, [&] { return all_drive(lab.folder()); })) {
     std::map<int, int> cuts;  // of a machine, that have not ended

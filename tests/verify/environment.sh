@@ -19,7 +19,7 @@ dir=$1
 wanted=$(sha256sum <"$here/requirements.txt")
 [[ $(cat "$dir/installed" 2>/dev/null) != "$wanted" ]] || exit 0
 if [[ -e $dir && ! -e $dir/pyvenv.cfg && -n $(ls -A "$dir" 2>/dev/null) ]]; then
-  echo "environment.sh: $dir holds something else, must be a new folder or a virtual environment" >&2
+  echo "environment.sh: $dir contains other files, must be a new folder or a virtual environment" >&2
   exit 2
 fi
 python3 -c 'import venv, ensurepip' 2>/dev/null || {

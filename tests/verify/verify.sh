@@ -41,7 +41,7 @@ while (($#)); do
       shift ;;
     -*) fail "unknown flag $1 (see --help)" ;;
     *)
-      [[ -d $1 ]] || fail "$1 is no folder, must be run folders"
+      [[ -d $1 ]] || fail "$1 is not a folder, must be run folders"
       runs+=("$1") ;;
   esac
   shift

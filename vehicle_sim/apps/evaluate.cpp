@@ -111,7 +111,7 @@ hlc::Campaign read(Choices& choices) {
 void draw(const hlc::Campaign& campaign, Choices& choices) {
   if (choices.figures.names.empty()) return;
   choices.figures.log = [](const std::string& what) {
-    std::cerr << "evaluate: draws " << what << '\n';
+    std::cerr << "evaluate: drawing " << what << '\n';
   };
   const auto files = hlc::draw_figures(campaign, choices.figures, figure_folder(choices));
   for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());

@@ -64,11 +64,11 @@ RunLog::RunLog(std::filesystem::path folder, std::string heading)
     std::filesystem::create_directories(folder_, error);
     if (error) {
       throw std::invalid_argument(
-          fmt::format("--out = {}: cannot be made, {}, must be a writable folder", folder_.string(),
-                      error.message()));
+          fmt::format("--out = {}: cannot be created, {}, must be a writable folder",
+                      folder_.string(), error.message()));
     }
   }
-  if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
+  if (!std::filesystem::is_directory(folder_)) refuse("is not a folder");
   lock();
   try {
     open();
@@ -108,15 +108,15 @@ void RunLog::open() {
     }
   };
   if (!std::filesystem::exists(file)) {
-    if (!std::filesystem::is_empty(folder_)) refuse("holds something else");
+    if (!std::filesystem::is_empty(folder_)) refuse("contains other files");
     write(heading_ + "\n");
     return;
   }
-  if (!std::filesystem::is_regular_file(file)) refuse("holds something else");
+  if (!std::filesystem::is_regular_file(file)) refuse("contains other files");
   const std::string text = read_file(file);
   std::vector<std::string> lines = split(text, '\n');
   if (lines.front() != heading_) {
-    refuse("holds the campaign of other choices, other files or another program (there: " +
+    refuse("contains another campaign: other choices, files or program (there: " +
            differences(lines.front(), heading_) + ")");
   }
   lines.pop_back();  // behind the last line break: empty, or an incomplete line

@@ -18,15 +18,15 @@ constexpr Nanoseconds kMostMissedTicks = 500;
 const char* reason(FollowerStatus status) {
   switch (status) {
     case FollowerStatus::kFollowing:
-      return "it follows";
+      return "following";
     case FollowerStatus::kNoCommand:
       return "no usable command";
     case FollowerStatus::kNotFollowable:
-      return "the command is empty, malformed, too short or too wild";
+      return "command empty, malformed, too short or beyond the limits";
     case FollowerStatus::kTooFar:
       return "too far from its reference";
     case FollowerStatus::kNoEstimate:
-      return "its own state is not finite";
+      return "vehicle state not finite";
   }
   return "";
 }
@@ -230,7 +230,7 @@ void VehicleMachine::watch_lab_control(Nanoseconds wall, Actions& actions) {
   if (is_stopping_ || stop_symbol_) {
     exit_code_ = kExitGood;
   } else {
-    fail(kExitDied, std::string(kLabControlName) + " is gone", actions);
+    fail(kExitDied, std::string(kLabControlName) + " lost", actions);
   }
 }
 

@@ -226,7 +226,7 @@ TEST_F(HlcMachineStep, RequestsArePreparedOneByOneBesideTheRun) {
   EXPECT_EQ(answers[0].outcome, RequestOutcome::kAccepted);
   EXPECT_EQ(answers[1].outcome, RequestOutcome::kInForce);
   EXPECT_EQ(answers[1].step, StepIndex{one.step()});
-  EXPECT_TRUE(one.has_logged("plans on subgraph"));
+  EXPECT_TRUE(one.has_logged("planning on subgraph"));
 }
 
 TEST_F(HlcMachineStep, OfTooManyRequestsTheFirstAreDropped) {

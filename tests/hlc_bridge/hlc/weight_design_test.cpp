@@ -161,9 +161,9 @@ TEST_F(WeightDesignTest, RefusesWithoutTheConfigurationThatTheAutomatonWasBuiltF
   WeightDesign without(base().shared_automaton(), {});
   EXPECT_THAT(refusal_of(without, kWeights), HasSubstr("is not known"));
   WeightDesign unreadable(base().shared_automaton(), []() -> AutomatonConfiguration {
-    throw std::invalid_argument("built.yaml: its configuration is not beside it");
+    throw std::invalid_argument("built.yaml: configuration not found in its folder");
   });
-  EXPECT_THAT(refusal_of(unreadable, kWeights), HasSubstr("is not beside it"));
+  EXPECT_THAT(refusal_of(unreadable, kWeights), HasSubstr("not found in its folder"));
   WeightDesign edited(base().shared_automaton(), [] {
     AutomatonConfiguration configuration = paper_b();
     configuration.limits.acceleration_mps2 *= 0.5;

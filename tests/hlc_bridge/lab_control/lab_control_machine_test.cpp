@@ -104,9 +104,8 @@ TEST_F(LogicalLabControl, WhoOwesAnAnswerForTooLongIsDead) {
   begin();
   wall_ += kAnswerTimeout;
   const auto actions = advance();
-  EXPECT_THAT(
-      of<machine::LogLine>(actions),
-      ElementsAre(machine::error("vehicle_raspberry_1 died: it owes an answer for too long")));
+  EXPECT_THAT(of<machine::LogLine>(actions),
+              ElementsAre(machine::error("vehicle_raspberry_1 died: answer overdue")));
   ASSERT_EQ(of<Log>(actions).size(), 1U);
   EXPECT_EQ(of<Log>(actions)[0].level, 1);
   ASSERT_EQ(of<RunState>(actions).size(), 1U);
@@ -120,7 +119,7 @@ TEST_F(LogicalLabControl, ShowsHowFarTheRunIs) {
   auto shown = of<ProgressText>(advance());
   ASSERT_EQ(shown.size(), 1U);
   EXPECT_EQ(shown[0].text,
-            "waiting, not there: vehicle_raspberry_1, middleware_1, high_level_controller_1");
+            "waiting: missing: vehicle_raspberry_1, middleware_1, high_level_controller_1");
   begin();
   wall_ += 2 * kSecond;
   shown = of<ProgressText>(advance());

@@ -144,7 +144,7 @@ TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
   EXPECT_TRUE(run.finished());
   EXPECT_EQ(run.result().exit_code, kExitMissing);
   EXPECT_EQ(run.result().reason,
-            "after 20 s: not there: high_level_controller_2; not ready: middleware_2");
+            "after 20 s: missing: high_level_controller_2; not ready: middleware_2");
 }
 
 TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {
@@ -167,7 +167,7 @@ TEST(LogicalRun, FirstTriggerWaitsUntilItReachesEveryTimer) {
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(1).triggers, IsEmpty()) << "two readers, but not the two timers'";
-  EXPECT_THAT(run.waiting_for(), HasSubstr("triggers, which do not yet reach middleware_1"));
+  EXPECT_THAT(run.waiting_for(), HasSubstr("triggers, not yet matched by middleware_1"));
   run.trigger_readers(timers_of({1}));
   EXPECT_THAT(run.advance(2).triggers, ElementsAre(0));
 }
@@ -226,7 +226,7 @@ TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
   run.stop_requested(2);
   EXPECT_EQ(run.advance(2).triggers.front(), kStopSymbol);
   EXPECT_EQ(run.result().exit_code, kExitDied);
-  EXPECT_EQ(run.result().reason, "high_level_controller_2 asked for the stop");
+  EXPECT_EQ(run.result().reason, "high_level_controller_2 requested the stop");
 }
 
 }  // namespace

@@ -251,7 +251,7 @@ TEST_F(RealTimeRunTest, NamesWhoIsMissing) {
   EXPECT_THAT(run_.advance(kStart + 20 * kSecond).triggers, ElementsAre(kStopSymbol));
   EXPECT_EQ(run_.result().exit_code, kExitMissing);
   EXPECT_EQ(run_.result().reason,
-            "after 20 s: not there: middleware_2; not ready: "
+            "after 20 s: missing: middleware_2; not ready: "
             "vehicle_raspberry_2");
 }
 

@@ -73,7 +73,7 @@ TEST_F(StartUpTest, LogsForWhomItWaits) {
     EXPECT_FALSE(learn(*start_up.wake_up()));
     for (const LogLine& line : logged(actions)) lines.push_back(line);
   }
-  EXPECT_THAT(lines, ElementsAre(info("waiting for lab_control to tell middleware_period_ms, "
+  EXPECT_THAT(lines, ElementsAre(info("waiting for lab_control to send middleware_period_ms, "
                                       "active_vehicle_ids")));
 }
 
@@ -84,7 +84,7 @@ TEST_F(StartUpTest, ALabControlThatDoesNotAnswerIsMissed) {
   EXPECT_EQ(start_up.wake_up(), kBegin + kTimeout);
   EXPECT_FALSE(learn(kBegin + kTimeout));
   EXPECT_EQ(start_up.exit_code(), kExitMissing);
-  EXPECT_THAT(logged(actions), ElementsAre(error("lab_control did not tell middleware_period_ms, "
+  EXPECT_THAT(logged(actions), ElementsAre(error("lab_control did not send middleware_period_ms, "
                                                  "active_vehicle_ids within 30 s")));
 }
 
@@ -96,7 +96,7 @@ TEST_F(StartUpTest, WaitsForEverybodyWithinTheSameTime) {
   EXPECT_THAT(logged(actions), ElementsAre(info("waiting for a, b")));
   EXPECT_EQ(start_up.wake_up(), kBegin + kTimeout);
   EXPECT_FALSE(connect(kBegin + kTimeout, "b"));
-  EXPECT_THAT(logged(actions), ElementsAre(error("not there within 30 s: b")));
+  EXPECT_THAT(logged(actions), ElementsAre(error("missing after 30 s: b")));
   EXPECT_EQ(start_up.exit_code(), kExitMissing);
 }
 

@@ -62,7 +62,7 @@ TEST_F(MiddlewareStartTest, NamesWhoeverDoesNotAppearInTime) {
   run_.on(peers);
   run_.wait(kStartupTimeout);
   EXPECT_EQ(run_.machine().exit_code(), kExitMissing);
-  EXPECT_EQ(run_.count_lines("not there within 30 s: high_level_controller_1, "
+  EXPECT_EQ(run_.count_lines("missing after 30 s: high_level_controller_1, "
                              "vehicle_raspberry_1, vehicle_raspberry_2"),
             1U);
 }
@@ -243,7 +243,7 @@ TEST_F(PatientMiddlewareTest, ALostLabControlEndsItAtOnce) {
   peers.lab_control_is_lost = true;
   run_.on(peers);
   EXPECT_EQ(run_.machine().exit_code(), kExitDied);
-  EXPECT_EQ(run_.count_lines("lab_control is gone"), 1U);
+  EXPECT_EQ(run_.count_lines("lab_control lost"), 1U);
 }
 
 TEST_F(PatientMiddlewareTest, AStopSymbolGoesBeforeTheLossOfTheLabControl) {

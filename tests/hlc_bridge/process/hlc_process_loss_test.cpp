@@ -224,7 +224,8 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists, [&] { return log().thread_that_logged(line) != 0; },
       [&] { middleware.lists.write(list); }));
-  EXPECT_EQ(log().thread_that_logged(line), log().thread_that_logged("ready, waits for a trigger"));
+  EXPECT_EQ(log().thread_that_logged(line),
+            log().thread_that_logged("ready; waiting for the start trigger"));
 }
 
 TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
@@ -232,7 +233,7 @@ TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
   ASSERT_TRUE(gets_ready(middleware));
   EXPECT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists,
-      [&] { return log().thread_that_logged("waits: middleware_1 has sent no state list") != 0; },
+      [&] { return log().thread_that_logged("waiting: no state list from middleware_1") != 0; },
       [] {}));
 }
 
@@ -252,10 +253,7 @@ TEST_F(ListenedToHlcProcessTest, OutlivesAMomentInWhichAllOthersAreGone) {
   centre.leave();
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists,
-      [&] {
-        return has_logged("lab_control is gone") &&
-               has_logged("nothing reaches the vehicle any more");
-      },
+      [&] { return has_logged("lab_control lost") && has_logged("no commands reach the vehicle"); },
       [] {}));
   middleware = std::make_unique<FakeMiddleware>(local());
   centre.listen();

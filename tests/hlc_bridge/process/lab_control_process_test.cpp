@@ -257,7 +257,7 @@ TEST_F(LabControlTest, StopRequestOfAControllerEndsTheRun) {
   ASSERT_TRUE(vehicle_.stop_requests.wait_for_matched(1, soon()));
   vehicle_.stop_requests.write({1});
   EXPECT_EQ(exit_code(), kExitDied);
-  EXPECT_EQ(facts().reason, "high_level_controller_1 asked for the stop");
+  EXPECT_EQ(facts().reason, "high_level_controller_1 requested the stop");
 }
 
 class EmptyLabTest : public testing::Test {
@@ -280,7 +280,7 @@ TEST_F(EmptyLabTest, NamesWhoDoesNotAppear) {
   LabControlProcess process{options_};
   EXPECT_EQ(process.run(), kExitMissing);
   EXPECT_EQ(read_facts(folder_ / "run.json").reason,
-            "after 1 s: not there: vehicle_raspberry_7, middleware_7, high_level_controller_7");
+            "after 1 s: missing: vehicle_raspberry_7, middleware_7, high_level_controller_7");
 }
 
 /// A vehicle of the real-time run as far as the lab control meets it.

@@ -176,7 +176,7 @@ TEST_F(BuiltAutomaton, TheConfigurationOfWhichItIsLiesBesideIt) {
     static_cast<void>(read_configuration_of(path_));
     FAIL() << "there is none";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("its configuration car.yaml is not beside it"),
+    EXPECT_NE(std::string(error.what()).find("configuration car.yaml not found in its folder"),
               std::string::npos)
         << error.what();
   }

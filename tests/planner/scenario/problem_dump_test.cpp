@@ -164,8 +164,9 @@ TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
     const ProblemDump dump("/proc/nowhere", "paper.yaml", {});
     FAIL() << "made";
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "--dump-problems = /proc/nowhere, must be a folder that can be made and written to");
+    EXPECT_EQ(
+        std::string(error.what()),
+        "--dump-problems = /proc/nowhere, must be a folder that can be created and written to");
   }
 }
 

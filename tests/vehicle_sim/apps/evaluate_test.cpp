@@ -80,7 +80,7 @@ TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
   std::filesystem::remove(out_ / "results.json");
   const Outcome again = evaluate("");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs already driven"));
   EXPECT_EQ(timeless(results()), whole);
 }
 
@@ -89,7 +89,7 @@ TEST_F(Evaluate, RefusesAFolderThatHoldsSomethingElseAndLeavesItAlone) {
   put(out_ / "thesis.tex", "text");
   const Outcome outcome = evaluate("");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("holds something else"));
+  EXPECT_THAT(outcome.output, HasSubstr("contains other files"));
   EXPECT_EQ(text_of(out_ / "thesis.tex"), "text");
   EXPECT_FALSE(std::filesystem::exists(out_ / "runs.jsonl"));
 }
@@ -161,7 +161,7 @@ TEST_F(Evaluate, RefusesAFolderInWhichSomebodyElseWrote) {
   put(out_ / "figures", "a file");
   const Outcome no_folder = evaluate("--figures error");
   EXPECT_EQ(no_folder.exit_code, 2);
-  EXPECT_THAT(no_folder.output, HasSubstr("figures is no folder"));
+  EXPECT_THAT(no_folder.output, HasSubstr("figures must be a folder"));
   EXPECT_EQ(text_of(out_ / "figures"), "a file");
 }
 
@@ -184,7 +184,7 @@ TEST_F(Evaluate, DrawsTheFiguresThatAreAskedForAlsoLater) {
   EXPECT_FALSE(std::filesystem::exists(out_ / "figures"));
   const Outcome later = evaluate("--figures scenario,paths");
   EXPECT_EQ(later.exit_code, 0) << later.output;
-  EXPECT_THAT(later.output, HasSubstr("4 of 4 runs are there already"));
+  EXPECT_THAT(later.output, HasSubstr("4 of 4 runs already driven"));
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(out_ / "figures")) {
     files.insert(entry.path().filename());
@@ -316,7 +316,7 @@ TEST_F(EvaluatePolicies, GoOnWhereTheyWereInterruptedInTheirOwnFolderOnly) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.output, HasSubstr("(there: policies [])"));
   EXPECT_EQ(text_of(out_ / "runs.jsonl"), without);
-  EXPECT_THAT(drive("").output, HasSubstr("1 of 1 runs are there already"));
+  EXPECT_THAT(drive("").output, HasSubstr("1 of 1 runs already driven"));
 
   std::filesystem::remove_all(out_);
   ASSERT_EQ(drive("--policies zone").exit_code, 0);
@@ -328,7 +328,7 @@ TEST_F(EvaluatePolicies, GoOnWhereTheyWereInterruptedInTheirOwnFolderOnly) {
   put(out_ / "runs.jsonl", lines.substr(0, cut + 40));
   const Outcome again = drive("--policies zone");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_THAT(again.output, HasSubstr("1 of 2 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("1 of 2 runs already driven"));
   EXPECT_EQ(timeless(results()), whole);
   EXPECT_THAT(drive("").output, HasSubstr("(there: policies [\"zone\"])"));
 }
@@ -385,7 +385,7 @@ TEST_F(Evaluate, KeepsRunFoldersAlsoOfRunsThatAreThereAlready) {
   EXPECT_EQ(timeless(results()), without);
   std::filesystem::remove_all(out_ / "runs" / "2");
   const Outcome again = evaluate("--keep_runs");
-  EXPECT_THAT(again.output, HasSubstr("3 of 4 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("3 of 4 runs already driven"));
   EXPECT_TRUE(std::filesystem::exists(out_ / "runs" / "2" / "run.json"));
 }
 
@@ -398,7 +398,7 @@ TEST_F(Evaluate, ARunFolderThatCannotBeWrittenIsNoFailureOfTheRun) {
   const Outcome failed = run_program("evaluate --keep_runs --scenario paper_red_alone --steps 20" +
                                      kScenarios + " --out " + out_.string());
   EXPECT_EQ(failed.exit_code, 3) << failed.output;
-  EXPECT_THAT(failed.output, HasSubstr("runs/0: cannot be made"));
+  EXPECT_THAT(failed.output, HasSubstr("runs/0: cannot be created"));
   EXPECT_EQ(results(), before);
 }
 
@@ -427,7 +427,7 @@ TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {
   std::filesystem::remove(run / "vehicle_1.csv");
   refused(run, "vehicle 1: no record of what it drove");
   std::filesystem::remove_all(run / "configuration");
-  refused(run, "flags.yaml: is not there");
+  refused(run, "flags.yaml: missing");
 }
 
 TEST_F(Evaluate, WhatIsPrintedOnAFullDeviceIsAnOutputThatCannotBeWritten) {

@@ -170,9 +170,8 @@ TEST(Sweep, FlyingLapIsNotFaultedForWhatWasBefore) {
     return touched;
   };
   EXPECT_EQ(result_of(touch(3), std::nullopt, kFlyingStep).fault, "");
-  EXPECT_EQ(result_of(touch(3), std::nullopt).fault, "vehicles touched each other 1 times");
-  EXPECT_EQ(result_of(touch(15), std::nullopt, kFlyingStep).fault,
-            "vehicles touched each other 1 times");
+  EXPECT_EQ(result_of(touch(3), std::nullopt).fault, "vehicles collided 1 times");
+  EXPECT_EQ(result_of(touch(15), std::nullopt, kFlyingStep).fault, "vehicles collided 1 times");
 }
 
 TEST(SweepReport, CsvHasOneRowPerRunWithItsSettings) {

@@ -119,9 +119,9 @@ TEST_F(LogicalVehicle, WhoDoesNotAppearInTimeIsMissed) {
   publish_parameters();
   static_cast<void>(advance());
   wall_ += 30 * kNanosecondsPerSecond;
-  EXPECT_THAT(of<LogLine>(advance()),
-              ElementsAre(machine::error(
-                  "not there within 30 s: lab_control, middleware_3, middleware_4")));
+  EXPECT_THAT(
+      of<LogLine>(advance()),
+      ElementsAre(machine::error("missing after 30 s: lab_control, middleware_3, middleware_4")));
   EXPECT_EQ(vehicle_.exit_code(), kExitMissing);
 }
 
@@ -217,7 +217,7 @@ TEST_F(LogicalVehicle, WithoutTheLabControlItEndsOnceItsTickIsDone) {
   vehicle_.on(answer_to(kListOffset));
   auto actions = advance();
   EXPECT_EQ(of<VehicleState>(actions).size(), 1U);
-  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control is gone")));
+  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control lost")));
   EXPECT_EQ(vehicle_.exit_code(), kExitDied);
 }
 
@@ -279,7 +279,7 @@ TEST_F(RealVehicle, DrivesItsPlanToTheEndBeforeItLeavesWithoutTheLabControl) {
   }
   EXPECT_GE(t, kVehicleStays);
   EXPECT_EQ(vehicle_.exit_code(), kExitDied);
-  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control is gone")));
+  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control lost")));
 }
 
 TEST_F(RealVehicle, ALabControlThatIsBackInTimeIsFollowedOn) {
