@@ -93,8 +93,8 @@ void declare(CLI::App& app, Flags& flags) {
   flags.network.declare_network(app);
   app.footer(
       "A request is a change of the scenario's subgraph, not of the last request: without any it "
-      "asks for the scenario's own, or for what the vehicle's policies say. A zone's speed limit "
-      "holds whatever is asked for. Exit codes: 0 in force, 1 a controller refused, 2 bad input, "
+      "is for the scenario's own, or the choice of the vehicle's policies. A zone's speed limit "
+      "holds for every request. Exit codes: 0 in force, 1 a controller refused, 2 bad input, "
       "3 a controller did not answer.");
 }
 

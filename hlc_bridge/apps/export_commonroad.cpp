@@ -59,7 +59,7 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
 std::string export_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
   const hlc::RunFacts facts = hlc::read_facts(run / "run.json");
   const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
-  if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: nobody drove");
+  if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: no vehicle drove");
   if (facts.period == 0 || facts.period % kInterval != 0) {
     throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
                              ", must be a multiple of " + std::to_string(kInterval));

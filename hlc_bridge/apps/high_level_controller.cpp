@@ -52,7 +52,7 @@ std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
 
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_ids", flags.vehicle_ids,
-                 "vehicles to control, e.g. 1,2: each by a process of its own")
+                 "vehicles to control, e.g. 1,2: each by a separate process")
       ->delimiter(',')
       ->required()
       ->check(hlc::vehicle_id_range());

@@ -123,8 +123,8 @@ std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Receive
   for (const int id : vehicle_ids) findings.push_back(of_vehicle(id, received));
   for (const auto& [id, vehicle] : received.vehicles) {
     if (std::ranges::find(vehicle_ids, static_cast<int>(id)) != vehicle_ids.end()) continue;
-    findings.push_back({Verdict::kNote, "vehicle " + std::to_string(id) + ": is there, too",
-                        "if it takes no part, nobody keeps clear of it"});
+    findings.push_back({Verdict::kNote, "vehicle " + std::to_string(id) + ": also present",
+                        "if it takes no part, the others do not keep clear of it"});
   }
   if (received.listened_to_middleware) findings.push_back(of_middleware(received));
   for (const int id : vehicle_ids) findings.push_back(of_controller(id, received));

@@ -74,7 +74,7 @@ Finding leftovers(const std::vector<SharedMemoryFile>& files) {
             ""};
   }
   return {Verdict::kNote,
-          "shared memory: " + std::to_string(count) + " files in /dev/shm that nobody uses, " +
+          "shared memory: " + std::to_string(count) + " unused files in /dev/shm, " +
               std::to_string(static_cast<int>(bytes / 1e6)) + " MB, such as " + example->name,
           "remove them when no program of the lab runs: rm /dev/shm/*fastrtps_* "
           "/dev/shm/fast_datasharing_*"};

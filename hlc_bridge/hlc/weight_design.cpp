@@ -59,10 +59,10 @@ WeightDesign::WeightDesign(std::shared_ptr<const UniversalAutomaton> automaton, 
 
 const AutomatonConfiguration& WeightDesign::configuration() {
   if (configuration_) return *configuration_;
-  if (!source_) refuse_weights("what the automaton was built from is not known");
+  if (!source_) refuse_weights("configuration of the automaton unknown");
   AutomatonConfiguration read = source_();
   if (!describes(read, *automaton_)) {
-    refuse_weights(read.source + " says something else than the automaton that is driven on");
+    refuse_weights(read.source + " differs from the automaton in use");
   }
   return configuration_.emplace(std::move(read));
 }
@@ -100,7 +100,7 @@ std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
   });
   if (!tasks.empty()) {
     std::vector<Maneuver> designed = design(wanted, tasks, [&stop] {
-      if (stop.stop_requested()) refuse_weights("the controller ends");
+      if (stop.stop_requested()) refuse_weights("the controller is stopping");
     });
     auto larger = std::make_shared<UniversalAutomaton>(*automaton);
     std::ranges::move(designed, std::back_inserter(larger->maneuvers));

@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
     }
   }
   app.footer(
-      "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
+      "Exit codes: 0 all runs driven, 1 some failed (reasons in results.json, sweep.csv), 2 bad "
       "input, 3 a record, table, figure or the printed output cannot be written; existing "
       "stays.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;

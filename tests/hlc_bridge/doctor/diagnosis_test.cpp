@@ -106,7 +106,7 @@ TEST(Diagnosis, TellsOfStatesThatAreLost) {
 TEST(Diagnosis, NotesAVehicleThatNobodyAskedFor) {
   const std::vector<Finding> findings = diagnose({}, good());
   EXPECT_TRUE(std::ranges::any_of(findings, [](const Finding& finding) {
-    return finding.verdict == Verdict::kNote && finding.what == "vehicle 1: is there, too";
+    return finding.verdict == Verdict::kNote && finding.what == "vehicle 1: also present";
   }));
 }
 

@@ -159,7 +159,7 @@ TEST_F(WeightDesignTest, RefusesWhatNoSumCanBeMadeOf) {
 
 TEST_F(WeightDesignTest, RefusesWithoutTheConfigurationThatTheAutomatonWasBuiltFrom) {
   WeightDesign without(base().shared_automaton(), {});
-  EXPECT_THAT(refusal_of(without, kWeights), HasSubstr("is not known"));
+  EXPECT_THAT(refusal_of(without, kWeights), HasSubstr("configuration of the automaton unknown"));
   WeightDesign unreadable(base().shared_automaton(), []() -> AutomatonConfiguration {
     throw std::invalid_argument("built.yaml: configuration not found in its folder");
   });
@@ -169,7 +169,7 @@ TEST_F(WeightDesignTest, RefusesWithoutTheConfigurationThatTheAutomatonWasBuiltF
     configuration.limits.acceleration_mps2 *= 0.5;
     return configuration;
   });
-  EXPECT_THAT(refusal_of(edited, kWeights), HasSubstr("paper.yaml says something else"));
+  EXPECT_THAT(refusal_of(edited, kWeights), HasSubstr("paper.yaml differs from"));
 }
 
 TEST_F(WeightDesignTest, StopsBetweenTwoManeuvers) {

@@ -233,7 +233,7 @@ TEST_F(BuiltAutomaton, WhatTheVehicleCannotDriveIsRefusedEvenWithAHashThatFits) 
     return all.substr(table, all.find('\n', table) - table);
   };
   EXPECT_NE(refusal(line_after("inputs: |"), "      13 0", true)
-                .find("1 -> 2: it accelerates by 13 m/s^2, more than the limit"),
+                .find("1 -> 2: acceleration = 13 m/s^2, exceeds the limit"),
             std::string::npos);
 }
 
@@ -247,24 +247,24 @@ TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
       spoil(spoiled);
       return validate(spoiled, automaton);
     };
-    EXPECT_EQ(fault([](Maneuver& m) { m.duration_s = 0.3; }), "its duration is not the step");
+    EXPECT_EQ(fault([](Maneuver& m) { m.duration_s = 0.3; }), "duration must be the step");
     EXPECT_NE(fault([](Maneuver& m) { m.states.pop_back(); }), "");
     EXPECT_EQ(fault([](Maneuver& m) { m.states.front().pose.x_m = 1e-6; }),
-              "it does not begin at the origin");
+              "begin must be the origin");
     EXPECT_EQ(fault([](Maneuver& m) { m.states.front().speed_mps += 1e-6; }),
-              "it does not begin in its trim");
+              "begin must be its trim");
     EXPECT_EQ(fault([](Maneuver& m) { m.states.back().steering_rad += 1e-6; }),
-              "it does not end in its trim");
+              "end must be its trim");
     EXPECT_EQ(fault([](Maneuver& m) { m.displacement.x_m += 1e-9; }),
-              "its displacement is not its last pose");
+              "displacement must be the last pose");
     EXPECT_NE(fault([](Maneuver& m) { m.inputs[3].steering_rate_radps = 6.3; }), "");
     EXPECT_NE(fault([](Maneuver& m) { m.states[3].speed_mps = 3.8; }), "");
     EXPECT_NE(fault([](Maneuver& m) { m.states[3].steering_rad = -0.63; }), "");
     EXPECT_EQ(fault([](Maneuver& m) { m.states[3].pose.y_m += 1e-5; }),
-              "integrated again, it does not meet its state 4");
+              "integrated again, does not meet state 4");
     if (good.from != good.to) {
       EXPECT_EQ(fault([](Maneuver& m) { m.inputs[3].acceleration_mps2 *= 0.98; }),
-                "integrated again, it does not meet its state 5");
+                "integrated again, does not meet state 5");
     }
     const auto shrink = [](ConvexPolygon& area) {
       Point middle = Point::Zero();
@@ -273,9 +273,9 @@ TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
       }
       for (Point& p : area.vertices_m) p = middle + 0.99 * (p - middle);
     };
-    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.swept_area_m); }).find("its swept area"),
+    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.swept_area_m); }).find("swept area"),
               std::string::npos);
-    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.lane_area_m); }).find("its lane area"),
+    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.lane_area_m); }).find("lane area"),
               std::string::npos);
     EXPECT_NE(fault([&](Maneuver& m) { m.swept_area_m = {}; }), "");
   }
