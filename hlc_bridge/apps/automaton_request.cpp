@@ -94,7 +94,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "A request is a change of the scenario's subgraph, not of the last request: without any it "
       "is for the scenario's own, or the choice of the vehicle's policies. A zone's speed limit "
-      "holds for every request. Exit codes: 0 in force, 1 a controller refused, 2 bad input, "
+      "holds for every request. Exit codes: 0 in force, 1 a controller refused, 2 invalid input, "
       "3 a controller did not answer.");
 }
 

@@ -36,7 +36,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "Runs until it is stopped. The others find each other through it with "
       "--discovery_mode=client and the same --discovery_server_... flags. "
-      "Exit codes: 0 stopped, 2 bad input.");
+      "Exit codes: 0 stopped, 2 invalid input.");
 }
 
 /// The library reports nothing for an address that it cannot serve.

@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
       option->needs("--scenario");
     }
   }
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   const auto write = [&] {
     hlc::check_output_files({out}, {run / "run.json", run / "reports.csv"});

@@ -84,10 +84,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::whole(0, hlc::kMaxCore));
   flags.network.declare(app);
   app.footer(
-      "Exit codes: 0 good, 1 good but --dump-problems has not written all, 2 bad input, 3 a "
-      "participant "
-      "did not appear, 4 the middleware or lab control "
-      "died.");
+      "Exit codes: 0 success, 1 success, but --dump-problems is incomplete, 2 invalid input, 3 "
+      "startup timeout, 4 the middleware or lab control died.");
 }
 
 hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
@@ -150,10 +148,9 @@ int main(int argc, char** argv) {
     flags.scenario.file = scenario_file(flags.scenario.file);
     scenario = hlc::read_scenario(flags.scenario);
     if (flags.problem_folder && scenario->policy != hlc::kNoPolicy) {
-      throw std::invalid_argument(
-          "--dump-problems with policy " + scenario->policy +
-          ", must be used with --policy none: a problem names a subgraph that "
-          "the automaton's file declares");
+      throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
+                                  " requires --policy none: a problem names a subgraph that "
+                                  "the automaton's file declares");
     }
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;

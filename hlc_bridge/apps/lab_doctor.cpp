@@ -39,7 +39,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::within(0.5, 600.0));
   flags.network.declare_network(app);
   app.footer(
-      "Exit codes: 0 no bad finding, 1 a bad finding, 2 bad input or an output that cannot be "
+      "Exit codes: 0 no bad finding, 1 a bad finding, 2 invalid input or an output that cannot be "
       "written.");
 }
 

@@ -42,8 +42,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_flag("--keep_running", flags.keep_running,
                "wait for the next experiment after a stop (real time)");
-  app.footer(
-      "Exit codes: 0 good, 2 bad input, 3 a participant did not appear, 4 the lab control died.");
+  app.footer("Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
 hlc::MiddlewareOptions process_options(const Flags& flags) {

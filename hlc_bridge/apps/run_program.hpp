@@ -14,7 +14,7 @@ namespace hlc {
 /// main of a process of a run, once its flags are parsed; returns main's exit code.
 ///
 /// `make` reads the input and makes the process (a shared_ptr to something with `int run()`); an
-/// exception from it is bad input, kExitBadInput. SIGINT and SIGTERM call `stop(process)`. An
+/// exception from it is invalid input, kExitBadInput. SIGINT and SIGTERM call `stop(process)`. An
 /// exception from the run is a failure of this process: for the others it has died, kExitDied.
 /// Either is logged in one line.
 template <class Make, class Stop>

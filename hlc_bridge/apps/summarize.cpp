@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: no noise")
       ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
-      "Exit codes: 0 good, 2 bad input or an output that cannot be written, 5 driven, but a "
+      "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 5 driven, but a "
       "vehicle left its plan or touched another "
       "one.");
   if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {

@@ -49,8 +49,8 @@ class MiddlewareMachine {
   [[nodiscard]] std::vector<Action> advance(const Instant& now);
   [[nodiscard]] WakeUp wake_up() const;
   [[nodiscard]] std::size_t awaited() const;
-  /// 0 good, 2 the lab control's parameters do not fit, 3 a required participant did not appear, 4
-  /// the lab control is lost.
+  /// 0 success, 2 the lab control's parameters do not fit, 3 a required participant did not appear,
+  /// 4 the lab control is lost.
   [[nodiscard]] std::optional<int> exit_code() const;
 
  private:

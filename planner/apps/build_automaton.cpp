@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", choices.jobs, "maneuvers designed at a time")
       ->check(hlc::whole(1, 256))
       ->capture_default_str();
-  app.footer("Exit codes: 0 good, 1 an output cannot be written, 2 bad input.");
+  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("build_automaton", [&choices] { run(choices); });
 }

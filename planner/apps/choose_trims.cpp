@@ -209,7 +209,7 @@ int main(int argc, char** argv) {
       "--config", configuration,
       "file with the keys `vehicle` and `limits` of an automaton configuration; default: the "
       "uCar");
-  app.footer("Exit codes: 0 good, 1 an output cannot be written, 2 bad input.");
+  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("choose_trims", [&] {
     const Car car = configuration.empty() ? Car{} : read_car(configuration);

@@ -151,7 +151,7 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
 }
 
 /// Runs the program's work, which returns nothing or an exit code. Returns that code, or 0, if the
-/// work succeeds and all its output is written; 2 after one line about bad input
+/// work succeeds and all its output is written; 2 after one line about invalid input
 /// (std::invalid_argument), `failed` after one line about any other error.
 template <class Work>
 int exit_code_of(const char* program, Work work, int failed = 1) {

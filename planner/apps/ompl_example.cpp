@@ -96,7 +96,7 @@ void declare(CLI::App& app, Flags& flags) {
       "its "
       "engines, and cost_to_go for best_first; criterion_weights are refused: the planners are "
       "compared by the distance from the reference alone.\n\n"
-      "Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+      "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
 }
 
 /// KPIECE covers this plane with cells.

@@ -80,7 +80,8 @@ void declare(CLI::App& app, Flags& flags) {
   hlc::declare_output(app, flags.table, "table to write (CSV)")->required();
   hlc::declare_output(app, flags.plot, "plot to write (SVG)");
   app.footer(
-      "Exit codes: 0 good, 1 a point was not found or an output cannot be written, 2 bad input.");
+      "Exit codes: 0 success, 1 a point was not found or an output cannot be written, 2 invalid "
+      "input.");
 }
 
 std::string printed(const std::vector<double>& numbers) {

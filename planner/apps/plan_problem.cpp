@@ -66,7 +66,8 @@ void declare(CLI::App& app, Flags& flags) {
       "planning_us");
   hlc::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
   app.footer(
-      "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input or an output that "
+      "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 invalid input or an output "
+      "that "
       "cannot be written.");
 }
 

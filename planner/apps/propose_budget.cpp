@@ -60,7 +60,8 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
       ->check(hlc::whole(1, 100000));
   app.footer(
-      "Exit codes: 0 good, 1 the deadline leaves no time to search, 2 bad input or an output that "
+      "Exit codes: 0 success, 1 the deadline leaves no time to search, 2 invalid input or an "
+      "output that "
       "cannot be written.");
 }
 

@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::whole(1, 100000));
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::exit_code_of(
       "rollout", [&choices] { return run(choices); }, kExitFailed);

@@ -148,7 +148,8 @@ int main(int argc, char** argv) {
       "--configuration", configuration,
       "configuration that it must be built from (default: the one in the same folder, if any)");
   app.footer(
-      "Exit codes: 0 good, 1 an output cannot be written, 2 bad input, a stale or edited file.");
+      "Exit codes: 0 success, 1 an output cannot be written, 2 invalid input, a stale or edited "
+      "file.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("show_automaton", [&] {
     const AutomatonFile file = hlc::read_current_automaton_file(path);

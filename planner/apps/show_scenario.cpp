@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
   hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};

@@ -82,10 +82,9 @@ CostToGo cost_to_go_from_name(const std::string& name) {
 
 void check_search_options(const SearchOptions& options) {
   if (options.engine == Engine::kBranchAndBound && options.cost_to_go != CostToGo::kReachable) {
-    throw std::invalid_argument(
-        std::string("engine = ") + to_string(options.engine) + " with cost-to-go " +
-        to_string(options.cost_to_go) +
-        ", must be used with cost-to-go reachable; for any other, best_first");
+    throw std::invalid_argument(std::string("engine = ") + to_string(options.engine) +
+                                " with cost-to-go " + to_string(options.cost_to_go) +
+                                ", requires cost-to-go reachable; any other requires best_first");
   }
   if (options.max_expansions == 0) {
     throw std::invalid_argument("max_expansions = 0, must be >= 1");

@@ -113,7 +113,8 @@ int main(int argc, char** argv) {
       ->check(hlc::among(hlc::test::contestant_names()));
   app.add_flag("--list", choices.lists, "name the sets and end");
   app.footer(
-      "Exit codes: 0 good, 1 an engine's plan is not optimal or something failed, 2 bad input.");
+      "Exit codes: 0 success, 1 an engine's plan is not optimal or something failed, 2 invalid "
+      "input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("search_benchmark", [&choices] {
     if (!choices.lists) return run(choices) ? 0 : 1;

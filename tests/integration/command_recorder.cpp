@@ -33,7 +33,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::vehicle_id_range());
   app.add_option("--out", flags.out, "file for the commands")->required();
   app.footer(
-      "Ends with the lab control or the last of the middlewares. Exit codes: 0 good, 2 bad input, "
+      "Ends with the lab control or the last of the middlewares. Exit codes: 0 success, 2 invalid "
+      "input, "
       "4 the file cannot be written.");
 }
 

@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
   app.footer(
       "Real processes on this machine. As root with an empty /dev/shm of its own, in which nothing "
       "may be left, and with a network per car in some runs. "
-      "Exit codes: 0 every run was good, 1 not so, 2 bad input.");
+      "Exit codes: 0 every run passed, 1 a run failed, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   const bool is_root = hlc::test::use_own_shared_memory();
   if (!is_root) std::printf("without root: leftovers in /dev/shm and the network are left out\n");

@@ -103,7 +103,7 @@ def verify_controls(program: Path, folder: Path, needs_set_anew: bool) -> bool:
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__,
-        epilog="Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input.",
+        epilog="Exit codes: 0 all accepted, 1 a run rejected or a negative control accepted, 2 invalid input.",
     )
     parser.add_argument("--export", type=Path, required=True, help="the program export_commonroad")
     parser.add_argument(

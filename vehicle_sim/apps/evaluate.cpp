@@ -55,7 +55,7 @@ std::string command_line(int argc, char** argv) {
 
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
-/// All input of the campaign. A file that cannot be read is bad input.
+/// All input of the campaign. A file that cannot be read is invalid input.
 hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
@@ -79,7 +79,7 @@ hlc::Campaign read(Choices& choices) {
   if (!figures.pareto_configuration.empty() && !is_asked_for("pareto_set")) {
     throw std::invalid_argument(
         "--pareto_configuration = " + figures.pareto_configuration.string() +
-        ", must be used with --figures=pareto_set");
+        " requires --figures=pareto_set");
   }
   if (figures.pareto_configuration.empty()) {
     figures.pareto_configuration =
@@ -99,8 +99,7 @@ hlc::Campaign read(Choices& choices) {
       return campaign.scenario_of(run).vehicles.size() == 1;
     };
     if (!draws_all && is_asked_for("distance") && std::ranges::all_of(campaign.runs(), is_alone)) {
-      throw std::invalid_argument(
-          "--figures = distance, must be used with a scenario of several cars");
+      throw std::invalid_argument("--figures = distance requires a scenario of several cars");
     }
     return campaign;
   } catch (const std::runtime_error& error) {

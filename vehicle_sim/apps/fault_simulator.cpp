@@ -232,7 +232,7 @@ int main(int argc, char** argv) {
   return hlc::exit_code_of("fault_simulator", [&] {
     hlc::check_each_once("--faults", choices.faults);
     if (!choices.replay && (!keep.empty() || !choices.trace.empty())) {
-      throw std::invalid_argument("--keep and --trace must be used with --replay");
+      throw std::invalid_argument("--keep and --trace require --replay");
     }
     if (choices.campaign.cars == 1 || choices.campaign.cars == 2) {
       throw std::invalid_argument("--cars = " + std::to_string(choices.campaign.cars) +

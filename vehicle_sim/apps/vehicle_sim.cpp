@@ -51,7 +51,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "In real time the car waits for commands without a time limit, as the lab's does "
       "(--startup_timeout_s counts in logical time).\n"
-      "Exit codes: 0 good, 2 bad input, 3 a participant did not appear, 4 the lab control died.");
+      "Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
 hlc::VehicleProcessOptions process_options(const Flags& flags) {

@@ -79,7 +79,7 @@ struct DrivenRun {
 /// several threads.
 class Campaign {
  public:
-  /// Reads every scenario with every profile, subgraph and policy, so that bad input is found
+  /// Reads every scenario with every profile, subgraph and policy, so that invalid input is found
   /// before the first run.
   /// @throws std::invalid_argument as read_scenario; for random starts of open paths; for different
   /// scenarios of the same name; for a policy that a scenario does not have, naming `--policies`

@@ -35,7 +35,7 @@ struct SweepResult {
 /// automata may be built, and different runs driven, by several threads.
 class Sweep {
  public:
-  /// Reads every scenario with every profile, so that bad input is found before the first run.
+  /// Reads every scenario with every profile, so that invalid input is found before the first run.
   /// @throws std::invalid_argument as read_scenario; for random starts of open paths
   explicit Sweep(SweepPlan plan);
 

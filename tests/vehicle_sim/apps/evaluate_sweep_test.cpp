@@ -1,4 +1,4 @@
-// `evaluate --sweep`: files, resumption, bad input.
+// `evaluate --sweep`: files, resumption, invalid input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The evaluation program: files, resumption, bad input.
+// The evaluation program: files, resumption, invalid input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -241,25 +241,24 @@ TEST_F(Evaluate, AMapThatCannotBeReadIsBadInput) {
 }
 
 TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
-  for (const auto& [flags, message] :
-       {std::pair{"--profile 2021", "2021"},
-        {"--scenario nowhere", "--scenario = nowhere"},
-        {"--subgraphs Z", "Z"},
-        {"--subgraphs B,D,B", "--subgraphs = B twice"},
-        {"--policies zone", "--policies = zone, must be one of"},
-        {"--policies zone,zone", "--policies = zone twice"},
-        {"--profile 2022,2022", "--profile = 2022 twice"},
-        {"--scenario circle,circle", "--scenario = circle twice"},
-        {"--starts 0", "--starts"},
-        {"--starts 2.5", "--starts"},
-        {"--seed -5", "--seed"},
-        {"--noise_seed 99999999999999999999999", "--noise_seed"},
-        {"--figures path", "--figures"},
-        {"--figures distance --scenario paper_red_alone",
-         "--figures = distance, must be used with a scenario of several"},
-        {"--figures paths --pareto_configuration x.yaml",
-         "--pareto_configuration = x.yaml, must be used with"},
-        {"--unheard_of", "unheard_of"}}) {
+  for (const auto& [flags, message] : {std::pair{"--profile 2021", "2021"},
+                                       {"--scenario nowhere", "--scenario = nowhere"},
+                                       {"--subgraphs Z", "Z"},
+                                       {"--subgraphs B,D,B", "--subgraphs = B twice"},
+                                       {"--policies zone", "--policies = zone, must be one of"},
+                                       {"--policies zone,zone", "--policies = zone twice"},
+                                       {"--profile 2022,2022", "--profile = 2022 twice"},
+                                       {"--scenario circle,circle", "--scenario = circle twice"},
+                                       {"--starts 0", "--starts"},
+                                       {"--starts 2.5", "--starts"},
+                                       {"--seed -5", "--seed"},
+                                       {"--noise_seed 99999999999999999999999", "--noise_seed"},
+                                       {"--figures path", "--figures"},
+                                       {"--figures distance --scenario paper_red_alone",
+                                        "--figures = distance requires a scenario of several"},
+                                       {"--figures paths --pareto_configuration x.yaml",
+                                        "--pareto_configuration = x.yaml requires"},
+                                       {"--unheard_of", "unheard_of"}}) {
     const Outcome outcome =
         run_program(std::string("evaluate --out ") + out_.string() + kScenarios + " " + flags);
     EXPECT_EQ(outcome.exit_code, 2) << flags;
