@@ -224,27 +224,27 @@ class Asker {
   /// Controllers that are matched in both directions. Without --vehicle: all that are matched one
   /// second after the first one.
   bool find_controllers() {
-    const auto hears = [this](int id) {
+    const auto is_matched = [this](int id) {
       const std::string name = hlc::controller_name(static_cast<std::uint8_t>(id));
       return writer_.matched_names().contains(name) && reader_.matched_names().contains(name);
     };
-    const auto all_hear = [&] { return stop_ || std::ranges::all_of(asked_, hears); };
-    const auto somebody = [&] { return stop_ || writer_.matched() > 0; };
+    const auto all_matched = [&] { return stop_ || std::ranges::all_of(asked_, is_matched); };
+    const auto any_matched = [&] { return stop_ || writer_.matched() > 0; };
     const auto deadline = Clock::now() + seconds(flags_.timeout_s);
     const bool is_open = asked_.empty();
-    const bool found =
-        is_open ? signal_.wait_until(deadline, somebody) : signal_.wait_until(deadline, all_hear);
+    const bool found = is_open ? signal_.wait_until(deadline, any_matched)
+                               : signal_.wait_until(deadline, all_matched);
     if (is_open && found) {
       static_cast<void>(
           signal_.wait_until(Clock::now() + std::chrono::seconds{1}, [this] { return stop_; }));
       for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
-        if (hears(id)) asked_.insert(id);
+        if (is_matched(id)) asked_.insert(id);
       }
     }
     if (found && !asked_.empty()) return true;
     std::string missing;
     for (const int id : asked_) {
-      if (!hears(id)) {
+      if (!is_matched(id)) {
         missing +=
             (missing.empty() ? "" : ", ") + hlc::controller_name(static_cast<std::uint8_t>(id));
       }

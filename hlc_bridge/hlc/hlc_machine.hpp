@@ -39,7 +39,7 @@ struct HlcSettings {
 ///
 /// * *Gathering* waits under StartRule::kTogether until all controllers are matched, since messages
 ///   sent before a match are lost.
-/// * *Preparing* waits where the rules say so for requested subgraphs that are being prepared.
+/// * *Preparing* waits, if the rules require it, for requested subgraphs that are being prepared.
 /// * *Stepping* is a ControlStep: traffic is published before anything else is computed, and the
 ///   command before the report, the drawings and AfterStep.
 /// * *After a step* policies look ahead, when everything is published. The copy of the command is

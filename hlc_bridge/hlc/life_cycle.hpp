@@ -14,10 +14,10 @@
 namespace hlc {
 
 /// The duties of a controller's process beside its steps: becomes ready and publishes it, detects
-/// lost and returned participants, logs for whom it waits, and ends.
+/// lost and returned participants, logs what it waits for, and ends.
 ///
 /// Ends between two steps, when
-///   * its middleware is lost and not back in time: at once where the rules say so, or in a
+///   * its middleware is lost and not back in time: at once if the rules require it, or in a
 ///     minimal-risk stop of the run (a lost lab control is no reason: to a process that got no
 ///     processor time for a lease, all others seem lost);
 ///   * it yields to a duplicate instance (Readiness);

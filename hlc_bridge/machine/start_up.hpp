@@ -11,7 +11,7 @@
 namespace hlc::machine {
 
 /// The phase of a process before its first tick: it gets the run's parameters from the lab control,
-/// and (where the rules say so) waits until all participants are present. Both together take at
+/// and (if the rules require it) waits until all participants are present. Both together take at
 /// most `timeout`, from the first call of learn on; then the process ends with kExitMissing. All
 /// times are wall time.
 ///

@@ -6,7 +6,7 @@
 
 namespace hlc::machine {
 
-/// When a waiting process logs for whom it waits: 2 s after the wait began, then at doubling
+/// When a waiting process logs what it waits for: 2 s after the wait began, then at doubling
 /// intervals, up to a minute. All times are wall time.
 class WaitNotice {
  public:

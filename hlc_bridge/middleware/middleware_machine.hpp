@@ -16,7 +16,7 @@
 
 namespace hlc {
 
-/// Connects controllers and vehicles (machine/machine.hpp says how it is run).
+/// Connects controllers and vehicles (run as described in machine/machine.hpp).
 ///
 /// Every period, at t_now = k P + offset, it publishes a VehicleStateList with the newest valid
 /// state of every active vehicle. Commands of a controller are forwarded to its vehicle on arrival,

@@ -5,7 +5,7 @@
 
 namespace hlc {
 
-/// When a waiting process is to log for whom it waits: after 2 s, then at doubling intervals, up to
+/// When a waiting process is to log what it waits for: after 2 s, then at doubling intervals, up to
 /// a minute.
 class WaitNotice {
  public:

@@ -25,7 +25,7 @@ constexpr int kExitFailed = 2;
 
 /// Searches of fewer expansions do not show the time of one: most of their time is the preparation
 /// of the search, which they measure.
-constexpr std::size_t kTelling = 1000;
+constexpr std::size_t kInformative = 1000;
 constexpr int kCalls = 3;
 /// The tree of a long horizon is practically infinite: measuring stops here.
 constexpr std::size_t kMeasured = 300'000;
@@ -124,18 +124,18 @@ Measurements measure(const hlc::Scenario& scenario,
   const auto engine = hlc::make_search_engine(*scenario.subgraph, reachable, options);
   Measurements result;
   std::optional<Measured> ordinary;
-  std::size_t telling = 0;
+  std::size_t informative = 0;
   for (const hlc::HorizonProblem& problem : problems) {
     const Measured one = measured(*engine, problem, "slowest of the scenario's");
-    if (one.expansions < kTelling) {
+    if (one.expansions < kInformative) {
       result.preparation_s = std::max(result.preparation_s, one.time_s);
       continue;
     }
-    ++telling;
+    ++informative;
     if (!ordinary || one.rate_per_s() < ordinary->rate_per_s()) ordinary = one;
   }
   if (ordinary) {
-    ordinary->problems = telling;
+    ordinary->problems = informative;
     result.slowest.push_back(*ordinary);
   }
 
@@ -154,7 +154,7 @@ Measurements measure(const hlc::Scenario& scenario,
     hlc::HorizonProblem hardest = with_blocked_ends(*problem);
     hardest.incumbent.clear();
     const Measured within_lanes = measured(*engine, hardest, "all ends blocked");
-    if (within_lanes.expansions < kTelling) continue;
+    if (within_lanes.expansions < kInformative) continue;
     result.slowest.push_back(within_lanes);
     hardest.boundary_m.clear();  // much more of the tree is free
     result.slowest.push_back(measured(*engine, hardest, "the same without lanes"));
@@ -185,7 +185,7 @@ int run(const Flags& flags) {
   const Measurements found = measure(scenario, problems);
   if (found.slowest.empty()) {
     throw std::invalid_argument(flags.scenario.file.string() + ": no search expands " +
-                                std::to_string(kTelling) +
+                                std::to_string(kInformative) +
                                 " vertices, must be a scenario with harder searches");
   }
   std::printf(
@@ -196,7 +196,7 @@ int run(const Flags& flags) {
   std::printf("%-26s %8s %12s %12s %18s\n", "measured", "problems", "expansions", "time [ms]",
               "expansions per s");
   for (const Measured& one : found.slowest) print(one);
-  std::printf("longest with fewer than %zu expansions: %.3f ms\n\n", kTelling,
+  std::printf("longest with fewer than %zu expansions: %.3f ms\n\n", kInformative,
               1e3 * found.preparation_s);
 
   const double rate_per_s = found.rate_per_s();

@@ -222,16 +222,15 @@ void check_version(const Node& node, const std::filesystem::path& path) {
   }
   if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
   node.fail("automaton_schema",
-            fmt::format("{}; build the file anew from its configuration: build_automaton "
+            fmt::format("{}; rebuild the file from its configuration: build_automaton "
                         "CONFIG.yaml --out {}",
                         kAutomatonSchema, shell_word(path)));
 }
 
 void check_hash(const Node& node, const std::string& text, const std::string& command) {
   if (node.required<std::string>("sha256") == hash_of_rest(text)) return;
-  node.fail(
-      "sha256",
-      "the hash of the file's other lines: it was edited or damaged; build it anew: " + command);
+  node.fail("sha256",
+            "the hash of the file's other lines: it was edited or damaged; rebuild it: " + command);
 }
 
 }  // namespace

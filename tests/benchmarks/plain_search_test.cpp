@@ -11,7 +11,7 @@
 namespace hlc::test::plain_search_test {
 namespace {
 
-/// The plan as an engine would tell it, for `validate`.
+/// The plan in the format of an engine, for `validate`.
 SearchResult as_engine_result(const PlainResult& plan, const HorizonProblem& problem) {
   SearchResult result{.status = SearchStatus::kOptimal, .cost = plan.cost};
   Pose pose = problem.start;

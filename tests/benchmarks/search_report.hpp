@@ -25,7 +25,7 @@ struct EngineRun {
   std::vector<Solved> solved;
 };
 
-/// What is told of one engine on one set. Ratios say how many times faster it is than the
+/// Results of one engine on one set. Ratios say how many times faster it is than the
 /// reference: reference's value / this engine's.
 struct EngineReport {
   std::string name;

@@ -1,4 +1,4 @@
-// Holds every #include against the arrows of the house. Debian puts the headers of Fast DDS, OMPL
+// Checks every #include against the allowed dependencies. Debian puts the headers of Fast DDS, OMPL
 // and all other libraries into the compiler's default path, so the build alone would not notice.
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ const std::map<std::string, Names> kArrows{
      {"planner/scenario", "planner/maneuver_design", "planner/search", "planner/automaton",
       "planner/common", "planner/road", "planner/vehicle", "planner/geometry"}},
     {"planner/apps", {"planner"}},
-    // Who carries messages needs nothing of the planner but what they are made of.
+    // Code that forwards messages needs only the parts of the planner in them.
     {"hlc_bridge/messages",
      {"planner/geometry", "planner/coordination/messages.hpp", "planner/coordination/report.hpp",
       "planner/automaton/trim_id.hpp", "planner/automaton/criterion.hpp",

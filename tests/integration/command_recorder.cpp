@@ -1,4 +1,4 @@
-// Listens to what the middlewares tell the vehicles to drive: every command is a plan that was
+// Records the commands of the middlewares to the vehicles: every command is a plan that was
 // agreed, and tests hold what was driven against it.
 #include <algorithm>
 #include <cstdint>
@@ -77,7 +77,7 @@ class Recorder {
   }
 
  private:
-  /// A discovery server tells only of those whose topics one shares: not of the lab control.
+  /// A discovery server announces only participants with a common topic: not the lab control.
   [[nodiscard]] bool is_over() const {
     return lab_.is_lost(hlc::kLabControlName) ||
            std::ranges::all_of(readers_, [this](const auto& reader) {

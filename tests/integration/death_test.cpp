@@ -1,4 +1,4 @@
-// A process that dies, or never appears: it is named, the others drive out their plans and stand,
+// A process that dies, or never appears: it is named, the others make a minimal-risk stop,
 // nothing hangs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void expect_stood_before_the_stop(const Drive& drive, const std::string& id) {
   EXPECT_LT(std::abs(at_stop.speed_mps), 0.05) << "vehicle " << id;
 }
 
-/// Rows of reports.csv in which the vehicle drove out its plan. Columns: step, id, status, ...
+/// Rows of reports.csv of a minimal-risk stop. Columns: step, id, status, ...
 std::size_t count_minimal_risk_rows(const std::filesystem::path& file, const std::string& id) {
   std::size_t rows = 0;
   std::istringstream text(read_text(file));

@@ -8,7 +8,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "tests/integration/recorded_commands.hpp"
 
-/// What the vehicles' own records say of a fault.
+/// Evaluation of a fault by the vehicles' records.
 namespace hlc::test {
 
 inline constexpr Nanoseconds kForEver = ~Nanoseconds{0};
@@ -16,7 +16,7 @@ inline constexpr Nanoseconds kForEver = ~Nanoseconds{0};
 /// Largest distance of the driven positions in [from, to] from the one plan that the vehicle
 /// followed at `from`: the command that its record names there, read as the lab's vehicle reads it
 /// (vehicle_sim/tracking/trajectory.hpp), and its last point after its end. Whoever drives anything
-/// else from then on shows here, also if it is told to by newer commands; commands that go on with
+/// else from then on shows here, also if newer commands demand it; commands that go on with
 /// the same plan do not.
 /// @return nothing if the vehicle followed no command at `from`, or one that was not recorded, or
 /// has no record of [from, to]

@@ -26,7 +26,7 @@ TrajectoryCommand straight(double seconds, Nanoseconds create_stamp) {
   return command;
 }
 
-/// Drives as straight(seconds) says, and follows that command.
+/// Drives straight(seconds), and follows that command.
 Drive drive(double seconds, Nanoseconds create_stamp, Nanoseconds end = 3 * kSecond) {
   Drive samples;
   for (Nanoseconds t = 0; t <= end; t += kTick) {

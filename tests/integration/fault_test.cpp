@@ -114,7 +114,7 @@ class FaultyRun {
       }
     }
     judged += expect_new_plans_keep_clear();
-    EXPECT_GT(judged, 0U) << "nobody drove out its plan, and nobody planned anew";
+    EXPECT_GT(judged, 0U) << "neither a minimal-risk stop nor a new plan";
   }
 
   LabProcesses lab;
@@ -232,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"middleware_killed", kLab, {2}, "middleware_2", SIGKILL}),
     testing::PrintToStringParamName());
 
-// Short enough for nobody to take it for dead: planning goes on when it is heard again.
+// Too short to count as dead: planning continues when its messages arrive again.
 TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   constexpr VehicleId kVictim{2};
   constexpr Nanoseconds kNotYetDead = 1'500'000'000;  // the others' patience is 2 s
@@ -261,13 +261,13 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   run.expect_others_keep_clear(goes_on);
   if (goes_on >= run.fault + kNotYetDead) {
     GTEST_SKIP() << "a busy machine made the stop last " << goes_on - run.fault
-                 << " ns: too long to be heard again";
+                 << " ns: too long for its messages to count";
   }
   EXPECT_TRUE(drives_on);
   EXPECT_GE(planned_steps(run.records, kVictim, after), 5U) << run.lab.log("lab_control");
 }
 
-// Everybody has taken it for dead and drives out; it wakes up with messages of long ago.
+// All consider it dead and make a minimal-risk stop; it wakes up with old messages.
 TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn) {
   constexpr VehicleId kVictim{2};
   FaultyRun run;

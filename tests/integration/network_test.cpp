@@ -41,7 +41,8 @@ void expect_only_the_last_plans(const LabOverNetwork& lab, Nanoseconds fault, Na
   }
 }
 
-// A car that is cut off hears nobody, and nobody sees it: all three are affected.
+// A car that is cut off receives nothing, and the others receive nothing from it: all three are
+// affected.
 TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThenItIsTakenBack) {
   const Network network(true);
   if (!network.is_made()) GTEST_SKIP() << "network namespaces need root and iproute2";
@@ -68,7 +69,7 @@ TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThe
   }
   expect_good_end(lab);
 
-  // Everybody noticed, and everybody hears everybody again. (In the last step some have left.)
+  // All noticed, and all receive each other's messages again. (In the last step some have left.)
   constexpr std::uint64_t kStepsOfTheFault = 5;
   std::map<std::uint8_t, StepIndex> missed_first;
   std::map<std::uint8_t, StepIndex> complete_last;

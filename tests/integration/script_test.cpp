@@ -281,7 +281,7 @@ TEST_P(KilledProcess, IsStartedAgainByOneCommandAndTheRunGoesOn) {
   ChildProcess second(command, folder_ / "second");
   EXPECT_EQ(second.wait_for(60s), 2);
   EXPECT_EQ(read_text(folder_ / "second"), "vehicle.sh: --only = " + only + ": " + process +
-                                               " still runs, end it first: kill -9 " +
+                                               " still running; stop it first: kill -9 " +
                                                std::to_string(pid) + "\n");
 
   ASSERT_EQ(::kill(pid, SIGKILL), 0);

@@ -194,7 +194,7 @@ TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
   EXPECT_LE(run.steps_until_it_plans(kVictim), 2 * kNanosecondsPerSecond / kPeriod);
 }
 
-// Its controller lives on without it, and answers it again.
+// Its controller keeps running without it, and answers it again.
 TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
   ReturningRun run(GetParam().scenario, GetParam().transport);
   const std::string controller = "high_level_controller_2";

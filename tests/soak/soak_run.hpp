@@ -34,7 +34,7 @@ struct SoakResult {
                                          bool keep);
 
 /// Three cars that start and stop: in logical time and in real time in turn, by the end of three
-/// steps and by an interruption in turn. Good if every process ends with the exit code that says
+/// steps and by an interruption in turn. Good if every process ends with the exit code for
 /// so.
 [[nodiscard]] SoakResult run_cycle(std::size_t number, bool keep);
 

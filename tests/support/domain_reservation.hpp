@@ -14,10 +14,10 @@
 
 namespace hlc {
 
-/// Consecutive DDS domains that no other test on this machine uses as long as this object lives:
-/// lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count - 1, all in
-/// 1 ... 50, and with each the one 50 above it (the default controller domain), so that none is
-/// above 100.
+/// Consecutive DDS domains that no other test on this machine uses during the lifetime of this
+/// object: lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count -
+/// 1, all in 1 ... 50, and with each the one 50 above it (the default controller domain), so that
+/// none is above 100.
 class DomainReservation {
  public:
   /// Waits up to a minute for room; throws std::runtime_error after that.

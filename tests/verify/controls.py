@@ -198,7 +198,7 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
         Control(
             "one driven sample 50 mm aside",
             "driving",
-            ("its speed says",),
+            ("expected from its speed",),
             lambda r: shift(motion(r, DRIVEN_IDS, 2)[777:778], 0.05, 0.0),
         ),
         Control(
@@ -220,7 +220,7 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
 
 
 def controls_of_plans_set_anew(anew: SetAnew) -> list[Control]:
-    """The allowance for such plans must not hide what the car does not say."""
+    """The allowance for such plans must not hide an error that the car's motion does not explain."""
 
     def states(root: Element) -> list[Element]:
         return motion(root, PLANNED_IDS, anew.vehicle)[anew.sample :]

@@ -7,7 +7,7 @@ which holds for a control step of 0.2 s and is scaled with the length of the ste
 10 ms to the next, once over whole control steps.
 
 A controller may set its plan down anew where the car is (planner/controller/plan_in_force.hpp).
-Such a jump is none of the vehicle; it is accepted only if the car, seen independently, says the
+Such a jump is not driven; it is accepted only if the car, evaluated independently, shows the
 same (`is_set_anew`).
 """
 

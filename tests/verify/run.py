@@ -1,4 +1,4 @@
-"""A run as CommonRoad's reader sees it, and what its configuration says of vehicle and routes."""
+"""A run as CommonRoad's reader sees it, and vehicle and routes of its configuration."""
 
 import math
 from dataclasses import dataclass

@@ -19,7 +19,7 @@ EXPORT_TIMEOUT_S = 60
 
 
 def export(program: Path, folder: Path, xml: Path) -> None:
-    """Writes the run as CommonRoad file. Raises BadInput with what the program says."""
+    """Writes the run as CommonRoad file. Raises BadInput with the program's message."""
     done = subprocess.run(
         [program, "--run", folder, "--out", xml],
         capture_output=True,
@@ -45,7 +45,7 @@ def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
         return [Finding("reader", f"CommonRoad's reader: {error!r}")], lines
     findings, text = check_whole(run, folder)
     if findings:
-        return findings, lines  # of what is not there nothing can be said
+        return findings, lines  # missing parts cannot be checked
     lines.append(f"record      {text}")
     findings += check_size(run)
     for name, check in (
@@ -64,7 +64,7 @@ def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
 
 
 def name_of(folder: Path) -> str:
-    """Scenario and choices, as far as the run folder says."""
+    """Scenario and choices, as far as the run folder contains them."""
     flags = folder / "configuration" / "flags.yaml"
     wanted = {}
     for line in flags.read_text(encoding="utf-8").splitlines() if flags.exists() else []:

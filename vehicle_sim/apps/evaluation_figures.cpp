@@ -77,7 +77,7 @@ class Drawing {
       write("pareto_set", pareto_set(choices_.pareto_configuration));
     }
     std::map<std::string, fs::path>
-        automata;  // by name; automata of one name are told apart by the scenario
+        automata;  // by name; automata of one name are distinguished by the scenario
     std::set<std::string> drawn;
     std::set<fs::path> scenarios;
     for (const CampaignRun& run : campaign_.runs()) {

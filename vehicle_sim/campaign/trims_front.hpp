@@ -22,8 +22,8 @@ struct TrimsQuality {
                                                          std::size_t scenario,
                                                          std::size_t subgraph);
 
-/// The choices that no other one beats: fewer or as many moving trims and a smaller or equal mean
-/// error, one of the two strictly.
+/// The choices that no other one dominates, i.e. has fewer or as many moving trims and a smaller or
+/// equal mean error, one of the two strictly.
 [[nodiscard]] std::vector<TrimsQuality> trims_front(const std::vector<TrimsQuality>& choices);
 
 /// For every scenario and subgraph the front, the smallest choice that is not less accurate than

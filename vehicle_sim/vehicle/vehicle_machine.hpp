@@ -39,10 +39,10 @@ struct VehiclePresence {
 /// One simulated vehicle of a run: every 20 ms one step of `SimulatedVehicle` with the received
 /// commands, and its state.
 ///
-/// Where the rules say so, it gets period and active vehicles from the lab control before its first
-/// tick and waits for all its endpoints to be matched, and each tick waits for the answer to the
-/// last list before it; that wait ends when the middleware or the controller is lost, or after the
-/// patience (then they are not awaited until a command is received again).
+/// If the rules require it, it gets period and active vehicles from the lab control before its
+/// first tick and waits for all its endpoints to be matched, and each tick waits for the answer to
+/// the last list before it; that wait ends when the middleware or the controller is lost, or after
+/// the patience (then they are not awaited until a command is received again).
 ///
 /// A tick that is too late is made up for (the plant must keep up with the clock), but its state is
 /// not published.

@@ -24,10 +24,10 @@ QuadraticProblem model_at(const Transcription& transcription, const ConstraintSe
   model.rows = bounds.jacobian(Eigen::all, free);
   // A point closer than this to a constraint is at it.
   constexpr double kNoRoom = 1e-12;
-  const auto settled = [](double room) { return room < kNoRoom ? 0.0 : room; };
-  model.room = (-bounds.value).unaryExpr(settled);
-  model.upper = (variables.upper() - z)(free).unaryExpr(settled);
-  model.lower = -(z - variables.lower())(free).unaryExpr(settled);
+  const auto clamped = [](double room) { return room < kNoRoom ? 0.0 : room; };
+  model.room = (-bounds.value).unaryExpr(clamped);
+  model.upper = (variables.upper() - z)(free).unaryExpr(clamped);
+  model.lower = -(z - variables.lower())(free).unaryExpr(clamped);
   return model;
 }
 

@@ -74,7 +74,7 @@ class SquaredDistanceObjective final : public ompl::base::OptimizationObjective 
                            const std::vector<Point>& reference_m);
   /// Changes the reference points.
   void pose(const std::vector<Point>& reference_m) { reference_m_ = &reference_m; }
-  /// The term of the state's own step; 0 for the start and beyond the horizon.
+  /// The cost term of the state's step; 0 for the start and beyond the horizon.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
   /// The term of the step that ends in `to`.
   ompl::base::Cost motionCost(const ompl::base::State* from,

@@ -156,7 +156,7 @@ TEST(LabTransport, APeerWithTheLibrarysDefaultsHearsUsAndIsHeard) {
   DefaultPeer theirs(domain.first(), topic.name);
   Mailbox<VehicleState> mailbox{ours, topic};
   Writer<VehicleState> writer{ours, topic};
-  // Their reader hears their writer, too: two readers each.
+  // Their reader is matched with their writer, too: two readers each.
   ASSERT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
     return theirs.matched_readers() == 2 && writer.matched() == 1 &&
            mailbox.reader().matched() == 1;

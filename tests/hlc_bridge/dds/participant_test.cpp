@@ -73,7 +73,7 @@ class Watcher {
     return signal_.wait_until(soon(), [&] { return condition(participant_); });
   }
   Participant& participant() { return participant_; }
-  /// The change of state is visible before it is told: waits for the telling.
+  /// The change of state is visible before its notification: waits for the notification.
   bool wait_for_changes(int at_least) {
     return signal_.wait_until(soon(), [&] { return changes_ >= at_least; });
   }

@@ -117,7 +117,7 @@ TEST(LargeMessage, OfSeveralDatagramsArrives) {
   EXPECT_EQ(text(received.back()), text(traffic));
 }
 
-// The library's default of ten instances would lose what the eleventh and later vehicles say.
+// The library's default of ten instances would lose the samples of the eleventh and later vehicles.
 TEST(KeyedTopics, AllOf30VehiclesAreHeard) {
   const DomainReservation domain;
   Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};

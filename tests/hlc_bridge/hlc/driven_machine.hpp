@@ -77,7 +77,7 @@ class DrivenMachine {
 
   /// The machine is to be advanced at this instant.
   [[nodiscard]] bool is_due() const { return time_to_wake_up() == Nanoseconds{0}; }
-  /// One call of advance: what it says is to be done.
+  /// One call of advance: returns the actions to execute.
   std::vector<HlcAction> advance() {
     std::vector<HlcAction> actions = machine_.advance(now_);
     done_.insert(done_.end(), actions.begin(), actions.end());
@@ -159,13 +159,13 @@ class DrivenMachine {
   std::vector<HlcAction> done_;
 };
 
-/// Car 1, alone unless said otherwise, stands at its start.
+/// Car 1, alone by default, stands at its start.
 inline const std::vector<MeasuredVehicle>& standing() {
   static const std::vector<MeasuredVehicle> one{east_bound::seen(1, 0.0, 0.0)};
   return one;
 }
 
-/// Until the car has stood for so long that it may be told to (real time), or that its states may
+/// Until the car has stood for so long that it may drive off (real time), or that its states may
 /// be trusted with the next list (logical time), and the controller is ready.
 inline void stand(DrivenMachine& one, const std::vector<MeasuredVehicle>& vehicles = standing()) {
   const int lists = one.rules().start == StartRule::kTogether ? 5 : 9;

@@ -148,7 +148,8 @@ class Turmoil {
     for (const HlcAction& action : one_.take_all()) {
       if (const auto* traffic = std::get_if<Traffic>(&action)) last_traffic_ = traffic->step;
       if (const auto* prediction = std::get_if<Prediction>(&action)) {
-        ASSERT_EQ(prediction->step, last_traffic_) << "who plans has said where it is";
+        ASSERT_EQ(prediction->step, last_traffic_)
+            << "a controller that plans has published its traffic";
       }
       if (const auto* record = std::get_if<ReportRecord>(&action)) {
         ASSERT_GT(record->report.step, last_report_) << "each step is done once";
@@ -203,7 +204,7 @@ class Turmoil {
   void check(const TrajectoryCommand& command) {
     ASSERT_TRUE(lists_.contains(command.create_stamp)) << "it answers a list";
     ASSERT_GE(command.create_stamp, last_command_);
-    ASSERT_FALSE(is_stopped_) << "the vehicle is to hear nothing";
+    ASSERT_FALSE(is_stopped_) << "the vehicle must receive nothing";
     last_command_ = command.create_stamp;
   }
   void prepare_requests() {

@@ -85,7 +85,7 @@ TEST(OwnCommandCheck, WhatTheLabsVehicleCannotFollowIsFoundWithAPlace) {
   TrajectoryCommand outside = good_command();
   for (TrajectoryPoint& point : outside.points) point.x_m += 3.45;
   EXPECT_THAT(validate_own_command(outside, kCpmLab), StartsWith("coordinate = 4.5"));
-  EXPECT_EQ(validate_own_command(outside, std::nullopt), "") << "nobody has said what is outside";
+  EXPECT_EQ(validate_own_command(outside, std::nullopt), "") << "no area is given";
 
   TrajectoryCommand aside = good_command();
   aside.points[2].y_m += 0.003;

@@ -65,13 +65,13 @@ TEST_F(ReconfigurationTest, IsInForceFromTheFirstStepOfItsTimeOn) {
   EXPECT_EQ(in_force->step, StepIndex{12});
   EXPECT_EQ(controller_->subgraph().spec().name, "B, at most 0.6 m/s");
   EXPECT_EQ(limit_mps(), 0.6);
-  EXPECT_FALSE(begin(13)) << "told once";
+  EXPECT_FALSE(begin(13)) << "reported once";
 }
 
 TEST_F(ReconfigurationTest, ALaterRequestCountsWhicheverComesFirst) {
   EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kAccepted);
   EXPECT_EQ(take(slow(6, 0.5), 1).outcome, RequestOutcome::kStale);
-  EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kStale) << "heard twice";
+  EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kStale) << "received twice";
   ASSERT_TRUE(begin(2));
   EXPECT_EQ(limit_mps(), 0.6);
   EXPECT_EQ(take(slow(8, 0.5), 3).outcome, RequestOutcome::kAccepted);

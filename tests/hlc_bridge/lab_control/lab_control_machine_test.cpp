@@ -97,7 +97,8 @@ TEST_F(LogicalLabControl, AwaitsAsManyEventsAsAreMissingForTheNextTick) {
   lab_.on(ReadyStatus{vehicle_name(1), kVehiclePeriod});
   EXPECT_THAT(triggers(advance()), ElementsAre(kListOffset));
   EXPECT_EQ(lab_.wake_up().run, std::nullopt);
-  EXPECT_EQ(lab_.wake_up().wall, wall_ + kSecond) << "progress; then who owes an answer is dead";
+  EXPECT_EQ(lab_.wake_up().wall, wall_ + kSecond)
+      << "progress; then a process with a pending reply is dead";
 }
 
 TEST_F(LogicalLabControl, WhoOwesAnAnswerForTooLongIsDead) {

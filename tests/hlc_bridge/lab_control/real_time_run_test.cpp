@@ -142,12 +142,12 @@ class OnDeathContinue : public RealTimeRunTest {
     run_.presence(kAll, {});
     run_.trigger_readers(timers_of({1, 2}));
   }
-  /// Advances period by period; controller 2 reports only if it `lives`.
-  LabRunActions drive(std::uint64_t from, std::uint64_t to, bool lives) {
+  /// Advances period by period; controller 2 reports only if `is_alive`.
+  LabRunActions drive(std::uint64_t from, std::uint64_t to, bool is_alive) {
     LabRunActions all;
     for (std::uint64_t step = from; step < to; ++step) {
       run_.report(report(1, step, StepStatus::kPlanned));
-      if (lives) run_.report(report(2, step, StepStatus::kPlanned));
+      if (is_alive) run_.report(report(2, step, StepStatus::kPlanned));
       const LabRunActions actions = run_.advance(step * kPeriod);
       std::ranges::copy(actions.deaths, std::back_inserter(all.deaths));
       std::ranges::copy(actions.returns, std::back_inserter(all.returns));
@@ -186,7 +186,7 @@ TEST_F(OnDeathContinue, TheRunGoesOnAndEndsWellIfWhoDiedIsBack) {
   const LabRunActions death = drive(k0_ + 10, k0_ + 25, false);
   ASSERT_EQ(death.deaths.size(), 1U);
   EXPECT_EQ(death.deaths.front().process, controller_name(2));
-  EXPECT_EQ(death.run_state, std::nullopt) << "nobody drives out";
+  EXPECT_EQ(death.run_state, std::nullopt) << "nobody makes a minimal-risk stop";
   EXPECT_THAT(death.triggers, IsEmpty());
   run_.presence(kAll, {});
   EXPECT_THAT(drive(k0_ + 25, k0_ + 26, false).returns, IsEmpty()) << "it does not report yet";
@@ -232,7 +232,7 @@ TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   }
   EXPECT_EQ(run_.wake_up(), kStart + 5 * kSecond);
   EXPECT_THAT(run_.advance(kStart + 5 * kSecond).triggers, ElementsAre(kStopSymbol));
-  // Everybody leaves as told: no further death.
+  // All leave on the stop: no further death.
   run_.presence({}, kAll);
   EXPECT_THAT(run_.advance(kStart + 5 * kSecond + 1).deaths, IsEmpty());
   (void)run_.advance(kStart + 5 * kSecond + kBrakingTime);

@@ -77,7 +77,7 @@ TEST_F(LogicalPacingTest, GivesUpWhenNoTriggerComesThoughATickIsWanted) {
   pacing.want(0);
   EXPECT_FALSE(pacing.has_given_up(kWall + 60 * kSecond - 1));
   EXPECT_TRUE(pacing.has_given_up(kWall + 60 * kSecond));
-  pacing.on_trigger(17, kWall + 59 * kSecond);  // for somebody else: the lab control lives
+  pacing.on_trigger(17, kWall + 59 * kSecond);  // for another vehicle: the lab control is alive
   EXPECT_FALSE(pacing.has_given_up(kWall + 100 * kSecond));
   EXPECT_TRUE(pacing.has_given_up(kWall + 119 * kSecond));
   EXPECT_FALSE(pacing.has_given_up(kWall)) << "a reading from before the trigger";

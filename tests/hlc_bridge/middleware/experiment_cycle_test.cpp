@@ -17,7 +17,7 @@ class ExperimentCycleTest : public testing::Test {
   void ready(ExperimentCycle& cycle, std::uint8_t id) {
     cycle.take(ReadyStatus{.source_id = controller_ready_id(id)});
   }
-  /// What follows a period later: all that is said and done.
+  /// All actions of the next period.
   MiddlewareActions period(ExperimentCycle& cycle) {
     now_ += 2 * kNanosecondsPerSecond;
     MiddlewareActions actions;

@@ -1,5 +1,5 @@
 // What a controller does when the lab control, its middleware or what is sent is lost, and when it
-// is told to stop.
+// is stopped.
 #include <gtest/gtest.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
@@ -113,7 +113,7 @@ TEST_F(HlcProcessLossTest, TakesTheStopAndNothingElseFromTheLabDomain) {
   EXPECT_EQ(code_.get(), kExitGood);
 }
 
-/// On the lab's transport, where the copy of a command waits; told to stop while it does.
+/// On the lab's transport, where the copy of a command waits; stopped meanwhile.
 class InterruptedHlcProcessTest : public HlcProcessLossTest {
  protected:
   InterruptedHlcProcessTest() : HlcProcessLossTest(stops_after_a_step(*this)) {}
@@ -220,7 +220,7 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
   ASSERT_TRUE(gets_ready(middleware));
   VehicleStateList list = list_of(start_pose(), 0.0);
   list.states[0].pose.x_m = std::numeric_limits<double>::quiet_NaN();
-  const std::string line = "topic vehicleStateList: what came holds something that is not valid";
+  const std::string line = "topic vehicleStateList: invalid content received";
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists, [&] { return log().thread_that_logged(line) != 0; },
       [&] { middleware.lists.write(list); }));

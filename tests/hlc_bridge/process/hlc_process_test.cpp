@@ -147,7 +147,7 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   Operator lab_control{domains_.first()};
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
-  // Each is repeated: what is said before the writer has matched its reader is lost.
+  // Each is repeated: samples from before the match of writer and reader are lost.
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const bool is_drawn = Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{50},
@@ -203,7 +203,7 @@ TEST_F(HlcProcessTest, TellsTheOperatorThatItsVehicleFitsNoRouteAndIsNotReadyUnt
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
 
-/// Whoever says something is heard from now on.
+/// Receives from every sender from now on.
 bool are_matched(FakeMiddleware& middleware, Others& others) {
   return middleware.lists.wait_for_matched(1, soon()) &&
          others.traffic.wait_for_matched(1, soon()) &&
@@ -234,7 +234,7 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
   Others others{controllers()};
   ASSERT_TRUE(are_matched(middleware, others));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  const auto tell = [&](double speed_mps) {
+  const auto publish_speed = [&](double speed_mps) {
     VehicleStateList list = list_of(start, speed_mps);
     list.active_vehicle_ids = {1, 2};
     others.traffic.write(traffic_of(2, list.t_now / kPeriod));
@@ -242,7 +242,7 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
   };
   const auto ends = std::chrono::steady_clock::now() + std::chrono::seconds{1};
   static_cast<void>(Signal{}.repeat_until(
-      ends, std::chrono::milliseconds{50}, [] { return false; }, [&] { tell(0.5); }));
+      ends, std::chrono::milliseconds{50}, [] { return false; }, [&] { publish_speed(0.5); }));
   EXPECT_TRUE(middleware.commands.wait_for(0).empty()) << "it drives what it was left";
   EXPECT_TRUE(others.reports.wait_for(0).empty());
   const auto drives = [&] {
@@ -250,8 +250,8 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
       return record.report.status == StepStatus::kPlanned;
     });
   };
-  EXPECT_TRUE(
-      Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, drives, [&] { tell(0.0); }));
+  EXPECT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, drives,
+                                    [&] { publish_speed(0.0); }));
   EXPECT_EQ(others.reports.wait_for(1)[0].report.status, StepStatus::kStandby);
 }
 

@@ -26,7 +26,7 @@ using testing::ThrowsMessage;
 
 constexpr Nanoseconds kPeriod = 200'000'000;
 
-/// Says something again and again, as vehicles do, until it has the effect.
+/// Publishes a sample repeatedly, as vehicles do, until it has the effect.
 template <class Condition, class Act>
 bool repeat_until(Condition condition, Act act) {
   return Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, condition, act);
@@ -163,7 +163,7 @@ class LabControlTest : public testing::Test {
   }
 
   void TearDown() override {
-    if (process_) process_->interrupt();  // else a failed test would wait for its run for ever
+    if (process_) process_->interrupt();  // else a failed test would wait for its run forever
   }
 
   /// -1 if it does not end.

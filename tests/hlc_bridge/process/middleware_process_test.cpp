@@ -180,7 +180,7 @@ class MiddlewareTest : public testing::Test {
   }
 
   void TearDown() override {
-    if (process_) process_->stop();  // else a failed test would wait for its run for ever
+    if (process_) process_->stop();  // else a failed test would wait for its run forever
   }
 
   /// -1 if it does not end.
@@ -391,8 +391,8 @@ TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
   const auto drive = [&](std::size_t commands_before) {
     ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
     if (commands_before > 0) lab_.publish_parameters(20, {1, 2, 5});
-    const std::size_t told = lab_.ready.wait_for(0).size();
-    ASSERT_GE(lab_.ready.wait_for(told + 1).size(), told + 1);
+    const std::size_t published = lab_.ready.wait_for(0).size();
+    ASSERT_GE(lab_.ready.wait_for(published + 1).size(), published + 1);
     lab_.triggers.write({5});
     ASSERT_EQ(controller_->triggers.wait_for(2 * commands_before + 1).back().next_start, 5U);
     controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));
@@ -463,7 +463,7 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
   ASSERT_TRUE(speed_writer.wait_for_matched(1, soon()));
   ASSERT_TRUE(direct_writer.wait_for_matched(1, soon()));
 
-  // Best effort: said again until it is received. The first one is for a vehicle that is not its
+  // Best effort: repeated until it is received. The first one is for a vehicle that is not its
   // own.
   Signal pause;
   const auto published_until_received = [&](auto& writer, auto command, auto& mailbox) {

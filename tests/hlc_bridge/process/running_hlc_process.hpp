@@ -125,7 +125,7 @@ class Operator {
   Mailbox<StopRequest> stop_requests;
 };
 
-/// What the others on the controllers' domain say and hear.
+/// Endpoints of the others on the controllers' domain.
 class Others {
  public:
   explicit Others(int domain)

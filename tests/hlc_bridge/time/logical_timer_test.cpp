@@ -107,7 +107,7 @@ TEST(LogicalTimer, GivesUpWhenNoTriggerComes) {
   LogicalTimer* self = nullptr;
   LogicalTimer timer{kPeriod, 0,
                      [&](Nanoseconds) {
-                       if (++asked == 1000) self->stop();  // only a timer that waits for ever
+                       if (++asked == 1000) self->stop();  // only a timer that waits forever
                      },
                      1ms, 10ms};
   self = &timer;

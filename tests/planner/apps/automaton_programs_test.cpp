@@ -234,7 +234,7 @@ TEST_F(AutomatonPrograms, ShowRefusesWhatIsStaleEditedOrNoAutomaton) {
   write("other.yaml", other);
   expect_refused(path("automaton.yaml") + " --configuration " + path("other.yaml"), "stale");
   write("car.yaml", other);
-  expect_refused(path("automaton.yaml"), "build it anew: build_automaton " + path("car.yaml"));
+  expect_refused(path("automaton.yaml"), "rebuild it: build_automaton " + path("car.yaml"));
   write("car.yaml", configuration_);
   std::string edited = text_of("automaton.yaml");
   edited.replace(edited.find("width_m: 0.107"), 14, "width_m: 0.100");

@@ -120,7 +120,8 @@ TEST(Subgraph, RefusesLabelsAndEdgesThatMakeNoSense) {
   EXPECT_EQ(refusal(wrong), "subgraph 'B': no way from trim 7 to a trim of speed 0");
   wrong = spec("B");
   wrong.edges = {{{pi(3), pi(5)}, {"J2"}}};
-  EXPECT_EQ(refusal(wrong), "subgraph 'B': labels for edge 3 -> 5, which its rule does not give");
+  EXPECT_EQ(refusal(wrong),
+            "subgraph 'B': labels for edge 3 -> 5, which is not an edge of its rule");
 }
 
 TEST(Subgraph, RuleReachableConnectsWhatTheLimitsAllowInOneStep) {

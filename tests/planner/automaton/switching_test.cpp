@@ -114,7 +114,7 @@ std::vector<std::size_t> exit_distances(const Subgraph& subgraph) {
   return distance;
 }
 
-/// What subgraph.hpp says of a subgraph by itself.
+/// The properties of a single subgraph by subgraph.hpp.
 void check_edges(const Subgraph& subgraph) {
   const UniversalAutomaton& automaton = subgraph.automaton();
   const std::vector<std::size_t> exit_distance = exit_distances(subgraph);
@@ -246,7 +246,7 @@ TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
       ASSERT_TRUE(fallbacks < kHorizonSteps || automaton->trims[start.index].is_equilibrium());
     }
   }
-  // The switches must be hard enough to say something.
+  // The switches must be hard enough to be informative.
   EXPECT_GT(from_disabled, 20 * automata);
   EXPECT_GT(from_far_disabled, automata);
   EXPECT_GT(from_disabled_equilibrium, 20 * automata);

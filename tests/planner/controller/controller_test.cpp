@@ -190,7 +190,7 @@ TEST_F(TwoCars, ASilentPredecessorIsMissingNotAbsent) {
   const Traffic t1 = first_->observe(at(101, states_));
   static_cast<void>(second_->observe(at(101, states_)));
   second_->couple(std::vector{t1});
-  const Prediction prediction = second_->plan({});  // nothing heard of its predecessor's plan
+  const Prediction prediction = second_->plan({});  // its predecessor's plan not received
   ASSERT_FALSE(second_->problems().empty());
   for (const std::vector<ConvexPolygon>& areas : second_->problems().back().obstacles_m) {
     EXPECT_THAT(areas, testing::Contains(t1.reachable_area_m));

@@ -1,4 +1,4 @@
-// What a report says of the plan in force and of what it was planned on.
+// Content of a report: the plan in force and its subgraph.
 #include "planner/coordination/report.hpp"
 
 #include <gtest/gtest.h>

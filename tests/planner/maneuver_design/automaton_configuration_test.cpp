@@ -313,22 +313,21 @@ TEST(AutomatonConfiguration, RefusesBadWeightedSums) {
     return message("[J2]", "[J2, " + sum + "]").substr(0, 90);
   };
   EXPECT_EQ(refusal("{name: J1, weights: {J1: 1}}"),
-            std::string("FILE:12: criteria[2].name = J1, must be one line of text, a name of its "
-                        "own: neither empty, "
-                        "nor 'trim', nor a criterion's")
+            std::string("FILE:12: criteria[2].name = J1, must be one line of text and "
+                        "unique: neither empty, nor 'trim', nor a criterion's")
                 .substr(0, 90));
   EXPECT_EQ(refusal("{name: x, weights: {J1: -1}}"),
             "FILE:12: criteria[2].weights.J1 = -1, must be a number >= 0");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 0}}"),
             "FILE:12: criteria[2].weights = (a map), must be a map with at least one weight > 0");
   EXPECT_EQ(refusal("{name: x, weights: {J7: 1}}").substr(0, 54),
-            "FILE:12: criteria[2].weights.J7 = 1, unknown key, allo");
+            "FILE:12: criteria[2].weights.J7 = 1, unknown key; know");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 1}, normalised: true}"),
             "FILE:12: criteria[2].normalised = true, must be false with a single weight > 0");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 1, J2: 0}, normalised: true}"),
             "FILE:12: criteria[2].normalised = true, must be false with a single weight > 0");
   EXPECT_EQ(refusal("{name: \"x\\ny\", weights: {J1: 1}}").substr(0, 69),
-            "FILE:12: criteria[2].name = x\\ny, must be one line of text, a name of");
+            "FILE:12: criteria[2].name = x\\ny, must be one line of text and unique");
 }
 
 TEST(AutomatonConfiguration, ReadsAllThatASubgraphCanSay) {

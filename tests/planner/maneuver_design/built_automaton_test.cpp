@@ -136,10 +136,9 @@ TEST_F(BuiltAutomaton, LeavesNothingBesideTheFile) {
 TEST_F(BuiltAutomaton, AnEditedFileIsRefusedWithTheCommandThatBuildsItAnew) {
   const std::string error_text = refusal("length_m: 0.22", "length_m: 0.21", false);
   EXPECT_EQ(error_text.substr(0, 26), "DIR/automaton.yaml:2: sha2");
-  EXPECT_NE(
-      error_text.find("must be the hash of the file's other lines: it was edited or damaged; build "
-                      "it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
-      std::string::npos)
+  EXPECT_NE(error_text.find("must be the hash of the file's other lines: it was edited or damaged; "
+                            "rebuild it: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
+            std::string::npos)
       << error_text;
 }
 
@@ -150,7 +149,7 @@ TEST_F(BuiltAutomaton, AStaleFileIsRefusedWithTheCommandThatBuildsItAnew) {
   EXPECT_EQ(
       refusal(),
       "DIR/automaton.yaml: stale, built from another state of DIR/car.yaml, must be built from its "
-      "says now; build it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
+      "current state; rebuild it: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
   fs::remove(folder_ / "car.yaml");
   EXPECT_EQ(refusal(), "accepted");
 }
@@ -218,7 +217,7 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
 
 TEST_F(BuiltAutomaton, AnotherVersionIsRefusedWhateverItsKeysAre) {
   const std::string message =
-      "DIR/automaton.yaml:1: automaton_schema = 2, must be 1; build the file anew from its "
+      "DIR/automaton.yaml:1: automaton_schema = 2, must be 1; rebuild the file from its "
       "configuration: build_automaton CONFIG.yaml --out DIR/automaton.yaml";
   EXPECT_EQ(refusal("automaton_schema: 1", "automaton_schema: 2", true), message);
   write("automaton.yaml", "automaton_schema: 2\nbuilt_from: another.yaml\n");
@@ -288,7 +287,7 @@ TEST_F(BuiltAutomaton, AFileThatLacksWhatItsSubgraphsNeedIsRefused) {
   lacking.automaton = std::make_shared<const UniversalAutomaton>(automaton);
   write_automaton_file(lacking, path_);
   EXPECT_NE(
-      refusal().find("what the maneuvers allow: subgraph 'both': the automaton holds no edge"),
+      refusal().find("possible with the maneuvers: subgraph 'both': the automaton holds no edge"),
       std::string::npos)
       << refusal();
   automaton.maneuvers.erase(automaton.maneuvers.begin());

@@ -189,7 +189,7 @@ Report first_step(const Scenario& scenario) {
   const Prediction prediction = controller->plan({});
   const Report report = controller->commit({}, {});
   EXPECT_EQ(prediction.is_new, report.status == StepStatus::kPlanned)
-      << "what is not driven is not told";
+      << "a plan that is not driven is not announced";
   return report;
 }
 

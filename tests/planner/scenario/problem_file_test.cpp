@@ -63,7 +63,7 @@ class ProblemFileTest : public testing::Test {
     return text.replace(at, from.size(), to);
   }
 
-  /// What reading says; nothing if it is good.
+  /// The error of reading; empty without error.
   [[nodiscard]] std::string error_of(const std::string& text) const {
     put(text);
     try {

@@ -16,7 +16,7 @@ namespace {
 
 const std::string kFolder = test::source_folder() + "/launch_scripts/";
 
-/// Writes a scenario that is good but for `change`, and returns what reading it says.
+/// Writes a scenario that is valid except for `change`, and returns the error of reading it.
 class ScenarioErrors : public testing::Test {
  protected:
   std::string error_of(const std::string& from, const std::string& to) {

@@ -212,11 +212,11 @@ TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
   EXPECT_THAT(done.output, HasSubstr("2 runs, 1 failed"));
   const nlohmann::json runs = results()["runs"];
   ASSERT_EQ(runs.size(), 2U);
-  EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("outside the areas"));
+  EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("left its announced areas"));
   EXPECT_EQ(runs[0]["subgraph"], "effort");
   EXPECT_TRUE(runs[1]["failure"].is_null());
   EXPECT_THAT(text_of(out_ / "table.md"),
-              HasSubstr("Failed: subgraph effort, start 0: vehicle 1 was outside the areas"));
+              HasSubstr("Failed: subgraph effort, start 0: vehicle 1 left its announced areas"));
 }
 
 TEST_F(Evaluate, AMapThatCannotBeReadIsBadInput) {

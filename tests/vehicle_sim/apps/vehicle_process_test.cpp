@@ -154,7 +154,7 @@ class VehicleProcessTest : public testing::Test {
 
   void TearDown() override {
     if (process_) {
-      process_->stop();  // else a failed test would wait for its run for ever
+      process_->stop();  // else a failed test would wait for its run forever
     }
   }
 

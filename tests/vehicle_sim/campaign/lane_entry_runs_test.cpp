@@ -91,7 +91,7 @@ struct Joined {
   double driven_m{};
   std::size_t widened_steps{};  ///< steps with an area that leads into the lanes
   std::size_t without_plan{};   ///< steps without a new plan
-  std::size_t off_route{};      ///< of them: it says that it cannot get onto its route
+  std::size_t off_route{};      ///< of them: reported as unable to get onto the route
 };
 
 /// Drives, and looks at every tick of every car.
@@ -161,7 +161,7 @@ std::pair<double, double> usual_error_m(const Scenario& cars, std::size_t vehicl
 }
 
 /// At the edge of the map with its front towards it, or too askew between narrow bounds, a car has
-/// no room to turn: it says so and stands.
+/// no room to turn: it reports this and stands.
 bool stands_and_says_so(const Joined& joined) {
   return joined.off_route == kSteps && joined.driven_m < 1e-6;
 }

@@ -368,7 +368,7 @@ TEST(TrimsFront, NamesTheSmallestChoiceWithoutLossAndThePlaceOfD) {
   EXPECT_THAT(text, HasSubstr("3 of 4 choices drive a lap"));
   EXPECT_THAT(text, HasSubstr("| 7 | 1 2 4 6 7 8 10 12 | 19.00 | 16.00 | 0 | smallest, not less"));
   EXPECT_THAT(text, HasSubstr("trims of D: on the front; number 1 of 1"));
-  EXPECT_THAT(text, HasSubstr("trims of B: 1 choices beat it"));
+  EXPECT_THAT(text, HasSubstr("trims of B: 1 choices dominate it"));
   EXPECT_THAT(text, Not(HasSubstr("| 5.00 |")));
 }
 

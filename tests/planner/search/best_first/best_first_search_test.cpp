@@ -86,7 +86,7 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
       ++obstructed;
     }
   }
-  // The problems must be hard enough to say something.
+  // The problems must be hard enough to be informative.
   EXPECT_GE(infeasible, 1 + problems / 50);
   EXPECT_GE(obstructed, problems / 10);
 }
