@@ -50,7 +50,7 @@ struct HlcSettings {
 ///
 /// **Ends** (LifeCycle) between two steps; also with kExitGood after the stop symbol or a
 /// StopSignal, with kExitBadInput if the lab's period is not the automaton's step (then the lab
-/// control is asked to stop everybody). On a stop, a running step is aborted at once, and no
+/// control is requested to stop all vehicles). On a stop, a running step is aborted at once, and no
 /// further command is sent. After the stop symbol the vehicle brakes and then listens again: it
 /// must receive nothing. After a StopSignal the vehicle keeps its whole plan: the copy of the last
 /// command is still published.

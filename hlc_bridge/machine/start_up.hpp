@@ -33,7 +33,7 @@ class StartUp {
     return move_line(actions) && parameters_.complete();
   }
 
-  /// True once nobody is missing.
+  /// True once all participants are present.
   /// @param missing  absent participants: "a, b"; empty: none
   template <class Action>
   [[nodiscard]] bool connect(Nanoseconds now, const std::string& missing,

@@ -133,7 +133,7 @@ struct ParameterRequest {
   std::string name;
 };
 
-/// Requests that the lab control stops everybody.
+/// Requests that the lab control stops all vehicles.
 struct StopRequest {
   std::uint8_t vehicle_id{};
 };

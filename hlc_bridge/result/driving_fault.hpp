@@ -13,7 +13,7 @@ namespace hlc {
 [[nodiscard]] std::string danger_of(const RunSummary& summary);
 
 /// Why a run was driven badly: a danger, or a vehicle was farther from its plan than the safety
-/// margin, even if within its announced areas: then it endangered nobody, but did not drive its
+/// margin, even if within its announced areas: then it was no danger, but did not drive its
 /// plan (subgraph A demands more than the car can do, which its controller predicts).
 [[nodiscard]] std::string driving_fault(const RunSummary& summary);
 

@@ -47,7 +47,7 @@ struct RunFacts {
   std::vector<std::uint8_t> vehicle_ids;
   Nanoseconds period{};
   std::uint64_t steps{};                    ///< requested
-  std::optional<std::uint64_t> first_step;  ///< k0; none if nobody started
+  std::optional<std::uint64_t> first_step;  ///< k0; none if no controller started
   double wall_s{};                          ///< from the first trigger to the last answer
   double clock_s{};                         ///< time of the run in that span
   int exit_code{};

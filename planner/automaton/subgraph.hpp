@@ -35,8 +35,8 @@ struct EdgeLabels {
 
 /// The enabled part of a universal automaton.
 ///
-/// The rule says which pairs of the declared trims have edges; between two trims there is one edge
-/// for each label. `off` and `max_speed_mps` remove some of these.
+/// The rule defines which pairs of the declared trims have edges; between two trims there is one
+/// edge for each label. `off` and `max_speed_mps` remove some of these.
 struct SubgraphSpec {
   std::string name;                 ///< "A" ... "D" of the paper
   std::vector<std::string> labels;  ///< of the maneuvers between different trims: {"J2"}

@@ -68,7 +68,7 @@ class Neighbours {
   MissingVehicleRules rules_;
   StepIndex now_;
   std::map<VehicleId, Traffic>
-      traffic_;  ///< the last of each; of this step only if its step says so
+      traffic_;  ///< the last of each; of this step only if its step matches
   std::vector<VehicleId> missing_;
   std::map<VehicleId, StepIndex> last_received_;
   /// Last step in which the vehicle's controller may have agreed to something: received or present.

@@ -92,7 +92,7 @@ bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const 
 }
 
 /// For a vehicle outside its areas also its pose if it stays where it was measured, if it continues
-/// beside its plan, and the hull of all these. The same for a vehicle that is not seen any more: it
+/// beside its plan, and the hull of all these. The same for a vehicle that is no longer seen: it
 /// may have stopped on the way.
 OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = announced_.final_area_m};

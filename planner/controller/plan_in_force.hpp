@@ -48,7 +48,7 @@ struct DeviationCheck {
 ///    inside the area announced for it. The new plan is a plan like any other: announced, checked,
 ///    agreed.
 /// 4. A vehicle that deviates by more than m and is outside the area announced for that time, or
-///    that is not seen any more, was disturbed, without the others' knowledge. It plans nothing new
+///    that is no longer seen, was disturbed, without the others' knowledge. It plans nothing new
 ///    and drives its plan to the end; from this step on its traffic announces, for each step, the
 ///    hull of the area announced before, of its plan from its real pose, and of its measured pose,
 ///    so that no other plan enters it. Once it stands, its plan is anchored where it stands.

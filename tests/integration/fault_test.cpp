@@ -90,7 +90,7 @@ class FaultyRun {
 
   /// The others are affected as long as everything that they could plan may meet the silent car:
   /// they drive only their last plans, and stand in time unless they get out of its reach. What
-  /// they plan anew keeps clear of all that the silent car could do.
+  /// they plan again keeps clear of all that the silent car could do.
   void expect_others_keep_clear(Nanoseconds to) const {
     std::size_t judged = 0;
     for (const auto& [id, drive] : drives) {

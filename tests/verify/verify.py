@@ -92,18 +92,19 @@ def verify(program: Path, folder: Path, xml: Path | None) -> bool:
     return not findings
 
 
-def verify_controls(program: Path, folder: Path, needs_set_anew: bool) -> bool:
+def verify_controls(program: Path, folder: Path, needs_reanchored: bool) -> bool:
     print(f"negative controls, from {name_of(folder)}", flush=True)
     with tempfile.TemporaryDirectory() as place:
         xml = Path(place) / "run.xml"
         export(program, folder, xml)
-        return run_controls(xml, folder, check_file, needs_set_anew)
+        return run_controls(xml, folder, check_file, needs_reanchored)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__,
-        epilog="Exit codes: 0 all accepted, 1 a run rejected or a negative control accepted, 2 invalid input.",
+        epilog="Exit codes: 0 all accepted, 1 a run rejected or a negative control accepted, "
+        "2 invalid input.",
     )
     parser.add_argument("--export", type=Path, required=True, help="the program export_commonroad")
     parser.add_argument(
@@ -113,10 +114,10 @@ def main() -> int:
         help="a run of paper_three_cars that is accepted: must be rejected when it is spoilt",
     )
     parser.add_argument(
-        "--controls_anew",
+        "--controls_reanchored",
         type=Path,
         metavar="RUN",
-        help="the same for a run in which plans are set down anew",
+        help="the same for a run in which plans are re-anchored",
     )
     parser.add_argument(
         "--xml", type=Path, help="a CommonRoad file of the one run, instead of its export"
@@ -129,8 +130,8 @@ def main() -> int:
         accepted = [verify(arguments.export, folder, arguments.xml) for folder in arguments.runs]
         if arguments.controls:
             accepted.append(verify_controls(arguments.export, arguments.controls, False))
-        if arguments.controls_anew:
-            accepted.append(verify_controls(arguments.export, arguments.controls_anew, True))
+        if arguments.controls_reanchored:
+            accepted.append(verify_controls(arguments.export, arguments.controls_reanchored, True))
     except (BadInput, subprocess.TimeoutExpired, OSError) as error:
         print(f"verify: {error}", file=sys.stderr)
         return 2

@@ -77,4 +77,4 @@ drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle 
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
 # Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, re-anchors plans.
-"${verify[@]}" --controls "$out/campaign/runs/1" --controls_anew "$out/campaign/runs/4" "${runs[@]}" "$out/processes"
+"${verify[@]}" --controls "$out/campaign/runs/1" --controls_reanchored "$out/campaign/runs/4" "${runs[@]}" "$out/processes"

@@ -52,7 +52,7 @@ struct CampaignResult {
   std::string fault;   ///< danger_of(summary): why the run does not count; empty if it does
   WallTimes wall;
   DrivenCosts costs;
-  std::optional<ZoneExcess> excess;  ///< none without zones, or if nobody came into one
+  std::optional<ZoneExcess> excess;  ///< none without zones, or if no car entered one
   SubgraphUse use;
 };
 

@@ -282,7 +282,7 @@ struct Search {
   std::uint64_t generated;
   std::uint64_t expanded;
   bool stopped_early;
-  double lower_bound;  ///< of what is still open, if it gave up
+  double lower_bound;  ///< of the open vertices, if it stopped early
 };
 
 /// The kernel, once per instruction set; all give the same bits.

@@ -84,7 +84,7 @@ class DrivenMachine {
     return actions;
   }
 
-  /// As the shell: advances until the machine has nothing to do any more at this instant.
+  /// As the shell: advances until the machine has nothing more to do at this instant.
   void advance_until_idle() {
     for (int i = 0; i < 100 && !exit_code(); ++i) {
       static_cast<void>(advance());

@@ -23,7 +23,7 @@ using testing::Eq;
 constexpr std::size_t kCars = 3;
 constexpr double kBeside_m = 0.25;  // coupled with the neighbour
 
-/// What a step came to, and to the last bit.
+/// The bitwise result of a step.
 using Result = std::tuple<std::uint64_t, StepStatus, FallbackReason, double, double, std::uint64_t,
                           std::uint64_t, double, std::size_t, std::size_t>;
 Result result_of(const Report& report) {

@@ -97,7 +97,7 @@ TEST_F(PlannedMotionTest, ManeuversBetweenTheSameTrimsAreToldApartByTheirLabels)
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), &automaton_.maneuvers.front());
 }
 
-// A car that stands is set down anew, in another equilibrium.
+// The plan of a stationary car is re-anchored, in another equilibrium.
 TEST_F(PlannedMotionTest, StandingIsTheOwnStepWhateverTheNextTrimIs) {
   rows_[0].record.report.maneuver = kSelfLoopLabel;
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_),

@@ -129,7 +129,7 @@ TEST(AutomatonConfiguration, TheIdentifiedVehicleCanBeChanged) {
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: {slip_gain_rad: 0.3}"),
             "no error");
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: {slip_gain: 0.3}").substr(0, 60),
-            "FILE:1: vehicle.identified.slip_gain = 0.3, unknown key, all");
+            "FILE:1: vehicle.identified.slip_gain = 0.3, unknown key; kno");
   EXPECT_EQ(
       message("width_m: 0.107", "width_m: 0.107, identified: {path_speed_steering: 0.3}"),
       "FILE:1: vehicle.identified.path_speed_steering = 0.3, must be a number >= -1 and <= 0");

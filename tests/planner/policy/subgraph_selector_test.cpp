@@ -191,7 +191,7 @@ TEST_F(SubgraphSelectorTest, ALookAheadSeesWhatALimitCosts) {
   EXPECT_EQ(drive(), "slow, label slow");
 }
 
-// Two candidates that are the same: rounding must not decide every step anew.
+// Two candidates that are the same: rounding must not decide in every step.
 TEST_F(SubgraphSelectorTest, ALookAheadKeepsItsChoiceUnlessAnotherGains) {
   use({.policies = {LookAheadSettings{.candidates = {{.max_speed_mps = 0.8}, kSlowLabel},
                                       .steps = 4,

@@ -143,7 +143,7 @@ TEST_P(PaperScenario, ThreeCarsMeetOftenAndNobodyFallsBack) {
   EXPECT_NEAR(*course.lap_s, *alone.lap_s, allowed_s);
 }
 
-// From other starts, too: nobody's plans meet, and hardly ever does somebody fall back.
+// From other starts, too: no plans meet, and fallbacks are rare.
 TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
   const Scenario shipped = read("paper_three_cars");
   std::size_t fallbacks = 0;

@@ -128,7 +128,7 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
   EXPECT_EQ(with_incumbent, scenario.profile.name == "2022" ? 0U : num_searches);
   EXPECT_EQ(files.size(), num_searches + num_lane_entries);
   const bool has_lanes = !scenario.vehicles.front().corridor.bounds().empty();
-  EXPECT_EQ(num_lane_entries > 0, has_lanes) << "cars set out without a problem";
+  EXPECT_EQ(num_lane_entries > 0, has_lanes) << "cars departed without a problem";
   if (GetParam().tolerated_drift_share < 0.0) {
     EXPECT_GT(num_searches, counts.size()) << "steps with a second search";
   }

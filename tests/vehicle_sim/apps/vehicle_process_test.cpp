@@ -234,7 +234,7 @@ TEST_F(VehicleProcessTest, GoesOnWithoutAnswerWhenTheMiddlewareIsLost) {
   ASSERT_TRUE(lab_control->answer_until_ready({kId}));
   ASSERT_TRUE(lab_control->release_tick(0));
   lab_control->release(kVehiclePeriod);
-  // Both leave together: the wait for the answer ends, and then there is no clock any more.
+  // Both leave together: the wait for the answer ends, and then there is no clock.
   lab_control.reset();
   EXPECT_EQ(exit_code(), kExitDied);
 }
