@@ -44,6 +44,9 @@ struct HlcRules {
   /// False: of several lists only the newest is answered. The others' steps stay without a report,
   /// and the summary counts each as a deadline missed.
   bool answers_every_list{};
+  /// The stop symbol of the lab domain counts, too, not only the one that the middleware forwards.
+  /// (In logical time there are 50 triggers a second and no car that a stop could save.)
+  bool stops_on_lab_domain{};
   CommandCopy copy{};
   /// Since the start: whoever bears the vehicle's name so long is no dead instance's trace.
   /// Longer than the lease of a participant.

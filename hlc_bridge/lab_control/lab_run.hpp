@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -113,6 +114,10 @@ class LabRun {
   [[nodiscard]] virtual WakeUp wake_up_at(Nanoseconds time) const { return {.wall = time}; }
   /// Real time: next_start of the start trigger; 0: there is none.
   [[nodiscard]] virtual Nanoseconds start() const { return 0; }
+  /// Time goes on only as the run's triggers say: logical time.
+  [[nodiscard]] virtual bool releases_time() const = 0;
+  /// The vehicles' states are among what it begins with.
+  [[nodiscard]] virtual bool awaits_states() const { return false; }
   /// Answers without which advance() has nothing to do, once the run has begun; 0 if anything that
   /// arrives may count.
   [[nodiscard]] std::size_t answers_owed() const {
@@ -193,5 +198,11 @@ class LabRun {
   Nanoseconds now_{};
   Nanoseconds last_progress_{};  ///< wall
 };
+
+/// One of the two kinds of run.
+template <class Run>
+[[nodiscard]] std::unique_ptr<LabRun> make_lab_run(LabRunSettings settings) {
+  return std::make_unique<Run>(std::move(settings));
+}
 
 }  // namespace hlc
