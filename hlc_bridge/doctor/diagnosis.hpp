@@ -19,8 +19,8 @@ struct HeardVehicle {
   /// Time of arrival minus create_stamp, the least of all states: the way on the network, and by
   /// how much its clock is behind ours (negative: it is ahead).
   std::int64_t least_age_ns{};
-  bool logical_time{};  ///< its stamps are not of this century
-  bool is_located{};    ///< by its last state (messages/settled_states.hpp)
+  bool has_logical_stamps{};  ///< its stamps are not of this century
+  bool is_located{};          ///< by its last state (messages/settled_states.hpp)
 };
 
 /// What was heard of a run, or of a lab before a run.

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <regex>
 #include <string>
@@ -77,23 +78,59 @@ std::vector<std::string> includes_of(const fs::path& file) {
   return headers;
 }
 
-TEST(House, EveryIncludeFollowsAnArrow) {
+/// Paths of all sources, from the root and whole.
+std::map<std::string, fs::path> sources() {
   const fs::path root = source_folder();
-  std::size_t num_files = 0;
+  std::map<std::string, fs::path> files;
   for (const char* top : {"planner", "hlc_bridge", "vehicle_sim"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".hpp" && extension != ".cpp") continue;
-      const std::string file = entry.path().lexically_relative(root).generic_string();
-      ++num_files;
-      ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
-      for (const std::string& header : includes_of(entry.path())) {
-        const std::optional<std::string> fault = fault_of(file, header);
-        EXPECT_FALSE(fault) << *fault;
-      }
+      files.emplace(entry.path().lexically_relative(root).generic_string(), entry.path());
     }
   }
-  EXPECT_GT(num_files, 50U);
+  EXPECT_GT(files.size(), 50U);
+  return files;
+}
+
+TEST(House, EveryIncludeFollowsAnArrow) {
+  for (const auto& [file, path] : sources()) {
+    ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
+    for (const std::string& header : includes_of(path)) {
+      const std::optional<std::string> fault = fault_of(file, header);
+      EXPECT_FALSE(fault) << *fault;
+    }
+  }
+}
+
+/// Whether this line of code reads which kind of time a run has.
+bool asks_for_logical_time(const std::string& line) {
+  static const std::regex kQuestion(
+      R"((?!\s*//).*\b(is_logical|logical_time|simulated_time)\b(?!\s*=[^=]).*)");
+  return std::regex_match(line, kQuestion);
+}
+
+// Processes and machines are given what follows from it. Who simulates a lab or summarises a run is
+// no part of it.
+TEST(House, OnlyFlagsAndPacingAskForLogicalTime) {
+  static const std::regex kMayAsk(
+      "(hlc_bridge/(apps|result|record)/|vehicle_sim/(apps|closed_loop)/|"
+      "hlc_bridge/machine/pacing\\.hpp).*");
+  for (const auto& [file, path] : sources()) {
+    if (std::regex_match(file, kMayAsk)) continue;
+    std::ifstream stream(path);
+    for (std::string line; std::getline(stream, line);) {
+      EXPECT_FALSE(asks_for_logical_time(line)) << file << ": " << line;
+    }
+  }
+}
+
+TEST(House, AQuestionForLogicalTimeIsNoticed) {
+  EXPECT_TRUE(asks_for_logical_time("  if (options_.logical_time) return;"));
+  EXPECT_TRUE(asks_for_logical_time("  return is_logical == true ? a : b;"));
+  EXPECT_FALSE(asks_for_logical_time("  facts.simulated_time = true;"));
+  EXPECT_FALSE(asks_for_logical_time("  /// Only if simulated_time says so."));
+  EXPECT_FALSE(asks_for_logical_time("  rules_in_logical_time(true);"));
 }
 
 TEST(House, ArrowsMakeNoCircle) { EXPECT_EQ(circle_of(arrows()), ""); }
