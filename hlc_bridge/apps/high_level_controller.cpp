@@ -18,6 +18,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/hlc_process.hpp"
 #include "hlc_bridge/time/precedence.hpp"
+#include "hlc_bridge/time/wall_time.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/problem_dump.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -111,8 +112,13 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   options.controller_peers = flags.controller_peers;
   options.thread_priority = flags.thread_priority;
   options.core = flags.core;
-  options.logical_time = network.simulated_time;
   options.startup_timeout = network.startup_timeout();
+  options.time = hlc::run_time(network.simulated_time);
+  const bool keeps_commands = options.transport == hlc::Transport::kLoopback;
+  options.rules = network.simulated_time
+                      ? hlc::rules_in_logical_time(keeps_commands)
+                      : hlc::rules_in_real_time(keeps_commands, hlc::StepDeadlines{},
+                                                hlc::nanoseconds(options.startup_timeout));
   return options;
 }
 

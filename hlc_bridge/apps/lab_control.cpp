@@ -11,6 +11,8 @@
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
+#include "hlc_bridge/lab_control/logical_run.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/lab_control_process.hpp"
 
@@ -92,7 +94,10 @@ hlc::LabControlOptions process_options(const Flags& flags) {
   options.discovery_server = flags.network.discovery_server();
   hlc::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
-  options.logical_time = flags.network.simulated_time;
+  if (flags.network.simulated_time) {
+    options.time = hlc::kLogicalTime;
+    options.make_run = hlc::make_lab_run<hlc::LogicalRun>;
+  }
   options.out = flags.out;
   options.is_terminal = isatty(STDERR_FILENO) != 0;
   return options;

@@ -64,16 +64,20 @@ hlc::MiddlewareOptions process_options(const Flags& flags) {
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = flags.network.discovery_server();
-  options.logical_time = flags.network.simulated_time;
+  const bool is_logical = flags.network.simulated_time;
+  const bool beside_lab_programs = options.transport == hlc::Transport::kLab;
+  options.time = hlc::run_time(is_logical);
+  options.rules = is_logical ? hlc::logical_middleware_rules(beside_lab_programs)
+                             : hlc::real_middleware_rules(beside_lab_programs);
   options.offset = flags.offset_nanoseconds;
   options.startup_timeout = flags.network.startup_timeout();
   if (flags.wait_for_start) {
     throw std::invalid_argument("--wait_for_start = true, must be false");
   }
-  if (options.logical_time && options.keep_running) {
+  if (is_logical && options.keep_running) {
     throw std::invalid_argument("--keep_running needs --simulated_time=false");
   }
-  if (options.logical_time && options.offset != hlc::kListOffset) {
+  if (is_logical && options.offset != hlc::kListOffset) {
     throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +
                                 ", must be 1 in logical time");
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "hlc_bridge/messages/messages.hpp"
+#include "planner/coordination/messages.hpp"
 
 /// Common to all conversions. Only sources of this folder include this file.
 namespace hlc {
@@ -33,6 +34,10 @@ template <class... Numbers>
 
 [[nodiscard]] inline bool is_finite(const Pose& pose) {
   return all_finite(pose.x_m, pose.y_m, pose.heading_rad);
+}
+
+[[nodiscard]] constexpr bool is_valid(VehicleId vehicle) {
+  return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId;
 }
 
 }  // namespace hlc

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hlc_bridge/dds/transport.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc {
 
@@ -20,8 +21,8 @@ struct ParticipantOptions {
   int domain_id{};
   DomainRole role{DomainRole::kLab};
   Transport transport{Transport::kLoopback};
-  bool logical_time{};  ///< lease of 10 s instead of 2 s: that long after its death others see it
-                        ///< as lost
+  /// That long after its death others see it as lost.
+  Nanoseconds lease{2 * kNanosecondsPerSecond};
   std::optional<DiscoveryServer> discovery_server;  ///< none: simple discovery (multicast)
   bool is_discovery_server{};  ///< it is that server itself, not a client of it
   /// IPv4 addresses of machines to ask, too, where multicast does not pass. Simple discovery only.

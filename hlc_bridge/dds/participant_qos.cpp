@@ -13,8 +13,6 @@ namespace {
 using fdds::DomainParticipantQos;
 using namespace std::chrono_literals;
 
-constexpr auto kRealTimeLease = 2s;
-constexpr auto kLogicalTimeLease = 10s;
 constexpr int kAnnouncementsPerLease = 8;
 constexpr std::uint32_t kParticipantsPerMachine = 32;     // of one domain, that a peer is asked for
 constexpr const char* kMulticastAddress = "239.255.0.1";  // the standard's
@@ -39,7 +37,7 @@ void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos)
 
 void set_lease(const ParticipantOptions& options, DomainParticipantQos& qos) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  const std::chrono::nanoseconds lease = options.logical_time ? kLogicalTimeLease : kRealTimeLease;
+  const std::chrono::nanoseconds lease(options.lease);
   discovery.leaseDuration = to_duration(lease);
   discovery.leaseDuration_announcementperiod = to_duration(lease / kAnnouncementsPerLease);
   discovery.initial_announcements = {5, to_duration(100ms)};

@@ -54,7 +54,7 @@ Finding of_vehicle(int id, const Received& received) {
                 milliseconds(static_cast<std::int64_t>(kMaxPositionAge)),
             "put it where they see it, switch it on, and see that the positioning system runs"};
   }
-  if (vehicle.logical_time) {
+  if (vehicle.has_logical_stamps) {
     return {Verdict::kGood, name + states + ", in logical time: clocks do not matter", ""};
   }
   if (vehicle.least_age_ns < -kClockAhead_ns) {
@@ -114,7 +114,7 @@ void note(const VehicleState& state, Nanoseconds now, Received& received) {
   ++vehicle.states;
   vehicle.least_age_ns = is_first ? age_ns : std::min(vehicle.least_age_ns, age_ns);
   vehicle.is_located = is_located(state);
-  vehicle.logical_time = state.create_stamp < kThisCentury;
+  vehicle.has_logical_stamps = state.create_stamp < kThisCentury;
 }
 
 std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Received& received,

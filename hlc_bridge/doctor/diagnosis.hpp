@@ -19,8 +19,8 @@ struct ReceivedVehicle {
   /// Time of arrival minus create_stamp, the least of all states: the network delay plus the offset
   /// of the vehicle's clock (negative: that clock is ahead).
   std::int64_t least_age_ns{};
-  bool logical_time{};  ///< its stamps are not of this century
-  bool is_located{};    ///< by its last state (messages/settled_states.hpp)
+  bool has_logical_stamps{};  ///< its stamps are not of this century
+  bool is_located{};          ///< by its last state (messages/settled_states.hpp)
 };
 
 /// Received from a run, or from a lab before a run.

@@ -44,6 +44,9 @@ struct HlcRules {
   /// False: of several lists only the newest is answered. The steps of the others have no report,
   /// and the summary counts each as a missed deadline.
   bool answers_every_list{};
+  /// The stop symbol of the lab domain counts, too, not only the one that the middleware forwards.
+  /// (In logical time there are 50 triggers a second and no car that a stop could save.)
+  bool stops_on_lab_domain{};
   CommandCopy copy{};
   /// Since the start: a name that is alive for longer than this is a running duplicate instance,
   /// not the trace of a dead one. Longer than the lease of a participant.

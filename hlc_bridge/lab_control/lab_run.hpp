@@ -1,12 +1,14 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/lab_control/attendance.hpp"
+#include "hlc_bridge/lab_control/reported_steps.hpp"
 #include "hlc_bridge/messages/death.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/instant.hpp"
@@ -88,10 +90,14 @@ class LabRun {
   LabRun& operator=(const LabRun&) = delete;
 
   /// Who is there, and who was there and is not any more; a name in both is lost.
-  void presence(const std::set<std::string>& alive, const std::set<std::string>& lost);
+  void presence(const std::set<std::string>& alive, const std::set<std::string>& lost) {
+    attendance_.update(alive, lost);
+  }
   /// Whom the lab control's triggers reach: before the run begins all timers, every vehicle and
   /// every middleware, so that the first trigger is not lost.
-  void trigger_readers(std::set<std::string> names) { trigger_readers_ = std::move(names); }
+  void trigger_readers(std::set<std::string> names) {
+    attendance_.trigger_readers(std::move(names));
+  }
   virtual void ready(const ReadyStatus& status) = 0;
   virtual void state(const VehicleState& /*state*/) {}
   void report(const ReportRecord& record);
@@ -108,6 +114,10 @@ class LabRun {
   [[nodiscard]] virtual WakeUp wake_up_at(Nanoseconds time) const { return {.wall = time}; }
   /// Real time: next_start of the start trigger; 0: there is none.
   [[nodiscard]] virtual Nanoseconds start() const { return 0; }
+  /// Time goes on only as the run's triggers say: logical time.
+  [[nodiscard]] virtual bool releases_time() const = 0;
+  /// The vehicles' states are among what it begins with.
+  [[nodiscard]] virtual bool awaits_states() const { return false; }
   /// Answers without which advance() has nothing to do, once the run has begun; 0 if anything that
   /// arrives may count.
   [[nodiscard]] std::size_t answers_owed() const {
@@ -151,18 +161,18 @@ class LabRun {
   /// To be called for every answer that brings the run forward.
   void note_progress() { progress_ = true; }
   [[nodiscard]] Nanoseconds now() const { return now_; }
-  /// Step up to which the controller has reported; nothing before its first report.
-  [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
-  /// Wall time (of advance) at which the controller's last report was there; 0 before the first.
-  [[nodiscard]] Nanoseconds last_received(std::uint8_t vehicle_id) const;
-  [[nodiscard]] bool has_left_standby(std::uint8_t vehicle_id) const {
-    return driving_.count(vehicle_id) != 0;
-  }
-  [[nodiscard]] std::optional<std::uint64_t> first_step() const { return result_.first_step; }
+  [[nodiscard]] const ReportedSteps& reports() const { return reports_; }
 
  private:
+  /// Since when, by the wall clock and by clock() (0: nobody is left for whom time goes on).
+  struct Since {
+    Nanoseconds wall{};
+    Nanoseconds clock{};
+  };
+
+  void enter(Phase phase);
+  void note_time(Nanoseconds now);
   void gather(LabRunActions& actions);
-  [[nodiscard]] std::vector<std::string> unreached_timers() const;
   void update_deaths(LabRunActions& actions);
   void update_returns(LabRunActions& actions);
   [[nodiscard]] bool is_back(const std::string& process) const;
@@ -171,35 +181,28 @@ class LabRun {
   void leave_running_phases(LabRunActions& actions);
   void stop(LabRunActions& actions);
   void fail(int exit_code, const std::string& reason);
-  [[nodiscard]] std::vector<std::string> on_standby() const;
   [[nodiscard]] std::string standby_line() const;
   /// Time of the run at which the present phase ends; kNever if an answer decides.
   [[nodiscard]] Nanoseconds phase_end() const;
 
   LabRunSettings settings_;
   Phase phase_{Phase::kGathering};
+  Since phase_since_;    ///< the present phase
+  Since running_since_;  ///< Phase::kRunning
   LabRunResult result_;
-  std::vector<std::string> processes_;  ///< all that take part
-  std::set<std::string> alive_;
-  std::set<std::string> lost_;
-  std::set<std::string> dropped_;
-  std::map<std::string, Nanoseconds> died_at_;          ///< wall
-  std::map<std::uint8_t, std::uint64_t> last_reports_;  ///< step, by vehicle
-  std::map<std::uint8_t, Nanoseconds> last_received_;   ///< wall, by vehicle
-  std::set<std::uint8_t> just_received_;                ///< reported since the last advance
-  std::set<std::uint8_t> driving_;                      ///< vehicles that have left standby
-  std::set<std::string> trigger_readers_;
+  Attendance attendance_;
+  ReportedSteps reports_;
   bool end_asked_{};  ///< interrupted, or a controller asked for the stop
   bool progress_{};
   bool started_{};
   Nanoseconds now_{};
-  Nanoseconds gathering_since_{};
   Nanoseconds last_progress_{};  ///< wall
-  Nanoseconds began_{};          ///< wall
-  Nanoseconds began_clock_{};
-  Nanoseconds minimal_risk_stop_since_{};  ///< clock
-  Nanoseconds braking_since_{};            ///< clock
-  Nanoseconds braking_since_wall_{};
 };
+
+/// One of the two kinds of run.
+template <class Run>
+[[nodiscard]] std::unique_ptr<LabRun> make_lab_run(LabRunSettings settings) {
+  return std::make_unique<Run>(std::move(settings));
+}
 
 }  // namespace hlc

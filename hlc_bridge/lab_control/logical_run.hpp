@@ -21,6 +21,7 @@ class LogicalRun : public LabRun {
   explicit LogicalRun(LabRunSettings settings);
 
   void ready(const ReadyStatus& status) override;
+  [[nodiscard]] bool releases_time() const override { return true; }
 
  protected:
   [[nodiscard]] std::vector<std::string> not_ready() const override;

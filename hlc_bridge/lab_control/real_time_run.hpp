@@ -28,6 +28,8 @@ class RealTimeRun : public LabRun {
 
   void ready(const ReadyStatus& status) override;
   void state(const VehicleState& state) override;
+  [[nodiscard]] bool releases_time() const override { return false; }
+  [[nodiscard]] bool awaits_states() const override { return true; }
   [[nodiscard]] Nanoseconds time_of(const Instant& now) const override { return now.run; }
   [[nodiscard]] WakeUp wake_up_at(Nanoseconds time) const override { return {.run = time}; }
   [[nodiscard]] Nanoseconds start() const override { return start_.value_or(0); }

@@ -116,12 +116,30 @@ class LogicalPacing : public Pacing {
   Nanoseconds next_announcement_{};  ///< wall
 };
 
-/// @param startup_timeout  wall time; @param since  wall time now
-[[nodiscard]] inline std::unique_ptr<Pacing> make_pacing(bool logical_time,
-                                                         Nanoseconds startup_timeout,
-                                                         Nanoseconds since) {
-  if (!logical_time) return std::make_unique<RealPacing>();
-  return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since);
+/// What a process is given of the kind of time that its run has (flag --simulated_time), so that it
+/// never asks which of the two it is. What its machine is given: pacing_rules.hpp and the machines'
+/// own rules.
+struct RunTime {
+  using MakePacing = std::unique_ptr<Pacing> (*)(Nanoseconds startup_timeout, Nanoseconds since);
+
+  /// startup_timeout: wall time. since: wall time now.
+  MakePacing make_pacing{};
+  Nanoseconds lease{};  ///< that long after its death others see a participant as lost
+};
+
+inline constexpr RunTime kRealTime{
+    .make_pacing = [](Nanoseconds, Nanoseconds) -> std::unique_ptr<Pacing> {
+      return std::make_unique<RealPacing>();
+    },
+    .lease = 2 * kNanosecondsPerSecond};
+inline constexpr RunTime kLogicalTime{
+    .make_pacing = [](Nanoseconds startup_timeout, Nanoseconds since) -> std::unique_ptr<Pacing> {
+      return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since);
+    },
+    .lease = 10 * kNanosecondsPerSecond};
+
+[[nodiscard]] constexpr RunTime run_time(bool is_logical) {
+  return is_logical ? kLogicalTime : kRealTime;
 }
 
 }  // namespace hlc

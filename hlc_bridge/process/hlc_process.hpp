@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "hlc_bridge/dds/participant.hpp"
-#include "hlc_bridge/dds/reader.hpp"
-#include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/hlc/hlc_machine.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
+#include "hlc_bridge/process/hlc_endpoints.hpp"
 #include "hlc_bridge/process/lab_log.hpp"
 #include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/shell.hpp"
@@ -28,11 +28,11 @@ struct HlcProcessOptions {
   std::optional<DiscoveryServer> discovery_server;
   std::vector<std::string>
       controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
-  bool logical_time{};
+  RunTime time{kRealTime};
+  HlcRules rules;
   std::chrono::seconds startup_timeout{30};
   int thread_priority{1};   ///< of the thread that plans (time/precedence); 0: an ordinary one
   std::optional<int> core;  ///< on which it stays
-  StepDeadlines deadlines;
   /// Of the scenario's automaton, for new weights (WeightDesign).
   WeightDesign::Source configuration;
   ReconfigurationSettings reconfiguration;  ///< zones and policies
@@ -88,21 +88,17 @@ class HlcProcess {
   friend class Shell<HlcMachine>;
 
   [[nodiscard]] ParticipantOptions on_domain(std::optional<int> domain, DomainRole role);
-  [[nodiscard]] std::function<void()> on_presence() {
-    return [this] { shell_.presence_changed(); };
-  }
   void prepare_thread() const;
-  void take(const SystemTrigger& trigger);
 
   [[nodiscard]] HlcPeers presence() const;
-  void perform(const Traffic& message) { traffic_writer_.write(message); }
-  void perform(const Prediction& message) { prediction_writer_.write(message); }
-  void perform(const Outcome& message) { outcome_writer_.write(message); }
-  void perform(const TrajectoryCommand& message) { command_writer_.write(message); }
-  void perform(const ReportRecord& message) { report_writer_.write(message); }
-  void perform(const ReadyStatus& message) { ready_writer_.write(message); }
-  void perform(const StopRequest& message) { stop_request_writer_.write(message); }
-  void perform(const AutomatonAnswer& message) { automaton_answer_writer_.write(message); }
+  void perform(const Traffic& message) { writers_.traffic.write(message); }
+  void perform(const Prediction& message) { writers_.prediction.write(message); }
+  void perform(const Outcome& message) { writers_.outcome.write(message); }
+  void perform(const TrajectoryCommand& message) { writers_.command.write(message); }
+  void perform(const ReportRecord& message) { writers_.report.write(message); }
+  void perform(const ReadyStatus& message) { writers_.ready.write(message); }
+  void perform(const StopRequest& message) { writers_.stop_request.write(message); }
+  void perform(const AutomatonAnswer& message) { writers_.automaton_answer.write(message); }
   void perform(const machine::LogLine& line) { log(options_.node_id, line); }
   void perform(const PrepareRequest& action) { preparation_.ask(action.request); }
   void perform(const DrawStep& action);
@@ -112,30 +108,12 @@ class HlcProcess {
   Shell<HlcMachine> shell_;
   VehicleId vehicle_;
 
-  Participant lab_;
-  Participant local_;
-  Participant controllers_;
-  Writer<Traffic> traffic_writer_;
-  Writer<Prediction> prediction_writer_;
-  Writer<Outcome> outcome_writer_;
-  Writer<TrajectoryCommand> command_writer_;
-  Writer<ReportRecord> report_writer_;
-  Writer<ReadyStatus> ready_writer_;
-  Writer<Visualization> drawing_writer_;
-  Writer<StopRequest> stop_request_writer_;
-  Writer<AutomatonAnswer> automaton_answer_writer_;
+  HlcDomains domains_;
+  HlcWriters writers_;
   LabLog lab_log_;
   SubgraphPreparation preparation_;
 
-  // Readers last: their callbacks use the shell, and they end first.
-  Reader<Traffic> traffic_reader_;
-  Reader<Prediction> prediction_reader_;
-  Reader<Outcome> outcome_reader_;
-  Reader<AutomatonRequest> automaton_request_reader_;
-  Reader<RunState> run_state_reader_;
-  Reader<SystemTrigger> trigger_reader_;
-  std::optional<Reader<SystemTrigger>> lab_stop_reader_;  ///< not in logical time
-  Reader<VehicleStateList> list_reader_;
+  HlcReaders readers_;  // last: their callbacks use the shell, and they end first
 };
 
 }  // namespace hlc

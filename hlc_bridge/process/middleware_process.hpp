@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/messages.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "hlc_bridge/middleware/middleware_machine.hpp"
@@ -28,7 +30,8 @@ struct MiddlewareOptions {
   int lab_domain{};
   int local_domain{};
   std::optional<DiscoveryServer> discovery_server;
-  bool logical_time{};
+  RunTime time{kRealTime};
+  MiddlewareRules rules{real_middleware_rules(true)};
   Nanoseconds offset{kListOffset};  ///< of the lists in a period
   /// After the stop symbol wait for the next experiment instead of ending (real time).
   bool keep_running{};
@@ -64,19 +67,41 @@ class MiddlewareProcess {
   struct Vehicle;
   /// What only the lab's programs say and hear: on its transport.
   struct LabEndpoints;
+  /// What passes between this process and the lab control.
+  struct LabControlEndpoints {
+    explicit LabControlEndpoints(MiddlewareProcess& process);
+    [[nodiscard]] bool are_matched() const { return ready.matched() > 0 && trigger.matched() > 0; }
+
+    Writer<ReadyStatus> ready;
+    Writer<ParameterRequest> request;
+    Reader<Parameter> parameter;
+    Reader<SystemTrigger> trigger;
+  };
+  /// What passes between this process and its controllers.
+  struct ControllerEndpoints {
+    explicit ControllerEndpoints(MiddlewareProcess& process);
+
+    Writer<VehicleStateList> list;
+    Writer<SystemTrigger> trigger;
+    Reader<TrajectoryCommand> command;
+    Reader<ReadyStatus> ready;
+  };
 
   // For the shell:
   void perform(const machine::LogLine& line) const;
   void perform(const SubscribeToVehicles& vehicles);
-  void perform(const VehicleStateList& list) { list_writer_.write(list); }
-  void perform(const SystemTrigger& trigger) { trigger_writer_.write(trigger); }
+  void perform(const VehicleStateList& list) { controllers_.list.write(list); }
+  void perform(const SystemTrigger& trigger) { controllers_.trigger.write(trigger); }
   void perform(const GoalState& goal);
   void perform(const VehicleCommand& command);
-  void perform(const ReadyStatus& status) { ready_writer_.write(status); }
-  void perform(const ParameterRequest& request) { request_writer_.write(request); }
+  void perform(const ReadyStatus& status) { lab_control_.ready.write(status); }
+  void perform(const ParameterRequest& request) { lab_control_.request.write(request); }
   [[nodiscard]] MiddlewarePeers presence() const;
 
   void receive(const SystemTrigger& trigger);
+  [[nodiscard]] std::function<void()> on_presence() {
+    return [this] { shell_.presence_changed(); };
+  }
 
   MiddlewareOptions options_;
   Shell<MiddlewareMachine> shell_;
@@ -85,15 +110,9 @@ class MiddlewareProcess {
   // Destroyed first: no callback comes afterwards.
   Participant lab_;
   Participant local_;
-  Writer<VehicleStateList> list_writer_;
-  Writer<SystemTrigger> trigger_writer_;
+  LabControlEndpoints lab_control_;
+  ControllerEndpoints controllers_;
   std::map<std::uint8_t, std::unique_ptr<Vehicle>> vehicles_;  ///< of the controllers
-  Writer<ReadyStatus> ready_writer_;
-  Writer<ParameterRequest> request_writer_;
-  Reader<Parameter> parameter_reader_;
-  Reader<SystemTrigger> trigger_reader_;
-  Reader<TrajectoryCommand> command_reader_;
-  Reader<ReadyStatus> ready_reader_;
   std::map<std::uint8_t, Reader<VehicleState>> state_readers_;
   std::unique_ptr<LabEndpoints> lab_endpoints_;
 };

@@ -245,6 +245,26 @@ void check_can_be_compared(const hlc::ProblemFile& file, const std::filesystem::
       "reference alone");
 }
 
+void print_table(const Flags& flags, const hlc::ProblemFile& file, const ot::Benchmark& benchmark,
+                 const std::vector<ob::PlannerPtr>& planners) {
+  std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
+              file.problem.horizon_steps(), flags.radius_m, flags.seconds);
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s  %s\n", "planner", "runs", "solved", "median",
+              "max", "best", "median", "plans");
+  const auto& experiments =
+      benchmark.getRecordedExperimentData().planners;  // in the order of adding
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    print(experiments[i], kind_of_plans(experiments[i], *planners[i]));
+  }
+  std::printf(
+      "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
+      "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
+      "Times are Benchmark's, including its threads that run and monitor a planner.\n",
+      hlc::is_admissible(file.search.cost_to_go) ? "" : ", and so does best_first with 2022");
+  std::fflush(stdout);
+}
+
 int run(const Flags& flags) {
   hlc::check_output_files({flags.log}, {flags.file});
   const hlc::ProblemFile file = hlc::read_problem_file(flags.file);
@@ -281,22 +301,7 @@ int run(const Flags& flags) {
   request.saveConsoleOutput = false;
   benchmark.benchmark(request);
 
-  std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
-              problem.horizon_steps(), flags.radius_m, flags.seconds);
-  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
-  std::printf("%-32s %5s %7s %10s %10s %12s %12s  %s\n", "planner", "runs", "solved", "median",
-              "max", "best", "median", "plans");
-  const auto& experiments =
-      benchmark.getRecordedExperimentData().planners;  // in the order of adding
-  for (std::size_t i = 0; i < experiments.size(); ++i) {
-    print(experiments[i], kind_of_plans(experiments[i], *planners[i]));
-  }
-  std::printf(
-      "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
-      "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
-      "Times are Benchmark's, including its threads that run and monitor a planner.\n",
-      hlc::is_admissible(file.search.cost_to_go) ? "" : ", and so does best_first with 2022");
-  std::fflush(stdout);
+  print_table(flags, file, benchmark, planners);
   for (const ob::PlannerPtr& planner : planners) {
     if (dynamic_cast<const hlc::RecedingHorizonPlanner*>(planner.get()) == nullptr) continue;
     print_alone(*planner, setup.getProblemDefinition(), flags.seconds);

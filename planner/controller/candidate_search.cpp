@@ -1,9 +1,9 @@
 #include "planner/controller/candidate_search.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/controller/trajectory.hpp"
 
@@ -94,8 +94,9 @@ double CandidateSearch::reach_m(TrimId trim) const {
 
 void CandidateSearch::switch_to(const PreparedSubgraph& next, const SearchOptions& search,
                                 StepIndex now) {
-  assert(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
-  assert(next.reachable->max_steps() > horizon_steps_);
+  HLC_DEMAND(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
+  HLC_DEMAND(next.reachable->max_steps() > horizon_steps_, next.reachable->max_steps(),
+             horizon_steps_);
   EngineCache engine(next, search);
   // Of several switches in a row: the subgraph that the plan in force was found on.
   if (!former_) former_ = Former{std::move(current_), {}};

@@ -1,10 +1,10 @@
 #include "planner/controller/controller.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
+#include "planner/common/demand.hpp"
 #include "planner/controller/problem_alone.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -96,7 +96,7 @@ void Controller::report_plan_in_force(Report& report) const {
 }
 
 Traffic Controller::observe(const Observation& observation) {
-  assert(has_plan());
+  HLC_DEMAND(has_plan());
   const StepIndex now = observation.step;
   former_problem_.reset();
   if (!problems().empty()) former_problem_ = std::move(step_.candidate.problems.front());

@@ -1,7 +1,8 @@
 #include "planner/controller/route_tracker.hpp"
 
-#include <cassert>
 #include <utility>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kUnfitCost_m = 1e6;
 
 RouteTracker::RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes)
     : routes_(std::move(routes)) {
-  assert(!routes_->empty());
+  HLC_DEMAND(!routes_->empty());
 }
 
 void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {

@@ -1,8 +1,9 @@
 #include "planner/coordination/plan.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
@@ -21,12 +22,12 @@ Plan Plan::moved(const Pose& from, const Pose& to) const {
 StepIndex Plan::end() const { return {first_.value + maneuvers_.size()}; }
 
 const Pose& Plan::pose_at(StepIndex step) const {
-  assert(step >= first_);
+  HLC_DEMAND(step >= first_, step, first_);
   return poses_[std::min<std::size_t>(step.value - first_.value, poses_.size() - 1)];
 }
 
 const Plan::Held& Plan::held_during(StepIndex step) const {
-  assert(step >= first_);
+  HLC_DEMAND(step >= first_, step, first_);
   const std::size_t i = step.value - first_.value;
   return i < maneuvers_.size() ? maneuvers_[i] : standstill_;
 }
@@ -70,11 +71,12 @@ Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continu
   };
   for (StepIndex kept = keep_from; kept < step; ++kept.value) append(held_during(kept));
   for (const Maneuver* maneuver : continuation) {
-    assert(maneuver->from ==
-           (result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to));
+    const TrimId at = result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to;
+    HLC_DEMAND(maneuver->from == at, maneuver->from.index, at.index);
     append(Held(standstill, maneuver));
   }
-  assert(result.maneuvers_.empty() || result.maneuvers_.back()->to == standstill->from);
+  HLC_DEMAND(result.maneuvers_.empty() || result.maneuvers_.back()->to == standstill->from,
+             standstill->from.index);
   return result;
 }
 

@@ -1,7 +1,8 @@
 #include "planner/coordination/priority.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
@@ -26,7 +27,7 @@ std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
     }
     if (order[i] == vehicle) return levels[i];
   }
-  assert(false);  // no vehicle of the graph
+  HLC_DEMAND(false && "a vehicle of the graph", vehicle);
   return 0;
 }
 

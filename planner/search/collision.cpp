@@ -1,7 +1,8 @@
 #include "planner/search/collision.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -46,7 +47,8 @@ CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& re
 
 void CollisionCheck::prepare(const HorizonProblem& problem) {
   const std::size_t horizon_steps = problem.horizon_steps();
-  assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps);
+  HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps,
+             problem.obstacles_m.size(), horizon_steps);
 
   // Rounding must not drop an area that only just touches.
   constexpr double kSlackM = 1e-6;

@@ -95,7 +95,7 @@ double EdgeCosts::reduced_cost(const Maneuver& maneuver) const {
 
 double EdgeCosts::to_go(TrimId trim, std::size_t steps) const {
   if (is_zero()) return 0.0;
-  assert(steps < to_go_.size());
+  assert(steps < to_go_.size());  // per vertex
   return to_go_[steps][trim.index];
 }
 

@@ -13,6 +13,7 @@
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "tests/integration/recorded_commands.hpp"
@@ -46,7 +47,7 @@ class Recorder {
               .domain_id = flags.network.dds_domain,
               .role = hlc::DomainRole::kLab,
               .transport = hlc::transport_from_name(flags.network.transport),
-              .logical_time = flags.network.simulated_time,
+              .lease = hlc::run_time(flags.network.simulated_time).lease,
               .discovery_server = flags.network.discovery_server()},
              [this] { signal_.notify(); }) {
     if (!file_) throw std::invalid_argument("--out = " + flags.out + ", cannot be written");

@@ -160,11 +160,7 @@ int run(Choices choices, const std::string& command) {
   return failed == 0 ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app{"Simulates many runs and compares them with the paper's Table 2.", "evaluate"};
-  Choices choices;
+void declare_campaign(CLI::App& app, Choices& choices) {
   choices.plan.profiles = {"default"};
   choices.scenario_folder = "launch_scripts/scenarios";
   choices.jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -207,6 +203,9 @@ int main(int argc, char** argv) {
                  "folder for results.json, table.md, table.csv, with --policies also tradeoff.md, "
                  "tradeoff.csv, tradeoff_fronts.csv; an interrupted campaign goes on")
       ->required();
+}
+
+void declare_figures(CLI::App& app, Choices& choices) {
   std::vector<std::string> figures{kAllFigures};
   figures.insert(figures.end(), hlc::figure_names().begin(), hlc::figure_names().end());
   app.add_option("--figures", choices.figures.names,
@@ -216,6 +215,12 @@ int main(int argc, char** argv) {
   app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
                  "automaton configuration for the figure pareto_set; default: "
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
+}
+
+/// The option that takes the place of all the others that say what is driven.
+CLI::Option* declare(CLI::App& app, Choices& choices) {
+  declare_campaign(app, choices);
+  declare_figures(app, choices);
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
       "a file with the settings and their values (launch_scripts/sweeps/README.md): drives "
@@ -230,6 +235,17 @@ int main(int argc, char** argv) {
       "Exit codes: 0 all runs driven, 1 some failed (reasons in results.json, sweep.csv), 2 bad "
       "input, 3 a record, table, figure or the printed output cannot be written; existing "
       "stays.");
+  return sweep;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Simulates many runs and compares them with the paper's Table 2.",
+      "evaluate"};
+  Choices choices;
+  CLI::Option* sweep = declare(app, choices);
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
   // A failed run is recorded; any other error concerns an output.

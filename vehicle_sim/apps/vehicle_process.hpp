@@ -8,6 +8,7 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/shell.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
@@ -21,7 +22,8 @@ struct VehicleProcessOptions {
   Transport transport{Transport::kLab};
   int lab_domain{};
   std::optional<DiscoveryServer> discovery_server;
-  bool logical_time{};
+  RunTime time{kRealTime};
+  machine::PacingRules rules{machine::real_rules(kVehicleStays)};
   bool keep_running{};  ///< VehicleMachineOptions
   std::chrono::seconds startup_timeout{30};
   std::string record_file;  ///< empty: no record

@@ -61,6 +61,7 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
     throw std::invalid_argument("--gains_scale: " + std::to_string(flags.gains_scale) +
                                 ", must be in 0 ... 10");
   }
+  const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForEver : hlc::kVehicleStays;
   return {.vehicle = {.vehicle_id = id,
                       .start = hlc::start_pose(id, flags.pose),
                       .noise_seed = flags.noise_seed,
@@ -69,7 +70,9 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
           .transport = hlc::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
           .discovery_server = flags.network.discovery_server(),
-          .logical_time = flags.network.simulated_time,
+          .time = hlc::run_time(flags.network.simulated_time),
+          .rules = flags.network.simulated_time ? hlc::machine::logical_rules()
+                                                : hlc::machine::real_rules(grace),
           .keep_running = flags.keep_running,
           .startup_timeout = flags.network.startup_timeout(),
           .record_file = flags.record,

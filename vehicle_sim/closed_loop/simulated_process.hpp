@@ -78,7 +78,7 @@ class MachineProcess final : public SimulatedProcess {
       : place_(place),
         host_(std::move(host)),
         machine_(std::move(machine)),
-        pacing_(make_pacing(place.is_logical, startup_timeout, wall())) {
+        pacing_(run_time(place.is_logical).make_pacing(startup_timeout, wall())) {
     host_.attach(place_, machine_);
   }
 

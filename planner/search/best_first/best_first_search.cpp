@@ -3,9 +3,9 @@
 #include <ompl/datastructures/BinaryHeap.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -15,8 +15,7 @@ namespace {
 constexpr std::size_t kStopInterval = 64;
 
 /// For programmer's mistakes only; see the preconditions in the header.
-[[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable,
-                                     CostToGo kind) {
+bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable, CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
                             (!needs_reference_speeds(kind) && problem.reference_speed_mps.empty());
@@ -55,7 +54,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
 
 void BestFirstSearch::search(const HorizonProblem& problem, const std::function<bool()>& stop,
                              SearchResult& result) {
-  assert(is_well_formed(problem, reachable_, options_.cost_to_go));
+  HLC_DEMAND(is_well_formed(problem, reachable_, options_.cost_to_go));
   const std::size_t n = problem.horizon_steps();
 
   reset(result);

@@ -1,18 +1,18 @@
 #include "planner/search/branch_and_bound/branch_and_bound.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/branch_and_bound/data.hpp"
+#include "planner/search/branch_and_bound/prepared_obstacles.hpp"
 #include "planner/search/branch_and_bound/tables.hpp"
 #include "planner/search/collision.hpp"
 #include "planner/search/cost_to_go.hpp"
-#include "planner/search/prepared_obstacles.hpp"
 #include "planner/search/search_tables.hpp"
 
 namespace hlc {
@@ -227,9 +227,11 @@ BranchAndBound::~BranchAndBound() = default;
 void BranchAndBound::search(const HorizonProblem& problem, const std::function<bool()>& stop,
                             SearchResult& result) {
   const std::size_t n = problem.horizon_steps();
-  assert(n <= reachable_.max_steps());
-  assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == n);
-  assert(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad));
+  HLC_DEMAND(n <= reachable_.max_steps(), n, reachable_.max_steps());
+  HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == n,
+             problem.obstacles_m.size(), n);
+  HLC_DEMAND(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad),
+             problem.start.x_m, problem.start.y_m, problem.start.heading_rad);
 
   reset(result);
   result.generated = 1;
@@ -326,7 +328,7 @@ bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const F
   put(vertex, start);
   vertex.trim = static_cast<std::uint32_t>(maneuver.from.index);
   const std::uint32_t edge = core_->tables.find(maneuver.from, &maneuver);
-  assert(edge != TableStore::kNoEdge);
+  HLC_DEMAND(edge != TableStore::kNoEdge, maneuver.from.index, maneuver.to.index);
   return core_->kernel.is_free(core_->search, edge, step, vertex);
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/frame.hpp"
 
 namespace hlc::branch_and_bound {
@@ -85,7 +85,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
                        const EdgeCosts& costs) {
   num_trims_ = subgraph.automaton().trims.size();
   max_steps_left_ = reachable.max_steps_left();
-  assert(reachable.max_steps() <= kMostSteps);
+  HLC_DEMAND(reachable.max_steps() <= kMostSteps, reachable.max_steps(), kMostSteps);
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1);
   add_edges(subgraph, costs);
   list_permitted(subgraph, costs, max_steps);

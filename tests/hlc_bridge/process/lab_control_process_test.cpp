@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "hlc_bridge/lab_control/logical_run.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
@@ -152,7 +153,8 @@ class LabControlTest : public testing::Test {
     options.transport = Transport::kLoopback;
     options.lab_domain = domain_.first();
     options.controller_domain = domain_.first() + 50;
-    options.logical_time = true;
+    options.time = kLogicalTime;
+    options.make_run = make_lab_run<LogicalRun>;
     options.out = folder_ / "run";
     return options;
   }
@@ -268,7 +270,8 @@ class EmptyLabTest : public testing::Test {
     options_.transport = Transport::kLoopback;
     options_.lab_domain = domain_.first();
     options_.controller_domain = domain_.first() + 50;
-    options_.logical_time = true;
+    options_.time = kLogicalTime;
+    options_.make_run = make_lab_run<LogicalRun>;
     options_.out = folder_.path();
   }
   DomainReservation domain_;
@@ -295,7 +298,8 @@ struct FakeRealVehicle {
 };
 
 TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgain) {
-  options_.logical_time = false;
+  options_.time = kRealTime;
+  options_.make_run = make_lab_run<RealTimeRun>;
   options_.run.startup_timeout = 60 * kNanosecondsPerSecond;
   options_.out.clear();
   LabControlProcess process{options_};

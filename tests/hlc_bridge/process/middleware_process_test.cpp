@@ -133,7 +133,10 @@ class MiddlewareTest : public testing::Test {
     options.transport = transport_;
     options.lab_domain = domains_.first();
     options.local_domain = domains_.first() + 1;
-    options.logical_time = logical_time;
+    const bool beside_lab_programs = transport_ == Transport::kLab;
+    options.time = run_time(logical_time);
+    options.rules = logical_time ? logical_middleware_rules(beside_lab_programs)
+                                 : real_middleware_rules(beside_lab_programs);
     options.keep_running = keep_running_;
     options.startup_timeout = startup_timeout_;
     process_ = std::make_unique<MiddlewareProcess>(options);

@@ -39,6 +39,8 @@ class HlcProcessTest : public testing::Test {
 
   explicit HlcProcessTest(HlcProcessOptions options = on_loopback_alone()) {
     options.node_id = "high_level_controller";
+    options.rules = rules_in_real_time(options.transport == Transport::kLoopback, {},
+                                       nanoseconds(options.startup_timeout));
     options.domains = {.lab = domains_.first(), .local = local(), .controller = controllers()};
     process_ = std::make_unique<HlcProcess>(options, make_controller(red_alone(), {1}));
     code_ = std::async(std::launch::async, [this] { return process_->run(); });

@@ -30,7 +30,7 @@ ParticipantOptions participant(const std::string& name, int domain) {
           .domain_id = domain,
           .role = DomainRole::kLab,
           .transport = Transport::kLoopback,
-          .logical_time = true,
+          .lease = kLogicalTime.lease,
           .discovery_server = std::nullopt};
 }
 
@@ -148,7 +148,8 @@ class VehicleProcessTest : public testing::Test {
     return {.vehicle = {.vehicle_id = kId, .start = kStart},
             .transport = Transport::kLoopback,
             .lab_domain = domain_.first(),
-            .logical_time = true,
+            .time = kLogicalTime,
+            .rules = machine::logical_rules(),
             .startup_timeout = seconds(60)};
   }
 
@@ -275,7 +276,8 @@ TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
 TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
   Lab lab(domain_.first());
   VehicleProcessOptions real = options();
-  real.logical_time = false;
+  real.time = kRealTime;
+  real.rules = machine::real_rules(kVehicleStays);
   start(real);
   const std::vector<VehicleState> states = lab.states(10);
   ASSERT_GE(states.size(), 10U);

@@ -1,4 +1,4 @@
-#include "planner/search/prepared_obstacles.hpp"
+#include "planner/search/branch_and_bound/prepared_obstacles.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -75,7 +75,7 @@ void PreparedObstacles::list_polygons() {
     for (std::size_t number = 0; number < areas_m.size(); ++number) {
       const auto& corners_m = areas_m[number].vertices_m;
       const std::size_t size = corners_m.size();
-      assert(size == 0 || size >= 3);
+      assert(size == 0 || size >= 3);  // per obstacle of every problem
       if (size < 3) continue;
       polygons_[num_polygons_++] = {corners_m.front().data(), static_cast<std::uint32_t>(size),
                                     static_cast<std::uint32_t>(step),
