@@ -108,6 +108,7 @@ Traffic Controller::observe(const Observation& observation) {
       in_force_->check_deviation(observation.measured(options_.vehicle), now);
   step_.report.deviation_m = check.deviation_m;
   if (check.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
+  step_.is_vehicle_lost = check.is_lost;
   if (check.is_anchored_anew) drivable_area_.depart();
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
@@ -362,8 +363,8 @@ Report Controller::fall_back(FallbackReason reason) { return finish(false, reaso
 Report Controller::finish(bool accepted, FallbackReason reason) {
   Report& report = step_.report;
   if (accepted) {
-    step_.replaced = in_force_->replace(std::move(*step_.candidate.plan), step_.prediction.areas,
-                                        step_.observation.step);
+    in_force_->replace(std::move(*step_.candidate.plan), step_.prediction.areas,
+                       step_.observation.step);
     report.status = StepStatus::kPlanned;
   } else {
     report.status = minimal_risk_stop_ ? StepStatus::kMinimalRiskStop : StepStatus::kFallback;

@@ -155,6 +155,8 @@ class Controller {
   [[nodiscard]] std::vector<AnnouncedPlan> announced_plans() const;
 
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
+  /// In the last step the vehicle was to be sent nothing (rule 5 of plan_in_force.hpp).
+  [[nodiscard]] bool is_vehicle_lost() const { return step_.is_vehicle_lost; }
   [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
 
  private:
@@ -169,9 +171,9 @@ class Controller {
     std::map<VehicleId, Prediction> respected;   ///< predictions that the search took into account
     std::map<VehicleId, OccupiedAreas> awaited;  ///< new plans of other coupled vehicles
     PlanCandidate candidate;
-    std::optional<Plan> replaced;  ///< in force before; keeps the maneuvers of the problems
-    Prediction prediction;         ///< own; of a candidate its areas, from t(k+1) on
+    Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
     FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
+    bool is_vehicle_lost{};
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };

@@ -23,7 +23,6 @@ PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
       plan_(step, pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
             standstill, automaton_),
       announced_(plan_.areas_from(step)),
-      last_seen_(measured),
       seen_{.step = step, .time_s = 0.0, .pose = measured} {
   for (const Trim& trim : automaton_->trims) {
     is_at_limit_.push_back(is_at_steering_limit(trim, automaton_->vehicle, automaton_->identified));
@@ -38,37 +37,67 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   deviation_m_ = 0.0;
   if (own == nullptr) {  // the vehicle's position is unknown: it may stand anywhere on its plan
     moved_ = plan_;
-    outside_area_m_ = footprint_area(vehicle.footprint, last_seen_, vehicle.safety_margin_m);
-    return {.deviation_m = 0.0, .is_disturbed = true};
+    is_lost_ = true;
+    note_outside(seen_.pose, seen_speed_mps_, now);
+    return {.deviation_m = 0.0, .is_disturbed = true, .is_lost = true};
   }
-  last_seen_ = own->pose;
+  replaced_.forget(now);
+  seen_speed_mps_ = own->speed_mps;
   const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
   seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};
   if (now.value < plan_.first().value + steps_back)
     return {};  // just anchored at its measured pose
   seen_.step.value -= steps_back;
   seen_.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
+  if (is_lost_) return_to_driven_plan(now);
   const State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
-  deviation_m_ = footprint_deviation_m(own->pose, planned, vehicle, automaton_->identified);
+  deviation_m_ = deviation_from(plan_);
   const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
   const bool is_outside =
       deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
-  const DeviationCheck result{.deviation_m = deviation_m_, .is_disturbed = is_outside};
+  is_lost_ = is_lost_ && is_outside;
+  const DeviationCheck result{
+      .deviation_m = deviation_m_, .is_disturbed = is_outside, .is_lost = is_lost_};
   if (!is_outside && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
   const bool stands = plan_.end().value + steps_back <= now.value &&
                       std::abs(own->speed_mps) <= MissingVehicleRules{}.standing_speed_mps;
   if (is_outside && stands) {
+    ReplacedPlans replaced = std::move(replaced_);
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
+    replaced_ = std::move(replaced);
     deviation_m_ = result.deviation_m;
     return {.deviation_m = deviation_m_, .is_disturbed = false, .is_anchored_anew = true};
   }
   moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
                                                       automaton_->identified));
   if (!is_outside && !stays_inside_announced(*moved_, now)) moved_.reset();
-  if (is_outside) {
-    outside_area_m_ = footprint_area(vehicle.footprint, own->pose, vehicle.safety_margin_m);
-  }
+  if (is_outside) note_outside(own->pose, own->speed_mps, now);
   return result;
+}
+
+/// At the last sight.
+double PlanInForce::deviation_from(const Plan& plan) const {
+  const State planned = plan.state_at(seen_.step, seen_.time_s, automaton_->vehicle);
+  return footprint_deviation_m(seen_.pose, planned, automaton_->vehicle, automaton_->identified);
+}
+
+void PlanInForce::return_to_driven_plan(StepIndex now) {
+  const double margin_m = automaton_->vehicle.safety_margin_m;
+  if (deviation_from(plan_) <= margin_m) return;
+  for (const ReplacedPlans::Former* former : replaced_.doubtful()) {
+    const bool was_in_force =
+        former->plan.first() <= seen_.step && former->announced.first <= seen_.step;
+    if (!was_in_force || deviation_from(former->plan) > margin_m) continue;
+    const Plan driven = former->plan;
+    const OccupiedAreas announced = former->announced;
+    replaced_.add(std::exchange(plan_, driven), std::exchange(announced_, announced), now);
+    return replaced_.doubt(now);
+  }
+}
+
+void PlanInForce::note_outside(const Pose& pose, double speed_mps, StepIndex now) {
+  outside_area_m_ = braking_area(pose, speed_mps, automaton_->vehicle);
+  replaced_.doubt(now);
 }
 
 /// True if the footprint lies in the area announced for that step.
@@ -91,24 +120,39 @@ bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const 
   });
 }
 
-/// For a vehicle outside its areas also its pose if it stays where it was measured, if it continues
-/// beside its plan, and the hull of all these. The same for a vehicle that is no longer seen: it
-/// may have stopped on the way.
+/// The areas of the other plans that may be driven grow from step to step: the vehicle may have
+/// stopped anywhere on the way.
 OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
+  const std::vector<const ReplacedPlans::Former*> former = replaced_.doubtful();
+  StepIndex end = plan_.end();
+  for (const ReplacedPlans::Former* one : former) end = std::max(end, one->plan.end());
   OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = announced_.final_area_m};
-  if (from < plan_.end()) areas.areas_m.reserve(plan_.end().value - from.value);
-  for (StepIndex step = from; step < plan_.end(); ++step.value) {
+  if (from < end) areas.areas_m.reserve(end.value - from.value);
+  for (StepIndex step = from; step < end; ++step.value) {
     areas.areas_m.push_back(announced_.during(step));
   }
-  if (outside_area_m_.empty()) return areas;
-  const OccupiedAreas beside = moved_->areas_from(from);
-  const auto join = [this](ConvexPolygon& area, const ConvexPolygon& other) {
-    area = convex_hull(std::vector{area, other, outside_area_m_});
+  if (outside_area_m_.empty() && former.empty()) return areas;
+  const VehicleParameters& vehicle = automaton_->vehicle;
+  ConvexPolygon way = outside_area_m_;
+  const auto add_to_way = [&](const Plan& plan, const OccupiedAreas& announced, StepIndex step) {
+    if (step < announced.first || step < plan.first()) return;
+    way = convex_hull(std::vector{way, driven_or_braked_area(plan, announced, step, vehicle)});
   };
-  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
-    join(areas.areas_m[i], beside.during({from.value + i}));
+  const auto drive_on = [&](StepIndex step) {
+    for (const ReplacedPlans::Former* one : former) add_to_way(one->plan, one->announced, step);
+    if (!outside_area_m_.empty()) {
+      add_to_way(plan_, announced_, step);
+      if (step >= moved_->first()) add_to_way(*moved_, moved_->areas_from(step), step);
+    }
+  };
+  for (StepIndex step = seen_.step; step < from; ++step.value) drive_on(step);
+  for (StepIndex step = from; step < end; ++step.value) {
+    drive_on(step);
+    ConvexPolygon& area = areas.areas_m[step.value - from.value];
+    area = convex_hull(std::vector{area, way});
   }
-  join(areas.final_area_m, beside.final_area_m);
+  drive_on(end);
+  areas.final_area_m = convex_hull(std::vector{areas.final_area_m, way});
   return areas;
 }
 
@@ -129,14 +173,13 @@ OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const
   return areas_with_drift(candidate, next, seen_, *automaton_, tolerated_m());
 }
 
-Plan PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
-  const ConvexPolygon under_way = announced_.during(now);
-  announced_.first = now;
-  announced_.areas_m.resize(1 + areas.areas_m.size());
-  announced_.areas_m.front() = under_way;
-  std::ranges::copy(areas.areas_m, announced_.areas_m.begin() + 1);
-  announced_.final_area_m = areas.final_area_m;
-  return std::exchange(plan_, std::move(candidate));
+void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
+  OccupiedAreas announced{.first = now, .areas_m = {}, .final_area_m = areas.final_area_m};
+  announced.areas_m.reserve(1 + areas.areas_m.size());
+  announced.areas_m.push_back(announced_.during(now));
+  announced.areas_m.insert(announced.areas_m.end(), areas.areas_m.begin(), areas.areas_m.end());
+  replaced_.add(std::exchange(plan_, std::move(candidate)),
+                std::exchange(announced_, std::move(announced)), now);
 }
 
 }  // namespace hlc

@@ -5,6 +5,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 #include "planner/controller/drift.hpp"
+#include "planner/controller/replaced_plans.hpp"
 #include "planner/coordination/missing.hpp"
 #include "planner/coordination/plan.hpp"
 
@@ -25,6 +26,7 @@ struct DeviationCheck {
   double deviation_m{};          ///< footprint_deviation_m, at the time of the measurement
   bool is_disturbed{false};      ///< rule 4 below: nothing new may be planned
   bool is_anchored_anew{false};  ///< rule 4: the plan is to stand at the vehicle's pose
+  bool is_lost{false};           ///< rule 5: no command may be sent
 };
 
 /// The plan that a vehicle drives, the areas of it that have been announced to the others, and the
@@ -49,11 +51,43 @@ struct DeviationCheck {
 ///    agreed.
 /// 4. A vehicle that deviates by more than m and is outside the area announced for that time, or
 ///    that is no longer seen, was disturbed, without the others' knowledge. It plans nothing new
-///    and drives its plan to the end; from this step on its traffic announces, for each step, the
-///    hull of the area announced before, of its plan from its real pose, and of its measured pose,
-///    so that no other plan enters it. Once it stands, its plan is anchored where it stands.
-///    Agreements that the others made before they received this cannot be revoked; everything they
-///    do from then on keeps clear.
+///    and drives its plan to the end; from this step on its traffic announces all areas in which it
+///    can be, so that no other plan enters them. Once it stands, its plan is anchored where it
+///    stands. Agreements that the others made before they received this cannot be revoked;
+///    everything they do from then on keeps clear.
+///
+/// 5. A vehicle that is not seen is lost until it is seen on a plan, or anchored anew. No command is
+///    sent to it: it drives the last command that it has received to its end (kept alive by that
+///    command's copy), while another one would make it leave that plan on an unchecked path. If it
+///    is seen on an older plan, it has missed the newer ones: the older one is in force again.
+///
+/// Where a disturbed vehicle can be: commands may have been lost, so it may drive any plan that was
+/// in force while they were and has not run out since (replaced_plans.hpp), and drop its command
+/// and brake at any time. Announced for each step is therefore the hull of the areas of all these
+/// plans, in that step and in those that have passed since the vehicle was last seen, with the ways
+/// to brake from there; of where it was measured, and of its plan from where it really is. When the
+/// vehicle is seen on its plan again, it plans on; the older plans remain announced until they
+/// cannot be driven any more, since the sight does not tell plans apart that part later.
+///
+/// Invariant. Let D(k) be the plans that the vehicle may drive from t(k) on. At the begin of step
+/// k, every other vehicle's plan in force is free of each plan in D(k), as far as nobody was
+/// disturbed before.
+///
+/// Induction. Let P(k) be the plan in force after step k. Before a fault D(k) = {P(k - 1)}. Nobody
+/// who receives a vehicle's states does so without it having received, before it sent them, the
+/// commands of the steps before (links fail in both directions: *assumption*); a list shows states
+/// of the last 0.2 s or none. So with the last sight in the list of step s, P(s - 1) was received,
+/// and in the list of step s + 1 the vehicle is not seen: D(s + 1) = {P(s - 1), P(s)}. P(s - 1) is
+/// what the others knew as the running plan in step s, P(s) what was predicted then; the commit
+/// rule has made all that came into force in step s free of both. From step s + 1 on nothing new is
+/// planned here, D does not grow, and its areas are announced: whatever comes into force elsewhere
+/// is free of them.
+///
+/// *Limit.* If the assumption fails, commands are lost while states come, D(k) is larger than
+/// anybody can know. One lost command does no harm: until t(k + 2) all that is in force is free of
+/// P(k - 1). Two in a row do, if others have planned in step k + 1 what is free of P(k) and P(k +
+/// 1) but not of P(k - 1): the vehicle is seen beside its plan in the list of step k + 2 at the
+/// earliest, and what came into force in step k + 1 stays if there is no way around.
 class PlanInForce {
  public:
   /// Standing at the pose measured at t(step). `standstill` is the equilibrium trim's self-loop;
@@ -85,13 +119,16 @@ class PlanInForce {
   /// Areas of a plan that continues `base()`, from t(next) on, with its drift (rule 2).
   [[nodiscard]] OccupiedAreas areas_of(const Plan& candidate, StepIndex next) const;
 
-  /// Puts `candidate` in force, of which `areas` from t(now + 1) on have been announced.
-  /// @return the plan before
-  Plan replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
+  /// Puts `candidate` in force, of which `areas` from t(now + 1) on have been announced. The plan
+  /// before is kept for some steps, and with it the automaton of its maneuvers.
+  void replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
 
  private:
   [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
                                          double reserve_m = 0.0) const;
+  [[nodiscard]] double deviation_from(const Plan& plan) const;
+  void return_to_driven_plan(StepIndex now);
+  void note_outside(const Pose& pose, double speed_mps, StepIndex now);
   [[nodiscard]] double tolerated_m() const;
   [[nodiscard]] bool stays_inside_announced(const Plan& plan, StepIndex now) const;
 
@@ -101,13 +138,16 @@ class PlanInForce {
   std::vector<bool> is_at_limit_;  ///< of each trim, is_at_steering_limit
   Plan plan_;
   OccupiedAreas announced_;  ///< announced areas of the plan, and one step before
-  Pose last_seen_;           ///< measured; heading_rad is the yaw
+  ReplacedPlans replaced_;
+  bool is_lost_{};
 
   // of the last `check_deviation`
-  SeenAt seen_;
+  SeenAt seen_;  ///< the last sight
+  double seen_speed_mps_{};
   double deviation_m_{};
-  std::optional<Plan> moved_;     ///< the plan moved to the vehicle's real pose
-  ConvexPolygon outside_area_m_;  ///< footprint, with margin, of a vehicle outside its plan's areas
+  std::optional<Plan> moved_;  ///< the plan moved to the vehicle's real pose
+  /// Where a vehicle that is disturbed was seen, and may have braked from there, with margin.
+  ConvexPolygon outside_area_m_;
 };
 
 }  // namespace hlc
