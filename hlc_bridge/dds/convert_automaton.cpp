@@ -7,7 +7,7 @@
 #include "hlc_bridge/dds/convert_hlc.hpp"
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
-// until it is carried over.
+// until it is converted.
 namespace hlc {
 namespace {
 

@@ -9,7 +9,7 @@
 #include "hlc_bridge/dds/convert_lab.hpp"
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
-// until it is carried over.
+// until it is converted.
 namespace hlc {
 
 void to_wire(const ReadyStatus& message, ::ReadyStatus& wire) {

@@ -10,13 +10,13 @@
 
 namespace hlc {
 
-/// Which of a run's processes are there, which the run goes on without, and whom triggers reach.
-/// Three processes per vehicle: vehicle, middleware, controller (messages/node_names).
+/// Live, lost and dropped processes of a run, and the readers of its triggers. Three processes per
+/// vehicle: vehicle, middleware, controller (messages/node_names).
 class Attendance {
  public:
   explicit Attendance(const std::vector<std::uint8_t>& vehicle_ids);
 
-  /// Who is there, and who was there and is not any more; a name in both is lost.
+  /// Live and lost participants; a name in both is lost.
   void update(const std::set<std::string>& alive, const std::set<std::string>& lost);
   void trigger_readers(std::set<std::string> names) { trigger_readers_ = std::move(names); }
 
@@ -27,14 +27,14 @@ class Attendance {
   /// Processes of the run, in the order of the vehicles.
   [[nodiscard]] std::vector<std::string> lost() const;
   [[nodiscard]] std::vector<std::string> absent() const;
-  /// Vehicles and middlewares that no trigger reaches.
+  /// Vehicles and middlewares that do not receive the triggers.
   [[nodiscard]] std::vector<std::string> unreached_timers() const;
 
-  /// From now on the run goes on without the process. False if it did already.
+  /// From now on the run continues without the process. False if it did already.
   bool drop(const std::string& process) { return dropped_.insert(process).second; }
   void take_back(const std::string& process) { dropped_.erase(process); }
   [[nodiscard]] const std::set<std::string>& dropped() const { return dropped_; }
-  /// @param wall  when it was taken for dead
+  /// @param wall  time at which it was considered dead
   void died(const std::string& process, Nanoseconds wall) { died_at_[process] = wall; }
   /// @pre it has died
   [[nodiscard]] Nanoseconds died_at(const std::string& process) const {

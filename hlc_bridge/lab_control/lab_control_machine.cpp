@@ -112,7 +112,7 @@ WakeUp LabControlMachine::wake_up() const {
 }
 
 std::size_t LabControlMachine::awaited() const {
-  return leaves_at_ ? machine::kOnlyUrgent : std::max<std::size_t>(run_->answers_owed(), 1);
+  return leaves_at_ ? machine::kOnlyUrgent : std::max<std::size_t>(run_->pending_answers(), 1);
 }
 
 }  // namespace hlc

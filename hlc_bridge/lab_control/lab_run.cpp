@@ -47,12 +47,12 @@ void LabRun::report(const ReportRecord& record) {
 }
 
 void LabRun::interrupt() {
-  end_asked_ = true;
+  is_end_requested_ = true;
   fail(kExitInterrupted, "interrupted");
 }
 
 void LabRun::stop_requested(std::uint8_t vehicle_id) {
-  end_asked_ = true;
+  is_end_requested_ = true;
   fail(kExitDied, controller_name(vehicle_id) + " requested the stop");
 }
 
@@ -99,12 +99,12 @@ void LabRun::enter(Phase phase) {
 void LabRun::gather(LabRunActions& actions) {
   for (const std::string& process : attendance_.lost()) drop(process);
   const bool too_late = now_ - phase_since_.wall >= settings_.startup_timeout;
-  if (!end_asked_ && attendance_.unreached_timers().empty() && not_ready().empty()) {
+  if (!is_end_requested_ && attendance_.unreached_timers().empty() && not_ready().empty()) {
     enter(Phase::kRunning);
     running_since_ = phase_since_;
     last_progress_ = now_;
     actions.run_state = RunPhase::kRunning;
-  } else if (end_asked_ || too_late) {
+  } else if (is_end_requested_ || too_late) {
     fail(kExitMissing, "after " + seconds(settings_.startup_timeout) + ": " + waiting_for());
     actions.triggers.push_back(kStopSymbol);
     enter(Phase::kFinished);
@@ -190,7 +190,7 @@ void LabRun::leave_running_phases(LabRunActions& actions) {
   if (phase_ != Phase::kRunning && phase_ != Phase::kMinimalRiskStop) {
     return;
   }
-  if (end_asked_) {
+  if (is_end_requested_) {
     stop(actions);
   } else if (clock() >= phase_end()) {
     if (phase_ == Phase::kRunning && !result_.first_step) {

@@ -37,7 +37,7 @@ class Pacing {
     return std::nullopt;
   }
   /// No trigger has arrived for too long while a tick is requested.
-  [[nodiscard]] virtual bool has_given_up(Nanoseconds /*wall*/) const { return false; }
+  [[nodiscard]] virtual bool is_timed_out(Nanoseconds /*wall*/) const { return false; }
 };
 
 /// Real time: the computer's clock is the time of the run.
@@ -104,7 +104,7 @@ class LogicalPacing : public Pacing {
     next_announcement_ = wall + kRepeat;
     return wanted_;
   }
-  [[nodiscard]] bool has_given_up(Nanoseconds wall) const override {
+  [[nodiscard]] bool is_timed_out(Nanoseconds wall) const override {
     return wanted_ && !is_due() && wall - std::min(wall, last_trigger_) >= patience_;
   }
 

@@ -17,7 +17,7 @@ struct PacingRules {
   Nanoseconds lab_control_grace{};
 };
 
-inline constexpr Nanoseconds kForEver = std::numeric_limits<Nanoseconds>::max();
+inline constexpr Nanoseconds kForever = std::numeric_limits<Nanoseconds>::max();
 
 /// Time stands still until every process has answered; without the lab control it does so forever.
 [[nodiscard]] constexpr PacingRules logical_rules() {
@@ -25,7 +25,7 @@ inline constexpr Nanoseconds kForEver = std::numeric_limits<Nanoseconds>::max();
 }
 
 /// Time passes by itself.
-/// @param lab_control_grace  of this kind of process: kMiddlewareStays ..., or kForEver
+/// @param lab_control_grace  of this kind of process: kMiddlewareStays ..., or kForever
 [[nodiscard]] constexpr PacingRules real_rules(Nanoseconds lab_control_grace) {
   return {.patience = 0, .connects_before_start = false, .lab_control_grace = lab_control_grace};
 }

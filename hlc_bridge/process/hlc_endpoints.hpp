@@ -18,12 +18,12 @@ struct HlcDomains {
   Participant controllers;
 };
 
-/// What a controller publishes.
+/// The publications of a controller.
 struct HlcWriters {
-  /// @param on_presence  called after a change of who receives what others must receive
+  /// @param on_presence  called after a change of the matches
   HlcWriters(HlcDomains& domains, const std::function<void()>& on_presence);
 
-  /// Controllers that receive all that this one publishes for controllers.
+  /// Controllers that receive all messages of this one for controllers.
   [[nodiscard]] std::set<std::string> receivers() const;
 
   Writer<Traffic> traffic;
@@ -37,8 +37,9 @@ struct HlcWriters {
   Writer<AutomatonAnswer> automaton_answer;
 };
 
-/// What a controller receives, posted to its shell. What it answers or obeys is urgent; a
-/// middleware may forward the trigger of every tick, of which only the stop is worth waking up for.
+/// The subscriptions of a controller, posted to its shell. Messages that require an answer or an
+/// action are urgent; a middleware may forward the trigger of every tick, of which only the stop is
+/// urgent.
 struct HlcReaders {
   /// @param stops_on_lab  the stop symbol of the lab domain counts, too
   HlcReaders(HlcDomains& domains, Shell<HlcMachine>& shell, bool stops_on_lab);

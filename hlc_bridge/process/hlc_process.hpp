@@ -19,8 +19,8 @@
 namespace hlc {
 
 struct HlcProcessOptions {
-  /// For the log. On the domains the process always bears its vehicle's name (messages/node_names),
-  /// which the others look for: the lab gives all controllers one node id.
+  /// For the log. On the domains the process always has its vehicle's name (messages/node_names),
+  /// which the others expect: the lab gives all controllers one node id.
   std::string node_id;
   std::string version{};  ///< ParticipantOptions::version
   Transport transport{Transport::kLab};
@@ -31,43 +31,43 @@ struct HlcProcessOptions {
   RunTime time{kRealTime};
   HlcRules rules;
   std::chrono::seconds startup_timeout{30};
-  int thread_priority{1};   ///< of the thread that plans (time/precedence); 0: an ordinary one
-  std::optional<int> core;  ///< on which it stays
+  int thread_priority{1};   ///< of the planning thread (time/precedence); 0: an ordinary one
+  std::optional<int> core;  ///< processor core of the planning thread
   /// Of the scenario's automaton, for new weights (WeightDesign).
   WeightDesign::Source configuration;
   ReconfigurationSettings reconfiguration;  ///< zones and policies
-  /// Called with the controller after the command of a step has been sent. What it throws is logged
-  /// once, and it is not called again: a run that was good ends with kExitNotWritten.
+  /// Called with the controller after the command of a step has been sent. Its first exception is
+  /// logged, and it is not called again: a successful run then ends with kExitNotWritten.
   std::function<void(const Controller&)> after_step;
 };
 
 /// The process of one controller: an HlcMachine (hlc_bridge/hlc) on the shell, with its endpoints
 /// on the lab's, the local and the controllers' domain.
 ///
-/// Real time: the start trigger is sent once. A controller that comes later, or again after its
-/// death, learns from the others' traffic that the experiment runs, or from the lab control if it
-/// is ours. It waits until its vehicle has been seen standing for a horizon, begins with a plan to
-/// stand there, and takes part from the next list on. Until then nothing is commanded: the vehicle
-/// drives what it was left (HlcCore::may_stand_by).
+/// Real time: the start trigger is sent once. A controller that starts later, or restarts, detects
+/// the running experiment from the others' traffic, or from the lab control if it is ours. It waits
+/// until its vehicle has stood for a horizon, begins with a plan to stand there, and takes part
+/// from the next list on. Until then it sends no command: the vehicle drives the plan that it has
+/// (HlcCore::may_stand_by).
 ///
-/// Without its middleware it waits for it to be started again, as long as at the start, and plans
-/// on then; meanwhile the vehicle drives out what it was sent. In logical time, or when the others
-/// drive out their plans too, it leaves at once.
+/// Without its middleware it waits for a restart of the middleware, with the same timeout as at the
+/// start, and plans on then; meanwhile the vehicle makes a minimal-risk stop. In logical time, or
+/// when the others make a minimal-risk stop, too, it leaves at once.
 ///
-/// Without the lab control nobody can stop the cars: the plan in force is driven out. If it is back
-/// within kControllerStays (a network cut for longer than the lease), planning goes on; else this
-/// one leaves.
+/// Without the lab control the cars cannot be stopped: the vehicle makes a minimal-risk stop. If
+/// the lab control is back within kControllerStays (a network cut for longer than the lease),
+/// planning continues; otherwise the process leaves.
 ///
-/// The stop symbol comes by the middleware and, in real time, on the lab domain, too: one that the
-/// middleware did not live to forward must not be forgotten when it is started again. Other
-/// triggers count on the local domain alone, as the lab's controllers have them.
+/// The stop symbol comes by the middleware and, in real time, on the lab domain, too: a stop during
+/// an outage of the middleware must not be lost. Other triggers count on the local domain alone, as
+/// for the lab's controllers.
 ///
-/// A vehicle follows one controller: a duplicate instance publishes nothing, and leaves. Ready ones
-/// leave as soon as they receive what another one publishes for their vehicle (Readiness).
+/// A vehicle follows one controller: a duplicate instance publishes nothing, and leaves. Ready
+/// controllers leave as soon as they receive messages of another one for their vehicle (Readiness).
 ///
-/// Asked for another subgraph (AutomatonRequest), it prepares it beside the run, switches before
-/// the step from which it holds, and answers. In logical time that step waits for what is being
-/// prepared. Without being asked it follows its zones and policies (SubgraphSelector); those that
+/// A requested subgraph (AutomatonRequest) is prepared in the background; the controller switches
+/// before the first step of its validity, and answers. In logical time that step waits for the
+/// preparation. Without a request it follows its zones and policies (SubgraphSelector); those that
 /// look ahead do so after the step's command has been sent.
 class HlcProcess {
  public:
@@ -75,13 +75,13 @@ class HlcProcess {
   /// @throws std::invalid_argument, std::runtime_error if an endpoint cannot be made
   HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller);
 
-  /// Runs until the stop symbol or `stop`. Exit code: 0 good, 1 good but `after_step` failed, 2 it
-  /// does not fit the others (another controller of the vehicle, a period that is not its step), 3
-  /// somebody did not appear, 4 the middleware or the lab control died.
+  /// Runs until the stop symbol or `stop`. Exit code: 0 success, 1 success, but `after_step`
+  /// failed, 2 it does not fit the others (another controller of the vehicle, a period that is not
+  /// its step), 3 startup timeout, 4 the middleware or the lab control died.
   int run();
 
-  /// Ends `run` soon; from any thread. Unlike the stop symbol, after which the vehicle is to hear
-  /// nothing, this leaves it its whole plan, which it drives to standstill.
+  /// Ends `run` soon; from any thread. Unlike after the stop symbol, the vehicle keeps its whole
+  /// plan, which it drives to standstill.
   void stop() { shell_.stop(); }
 
  private:

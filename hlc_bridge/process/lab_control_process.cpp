@@ -76,8 +76,8 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
   if (shell_.machine().run().awaits_states()) listen_to_vehicles();
 }
 
-/// Real time: a vehicle is there when a state has come. While the run gathers, every state counts,
-/// since a vehicle may leave and come back; later ones tell nothing new.
+/// Real time: a vehicle is present once a state has been received. While the run gathers, every
+/// state counts, since a vehicle may leave and come back; later ones have no effect.
 void LabControlProcess::listen_to_vehicles() {
   for (const std::uint8_t id : options_.run.vehicle_ids) {
     state_readers_.try_emplace(id, lab_, topics::vehicle_state(id),
@@ -148,7 +148,7 @@ void LabControlProcess::record_facts() const {
   facts.wall_s = static_cast<double>(result.wall) * kSecondsPerNanosecond;
   facts.clock_s = static_cast<double>(result.clock) * kSecondsPerNanosecond;
   facts.died = result.deaths;
-  // What stands in the file until the run has finished, and for ever if it does not.
+  // Content of the file until the run has finished, also if it never does.
   facts.exit_code = run.finished() ? result.exit_code : kExitDied;
   facts.reason = run.finished() ? result.reason : "lab_control did not end the run";
   write_file(options_.out / "run.json", facts_json(facts));

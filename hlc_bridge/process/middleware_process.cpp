@@ -128,9 +128,8 @@ MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
 
 MiddlewareProcess::~MiddlewareProcess() = default;
 
-/// On a DDS thread. A trigger that is to be forwarded is there before the tick that it releases;
-/// the others, 50 a second, wake nobody: that would cost a run in logical time a good part of its
-/// speed.
+/// On a DDS thread. A trigger to be forwarded arrives before the tick that it releases; the others,
+/// 50 a second, do not wake the thread: that would slow down a run in logical time.
 void MiddlewareProcess::receive(const SystemTrigger& trigger) {
   const bool is_first = !std::exchange(is_triggered_, true);
   if (is_first || trigger.next_start == kStopSymbol || options_.transport == Transport::kLab) {

@@ -22,7 +22,7 @@ namespace hlc {
 
 struct MiddlewareOptions {
   /// For the log, and in logical time the source_id of the timer's ready status (wire contract,
-  /// 5.3). On the domains the process always bears its vehicle's name (messages/node_names).
+  /// 5.3). On the domains the process always has its vehicle's name (messages/node_names).
   std::string node_id;
   std::string version{};                  ///< ParticipantOptions::version
   std::vector<std::uint8_t> vehicle_ids;  ///< of its controllers; at least one
@@ -33,29 +33,29 @@ struct MiddlewareOptions {
   RunTime time{kRealTime};
   MiddlewareRules rules{real_middleware_rules(true)};
   Nanoseconds offset{kListOffset};  ///< of the lists in a period
-  /// After the stop symbol wait for the next experiment instead of ending (real time).
+  /// Waits for the next experiment after the stop symbol instead of ending (real time).
   bool keep_running{};
   std::chrono::seconds startup_timeout{30};
 };
 
-/// Stands between controllers (local domain; one, or those of several vehicles) and the vehicles
-/// (lab domain): the endpoints of a MiddlewareMachine, which says what it does and when it ends.
+/// Connects controllers (local domain; one, or those of several vehicles) and vehicles (lab
+/// domain): the endpoints of a MiddlewareMachine, which decides on all actions and on the end.
 ///
-/// On the lab's transport, where controllers and vehicles of others may be: commands of all four
-/// kinds, goals, and lists with the camera system's observations. On loopback: trajectories, which
-/// is what ours sends.
+/// On the lab's transport, with controllers and vehicles of others: commands of all four kinds,
+/// goals, and lists with the camera system's observations. On loopback: trajectories only, which is
+/// what our controllers send.
 ///
-/// One thread, that of `run`. What is forwarded (commands, the stop symbol) wakes it at once; it
-/// waits for nothing else than the next event, so that no command waits for a list.
+/// One thread, that of `run`. Messages to be forwarded (commands, the stop symbol) wake it at once;
+/// it waits only for the next event, so that no command waits for a list.
 class MiddlewareProcess {
  public:
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit MiddlewareProcess(MiddlewareOptions options);
   ~MiddlewareProcess();
 
-  /// Until the stop symbol has come (see keep_running), or `stop` is called. The exit code: 0 good,
-  /// 2 if the lab control's parameters do not fit, 3 if somebody needed did not appear, 4 if the
-  /// lab control is lost, or (logical time) sends no trigger any more.
+  /// Runs until the stop symbol (see keep_running) or `stop`. Exit code: 0 success, 2 if the lab
+  /// control's parameters do not fit, 3 startup timeout, 4 if the lab control is lost, or (logical
+  /// time) no longer sends triggers.
   [[nodiscard]] int run() { return shell_.run(*this); }
 
   /// Ends `run` soon. From any thread.
@@ -63,9 +63,9 @@ class MiddlewareProcess {
 
  private:
   friend class Shell<MiddlewareMachine>;
-  /// What goes out to one vehicle.
+  /// The endpoints for one vehicle.
   struct Vehicle;
-  /// What only the lab's programs say and hear: on its transport.
+  /// Endpoints for the lab's programs only: on its transport.
   struct LabEndpoints;
   /// What passes between this process and the lab control.
   struct LabControlEndpoints {

@@ -109,7 +109,7 @@ Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = check.deviation_m;
   if (check.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
   step_.is_vehicle_lost = check.is_lost;
-  if (check.is_anchored_anew) drivable_area_.depart();
+  if (check.is_reanchored) drivable_area_.depart();
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
 

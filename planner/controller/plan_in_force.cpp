@@ -66,7 +66,7 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
     replaced_ = std::move(replaced);
     deviation_m_ = result.deviation_m;
-    return {.deviation_m = deviation_m_, .is_disturbed = false, .is_anchored_anew = true};
+    return {.deviation_m = deviation_m_, .is_disturbed = false, .is_reanchored = true};
   }
   moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
                                                       automaton_->identified));

@@ -23,10 +23,10 @@ struct DeviationRules {
 
 /// The deviation of a vehicle from its plan, and the consequences.
 struct DeviationCheck {
-  double deviation_m{};          ///< footprint_deviation_m, at the time of the measurement
-  bool is_disturbed{false};      ///< rule 4 below: nothing new may be planned
-  bool is_anchored_anew{false};  ///< rule 4: the plan is to stand at the vehicle's pose
-  bool is_lost{false};           ///< rule 5: no command may be sent
+  double deviation_m{};       ///< footprint_deviation_m, at the time of the measurement
+  bool is_disturbed{false};   ///< rule 4 below: nothing new may be planned
+  bool is_reanchored{false};  ///< rule 4: the plan is to stand at the vehicle's pose
+  bool is_lost{false};        ///< rule 5: no command may be sent
 };
 
 /// The plan that a vehicle drives, the areas of it that have been announced to the others, and the
@@ -56,7 +56,7 @@ struct DeviationCheck {
 ///    stands. Agreements that the others made before they received this cannot be revoked;
 ///    everything they do from then on keeps clear.
 ///
-/// 5. A vehicle that is not seen is lost until it is seen on a plan, or anchored anew. No command is
+/// 5. A vehicle that is not seen is lost until it is seen on a plan, or re-anchored. No command is
 ///    sent to it: it drives the last command that it has received to its end (kept alive by that
 ///    command's copy), while another one would make it leave that plan on an unchecked path. If it
 ///    is seen on an older plan, it has missed the newer ones: the older one is in force again.
@@ -67,7 +67,7 @@ struct DeviationCheck {
 /// plans, in that step and in those that have passed since the vehicle was last seen, with the ways
 /// to brake from there; of where it was measured, and of its plan from where it really is. When the
 /// vehicle is seen on its plan again, it plans on; the older plans remain announced until they
-/// cannot be driven any more, since the sight does not tell plans apart that part later.
+/// can no longer be driven, since states cannot distinguish plans that part later.
 ///
 /// Invariant. Let D(k) be the plans that the vehicle may drive from t(k) on. At the begin of step
 /// k, every other vehicle's plan in force is free of each plan in D(k), as far as nobody was

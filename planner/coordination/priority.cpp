@@ -17,7 +17,7 @@ std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicl
 }
 
 std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
-  // In the order of planning every predecessor's level is known before it is needed.
+  // In planning order every predecessor's level is known before it is needed.
   std::vector<VehicleId> order = graph.vehicles();
   std::ranges::sort(order, plans_before);
   std::vector<std::uint32_t> levels(order.size(), 0);

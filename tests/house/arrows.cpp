@@ -38,7 +38,7 @@ const Arrows kArrows{
      {"planner/scenario", "planner/maneuver_design", "planner/search", "planner/automaton",
       "planner/common", "planner/road", "planner/vehicle", "planner/geometry"}},
     {"planner/apps", {"planner"}},
-    // Who carries messages needs nothing of the planner but what they are made of.
+    // Code that forwards messages needs only the parts of the planner in them.
     {"hlc_bridge/messages",
      {"planner/geometry", "planner/coordination/messages.hpp", "planner/coordination/report.hpp",
       "planner/automaton/trim_id.hpp", "planner/automaton/criterion.hpp",

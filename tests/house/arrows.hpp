@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-/// The arrows between the folders of the house (README, "The house").
+/// The allowed dependencies between the folders (README, "Folders").
 namespace hlc::test {
 
 /// Folder -> folders that it may use, beside itself. A folder stands for those below it, and a file

@@ -76,8 +76,8 @@ std::vector<Target> all_targets() {
 
 /// What is wrong with a dependency, or nothing; those on foreign libraries are not looked at.
 /// @param folders  of all targets
-std::optional<std::string> fault_of(const Target& target, const std::string& dependency,
-                                    const std::map<std::string, std::string>& folders) {
+std::optional<std::string> violation(const Target& target, const std::string& dependency,
+                                     const std::map<std::string, std::string>& folders) {
   const auto found = folders.find(dependency);
   if (found == folders.end()) return std::nullopt;
   const std::string from = room_of(target.folder).value();
@@ -99,7 +99,7 @@ TEST(HouseTargets, DependOnlyAlongArrows) {
   for (const Target& target : targets) {
     for (const std::string& dependency : target.depends) {
       num_looked_at += folders.count(dependency);
-      const std::optional<std::string> fault = fault_of(target, dependency, folders);
+      const std::optional<std::string> fault = violation(target, dependency, folders);
       EXPECT_FALSE(fault) << *fault;
     }
   }
@@ -126,10 +126,10 @@ TEST(HouseTargets, ADependencyAgainstTheArrowsIsNoticed) {
   EXPECT_EQ(targets[0].depends, (std::vector<std::string>{"high", "Eigen3::Eigen"}));
   const std::map<std::string, std::string> folders{{"low", "planner/geometry"},
                                                    {"high", "planner/search/ompl"}};
-  EXPECT_TRUE(fault_of(targets[0], "high", folders));
-  EXPECT_FALSE(fault_of(targets[0], "Eigen3::Eigen", folders));
+  EXPECT_TRUE(violation(targets[0], "high", folders));
+  EXPECT_FALSE(violation(targets[0], "Eigen3::Eigen", folders));
   EXPECT_FALSE(
-      fault_of({.name = "high", .folder = "planner/search", .depends = {}}, "low", folders));
+      violation({.name = "high", .folder = "planner/search", .depends = {}}, "low", folders));
 }
 
 TEST(HouseTargets, WhatIsLinkedBesideDependsIsNoticedToo) {

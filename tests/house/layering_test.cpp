@@ -97,7 +97,7 @@ TEST(House, EveryIncludeFollowsAnArrow) {
   for (const auto& [file, path] : sources()) {
     ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
     for (const std::string& header : includes_of(path)) {
-      const std::optional<std::string> fault = fault_of(file, header);
+      const std::optional<std::string> fault = violation(file, header);
       EXPECT_FALSE(fault) << *fault;
     }
   }
@@ -129,7 +129,7 @@ TEST(House, AQuestionForLogicalTimeIsNoticed) {
   EXPECT_TRUE(asks_for_logical_time("  if (options_.logical_time) return;"));
   EXPECT_TRUE(asks_for_logical_time("  return is_logical == true ? a : b;"));
   EXPECT_FALSE(asks_for_logical_time("  facts.simulated_time = true;"));
-  EXPECT_FALSE(asks_for_logical_time("  /// Only if simulated_time says so."));
+  EXPECT_FALSE(asks_for_logical_time("  /// Only if simulated_time is set."));
   EXPECT_FALSE(asks_for_logical_time("  rules_in_logical_time(true);"));
 }
 

@@ -11,7 +11,7 @@
 /// Evaluation of a fault by the vehicles' records.
 namespace hlc::test {
 
-inline constexpr Nanoseconds kForEver = ~Nanoseconds{0};
+inline constexpr Nanoseconds kForever = ~Nanoseconds{0};
 
 /// Largest distance of the driven positions in [from, to] from the one plan that the vehicle
 /// followed at `from`: the command that its record names there, read as the lab's vehicle reads it

@@ -101,14 +101,14 @@ class FaultyRun {
       if (!fell_back) continue;
       const std::optional<StepIndex> planned_again = first_step(id, true, *fell_back);
       // What is planned in a step is driven from the next one on.
-      const Nanoseconds free = planned_again ? (planned_again->value + 1) * kPeriod : kForEver;
+      const Nanoseconds free = planned_again ? (planned_again->value + 1) * kPeriod : kForever;
       const Nanoseconds until = std::min(free, to);
       if (fell_back->value * kPeriod > fault + kReactionTime) continue;  // came near later
       if (until > fault + kReactionTime) {
         expect_only_the_last_plan(drive, commands, id, fault, until);
         ++judged;
       }
-      if (until > fault + kStandingTime && to == kForEver) {
+      if (until > fault + kStandingTime && to == kForever) {
         const auto since = standing_since(drive, fault + kStandingTime + kVehiclePeriod);
         EXPECT_TRUE(since && *since <= fault + kStandingTime);
       }
@@ -215,9 +215,9 @@ TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) 
   if (!is_newest_sent_whole(run.commands, fault.victim.value)) {
     GTEST_SKIP() << "on a busy machine the fault came between a command and its copy";
   }
-  run.expect_victim_drives_only_its_last_plan(kForEver);
+  run.expect_victim_drives_only_its_last_plan(kForever);
   run.expect_victim_stands();
-  run.expect_others_keep_clear(kForEver);
+  run.expect_others_keep_clear(kForever);
 }
 
 INSTANTIATE_TEST_SUITE_P(

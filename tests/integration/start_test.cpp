@@ -139,7 +139,7 @@ class ReturningRun {
     lab.start(name);
     const Nanoseconds again = real_time_now();
     EXPECT_TRUE(eventually(kPatience, [&] {
-      return way_m(between(lab.drives().at(id.value), again, kForEver)) > 1.0;
+      return way_m(between(lab.drives().at(id.value), again, kForever)) > 1.0;
     })) << lab.log(name);
     driven_on = real_time_now();
   }

@@ -217,7 +217,7 @@ void declare_figures(CLI::App& app, Choices& choices) {
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
 }
 
-/// The option that takes the place of all the others that say what is driven.
+/// The option that replaces all the others that select the runs.
 CLI::Option* declare(CLI::App& app, Choices& choices) {
   declare_campaign(app, choices);
   declare_figures(app, choices);
@@ -241,9 +241,7 @@ CLI::Option* declare(CLI::App& app, Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Simulates many runs and compares them with the paper's Table 2.",
-      "evaluate"};
+  CLI::App app{"Simulates many runs and compares them with the paper's Table 2.", "evaluate"};
   Choices choices;
   CLI::Option* sweep = declare(app, choices);
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;

@@ -61,7 +61,7 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
     throw std::invalid_argument("--gains_scale: " + std::to_string(flags.gains_scale) +
                                 ", must be in 0 ... 10");
   }
-  const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForEver : hlc::kVehicleStays;
+  const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForever : hlc::kVehicleStays;
   return {.vehicle = {.vehicle_id = id,
                       .start = hlc::start_pose(id, flags.pose),
                       .noise_seed = flags.noise_seed,

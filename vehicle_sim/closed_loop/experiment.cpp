@@ -94,14 +94,14 @@ class Lab {
   }
 
  private:
-  /// Nobody keeps anybody waiting here.
+  /// No participant delays another one here.
   static constexpr Nanoseconds kNoWallTime = 0;
 
   [[nodiscard]] double seconds_since(Nanoseconds from) const {
     return 1e-9 * static_cast<double>(wall_clock_() - from);
   }
 
-  /// Everybody is there, receives everybody and asks for its first tick.
+  /// All are present, receive each other and request their first tick.
   void appear() {
     std::set<std::string> timers;
     for (const Member& member : members_) {
@@ -152,8 +152,8 @@ class Lab {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       Member& member = members_[i];
       const AnswerToList answer = member.hlc.answer(list);
-      carry(answer.command, t_now, member);
-      if (answer.copy) carry(*answer.copy, t_now, member);
+      forward(answer.command, t_now, member);
+      if (answer.copy) forward(*answer.copy, t_now, member);
       reports[i].report = with_answer(std::move(reports[i].report), answer);
       report(reports[i]);
       if (reports[i].report.status == StepStatus::kStandby) continue;
@@ -216,7 +216,7 @@ class Lab {
     experiment_.reports.push_back(record);
   }
 
-  static void carry(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
+  static void forward(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
     const std::vector<std::uint8_t> own{member.id};
     if (check_command(command, t_now, t_now, own).forward) member.vehicle.receive(command);
   }

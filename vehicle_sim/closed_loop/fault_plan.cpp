@@ -47,7 +47,7 @@ class Draw {
     set_amount(fault);
     if (excludes_any(fault, faults)) return;
     faults.push_back(fault);
-    // Most cuts are of a cable: they hold both ways.
+    // Most cuts are of a cable: they affect both directions.
     if (fault.kind != FaultKind::kCut || !random_.chance(0.7)) return;
     std::swap(fault.process, fault.peer);
     faults.push_back(fault);
@@ -95,7 +95,7 @@ class Draw {
         fault.peer = any_process(true, true);
       } while (fault.peer == fault.process);
     }
-    // Everybody, or nobody: a network that is overloaded.
+    // All processes or none: an overloaded network.
     if (fault.kind == FaultKind::kCut && random_.chance(0.3)) fault.peer.clear();
   }
 

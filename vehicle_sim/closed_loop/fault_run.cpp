@@ -14,14 +14,14 @@
 namespace hlc::closed_loop {
 namespace {
 
-/// After the interruption everybody has left: vehicles brake for a second; who has lost its lab
-/// control stays for kVehicleStays after the lease.
+/// After the interruption all have left: vehicles brake for a second; a vehicle without lab control
+/// stays for kVehicleStays after the lease.
 constexpr Nanoseconds kLeaveTime = 10 * kNanosecondsPerSecond;
-/// Logical time: a run stands still for 10 s of silence for each process that is not heard, leases
-/// are 10 s, and who hears no trigger gives up after a minute.
+/// Logical time: a run waits for 10 s for each process that is silent, leases are 10 s, and a
+/// process without triggers times out after a minute.
 constexpr Nanoseconds kLogicalPatience = 180 * kNanosecondsPerSecond;
 constexpr Nanoseconds kCheckPeriod = 100 * kNanosecondsPerMillisecond;
-/// No process has as many turns in a check period, but one that waits for what is over.
+/// A process with more turns in a check period waits for a past event.
 constexpr std::uint64_t kMostTurns = 2'000;
 
 Footprint footprint_of(const Scenario& scenario) {
@@ -104,7 +104,7 @@ void finish(const Fault& fault, SimulatedLab& lab) {
   }
 }
 
-/// Everything that is judged and hashed while the run goes on.
+/// Everything that is checked and hashed during the run.
 class Judges final : public RunObserver {
  public:
   Judges(const Scenario& scenario, Nanoseconds calm_from, const Trace& trace)
@@ -120,7 +120,7 @@ class Judges final : public RunObserver {
     const std::string& name = lab_->name(node);
     reasons_.log(name, line, lab_->now());
     for (const char letter : line.text) add_to_hash(static_cast<unsigned char>(letter));
-    tell([&] { return name + ": " + line.text; });
+    trace([&] { return name + ": " + line.text; });
   }
   void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) override {
     footprints_.driven(vehicle, (time + kVehiclePeriod / 2) / kVehiclePeriod, sample.pose);
@@ -141,7 +141,7 @@ class Judges final : public RunObserver {
     add_to_hash(report.step.value);
     add_to_hash(static_cast<std::uint64_t>(report.status));
     add_to_hash(std::bit_cast<std::uint64_t>(report.cost_m2));
-    tell([&] { return report_line(report); });
+    trace([&] { return report_line(report); });
   }
   void on_command(NodeId /*node*/, const TrajectoryCommand& command) override {
     add_to_hash(command.create_stamp);
@@ -150,15 +150,15 @@ class Judges final : public RunObserver {
   void changed(const Seat& seat) {
     if (!seat.exit_code) {
       reasons_.started(seat.name);
-      return tell([&] { return seat.name + " starts"; });
+      return trace([&] { return seat.name + " starts"; });
     }
-    tell([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
+    trace([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
     reasons_.ended(seat.name, *seat.exit_code, lab_->now(), result_.violations);
     if (seat.key.role == Role::kVehicle) footprints_.ended(seat.key.vehicle);
     add_to_hash(static_cast<std::uint64_t>(*seat.exit_code));
   }
-  void complain(const std::string& text) {
-    if (!std::exchange(has_complained_, true)) {
+  void report_violation(const std::string& text) {
+    if (!std::exchange(has_violation_, true)) {
       result_.violations.push_back({.at = lab_->now(), .check = "waits", .text = text});
     }
   }
@@ -174,7 +174,7 @@ class Judges final : public RunObserver {
   [[nodiscard]] bool has_begun() const { return result_.planned > 0; }
 
   template <class Line>
-  void tell(Line line) const {
+  void trace(Line line) const {
     if (trace_) trace_(lab_->now(), line());
   }
   [[nodiscard]] std::optional<Pose> pose_of(std::uint8_t vehicle) const {
@@ -198,7 +198,7 @@ class Judges final : public RunObserver {
   const SimulatedLab* lab_{};
   std::map<std::uint8_t, Pose> last_poses_;
   FaultRunResult result_;
-  bool has_complained_{};
+  bool has_violation_{};
 };
 
 class FaultRun {
@@ -234,7 +234,7 @@ class FaultRun {
   static constexpr std::uint32_t kCheck = ~std::uint32_t{0};
 
   void change(const Fault& fault, bool begins) {
-    judges_.tell([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
+    judges_.trace([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
     begins ? begin(fault, lab_) : finish(fault, lab_);
   }
 
@@ -262,16 +262,17 @@ class FaultRun {
       const std::uint64_t turns = std::exchange(seat.num_turns, 0);
       if (!seat.process || seat.is_frozen) continue;
       if (turns > kMostTurns) {
-        judges_.complain(seat.name + " spins: " + std::to_string(turns) + " turns in 0.1 s");
+        judges_.report_violation(seat.name + " spins: " + std::to_string(turns) +
+                                 " turns in 0.1 s");
       }
       if (seat.planned_turn == kNoTurn && !settings_.lab.is_logical) {
-        judges_.complain(seat.name + " waits without an end");
+        judges_.report_violation(seat.name + " waits without an end");
       }
     }
   }
 
-  /// All of whose processes are there. Without the lab control everybody drives out, and an
-  /// experiment that has not begun does not begin while somebody is missing.
+  /// Vehicles whose processes are all present. Without the lab control all make a minimal-risk
+  /// stop, and an experiment that has not begun does not begin while a process is missing.
   [[nodiscard]] std::vector<std::uint8_t> able_vehicles() {
     std::vector<std::uint8_t> able;
     const bool is_complete_lab =
@@ -288,14 +289,14 @@ class FaultRun {
 
   void interrupt() {
     interrupted_at_ = lab_.now();
-    judges_.tell([] { return std::string("the run is interrupted"); });
+    judges_.trace([] { return std::string("the run is interrupted"); });
     lab_.interrupt(lab_.seats().front());
   }
 
   void expect_nobody() {
     is_over_ = true;
     for (const Seat& seat : lab_.seats()) {
-      if (seat.process) judges_.complain(seat.name + " does not end");
+      if (seat.process) judges_.report_violation(seat.name + " does not end");
     }
   }
 

@@ -15,30 +15,28 @@ namespace hlc::closed_loop {
 struct FaultRunSettings {
   LabSettings lab;
   std::vector<Fault> faults;
-  /// Real time: the run goes on for so long after the last fault; longer than
-  /// PlanningCheck::kPatience.
+  /// Real time: duration of the run after the last fault; longer than PlanningCheck::kPatience.
   Nanoseconds calm{6 * kNanosecondsPerSecond};
 };
 
 struct FaultRunResult {
   Violations violations;
-  std::uint64_t hash{};          ///< of all that was reported, driven and logged, and when
-  std::uint64_t car_steps{};     ///< control steps that were reported
+  std::uint64_t hash{};          ///< of all reports, drives and log lines, with their times
+  std::uint64_t car_steps{};     ///< number of reported control steps
   std::uint64_t planned{};       ///< of them with a new plan
   double smallest_distance_m{};  ///< between driven footprints
 };
 
-/// A line for whoever looks on. @param at  true time since the begin of the run
+/// A line of the trace. @param at  true time since the beginning of the run
 using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 
 /// A whole run of the scenario with faults, in memory: the machines of all its processes, each with
 /// clocks of its own, connected by a simulated network.
-///
 /// Real time: faults happen, from before the start on; the calm; then the lab control is
-/// interrupted, and everybody must leave. A death does not end the run (OnDeath::kContinue).
-/// Logical time: a run of some steps, or less if somebody dies.
+/// interrupted, and all must leave. A death does not end the run (OnDeath::kContinue). Logical
+/// time: a run of some steps, or fewer if a process dies.
 ///
-/// A process that is killed is started again by whoever killed it, a vehicle where it stands.
+/// A killed process is restarted at the end of the fault, a vehicle at its last pose.
 /// @throws std::invalid_argument where the machines do
 [[nodiscard]] FaultRunResult run_with_faults(const Scenario& scenario,
                                              const FaultRunSettings& settings,

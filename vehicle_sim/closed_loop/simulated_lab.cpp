@@ -74,7 +74,7 @@ std::optional<std::uint32_t> SimulatedLab::step() {
       break;
     }
     case Happening::kStart:
-      // One that was killed before its first start is started by whoever killed it.
+      // A process that was killed before its first start is started at the end of that fault.
       if (!seats_[event.detail].is_killed) start(seats_[event.detail]);
       break;
     case Happening::kAlarm:

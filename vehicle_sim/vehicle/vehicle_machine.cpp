@@ -39,7 +39,7 @@ VehicleMachine::VehicleMachine(const VehicleMachineOptions& options)
       start_up_(options.startup_timeout),
       lab_control_(options.rules.lab_control_grace),
       // The lab's controllers do not answer before the start. Ours does so soon enough.
-      gave_up_waiting_(options.is_among_lab_programs) {}
+      wait_timed_out_(options.is_among_lab_programs) {}
 
 // --- events -------------------------------------------------------------------------------------
 
@@ -50,7 +50,7 @@ void VehicleMachine::on(Event event) {
 template <class Command>
 void VehicleMachine::take(Command command) {
   newest_answer_ = std::max(newest_answer_, command.create_stamp);
-  gave_up_waiting_ = false;
+  wait_timed_out_ = false;
   vehicle_.receive(std::move(command));
 }
 
@@ -169,7 +169,7 @@ std::string VehicleMachine::who_is_missing() const {
 
 bool VehicleMachine::is_answered(Nanoseconds list) const {
   const std::uint8_t id = options_.vehicle.vehicle_id;
-  return stop_symbol_ || newest_answer_ >= list || gave_up_waiting_ ||
+  return stop_symbol_ || newest_answer_ >= list || wait_timed_out_ ||
          presence_.lab.lost.contains(middleware_name(id)) ||
          presence_.lab.lost.contains(controller_name(id));
 }
@@ -183,7 +183,7 @@ bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, 
   actions.emplace_back(machine::warning(
       "no answer to the list of " + std::to_string(*list) + " ns within " +
       std::to_string(options_.rules.patience / kNanosecondsPerSecond) + " s; no longer waiting"));
-  gave_up_waiting_ = true;
+  wait_timed_out_ = true;
   return false;
 }
 

@@ -105,7 +105,7 @@ class VehicleMachine {
   std::optional<Nanoseconds> last_tick_;
   VehiclePresence presence_;
   Nanoseconds newest_answer_{};  ///< largest create_stamp received
-  bool gave_up_waiting_{};
+  bool wait_timed_out_{};
   bool stop_symbol_{};       ///< received; the next tick brakes
   bool is_stopping_{};       ///< it brakes
   bool is_end_requested_{};  ///< at once

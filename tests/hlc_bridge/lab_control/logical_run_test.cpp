@@ -199,20 +199,20 @@ TEST(LogicalRun, LostTriggerIsSentAgain) {
 
 TEST(LogicalRun, NothingIsReleasedBeforeAllAnswersOwedHaveCome) {
   LogicalRun run{settings({1, 2}, 20)};
-  EXPECT_EQ(run.answers_owed(), 0U) << "before the beginning anything may count";
+  EXPECT_EQ(run.pending_answers(), 0U) << "before the beginning anything may count";
   run.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : std::vector<std::uint8_t>{1, 2}) {
     run.ready({vehicle_name(id), 0});
     run.ready({middleware_name(id), kListOffset});
   }
   EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
-  EXPECT_EQ(run.answers_owed(), 2U);
+  EXPECT_EQ(run.pending_answers(), 2U);
   run.ready({vehicle_name(1), kVehiclePeriod});
   EXPECT_THAT(run.advance(2).triggers, IsEmpty());
-  EXPECT_EQ(run.answers_owed(), 1U);
+  EXPECT_EQ(run.pending_answers(), 1U);
   run.ready({vehicle_name(2), kVehiclePeriod});
   EXPECT_THAT(run.advance(3).triggers, ElementsAre(kListOffset));
-  EXPECT_EQ(run.answers_owed(), 2U);
+  EXPECT_EQ(run.pending_answers(), 2U);
 }
 
 TEST(LogicalRun, ControllersStopRequestEndsTheRun) {

@@ -45,11 +45,11 @@ class RealTimeRunTest : public testing::Test {
     run_.presence(kAll, {});
     run_.trigger_readers(timers_of({1, 2}));
     for (const std::uint8_t id : settings().vehicle_ids) {
-      let_settle(id);
+      send_settled_states(id);
       run_.ready({middleware_ready_id(id), 0});
     }
   }
-  void let_settle(std::uint8_t id) {
+  void send_settled_states(std::uint8_t id) {
     for (const VehicleState& state : second_of_states(id)) run_.state(state);
   }
   /// Every controller reports the step of `now`; then the run is advanced.
@@ -72,9 +72,9 @@ TEST_F(RealTimeRunTest, TriggersOneSecondAheadWhenEverybodyIsReady) {
 
 TEST_F(RealTimeRunTest, WaitsForEachSingleOne) {
   run_.trigger_readers(timers_of({1, 2}));
-  let_settle(1);
+  send_settled_states(1);
   run_.ready({middleware_ready_id(1), 0});
-  let_settle(2);
+  send_settled_states(2);
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
   run_.ready({middleware_ready_id(2), 0});
   std::set<std::string> readers = timers_of({1});
@@ -90,7 +90,7 @@ TEST_F(RealTimeRunTest, AVehicleIsReadyWhenItsStatesHaveSettled) {
   run_.trigger_readers(timers_of({1, 2}));
   run_.ready({middleware_ready_id(1), 0});
   run_.ready({middleware_ready_id(2), 0});
-  let_settle(1);
+  send_settled_states(1);
   std::vector<VehicleState> states = second_of_states(2);
   states[25].pose.x_m = 1.0;  // it finds itself
   for (const VehicleState& state : states) run_.state(state);
@@ -101,7 +101,7 @@ TEST_F(RealTimeRunTest, AVehicleIsReadyWhenItsStatesHaveSettled) {
 TEST_F(RealTimeRunTest, TimerNamesAreNoSignOfReadinessInRealTime) {
   run_.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : settings().vehicle_ids) {
-    let_settle(id);
+    send_settled_states(id);
     run_.ready({middleware_name(id), 0});
   }
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
@@ -245,7 +245,7 @@ TEST_F(RealTimeRunTest, NamesWhoIsMissing) {
   run_.presence({vehicle_name(1), vehicle_name(2), middleware_name(1), controller_name(1),
                  controller_name(2)},
                 {});
-  let_settle(1);
+  send_settled_states(1);
   run_.ready({middleware_ready_id(1), 0});
   (void)run_.advance(kStart);
   EXPECT_THAT(run_.advance(kStart + 20 * kSecond).triggers, ElementsAre(kStopSymbol));

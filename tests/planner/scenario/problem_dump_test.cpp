@@ -1,4 +1,4 @@
-// Every decision of a run can be solved again alone, from its file.
+// Every planning step of a run can be replayed from its file.
 #include "planner/scenario/problem_dump.hpp"
 
 #include <gtest/gtest.h>

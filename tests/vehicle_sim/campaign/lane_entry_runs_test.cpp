@@ -162,7 +162,7 @@ std::pair<double, double> usual_error_m(const Scenario& cars, std::size_t vehicl
 
 /// At the edge of the map with its front towards it, or too askew between narrow bounds, a car has
 /// no room to turn: it reports this and stands.
-bool stands_and_says_so(const Joined& joined) {
+bool stands_off_route(const Joined& joined) {
   return joined.off_route == kSteps && joined.driven_m < 1e-6;
 }
 
@@ -182,7 +182,7 @@ TEST_P(LaneEntry, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) 
     const Scenario scenario = with_offsets(only(cars, vehicle), seed);
     RunSummary summary;
     const Joined joined = drive(scenario, summary).at(scenario.vehicles.front().id);
-    if (stands_and_says_so(joined)) {
+    if (stands_off_route(joined)) {
       ++cannot;
       continue;
     }
@@ -219,7 +219,7 @@ TEST_P(LaneEntry, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
     RunSummary summary;
     for (const auto& [id, joined] : drive(scenario, summary)) {
       SCOPED_TRACE("vehicle " + std::to_string(id.value));
-      if (stands_and_says_so(joined)) {
+      if (stands_off_route(joined)) {
         ++cannot;
         continue;
       }

@@ -293,7 +293,7 @@ TEST_F(RealVehicle, ALabControlThatIsBackInTimeIsFollowedOn) {
 }
 
 TEST_F(RealVehicle, OneThatKeepsRunningListensAgainAfterTheStop) {
-  VehicleMachineOptions keeps = options(machine::real_rules(machine::kForEver));
+  VehicleMachineOptions keeps = options(machine::real_rules(machine::kForever));
   keeps.keep_running = true;
   vehicle_ = VehicleMachine(keeps);
   vehicle_.on(without(kLabControlName));
