@@ -75,8 +75,7 @@ hlc::LabControlOptions process_options(const Flags& flags) {
     if (flags.network.simulated_time) {
       throw std::invalid_argument(
           "--on_death = continue with --simulated_time = true, must be stop: logical time waits "
-          "for "
-          "everybody");
+          "for all processes");
     }
     options.run.on_death = hlc::OnDeath::kContinue;
   }

@@ -77,7 +77,7 @@ bool print(const std::vector<hlc::Finding>& findings) {
 
 int main(int argc, char** argv) {
   hlc::StopSignals signals;
-  CLI::App app{"Checks a lab before or during a run: who answers, what is left over, what to do.",
+  CLI::App app{"Checks a lab before or during a run: participants, leftovers, remedies.",
                "lab_doctor"};
   Flags flags;
   declare(app, flags);

@@ -46,10 +46,10 @@ hlc::test::SetReport measure(const hlc::test::ProblemSet& set, const std::string
   }
   for (std::size_t i = 0; i < set.problems.size(); ++i) {
     for (std::size_t turn = 0; turn < runs.size(); ++turn) {
-      // Another one begins each time: nobody always finds the caches as the same other leaves them.
+      // The first engine changes, so that no engine always runs with the caches of the same other
+      // one.
       const std::size_t next = (i + turn) % runs.size();
-      // A controller has just posed what it solves: nobody finds a problem that was not touched for
-      // seconds.
+      // As in a controller, the problem was created immediately before.
       const hlc::HorizonProblem posed = set.problems[i];
       runs[next].solved.push_back(timed(*contestants[next], posed));
     }

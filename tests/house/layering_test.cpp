@@ -110,8 +110,8 @@ bool asks_for_logical_time(const std::string& line) {
   return std::regex_match(line, kQuestion);
 }
 
-// Processes and machines are given what follows from it. Who simulates a lab or summarises a run is
-// no part of it.
+// Processes and machines are given what follows from it. Exempt are
+// simulations of a lab and summaries of runs.
 TEST(House, OnlyFlagsAndPacingAskForLogicalTime) {
   static const std::regex kMayAsk(
       "(hlc_bridge/(apps|result|record)/|vehicle_sim/(apps|closed_loop)/|"

@@ -40,7 +40,7 @@ class FaultyRun {
  public:
   explicit FaultyRun(const Setting& setting = kPaper)
       : lab({.scenario = setting.scenario,
-             .steps = 1000,  // longer than anybody waits for the cars to meet
+             .steps = 1000,  // longer than the cars take to meet
              .simulated_time = false,
              .transport = setting.transport,
              .records_commands = true}) {
@@ -61,7 +61,7 @@ class FaultyRun {
     });
   }
 
-  /// Not between a command and its copy: who dies there leaves a car that cannot know the rest.
+  /// Not between a command and its copy: a death there leaves a car without the rest of the plan.
   void strike(VehicleId victim, const std::string& process, int signal) {
     victim_ = victim;
     EXPECT_TRUE(
@@ -70,8 +70,8 @@ class FaultyRun {
     fault = real_time_now();
   }
 
-  /// To be called when the run has ended, before anything is asked of the records. In no run was
-  /// anybody touched.
+  /// To be called when the run has ended, before anything is asked of the records. No run has a
+  /// collision.
   void read() {
     drives = lab.drives();
     commands = lab.commands();
@@ -80,7 +80,7 @@ class FaultyRun {
     expect_nobody_was_touched(lab);
   }
 
-  /// The car whose own process is struck has nobody who could plan anything new.
+  /// The car whose own process is hit cannot get a new plan.
   void expect_victim_drives_only_its_last_plan(Nanoseconds to) const {
     expect_only_the_last_plan(drives.at(victim_.value), commands, victim_.value, fault, to);
   }

@@ -62,7 +62,8 @@ TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThe
   EXPECT_THAT(lab.still_running_after(180s), testing::IsEmpty());
   expect_only_the_last_plans(lab, fault, joined);
   expect_nobody_was_touched(lab);
-  // Whoever is silent for 2 s is taken for dead, and may have spoken 0.5 s before the cut.
+  // A process that is silent for 2 s is considered dead, and its last message may be 0.5 s older
+  // than the cut.
   if (after > before + 1'400'000'000) {
     GTEST_SKIP() << "a busy machine made the cut last " << after - before << " ns: too long to be "
                  << "taken back";

@@ -131,9 +131,9 @@ TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
   EXPECT_EQ(ask({"--vehicle=2", "--criterion=J9"}).code, 1);
   EXPECT_EQ(ask({"--vehicle=2", "--edges_off=1-2"}).code, 2);
   EXPECT_EQ(ask({"--vehicle=2,2"}).code, 2);
-  const Asked nobody = ask({"--vehicle=7", "--timeout_s=1"});
-  EXPECT_EQ(nobody.code, 3);
-  EXPECT_THAT(nobody.output, HasSubstr("high_level_controller_7"));
+  const Asked unanswered = ask({"--vehicle=7", "--timeout_s=1"});
+  EXPECT_EQ(unanswered.code, 3);
+  EXPECT_THAT(unanswered.output, HasSubstr("high_level_controller_7"));
   const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(
       eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 5; }));

@@ -69,7 +69,7 @@ TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / file)) << file;
   }
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
-      << "somebody of the run is still there";
+      << "a process of the run is left";
 }
 
 TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
@@ -151,7 +151,7 @@ TEST_F(Scripts, AFolderForProblemsThatIsNotGoodIsRefusedBeforeAnythingStarts) {
   }
 }
 
-/// run_lab.sh itself tries a file there before it starts anybody.
+/// run_lab.sh itself tries a file there before it starts a process.
 bool has_problem_file(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder)) return false;
   const std::filesystem::directory_iterator files(folder);
@@ -232,7 +232,7 @@ TEST_P(HungProcess, EndsTheRunWithCode4AndIsNamed) {
   EXPECT_EQ(run.wait_for(120s), 4) << output();
   EXPECT_NE(output().find(GetParam().named + " died"), std::string::npos) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
-      << "somebody of the run is still there";
+      << "a process of the run is left";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scripts, HungProcess,
@@ -255,7 +255,7 @@ TEST_F(Scripts, ProcessesThatDieAtOnceEndTheRunWithCode4) {
   EXPECT_EQ(run.wait_for(120s), 4) << output();
   EXPECT_NE(output().find("middleware_2 died"), std::string::npos) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
-      << "somebody of the run is still there";
+      << "a process of the run is left";
 }
 
 struct Killed {
@@ -343,7 +343,7 @@ TEST_F(Scripts, ALabControlThatHangsIsEnded) {
   EXPECT_EQ(run.wait_for(180s), 4) << output();
   EXPECT_NE(output().find("lab_control not responding"), std::string::npos) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
-      << "somebody of the run is still there";
+      << "a process of the run is left";
 }
 
 TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
@@ -355,7 +355,7 @@ TEST_F(Scripts, AnInterruptedRunLeavesNobodyBehind) {
     run.send(signal);
     EXPECT_EQ(run.wait_for(60s), 130) << output();
     EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
-        << "somebody of the run is still there";
+        << "a process of the run is left";
     EXPECT_TRUE(std::filesystem::exists(out / "summary.json")) << "no table of what was driven";
   }
 }
@@ -368,7 +368,7 @@ TEST_F(Scripts, AKilledRunLeavesNobodyBehind) {
   run.send(SIGKILL);
   EXPECT_EQ(run.wait_for(60s), 128 + SIGKILL) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
-      << "somebody of the run is still there";
+      << "a process of the run is left";
 }
 
 TEST_F(Scripts, TheExitCodeIsThatOfTheFirstWhoFails) {

@@ -115,7 +115,7 @@ class ReturningRun {
   }
 
   /// Kills the vehicle's process of that name when the car has driven for a while, waits until the
-  /// car has stopped and everybody has noticed, starts the process again, and waits until the car
+  /// car has stopped and all have noticed, restarts the process, and waits until the car
   /// has driven on.
   /// @param noticed  lines in processes' logs by which these have noticed, beside lab control's
   void kill_and_start_again(const std::string& process, VehicleId id,
@@ -131,10 +131,10 @@ class ReturningRun {
       return now.t > killed + kNanosecondsPerSecond && std::abs(now.speed_mps) <= kStanding_mps;
     }));
     noticed["lab_control"] = name + " died";
-    for (const auto& [who, line] : noticed) {
-      ASSERT_TRUE(
-          eventually(kPatience, [&] { return lab.log(who).find(line) != std::string::npos; }))
-          << who << ": " << lab.log(who);
+    for (const auto& [process_name, line] : noticed) {
+      ASSERT_TRUE(eventually(kPatience,
+                             [&] { return lab.log(process_name).find(line) != std::string::npos; }))
+          << process_name << ": " << lab.log(process_name);
     }
     lab.start(name);
     const Nanoseconds again = real_time_now();
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(All, Return,
                                          Setting{"lab", "lab_three_cars", "lab"}),
                          [](const auto& one) { return one.param.name; });
 
-// Far from each other, so that nobody is coupled with anybody.
+// Far from each other, so that no cars are coupled.
 TEST(ReturnAlone, OfAControllerStopsNobodyWhoIsNotCoupled) {
   const TemporaryFolder folder;
   std::string text = read_text(kScripts + "scenarios/circle.yaml");

@@ -54,7 +54,7 @@ class DomainReservation {
   bool lock_all(int count) {
     for (int domain = first_; domain < first_ + count; ++domain) {
       const std::string file = "/tmp/hlc_dds_domain_" + std::to_string(domain) + ".lock";
-      const int fd = open_for_everybody(file);
+      const int fd = open_shared(file);
       if (fd < 0) {
         release();
         return false;
@@ -68,16 +68,16 @@ class DomainReservation {
     return true;
   }
 
-  /// Other users lock the same files: everybody may open them, and they are opened for reading
+  /// Other users lock the same files: they are world-readable, and opened for reading
   /// only, since Linux refuses to open another user's file in /tmp with O_CREAT.
-  static int open_for_everybody(const std::string& file) {
+  static int open_shared(const std::string& file) {
     const int present = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (present >= 0 || errno != ENOENT) {
       return present;
     }
     const int made = open(file.c_str(), O_RDONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (made < 0) {
-      return open(file.c_str(), O_RDONLY | O_CLOEXEC);  // somebody else was quicker
+      return open(file.c_str(), O_RDONLY | O_CLOEXEC);  // another process was faster
     }
     fchmod(made, 0666);  // whatever the umask
     return made;

@@ -211,7 +211,7 @@ std::span<const FaultKind> all_fault_kinds() { return kKinds; }
 
 std::string to_string(const Fault& fault) {
   const auto name = [](const std::string& process) {
-    return process.empty() ? std::string("anybody") : process;
+    return process.empty() ? std::string("any") : process;
   };
   std::string text = seconds(fault.begin) + " ... " + seconds(fault.end) + ": " +
                      to_string(fault.kind) + " " + name(fault.process);

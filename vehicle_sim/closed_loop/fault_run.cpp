@@ -254,8 +254,8 @@ class FaultRun {
     if (interrupted_at_ && lab_.now() >= *interrupted_at_ + kLeaveTime) expect_nobody();
   }
 
-  /// Nobody asks again and again for what is over; and in real time everybody who runs has a time
-  /// at which it goes on though nothing comes. (In logical time a controller waits for its
+  /// No process polls for a past event; and in real time every running process has a wake-up time
+  /// without messages. (In logical time a controller waits for its
   /// middleware alone, whose waits end.)
   void check_waits() {
     for (Seat& seat : lab_.seats()) {

@@ -140,10 +140,10 @@ TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
     const std::optional<int> code = program.wait_for(60s);
     return std::pair{code, read_text(folder / "output")};
   };
-  const auto [missing, nobody] =
+  const auto [missing, output] =
       start("--scenario=lab_circle --dds_initial_peer=rtps@udpv4://10.0.0.1");
-  EXPECT_EQ(missing, kExitMissing) << nobody;
-  EXPECT_NE(nobody.find("--dds_initial_peer"), std::string::npos) << nobody;
+  EXPECT_EQ(missing, kExitMissing) << output;
+  EXPECT_NE(output.find("--dds_initial_peer"), std::string::npos) << output;
   EXPECT_EQ(start("").first, kExitMissing) << "without a name it drives the lab's three cars";
   const auto [bad, unknown] = start("--scenario=nowhere");
   EXPECT_EQ(bad, kExitBadInput);

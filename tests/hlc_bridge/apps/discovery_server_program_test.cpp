@@ -20,7 +20,7 @@ void expect_refused(const std::string& flags, const std::string& line) {
 }
 
 TEST(DiscoveryServerProgram, RefusesAnAddressThatIsNotThisMachines) {
-  expect_refused("--discovery_server_ip=192.0.2.1",  // for documentation: nobody's
+  expect_refused("--discovery_server_ip=192.0.2.1",  // for documentation: unassigned
                  "--discovery_server_ip: 192.0.2.1, must be an address of this machine");
 }
 

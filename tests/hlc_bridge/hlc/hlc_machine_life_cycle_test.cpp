@@ -159,7 +159,7 @@ TEST(HlcMachineStart, JoinsARunningExperimentByTheOthersTraffic) {
   one.on(traffic_of(2, one.step() - 3));
   one.on(traffic_of(3, one.step() + 1));
   one.next_list(both);
-  EXPECT_EQ(last_status(one), StepStatus::kStandby) << "of another time, or of nobody who drives";
+  EXPECT_EQ(last_status(one), StepStatus::kStandby) << "of another time, or of no driving vehicle";
   one.on(traffic_of(2, one.step()));
   one.next_list(both);  // ready now, though 2 receives nothing of it
   one.pass(kPeriod / 2);

@@ -128,7 +128,7 @@ TEST_F(HlcMachineStep, InRealTimeTrafficIsAwaitedUntilItsDeadline) {
   static_cast<void>(begin());
   EXPECT_NEAR(share_of<Prediction>(), StepDeadlines{}.traffic, kTolerance);
   const std::vector<ReportRecord> records = one_->take<ReportRecord>();
-  ASSERT_THAT(records, SizeIs(1)) << "who is missing is not coupled";
+  ASSERT_THAT(records, SizeIs(1)) << "a missing vehicle is not coupled";
   EXPECT_THAT(records[0].report.missing, ElementsAre(VehicleId{2}));
 }
 

@@ -104,7 +104,7 @@ TEST_F(ReconfigurationTest, ARefusedRequestLeavesWhatIsInForceAndWhatWaits) {
   EXPECT_EQ(limit_mps(), 0.5);
 }
 
-// Not from the last request, so whoever comes late needs only the last one.
+// Not from the last request, so a late joiner needs only the last one.
 TEST_F(ReconfigurationTest, EveryRequestStartsFromTheScenariosSubgraph) {
   EXPECT_EQ(take(slow(1, 0.6), 1).outcome, RequestOutcome::kAccepted);
   ASSERT_TRUE(begin(1));

@@ -51,8 +51,8 @@ TEST(LogicalRun, ReleasesEveryTickInOrderWhateverTheOrderOfEvents) {
   }
 }
 
-// Property: whoever dies, at whatever time, in whichever way: nothing blocks, the right one is
-// named, the living go on for three seconds.
+// Property: if any process dies, at any time, in any way: nothing blocks, the dead process is
+// named, the live ones continue for three seconds.
 TEST(LogicalRun, DeathsDoNotBlockAndAreNamed) {
   for (unsigned seed = 0; seed < test::num_seeds(120); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -73,7 +73,7 @@ TEST(LogicalRun, DeathsDoNotBlockAndAreNamed) {
     ASSERT_FALSE(lab.result().deaths.empty());
     EXPECT_EQ(lab.result().deaths.front().process, fault.process);
     EXPECT_THAT(lab.result().reason, StartsWith("died: " + fault.process));
-    // A controller leaves when its middleware is lost; nobody else is accused.
+    // A controller leaves when its middleware is lost; no other process is accused.
     for (std::size_t i = 1; i < lab.result().deaths.size(); ++i) {
       EXPECT_EQ(fault.process, middleware_name(id));
       EXPECT_EQ(lab.result().deaths[i].process, controller_name(id));

@@ -186,7 +186,7 @@ TEST_F(OnDeathContinue, TheRunGoesOnAndEndsWellIfWhoDiedIsBack) {
   const LabRunActions death = drive(k0_ + 10, k0_ + 25, false);
   ASSERT_EQ(death.deaths.size(), 1U);
   EXPECT_EQ(death.deaths.front().process, controller_name(2));
-  EXPECT_EQ(death.run_state, std::nullopt) << "nobody makes a minimal-risk stop";
+  EXPECT_EQ(death.run_state, std::nullopt) << "no minimal-risk stop";
   EXPECT_THAT(death.triggers, IsEmpty());
   run_.presence(kAll, {});
   EXPECT_THAT(drive(k0_ + 25, k0_ + 26, false).returns, IsEmpty()) << "it does not report yet";

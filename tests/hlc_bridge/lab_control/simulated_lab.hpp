@@ -29,9 +29,9 @@ inline std::set<std::string> timers_of(const std::vector<std::uint8_t>& vehicle_
 /// chosen time.
 ///
 /// They keep the run protocol: a vehicle waits for the answer to the last list, a middleware for
-/// its controller's answer, a controller for the other controllers. Nobody waits for a process that
-/// he knows to be lost. When nobody can do anything, 10 s of wall time pass, and the dead process
-/// is known.
+/// its controller's answer, a controller for the other controllers. No process waits for
+/// one that it has lost. When no process can act, 10 s of wall time pass, and the dead process is
+/// detected.
 class SimulatedLab {
  public:
   enum class Dying { kVanishes, kHangs };  ///< its participant goes, or stays without an answer
@@ -325,7 +325,7 @@ class SimulatedLab {
     run_.report(record);
   }
 
-  /// Nobody can do anything: the peers' patience ends, later the lab control's own.
+  /// No process can act: the peers' timeouts expire, later the lab control's.
   bool pass_time() {
     if (!dead_.empty() && known_lost_.insert(dead_).second) {
       wall_ += kMessageTimeout;

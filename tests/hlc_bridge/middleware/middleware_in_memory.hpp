@@ -90,8 +90,8 @@ class MiddlewareInMemory {
     on(Parameter{.name = kActiveIdsParameter, .value = active_ids});
   }
 
-  /// Everybody is there: the lab control, the controllers, these vehicles.
-  [[nodiscard]] MiddlewarePeers everybody(const std::set<std::uint8_t>& vehicles) const {
+  /// All are present: the lab control, the controllers, these vehicles.
+  [[nodiscard]] MiddlewarePeers all_present(const std::set<std::uint8_t>& vehicles) const {
     return {.lab_control_is_matched = true,
             .lab_control_is_lost = false,
             .controllers_are_matched = true,

@@ -1,4 +1,4 @@
-// The machine without patience: lists by the clock, whoever is there.
+// The machine without waits: lists by the clock, with any participants.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class ImpatientMiddlewareTest : public testing::Test {
               .startup_timeout = 30 * kNanosecondsPerSecond,
               .rules = real_middleware_rules(false)}} {
     run_.publish_parameters(200, {1, 2});
-    run_.on(run_.everybody({1, 2}));
+    run_.on(run_.all_present({1, 2}));
     pass_period();
     run_.forget_actions();
   }
@@ -41,7 +41,7 @@ class ImpatientMiddlewareTest : public testing::Test {
     return times;
   }
   [[nodiscard]] MiddlewarePeers without_lab_control() const {
-    MiddlewarePeers peers = run_.everybody({1, 2});
+    MiddlewarePeers peers = run_.all_present({1, 2});
     peers.lab_control_is_lost = true;
     return peers;
   }
@@ -129,7 +129,7 @@ TEST_F(ImpatientMiddlewareTest, StaysForAWhileWithoutTheLabControl) {
 TEST_F(ImpatientMiddlewareTest, ALabControlThatComesBackIsNotLost) {
   run_.on(without_lab_control());
   pass_periods(kMiddlewareStays - kPeriod);
-  run_.on(run_.everybody({1, 2}));
+  run_.on(run_.all_present({1, 2}));
   pass_period();
   run_.on(without_lab_control());
   pass_periods(kMiddlewareStays - kPeriod);

@@ -48,7 +48,7 @@ class Centre {
   explicit Centre(int domain)
       : participant_{on_loopback("ParticipantSingleton", domain, DomainRole::kLab)} {
     listen();
-    // Announced after the other reader: who draws knows both.
+    // Announced after the other reader: a controller that draws knows both.
     drawings_ = std::make_unique<Mailbox<Visualization>>(participant_, topics::visualization());
   }
 
@@ -177,10 +177,10 @@ TEST_F(UnwrittenHlcProcessTest, DrivesOnAndSaysByItsExitCodeThatSomethingWasNotW
   EXPECT_EQ(calls_, 1);
 }
 
-/// Lines of the log, and who logs them.
+/// Lines of the log, with their threads.
 class LogListener : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  /// The thread that logged a line with this text; 0: nobody.
+  /// The thread that logged a line with this text; 0: none.
   [[nodiscard]] std::size_t thread_that_logged(const std::string& text) {
     const std::lock_guard lock{mutex_};
     for (const auto& [thread, line] : lines_) {

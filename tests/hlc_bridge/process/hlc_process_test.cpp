@@ -161,7 +161,7 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   const bool is_logged = Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{10}, [&] { return !lab_control.log.wait_for(0).empty(); },
       [] {
-        spdlog::info("not for an operator who asks for critical lines alone");
+        spdlog::info("not for the operator's level critical");
         spdlog::error("the operator's line");
       });
   ASSERT_TRUE(is_logged);
@@ -179,7 +179,7 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
         return std::ranges::any_of(lab_control.log.wait_for(1),
                                    [](const Log& line) { return line.level == 3; });
       },
-      [] { spdlog::info("for an operator who asks for all lines"); });
+      [] { spdlog::info("for the operator's level of all lines"); });
   EXPECT_TRUE(reads_all);
 }
 

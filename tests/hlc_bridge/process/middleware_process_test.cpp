@@ -147,7 +147,7 @@ class MiddlewareTest : public testing::Test {
     start(true);
     lab_.publish_parameters(kPeriod / kMs, {1, 2});
     ASSERT_EQ(lab_.ready.wait_for(1).at(0).next_start, kListOffset);
-    // The middleware has matched everybody; what is written before it is matched here, too, would
+    // The middleware has matched all; what is written before it is matched here, too, would
     // be lost.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{20};
     ASSERT_TRUE(lab_.state_1.wait_for_matched(1, deadline));

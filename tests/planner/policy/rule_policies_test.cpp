@@ -25,7 +25,7 @@ TEST(TimePolicy, HasNoOpinionBeforeItsFirstTimeAndThenThatOfTheLastOneThatHasCom
   EXPECT_EQ(policy->choices(), (std::vector<SubgraphRequest>{kEffort, {}, kAgile}));
 }
 
-// 15 * 0.2 is more than 3, 3 * 0.2 more than 0.6, and 0.2 + 0.2 + 0.2 too: whoever compares exactly
+// 15 * 0.2 is more than 3, 3 * 0.2 more than 0.6, and 0.2 + 0.2 + 0.2 too: an exact comparison
 // changes a step late or early.
 TEST(TimePolicy, ChangesInTheStepOfItsTimeWhateverTheRounding) {
   for (std::size_t steps = 1; steps < 2000; ++steps) {

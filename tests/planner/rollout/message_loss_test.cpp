@@ -108,8 +108,8 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
   }
 }
 
-// Both are alive, see each other standing and receive nothing: nobody may take the other for an
-// obstacle that stands for good, or both drive off at once.
+// Both are alive, see each other standing and receive nothing: neither may consider the other a
+// standing obstacle, or both drive off at once.
 TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
   for (unsigned seed = 0; seed < test::num_costly_seeds(3); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

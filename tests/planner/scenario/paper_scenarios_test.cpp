@@ -29,7 +29,7 @@ struct Course {
   double mean_error_mm{};
   std::uint64_t max_generated{};
   int fallbacks{};
-  int steps_changed{};  ///< steps in which another vehicle changed somebody's plan
+  int steps_changed{};  ///< steps in which another vehicle changed a vehicle's plan
 };
 
 /// All steps of the scenario; `look` sees each.

@@ -155,7 +155,7 @@ policies:
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("policies.without_3")));
 }
 
-// Where it should be nobody would slow down.
+// At the right place no car would slow down.
 TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
   const std::string folder = test::source_folder() + "/launch_scripts/";
   std::ifstream shipped(folder + "scenarios/reconfiguration.yaml");

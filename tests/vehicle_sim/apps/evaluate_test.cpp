@@ -299,7 +299,7 @@ TEST_F(EvaluatePolicies, AreInRecordsAndTablesAndWeighedAgainstTheFixedSubgraphs
   EXPECT_THAT(text_of(out_ / "table.md"),
               HasSubstr("| | J2 | comfort | policy zone | policy situation |"));
   EXPECT_THAT(text_of(out_ / "table.csv"), HasSubstr(",default,J2,zone,generated_max,1,"));
-  // 20 steps are no lap: nobody competes.
+  // 20 steps are no lap: no row competes.
   const std::string tradeoff = text_of(out_ / "tradeoff.md");
   EXPECT_THAT(tradeoff, HasSubstr("| policy zone | - |"));
   EXPECT_THAT(done.output, HasSubstr(tradeoff));

@@ -268,7 +268,7 @@ TEST_F(VehicleProcessTest, VehicleThatIsNotActiveIsBadInput) {
 }
 
 TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
-  start(options());  // nobody answers
+  start(options());  // no replies
   process_->stop();
   EXPECT_EQ(exit_code(), kExitGood);
 }

@@ -1,4 +1,4 @@
-// Cars that nobody placed to the millimetre: whole closed loops from starts beside and askew in the
+// Cars with inaccurate initial poses: whole closed loops from starts beside and askew in the
 // lane.
 #include "planner/controller/lane_entry.hpp"
 

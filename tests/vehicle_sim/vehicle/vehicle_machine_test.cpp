@@ -1,4 +1,4 @@
-// The vehicle's life cycle in memory: the test is the clock, the network and everybody else.
+// The vehicle's life cycle in memory: the test is the clock, the network and all other processes.
 #include "vehicle_sim/vehicle/vehicle_machine.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ std::vector<Kind> of(const std::vector<VehicleMachine::Action>& actions) {
   return found;
 }
 
-VehiclePresence everybody() {
+VehiclePresence all_present() {
   const std::set<std::string> middlewares{middleware_name(kId), middleware_name(kId + 1)};
   return {.lab = {.alive = {kLabControlName, middleware_name(kId), controller_name(kId)}},
           .state_readers = {2, middlewares},
@@ -44,7 +44,7 @@ VehiclePresence everybody() {
 }
 
 VehiclePresence without(const std::string& name) {
-  VehiclePresence presence = everybody();
+  VehiclePresence presence = all_present();
   presence.lab.alive.erase(name);
   presence.lab.lost.insert(name);
   return presence;
@@ -77,7 +77,7 @@ class LogicalVehicle : public testing::Test {
   }
   /// Until it wants its first tick.
   void prepare() {
-    vehicle_.on(everybody());
+    vehicle_.on(all_present());
     publish_parameters();
     EXPECT_THAT(advance(), IsEmpty());
     ASSERT_EQ(vehicle_.wake_up().run, 0U);
@@ -100,14 +100,14 @@ TEST_F(LogicalVehicle, LearnsTheParametersAndWaitsForEverybodyBeforeItsFirstTick
   EXPECT_EQ(of<ParameterRequest>(advance()).size(), 2U);
   EXPECT_EQ(vehicle_.awaited(), 1U);
   publish_parameters();
-  VehiclePresence presence = everybody();
+  VehiclePresence presence = all_present();
   presence.state_readers.names.erase(middleware_name(kId + 1));
   vehicle_.on(presence);
   EXPECT_THAT(advance(), IsEmpty());
   EXPECT_EQ(vehicle_.wake_up().run, std::nullopt);
   wall_ = vehicle_.wake_up().wall.value();
   EXPECT_THAT(of<LogLine>(advance()), ElementsAre(machine::info("waiting for middleware_4")));
-  vehicle_.on(everybody());
+  vehicle_.on(all_present());
   EXPECT_THAT(advance(), IsEmpty()) << "time has not begun";
   EXPECT_EQ(vehicle_.wake_up().run, 0U);
   EXPECT_EQ(of<VehicleState>(release()).size(), 1U);
@@ -178,7 +178,7 @@ TEST_F(LogicalVehicle, AmongTheLabsProgramsNobodyIsWaitedForBeforeTheFirstComman
   lab.is_among_lab_programs = true;
   vehicle_ = VehicleMachine(lab);
   publish_parameters();
-  VehiclePresence presence = everybody();
+  VehiclePresence presence = all_present();
   presence.state_readers = {1, {"middleware of the lab"}};
   presence.command_writers = {1, {"middleware of the lab"}};
   vehicle_.on(presence);
@@ -286,7 +286,7 @@ TEST_F(RealVehicle, ALabControlThatIsBackInTimeIsFollowedOn) {
   static_cast<void>(advance_at(0));
   vehicle_.on(without(kLabControlName));
   static_cast<void>(advance_at(kTick));
-  vehicle_.on(everybody());
+  vehicle_.on(all_present());
   static_cast<void>(advance_at(2 * kTick));
   static_cast<void>(advance_at(2 * kVehicleStays));
   EXPECT_EQ(vehicle_.exit_code(), std::nullopt);
