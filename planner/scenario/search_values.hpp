@@ -22,7 +22,7 @@ template <class FromName>
   try {
     return from_name(name);
   } catch (const std::invalid_argument&) {
-    node.fail(key, allowed);
+    node.fail(key, "one of " + allowed);
   }
 }
 

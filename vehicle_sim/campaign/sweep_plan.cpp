@@ -126,7 +126,7 @@ void read_subgraph_names(const Node& node, const std::vector<SubgraphSpec>& offe
                          SweepPlan& plan) {
   for (const Node& entry : node.list("subgraphs")) {
     const auto name = entry.as<std::string>();
-    if (find_subgraph(offered, name) == nullptr) entry.fail(names_of(offered));
+    if (find_subgraph(offered, name) == nullptr) entry.fail("one of " + names_of(offered));
     if (std::ranges::find(plan.subgraphs, name) != plan.subgraphs.end()) {
       entry.fail("unique");
     }

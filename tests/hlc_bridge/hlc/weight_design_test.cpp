@@ -175,7 +175,7 @@ TEST_F(WeightDesignTest, RefusesWithoutTheConfigurationThatTheAutomatonWasBuiltF
 TEST_F(WeightDesignTest, StopsBetweenTwoManeuvers) {
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THAT(refusal(kWeights, stop.get_token()), HasSubstr("ends"));
+  EXPECT_THAT(refusal(kWeights, stop.get_token()), HasSubstr("the controller is stopping"));
 }
 
 // The others reckon with the highest speed of the scenario's automaton. Alone, J1 outruns the

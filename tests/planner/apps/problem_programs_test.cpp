@@ -241,7 +241,7 @@ TEST_F(ProblemPrograms, TheOmplExampleRefusesWhatItsObjectiveDoesNotHold) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
   EXPECT_THAT(outcome.output,
-              HasSubstr("problem.json: search.criterion_weights.J2 = 0.5, must be none"));
+              HasSubstr("problem.json: search.criterion_weights.J2 = 0.5, must be absent"));
 }
 
 TEST_F(ProblemPrograms, TheOmplExampleEndsAlsoWhenASearchDoesNot) {

@@ -110,7 +110,7 @@ TEST(Node, RefusesKeysThatNobodyAskedFor) {
 
 TEST(Node, RefusesTheSameKeyTwice) {
   EXPECT_EQ(message([] { (void)Node::parse_yaml("a: 1\nb: 2\na: 3\n", "f.yaml"); }),
-            "f.yaml:3: a = 3, must be unique");
+            "f.yaml:3: a = 3, duplicate key, must be unique");
 }
 
 TEST(Node, RefusesWhatIsNotAReadableMap) {
