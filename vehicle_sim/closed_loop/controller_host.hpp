@@ -72,7 +72,10 @@ class ControllerHost : public Host {
             .stop_request_readers = readers(kStopRequests).size()};
   }
 
-  void perform(const Traffic& traffic) const { publish(kTraffic, traffic); }
+  void perform(const Traffic& traffic) const {
+    place().observer->on_traffic(traffic);
+    publish(kTraffic, traffic);
+  }
   void perform(const Prediction& prediction) const {
     place().observer->on_prediction(prediction);
     publish(kPredictions, prediction);

@@ -42,7 +42,17 @@ struct Fault {
 /// "2.150 s ... 3.200 s: cut middleware_1 -> vehicle_raspberry_1"
 [[nodiscard]] std::string to_string(const Fault& fault);
 
+/// How the faults of a run lie in time.
+enum class FaultStyle : std::uint8_t {
+  kScattered,  ///< anywhere in the run
+  kBurst,      ///< three to eight that begin within 1.5 s
+  kLossy,      ///< links that lose 10 ... 30 % all the time, and some scattered faults
+  kRestart,    ///< processes that are killed and come back soon, while messages to them are lost
+  kBorder,     ///< messages that are stale, come twice or overtake others by about a step or two
+};
+
 struct FaultPlanSettings {
+  FaultStyle style{};
   std::vector<std::uint8_t> vehicle_ids;
   std::vector<FaultKind> kinds;                  ///< of which faults are drawn; empty: none are
   Nanoseconds first{};                           ///< no fault begins earlier
@@ -53,7 +63,8 @@ struct FaultPlanSettings {
 /// Faults of a seed, at least one, by time of their begin. Those of one process that exclude each
 /// other (killed while frozen) are left out.
 ///
-/// What is drawn: processes are killed or stand still for 10 ms ... 8 s, networks are bad for 50 ms
+/// What is drawn: processes (controllers, middlewares, vehicles, the lab control) are killed or
+/// stand still for 10 ms ... 8 s, networks are bad for 50 ms
 /// ... 6 s, cuts separate two processes, or one from all, one way or both. Clocks of
 /// controllers and middlewares are set by up to 300 ms, which is more than a step; those of the
 /// vehicles by up to 2 ms only: a vehicle that drives at another time than all others believe is

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/fault_plan.hpp"
-#include "vehicle_sim/closed_loop/invariants.hpp"
 #include "vehicle_sim/closed_loop/process_factory.hpp"
+#include "vehicle_sim/closed_loop/run_judges.hpp"
 
 namespace hlc::closed_loop {
 
@@ -19,17 +17,6 @@ struct FaultRunSettings {
   /// PlanningCheck::kPatience.
   Nanoseconds calm{6 * kNanosecondsPerSecond};
 };
-
-struct FaultRunResult {
-  Violations violations;
-  std::uint64_t hash{};          ///< of all that was reported, driven and logged, and when
-  std::uint64_t car_steps{};     ///< control steps that were reported
-  std::uint64_t planned{};       ///< of them with a new plan
-  double smallest_distance_m{};  ///< between driven footprints
-};
-
-/// A line for whoever looks on. @param at  true time since the begin of the run
-using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 
 /// A whole run of the scenario with faults, in memory: the machines of all its processes, each with
 /// clocks of its own, connected by a simulated network.

@@ -26,7 +26,8 @@ const Pose& FootprintsCheck::Car::at(std::uint64_t tick) const {
   return tick < end() ? poses[tick - first] : poses.back();
 }
 
-void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose) {
+void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose,
+                             bool is_unreachable) {
   Car& car = cars_.at(vehicle);
   if (car.poses.empty()) {
     car.first = tick;
@@ -34,6 +35,13 @@ void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pos
   }
   while (car.end() < tick) car.poses.push_back(car.poses.back());
   if (tick >= car.end()) car.poses.push_back(pose);
+  if (is_unreachable) car.unreachable_until = tick + 1;
+}
+
+void FootprintsCheck::died(std::uint8_t vehicle, std::uint64_t unreachable_ticks) {
+  Car& car = cars_.at(vehicle);
+  car.has_ended = true;
+  car.unreachable_until = car.end() + unreachable_ticks;
 }
 
 void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
@@ -52,8 +60,10 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
         if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) continue;
         const double gap_m =
             distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
-        smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
-        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second) continue;
+        const bool is_excused =
+            *next_ < std::max(a->second.unreachable_until, b->second.unreachable_until);
+        if (!is_excused) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
+        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second || is_excused) continue;
         violations.push_back({.at = at,
                               .check = "footprints",
                               .text = "vehicles " + std::to_string(a->first) + " and " +
@@ -70,13 +80,21 @@ bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
   return now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
 }
 
+bool is_anchored_elsewhere(const OccupiedAreas& areas, const Report& report) {
+  return areas.first <= report.step &&
+         !contains(areas.during(report.step), report.planned_pose.position_m());
+}
+
 void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
   const VehicleId vehicle = report.vehicle;
-  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
-    in_force_.erase(vehicle);
-  }
   const auto before = in_force_.find(vehicle);
-  if (before != in_force_.end()) before->second.last_report = report.step;
+  if (before != in_force_.end()) {
+    before->second.last_report = report.step;
+    if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby ||
+        is_anchored_elsewhere(before->second.areas, report)) {
+      in_force_.erase(before);
+    }
+  }
   const auto predicted = predicted_.find(vehicle);
   if (report.status != StepStatus::kPlanned || predicted == predicted_.end() ||
       predicted->second.step != report.step) {

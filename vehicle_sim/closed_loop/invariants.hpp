@@ -14,17 +14,10 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/geometry/pose.hpp"
+#include "vehicle_sim/closed_loop/violation.hpp"
 
 /// What must hold in a run whatever goes wrong, each as a small judge that is told what happens.
 namespace hlc::closed_loop {
-
-/// Something that must not be.
-struct Violation {
-  Nanoseconds at{};   ///< true time since the begin of the run
-  std::string check;  ///< "footprints", "plans", "waits", "reasons", "planning"
-  std::string text;   ///< one line
-};
-using Violations = std::vector<Violation>;
 
 /// Driven footprints (without margin) never touch.
 ///
@@ -34,9 +27,15 @@ class FootprintsCheck {
  public:
   FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
 
-  /// @param tick  number of the vehicles' tick
-  void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose);
+  /// @param tick           number of the vehicles' tick
+  /// @param is_unreachable  the vehicle is beyond what anybody can answer for
+  void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose,
+              bool is_unreachable = false);
+  /// Its process has ended, and it stands.
   void ended(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = true; }
+  /// It stands at once, wherever it is: so long nobody can answer for it.
+  void died(std::uint8_t vehicle, std::uint64_t unreachable_ticks);
+  void came_back(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = false; }
   /// Judges the ticks that all have driven by now.
   void judge(Nanoseconds at, Violations& violations);
   /// Smallest distance so far [m].
@@ -47,6 +46,7 @@ class FootprintsCheck {
     Pose start;
     std::uint64_t first{};    ///< tick of poses[0]
     std::vector<Pose> poses;  ///< of the ticks since then
+    std::uint64_t unreachable_until{};
     bool has_ended{};
     [[nodiscard]] std::uint64_t end() const { return first + poses.size(); }
     [[nodiscard]] const Pose& at(std::uint64_t tick) const;
@@ -95,6 +95,10 @@ class PlansCheck {
   std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;
 };
+
+/// True if the plan in force is another one than that of `areas`, which nothing new has replaced:
+/// it was anchored anew where the vehicle stands.
+[[nodiscard]] bool is_anchored_elsewhere(const OccupiedAreas& areas, const Report& report);
 
 /// Whoever stops has said why: a process that ends with a code that is not good, in a warning or an
 /// error of its log; a vehicle that follows no command any more, in a line of its log.

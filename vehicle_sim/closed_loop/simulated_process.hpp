@@ -28,10 +28,14 @@ class RunObserver {
   virtual void on_log(NodeId node, const machine::LogLine& line) = 0;
   /// @param time  of the sample, true in real time, of the run in logical time
   virtual void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) = 0;
+  virtual void on_traffic(const Traffic& traffic) = 0;
   /// A controller tells what it has planned; whether that comes into force says its report.
   virtual void on_prediction(const Prediction& prediction) = 0;
   virtual void on_report(NodeId node, const ReportRecord& record) = 0;
   virtual void on_command(NodeId node, const TrajectoryCommand& command) = 0;
+  /// By a vehicle.
+  virtual void on_received(const TrajectoryCommand& command) = 0;
+  virtual void on_stop_symbol(std::uint8_t vehicle) = 0;
 };
 
 /// Where a process runs.
