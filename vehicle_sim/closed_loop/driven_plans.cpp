@@ -28,23 +28,24 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
 
 void DrivenPlans::published(const Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
-  car.is_mistaken = !has_newest_plan(car);
+  if (!has_newest_plan(car) && !car.mistaken_since) car.mistaken_since = traffic.step;
 }
 
-void DrivenPlans::reported(const Report& report) {
+void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   Car& car = cars_[report.vehicle];
-  const bool is_off =
-      report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby;
   if (report.status == StepStatus::kPlanned) {
     Agreed agreed{.number = ++car.num_agreed, .step = report.step, .areas = std::nullopt};
     if (car.predicted && car.predicted->step == report.step) agreed.areas = car.predicted->areas;
     car.agreed = std::make_shared<const Agreed>(std::move(agreed));
-  } else if (report.status == StepStatus::kStandby ||
-             (car.agreed->areas && is_anchored_elsewhere(*car.agreed->areas, report))) {
-    car.agreed = std::make_shared<const Agreed>(
-        Agreed{.number = car.num_agreed, .step = report.step, .areas = {}});
+  } else if (in_force != nullptr && is_anchored(*in_force) &&
+             car.agreed->step != in_force->first()) {
+    car.agreed = std::make_shared<const Agreed>(Agreed{.number = car.num_agreed,
+                                                       .step = in_force->first(),
+                                                       .areas = in_force->areas_from(report.step)});
   }
-  if (is_off) car.is_mistaken = false;
+  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
+    car.mistaken_since.reset();
+  }
   for (Sent& sent : car.sent) {
     if (!sent.plan) sent.plan = car.agreed;
   }
@@ -82,7 +83,7 @@ bool DrivenPlans::is_out_of_reach(VehicleId vehicle, Nanoseconds at) const {
 }
 
 bool DrivenPlans::is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const {
-  return car.follows != 0 && car.driven && car.driven->areas && !car.is_mistaken &&
+  return car.follows != 0 && car.driven && car.driven->areas && !car.mistaken_since &&
          !is_out_of_reach(vehicle, tick);
 }
 
@@ -97,8 +98,8 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   });
   const bool changes = follows != car.follows;
   car.follows = follows;
-  if (has_newest_plan(car)) car.is_mistaken = false;
-  const bool is_lost = car.is_mistaken && tick / period_ >= car.agreed->step.value + 2;
+  if (has_newest_plan(car)) car.mistaken_since.reset();
+  const bool is_lost = car.mistaken_since && tick / period_ > car.mistaken_since->value;
   if (is_lost || has_dropped_plan(car, tick)) car.out_of_reach_until = tick + kAfterwards;
   judge_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;

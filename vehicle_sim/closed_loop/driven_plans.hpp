@@ -11,6 +11,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 #include "planner/coordination/messages.hpp"
+#include "planner/coordination/plan.hpp"
 #include "planner/coordination/report.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
 
@@ -42,7 +43,7 @@ class DrivenPlans {
   void published(const Traffic& traffic);
   void commanded(const TrajectoryCommand& command);
   /// What was commanded before in the same step is of the plan in force after it.
-  void reported(const Report& report);
+  void reported(const Report& report, const Plan* in_force);
   void received(const TrajectoryCommand& command);
   /// @param follows  create_stamp of the command that is followed; 0: none
   void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
@@ -51,7 +52,7 @@ class DrivenPlans {
   [[nodiscard]] bool is_out_of_reach(VehicleId vehicle, Nanoseconds at) const;
 
  private:
-  /// A plan as its vehicle has announced it; of a plan that was not announced nothing is known.
+  /// A plan as its vehicle has announced it, or to stand where it stands.
   struct Agreed {
     std::uint64_t number{};
     StepIndex step;
@@ -66,7 +67,7 @@ class DrivenPlans {
     std::optional<Prediction> predicted;
     AgreedPlan agreed{std::make_shared<const Agreed>()};
     std::uint64_t num_agreed{};
-    bool is_mistaken{};
+    std::optional<StepIndex> mistaken_since;
     std::deque<Sent> sent;  ///< the newest last
     bool is_told_to_stand{};
     std::vector<std::pair<Nanoseconds, Nanoseconds>>

@@ -80,18 +80,14 @@ bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
   return now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
 }
 
-bool is_anchored_elsewhere(const OccupiedAreas& areas, const Report& report) {
-  return areas.first <= report.step &&
-         !contains(areas.during(report.step), report.planned_pose.position_m());
-}
-
-void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
+void PlansCheck::reported(const Report& report, const Plan* in_force, Nanoseconds at,
+                          Violations& violations) {
   const VehicleId vehicle = report.vehicle;
   const auto before = in_force_.find(vehicle);
   if (before != in_force_.end()) {
     before->second.last_report = report.step;
     if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby ||
-        is_anchored_elsewhere(before->second.areas, report)) {
+        (report.status != StepStatus::kPlanned && in_force != nullptr && is_anchored(*in_force))) {
       in_force_.erase(before);
     }
   }

@@ -12,6 +12,7 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "planner/coordination/messages.hpp"
+#include "planner/coordination/plan.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/geometry/pose.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
@@ -60,6 +61,9 @@ class FootprintsCheck {
   double smallest_distance_m_{1e9};
 };
 
+/// The plan to stand where the vehicle stands, which nobody has agreed to.
+[[nodiscard]] inline bool is_anchored(const Plan& plan) { return plan.first() == plan.end(); }
+
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
 /// changes. A plan is what its vehicle has told the others of it (Prediction::areas, with margin
 /// and predicted drift), since that is what they keep clear of: the step under way has been told
@@ -73,13 +77,14 @@ class FootprintsCheck {
 /// missing.hpp).
 ///
 /// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives what
-/// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew.
+/// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew;
+/// so is one whose plan has been anchored anew.
 class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
 
   void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
-  void reported(const Report& report, Nanoseconds at, Violations& violations);
+  void reported(const Report& report, const Plan* in_force, Nanoseconds at, Violations& violations);
 
  private:
   using Pair = std::pair<VehicleId, VehicleId>;
@@ -95,10 +100,6 @@ class PlansCheck {
   std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;
 };
-
-/// True if the plan in force is another one than that of `areas`, which nothing new has replaced:
-/// it was anchored anew where the vehicle stands.
-[[nodiscard]] bool is_anchored_elsewhere(const OccupiedAreas& areas, const Report& report);
 
 /// Whoever stops has said why: a process that ends with a code that is not good, in a warning or an
 /// error of its log; a vehicle that follows no command any more, in a line of its log.

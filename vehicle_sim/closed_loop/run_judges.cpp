@@ -90,14 +90,14 @@ void RunJudges::on_prediction(const Prediction& prediction) {
   announced_.predicted(prediction);
 }
 
-void RunJudges::on_report(NodeId /*node*/, const ReportRecord& record) {
+void RunJudges::on_report(const ReportRecord& record, const Plan* in_force) {
   const Report& report = record.report;
   ++result_.car_steps;
   if (report.status == StepStatus::kPlanned) ++result_.planned;
   if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_)) ++result_.unreachable;
   planning_.report(record, lab_->now());
-  plans_.reported(report, lab_->now(), result_.violations);
-  driven_.reported(report);
+  plans_.reported(report, in_force, lab_->now(), result_.violations);
+  driven_.reported(report, in_force);
   announced_.reported(report, report.step.value * period_);
   add_to_hash(report.step.value);
   add_to_hash(static_cast<std::uint64_t>(report.status));
@@ -105,7 +105,7 @@ void RunJudges::on_report(NodeId /*node*/, const ReportRecord& record) {
   tell([&] { return report_line(report); });
 }
 
-void RunJudges::on_command(NodeId /*node*/, const TrajectoryCommand& command) {
+void RunJudges::on_command(const TrajectoryCommand& command) {
   driven_.commanded(command);
   add_to_hash(command.create_stamp);
 }

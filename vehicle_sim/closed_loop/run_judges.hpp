@@ -42,8 +42,8 @@ class RunJudges final : public RunObserver {
     announced_.published(traffic);
   }
   void on_prediction(const Prediction& prediction) override;
-  void on_report(NodeId node, const ReportRecord& record) override;
-  void on_command(NodeId node, const TrajectoryCommand& command) override;
+  void on_report(const ReportRecord& record, const Plan* in_force) override;
+  void on_command(const TrajectoryCommand& command) override;
   void on_received(const TrajectoryCommand& command) override { driven_.received(command); }
   /// From now on it brakes at once, wherever it is and whoever is near: it is not judged any more.
   void on_stop_symbol(std::uint8_t vehicle) override { stopped_.insert(vehicle); }

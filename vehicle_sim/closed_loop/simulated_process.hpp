@@ -16,6 +16,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/result/run_record.hpp"
+#include "planner/coordination/plan.hpp"
 #include "vehicle_sim/closed_loop/simulated_clock.hpp"
 #include "vehicle_sim/closed_loop/simulated_network.hpp"
 
@@ -31,8 +32,9 @@ class RunObserver {
   virtual void on_traffic(const Traffic& traffic) = 0;
   /// A controller tells what it has planned; whether that comes into force says its report.
   virtual void on_prediction(const Prediction& prediction) = 0;
-  virtual void on_report(NodeId node, const ReportRecord& record) = 0;
-  virtual void on_command(NodeId node, const TrajectoryCommand& command) = 0;
+  /// @param in_force  the plan after the step; nullptr: none
+  virtual void on_report(const ReportRecord& record, const Plan* in_force) = 0;
+  virtual void on_command(const TrajectoryCommand& command) = 0;
   /// By a vehicle.
   virtual void on_received(const TrajectoryCommand& command) = 0;
   virtual void on_stop_symbol(std::uint8_t vehicle) = 0;
