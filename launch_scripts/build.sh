@@ -9,10 +9,10 @@ usage: build.sh [--preset release|debug|asan|tsan|coverage]
                 [--programs | --unit_tests | --thread_tests | --tests_of FOLDER]
   --preset NAME   what to build (default release), into build/NAME
   --programs      only the programs, no tests
-  --unit_tests    only the tests that need no other process
-  --thread_tests  of these only those of the rooms that have threads
-  --tests_of FOLDER  only the tests in tests/FOLDER and what they need; with the preset tsan only those of threads
-Exit codes: 0 good, 1 the build failed, 2 bad input
+  --unit_tests    only the single-process tests
+  --thread_tests  the subset of these from folders with threads
+  --tests_of FOLDER  only the tests in tests/FOLDER and their dependencies; with the preset tsan only those with threads
+Exit codes: 0 success, 1 the build failed, 2 invalid input
 TEXT
 }
 
@@ -36,7 +36,7 @@ while (($#)); do
 done
 case "$preset" in
   release | debug | asan | tsan | coverage) ;;
-  *) echo "build.sh: --preset = $preset, allowed release, debug, asan, tsan, coverage" >&2; exit 2 ;;
+  *) echo "build.sh: --preset = $preset, must be one of release, debug, asan, tsan, coverage" >&2; exit 2 ;;
 esac
 
 mkdir -p "$root/build/$preset"
@@ -44,7 +44,7 @@ log=$root/build/$preset/build.log
 run() {
   if ! "$@" >>"$log" 2>&1; then
     tail -n 40 "$log" >&2
-    echo "build.sh: preset $preset failed; the whole log is $log" >&2
+    echo "build.sh: preset $preset failed; full log: $log" >&2
     exit 1
   fi
 }

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Holds the sources against .clang-format, and what changed against .clang-tidy.
+# Checks the sources with .clang-format, and changed lines with .clang-tidy.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
 usage: check_style.sh [--since COMMIT] [--all] [--fix_format]
-Every file is held against .clang-format. .clang-tidy is asked about the lines that differ from the last commit that
-landed, whether they are committed or not; what it finds in older lines is no failure.
-  --since COMMIT  that commit (default: where HEAD left origin/main, without that the branch main; on main itself, or
-                  without both, the first parent of HEAD: a clone has landed what it shows)
-  --all           clang-tidy looks at all lines of all files (more than an hour)
+Checks every file with .clang-format. Checks the lines that differ from the last merged commit, committed or not,
+with .clang-tidy; findings in older lines do not fail.
+  --since COMMIT  compares with this commit (default: where HEAD left origin/main, without that the branch main; on
+                  main itself, or without both, the first parent of HEAD)
+  --all           clang-tidy checks all lines of all files (more than an hour)
   --fix_format    formats the files instead
-Exit codes: 0 clean, 1 a finding or setup failed, 2 bad input
+Exit codes: 0 clean, 1 a finding or setup failed, 2 invalid input
 TEXT
 }
 
@@ -38,8 +38,8 @@ done
 cd "$root"
 [[ -z $since ]] || git rev-parse --quiet --verify "$since^{commit}" >/dev/null || fail "--since = $since: no such commit"
 
-# Of so many files at most, those with the most changed lines: a file takes eight seconds of a processor, and the check
-# is to take less than three minutes. What is left out is named.
+# Upper bound of the number of files, those with the most changed lines first: a file takes eight seconds of a processor, and the check
+# must take less than three minutes. Skipped files are listed.
 most_files=30
 
 ./launch_scripts/setup.sh --style || exit 1
@@ -58,7 +58,7 @@ if ! clang-format-14 --dry-run -Werror "${sources[@]}" 2>"$work/format"; then
   code=1
 fi
 
-# The last commit that landed, as far as this clone knows.
+# The last merged commit known to this clone.
 last_landed() {
   local branch
   for branch in origin/main main; do
@@ -72,13 +72,13 @@ if ! $all; then
   [[ -n $since ]] || since=$(last_landed) || { echo "No commit before this one: clang-tidy has nothing to compare"; exit "$code"; }
   mapfile -t changed < <(git diff --numstat --diff-filter=d "$since" -- '*.cpp' '*.hpp' | sort -rn | awk '$1 > 0' | cut -f 3)
   if ((${#changed[@]} == 0)); then
-    echo "Style: ${#sources[@]} files are formatted as they should be or named above; nothing changed since $(git describe --always "$since")"
+    echo "Style: ${#sources[@]} files are formatted or listed above; no change since $(git describe --always "$since")"
     exit "$code"
   fi
 fi
 
-# clang-tidy reads every file by itself, so it needs commands of files that are not built as one (preset tidy), and the
-# headers that the build makes.
+# clang-tidy parses every file separately, so it needs the commands of a build without unity files (preset tidy), and the
+# generated headers.
 { cmake --preset tidy && cmake --build build/tidy --target generated; } >"$work/cmake" 2>&1 ||
   { cat "$work/cmake" >&2; exit 1; }
 tidy=(-quiet -p=build/tidy -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-pragma-once-outside-header)
@@ -92,9 +92,9 @@ else
     -clang-tidy-binary clang-tidy-14 "${tidy[@]:0:1}" "${tidy[@]:2}" >"$work/tidy" 2>/dev/null || true
   what="${#looked_at[@]} files that changed since $(git describe --always "$since")"
   ((${#changed[@]} <= most_files)) ||
-    echo "clang-tidy does not look at $((${#changed[@]} - most_files)) more files: ${changed[*]:most_files}"
+    echo "clang-tidy skips $((${#changed[@]} - most_files)) more files: ${changed[*]:most_files}"
 fi
-# The same finding of a header comes once for every file that includes it. What GCC compiles and clang 14 does not
+# A finding in a header is repeated for every file that includes it. Code that GCC compiles and clang 14 does not
 # (clang-diagnostic-error: a lambda that captures a structured binding) is no finding.
 findings=$(grep -E ': (error|warning): ' "$work/tidy" | grep -vF '[clang-diagnostic-error]' | sed "s|^$root/||" | sort -u || true)
 if [[ -n $findings ]]; then
@@ -102,5 +102,5 @@ if [[ -n $findings ]]; then
   echo "check_style.sh: clang-tidy has $(wc -l <<<"$findings") findings in $what" >&2
   exit 1
 fi
-((code != 0)) || echo "Style: ${#sources[@]} files are formatted, clang-tidy finds nothing in $what"
+((code != 0)) || echo "Style: ${#sources[@]} files are formatted, no clang-tidy findings in $what"
 exit "$code"

@@ -10,33 +10,33 @@ usage: run_lab.sh [flags]      (every flag also as --name=value)
 Installs what is missing, builds, drives three cars for 30 s, prints the result table.
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
                           (default paper_three_cars; also paper_red_alone, circle)
-  --profile NAME          default: every plan optimal, safe whatever message is lost
-                          2022: the rules under which the paper's numbers arose
-  --engine NAME           what plans: branch_and_bound (default profile) or best_first (profile 2022); the same called
+  --profile NAME          default: every plan optimal, safe under loss of messages
+                          2022: the rules that produced the paper's numbers
+  --engine NAME           search engine: branch_and_bound (default profile) or best_first (profile 2022); the same called
                           through OMPL's planner interface: ompl_branch_and_bound, ompl_best_first
   --subgraph NAME         of the automaton, instead of the scenario's
   --policy NAME           by which the cars change the subgraph themselves, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenario circle)
   --steps N               control steps of 0.2 s, instead of the scenario's
-  --simulated_time BOOL   true: logical time, as fast as the machine can (default); false: real time
+  --simulated_time BOOL   true: logical time, as fast as possible (default); false: real time
   --noise_seed N          measurement noise of the simulated cars from this seed (default: none)
   --gains_scale X         gains of the simulated cars' followers (default 1)
-  --on_death WHAT         stop (default): when a process dies, the others drive out their plans and the run ends;
-                          continue (real time): it goes on, and a controller that was killed may be started again
+  --on_death WHAT         stop (default): when a process dies, the others make a minimal-risk stop and the run ends;
+                          continue (real time): the run continues, and a killed controller may be restarted
                           (launch_scripts/vehicle.sh --id N --only hlc --out DIR)
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain; the vehicles take the next ones, the controllers N + 50
                           (default: a free block)
-  --dump-problems DIR     write each planning problem to a JSON file there (new or empty folder), for plan_problem; in
-                          real time that may make steps late; refused if a policy drives (give --policy none)
+  --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
+                          real time this may delay steps; requires --policy none if the scenario has a policy
   --out DIR               run folder (default: a new one in runs/)
   --preset NAME           build preset (default release)
-  --startup_timeout_s N   how long to wait for processes that do not appear (default 20)
-  --no_build              take the programs as they are
-  --bin DIR               take the programs in DIR, build nothing
-Exit codes: 0 good, 1 setup or build failed or --dump-problems has not written all, 2 bad input, 3 somebody did not appear,
-            4 somebody died during the run, 5 a vehicle left its plan or touched another one,
+  --startup_timeout_s N   startup timeout (default 20)
+  --no_build              use the existing programs
+  --bin DIR               use the programs in DIR, build nothing
+Exit codes: 0 success, 1 setup or build failed or --dump-problems is incomplete, 2 invalid input, 3 startup timeout,
+            4 a process died during the run, 5 a vehicle left its plan or touched another one,
             130 interrupted
 TEXT
 }
@@ -61,7 +61,7 @@ while (($#)); do
   shift
   name=${name#--}
   [[ $name != dump-problems ]] || name=dump_problems
-  [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , allowed a new or an empty folder"
+  [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a new or an empty folder"
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | steps | simulated_time | \
       noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
@@ -70,23 +70,23 @@ while (($#)); do
   esac
 done
 [[ $simulated_time == true || $simulated_time == false ]] ||
-  fail "--simulated_time = $simulated_time, allowed true, false"
+  fail "--simulated_time = $simulated_time, must be one of true, false"
 [[ $on_death == stop || ($on_death == continue && $simulated_time == false) ]] ||
-  fail "--on_death = $on_death, allowed stop, and in real time continue"
-[[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, allowed loopback, lab"
-whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
+  fail "--on_death = $on_death, must be stop, or in real time continue"
+[[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, must be one of loopback, lab"
+whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
 for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
 in_range() { # flag, value, from, to
-  [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, allowed $3 ... $4"
+  [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, must be in $3 ... $4"
 }
 in_range steps "$steps" 1 10000
 in_range startup_timeout_s "$startup_timeout_s" 1 3000
 in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
-[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
+[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 case "$preset" in
   release | debug | asan | tsan) ;;
-  *) fail "--preset = $preset, allowed release, debug, asan, tsan" ;;
+  *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
 esac
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
@@ -111,18 +111,18 @@ steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
 if [[ -n $dump_problems ]]; then
   driven_by=$("$bin/show_scenario" "${check[@]}" --print_policy) || exit 2
   [[ $driven_by == none ]] ||
-    fail "--dump-problems with policy $driven_by, allowed with --policy none: a problem names a subgraph of the automaton's file"
+    fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
 fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 
-# A block of DDS domains that no other run on this machine uses: the lab's and one per vehicle, 50 higher
-# the controllers'. The locks are held by this shell and its children; vehicle.sh by hand shares them.
+# A block of DDS domains not used by any other run on this machine: the lab's and one per vehicle, 50 higher
+# the controllers'. This shell and its children hold the locks; a manual vehicle.sh shares them.
 largest_id=${ids[-1]}
 block_is_free() { # first domain
   local domain file fd fds=()
   for ((domain = $1; domain <= $1 + largest_id; domain++)); do
     file=/tmp/hlc_dds_domain_$domain.lock
-    # Other users lock the same files: everybody may open them, and they are opened for reading only, since
+    # Other users lock the same files: they are world-readable, and opened for reading only, since
     # Linux refuses to open another user's file in /tmp with O_CREAT.
     [[ -e $file ]] || { (umask 000 && : >>"$file"); } 2>/dev/null
     { exec {fd}<"$file"; } 2>/dev/null && fds+=("$fd") && flock -n "$fd" && continue
@@ -133,7 +133,7 @@ block_is_free() { # first domain
 if [[ -n $dds_domain ]]; then
   dds_domain=$((10#$dds_domain))
   ((dds_domain + largest_id <= 50)) ||
-    fail "--dds_domain = $dds_domain, allowed 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
+    fail "--dds_domain = $dds_domain, must be in 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
   block_is_free "$dds_domain" ||
     fail "--dds_domain = $dds_domain: another run uses one of $dds_domain ... $((dds_domain + largest_id))"
 else
@@ -146,10 +146,10 @@ else
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
 
-allowed="allowed a new or an empty folder"
+required="must be a new or an empty folder"
 check_new_or_empty() { # flag, folder
-  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is no folder, $allowed"
-  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $allowed"
+  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is not a folder, $required"
+  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $required"
 }
 made=()
 make_folder() { # flag, folder
@@ -157,16 +157,16 @@ make_folder() { # flag, folder
   [[ -d $2 ]] || made=("$2" "${made[@]}")
   if ! mkdir -p -- "$2" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
-    fail "--$1 = $2: the folder cannot be made, $allowed"
+    fail "--$1 = $2: the folder cannot be created, $required"
   fi
   if ! probe=$(mktemp -- "$2/XXXXXX" 2>/dev/null) || ! rm -- "$probe" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null
-    fail "--$1 = $2: nothing can be written there, $allowed that may be written to"
+    fail "--$1 = $2: not writable, $required that is writable"
   fi
 }
 [[ -z $out ]] || check_new_or_empty out "$out"
 [[ -z $dump_problems ]] || check_new_or_empty dump-problems "$dump_problems"
-[[ -z $out ]] || make_folder out "$out" # first: the problems may lie in it
+[[ -z $out ]] || make_folder out "$out" # first: may contain the problems
 if [[ -n $dump_problems ]]; then
   make_folder dump-problems "$dump_problems"
   dump_problems=$(cd -- "$dump_problems" && pwd)
@@ -177,13 +177,13 @@ if [[ -z $out ]]; then
   for ((i = 2; ; i++)); do
     mkdir -p "$root/runs" && mkdir "$out" 2>/dev/null && break
     out=${base}_$i
-    ((i < 1000)) || fail "cannot make a run folder in $root/runs"
+    ((i < 1000)) || fail "cannot create a run folder in $root/runs"
   done
 fi
 out=$(cd "$out" && pwd)
-mkdir -p "$out/logs" "$out/configuration" 2>/dev/null || fail "--out = $out: nothing can be written there"
+mkdir -p "$out/logs" "$out/configuration" 2>/dev/null || fail "--out = $out: not writable"
 
-# What this run is driven with, beside the files that summarize puts there.
+# Flags of this run, in addition to the files that summarize writes.
 quoted() { if [[ -n $1 ]]; then printf "'%s'" "${1//\'/\'\'}"; else echo null; fi; } # for YAML
 cat >"$out/configuration/flags.yaml" <<TEXT
 # Flags of run_lab.sh; null: not given. Car N measures with the noise of seed noise_seed + N.
@@ -205,7 +205,7 @@ startup_timeout_s: $startup_timeout_s
 programs: $(quoted "$(realpath "$bin")")
 TEXT
 
-# Runs a command that is told to end when this script is gone, even by SIGKILL.
+# Runs a command that gets SIGTERM when this script ends, even by SIGKILL.
 with_me() { exec setpriv --pdeathsig TERM -- "$@"; }
 
 children=() lab_control=""
@@ -222,7 +222,7 @@ end_children() {
   trap '' INT TERM HUP
   ((${#children[@]} > 0)) && any_runs "${children[@]}" || return 0
   kill -TERM "${children[@]}" 2>/dev/null
-  wait_until $((SECONDS + 8)) # vehicle.sh ends whoever of its processes does not follow
+  wait_until $((SECONDS + 8)) # vehicle.sh kills processes that do not terminate
   [[ -z $lab_control ]] || kill -KILL "$lab_control" 2>/dev/null
   local pid
   for pid in "${children[@]}"; do wait "$pid" 2>/dev/null; done
@@ -256,15 +256,15 @@ with_me "$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}
 children+=($!)
 lab_control=$!
 
-# Lab control is the last to end, or nearly so: when it outlives all vehicles by far, it hangs.
+# Lab control ends last, or nearly so: if it outlives all vehicles by far, it hangs.
 while any_runs "$lab_control" && any_runs "${vehicles[@]}"; do
   wait -n "${children[@]}" 2>/dev/null
-  # Who has refused its input does not appear any more: nobody need wait for it.
+  # A process that has rejected its input does not appear: do not wait for it.
   ! grep -qs '^2 ' "$out/logs/failures" || { kill -TERM "${children[@]}" 2>/dev/null; break; }
 done
 any_runs "$lab_control" && wait_until $((SECONDS + startup_timeout_s + 15))
 if ! any_runs "${vehicles[@]}" && any_runs "$lab_control"; then
-  echo "lab_control hangs" >&2
+  echo "lab_control not responding" >&2
   kill -KILL "$lab_control"
 fi
 wait "$lab_control"
@@ -272,17 +272,17 @@ code=$?
 ((code == 0)) || echo "$code lab_control" >>"$out/logs/failures"
 ((code <= 130)) || echo "lab_control died (signal $((code - 128)))" >&2
 
-# The others end by themselves once lab control has said stop; whoever does not, is ended.
+# The others end after lab control's stop; the rest is terminated.
 ((code == 0 || code == 4 || code > 130)) || kill -TERM "${children[@]}" 2>/dev/null
 wait_until $((SECONDS + 12))
-kill -TERM "${children[@]}" 2>/dev/null # vehicle.sh ends whoever does not follow
+kill -TERM "${children[@]}" 2>/dev/null # vehicle.sh kills processes that do not terminate
 for pid in "${children[@]}"; do
   wait "$pid"
   child=$?
   ((code != 0 || child == 0)) || code=$child
 done
-# The first that failed says why: the others may only have missed it. Any failure is worse than 1, a good
-# run of which something was not written.
+# The first failure is the cause: the others may be its consequence. Any failure has precedence over 1, a good
+# run with unwritten problems.
 if [[ -s $out/logs/failures ]]; then
   read -r code _ < <(grep -v '^1 ' "$out/logs/failures" || cat "$out/logs/failures")
 fi

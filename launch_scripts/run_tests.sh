@@ -9,20 +9,20 @@ usage: run_tests.sh [FOLDER] [--sanitize] [--long] [--unit] [--filter REGEX] [--
   FOLDER          builds and runs only the tests of this folder and of those below it, named as the sources or as the
                   tests: planner/search or tests/planner/search
   --sanitize      then the same under the address and undefined behaviour sanitizers (preset asan), and the
-                  unit tests of everything that has threads under the thread sanitizer (preset tsan)
+                  unit tests of everything with threads under the thread sanitizer (preset tsan)
   --long          ten times as many seeds in property tests, and integration tests until one of five times fails
-  --unit          only unit tests, no processes
+  --unit          only unit tests, no integration tests
   --filter REGEX  only tests whose name matches
-  --coverage      instead builds with counters (preset coverage) and prints which share of the lines of every folder the
-                  tests ran; the lines are in build/coverage/html
-Exit codes: 0 all passed, 1 setup, build or a test failed, 2 bad input, also a filter that no test matches
+  --coverage      instead builds with counters (preset coverage) and prints the line coverage of every folder;
+                  details: build/coverage/html
+Exit codes: 0 all passed, 1 setup, build or a test failed, 2 invalid input, also a filter without matching test
 TEXT
 }
 
 fail() { echo "run_tests.sh: $1" >&2; exit 2; }
 cd "$root" || exit 1
 
-# Folders of tests/ that hold tests, and those above them, as the sources are called.
+# Folders of tests/ with tests, and their parents, named like the sources.
 test_folders() {
   grep -rl --include=CMakeLists.txt hlc_add_test tests | while read -r file; do
     folder=${file%/CMakeLists.txt}
@@ -53,7 +53,7 @@ while (($#)); do
     *) [[ -z $folder ]] || fail "FOLDER = $1, already given as $folder"
       folder=${1#"$root"/} folder=${folder#./} folder=${folder#tests/} folder=${folder%/}
       test_folders | grep -qxF -e "$folder" ||
-        fail "FOLDER = $1, allowed $(test_folders | paste -sd ' ' | sed 's/ /, /g')" ;;
+        fail "FOLDER = $1, must be one of $(test_folders | paste -sd ' ' | sed 's/ /, /g')" ;;
   esac
   shift
 done
@@ -65,7 +65,7 @@ select=()
 [[ -z $folder ]] || select+=(-L "^tests/$folder(/|\$)")
 ! $unit || select+=(-L '^unit')
 
-# Sets for a preset what is built, which tests are meant, and how both are called.
+# Sets for a preset the targets, the tests, and a description of both.
 choose() {
   preset=$1
   build=(--preset "$preset")
@@ -74,7 +74,7 @@ choose() {
   if [[ $preset == tsan ]]; then
     # Fast DDS is not built for the thread sanitizer, and most folders have no threads (tests/README.md).
     chosen+=(-L '^unit_threads$')
-    what+=", unit tests of what has threads"
+    what+=", unit tests with threads"
   elif $unit; then
     what+=", unit tests"
   fi
@@ -89,7 +89,7 @@ choose() {
   [[ -z $filter ]] || what+=", --filter = $filter"
 }
 
-# Both with CTEST_FLAG... besides those of the choice.
+# Both take CTEST_FLAG... in addition to those of the selection.
 has_tests() { ctest --preset "$preset" -N "${chosen[@]}" "$@" | grep -q '^Total Tests: [1-9]'; }
 run() {
   has_tests "$@" || return 0
@@ -105,19 +105,19 @@ setup=()
 [[ ${presets[0]} != coverage ]] || setup=(--coverage)
 ./launch_scripts/setup.sh "${setup[@]}" || exit 1
 code=0
-failed=() # said again at the end: the sanitizers' output is long
+failed=() # repeated at the end: the sanitizers' output is long
 for ((i = 0; i < ${#presets[@]}; i++)); do
   choose "${presets[i]}"
   ./launch_scripts/build.sh "${build[@]}" || exit 1
   if ! has_tests; then
     ((i > 0)) || fail "no test among: $what"
-    echo "No test among: $what"
+    echo "No matching test: $what"
     continue
   fi
   [[ $preset != coverage ]] || find build/coverage -name '*.gcda' -delete # counts of an earlier run
   echo "Testing ($what)"
   run -LE '^real_time$'
-  # While cars drive in real time the machine is idle, mostly: it builds the next preset, with what they leave.
+  # While cars drive in real time the machine is mostly idle: meanwhile build the next preset at low priority.
   next=""
   if has_tests -L '^real_time$' && ((i + 1 < ${#presets[@]})); then
     (choose "${presets[i + 1]}" && exec nice -n 19 ./launch_scripts/build.sh "${build[@]}") >/dev/null 2>&1 &
@@ -128,7 +128,7 @@ for ((i = 0; i < ${#presets[@]}; i++)); do
     echo "Repeating ($what)"
     run -L '^integration$' --repeat until-fail:5
   fi
-  [[ -z $next ]] || wait "$next" # whether it succeeded, its turn will say
+  [[ -z $next ]] || wait "$next" # its own turn reports a failure
 done
 [[ ${presets[0]} != coverage ]] || ./tests/house/coverage.sh "$folder" || exit 1
 ((${#failed[@]} == 0)) || printf 'failed: %s\n' "${failed[@]}" >&2

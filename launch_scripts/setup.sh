@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building and running need. Does nothing, quickly, when all are there.
+# Installs the Debian packages that building and running need. Returns quickly if all are installed.
 set -euo pipefail
 
 packages=(
@@ -17,9 +17,9 @@ coverage=(gcovr)
 usage() {
   echo "usage: setup.sh [--style] [--coverage]"
   echo "Installs missing packages (as root, or with sudo): ${packages[*]}"
-  echo "  --style     also those that check_style.sh needs: ${style[*]}"
-  echo "  --coverage  also those that run_tests.sh --coverage needs: ${coverage[*]}"
-  echo "Exit codes: 0 good, 1 a package could not be installed, 2 bad input"
+  echo "  --style     also those for check_style.sh: ${style[*]}"
+  echo "  --coverage  also those for run_tests.sh --coverage: ${coverage[*]}"
+  echo "Exit codes: 0 success, 1 a package could not be installed, 2 invalid input"
 }
 
 while (($#)); do
@@ -44,7 +44,7 @@ echo "Installing packages: ${missing[*]}"
 as_root=()
 if ((EUID != 0)); then
   if ! command -v sudo >/dev/null; then
-    echo "setup.sh: these packages are missing, and neither root nor sudo is at hand: ${missing[*]}" >&2
+    echo "setup.sh: missing packages, and neither root nor sudo available: ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)
@@ -57,7 +57,7 @@ install() {
 }
 if ! install >"$log" 2>&1; then
   tail -n 20 "$log" >&2
-  echo "setup.sh: installation failed; the whole log is $log" >&2
+  echo "setup.sh: installation failed; full log: $log" >&2
   exit 1
 fi
 rm -f "$log"

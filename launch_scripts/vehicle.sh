@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # One vehicle: its simulated car, its middleware and its high-level controller, as one machine of the lab
-# runs them. Ends when all three have ended. With --only one of them, for a run that is under way.
+# runs them. Ends when all three have ended. --only restarts one of them during a run.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -26,17 +26,17 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
                           --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
   --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
   --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written);
-                          refused if a policy drives (give --policy none)
-  --pose X,Y,YAW          where the simulated car stands (default: the scenario's start)
+                          requires --policy none if the scenario has a policy
+  --pose X,Y,YAW          initial pose of the simulated car (default: the scenario's start)
   --noise_seed N          measurement noise from this seed (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
-  --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be started again
-  --only NAME             start one alone, again: hlc, middleware or vehicle. Flags that are not given are those with
-                          which the vehicle of the run in --out was started; a car stands where it was last
+  --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be restarted
+  --only NAME             restart one process: hlc, middleware or vehicle. Omitted flags are those with
+                          which the vehicle of the run in --out was started; a car keeps its last pose
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
   --bin DIR               folder of the programs (default: build/release/bin)
-  --startup_timeout_s N   how long to wait for the others (default 30)
-Exit code: the first failing one of the three; 2 bad input
+  --startup_timeout_s N   startup timeout (default 30)
+Exit code: the first failing one of the three; 2 invalid input
 TEXT
 }
 
@@ -65,7 +65,7 @@ take_flags() {
     shift
     name=${name#--}
     [[ $name != dump-problems ]] || name=dump_problems
-    [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , allowed a folder"
+    [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a folder"
     [[ $name == out || $name == only || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
     printf -v "$name" '%s' "$value"
   done
@@ -79,26 +79,26 @@ if [[ -n $only && -n $out && -e $flags_file ]]; then
 fi
 case "$only" in
   "" | hlc | middleware | vehicle) ;;
-  *) fail "--only = $only, allowed hlc, middleware, vehicle" ;;
+  *) fail "--only = $only, must be one of hlc, middleware, vehicle" ;;
 esac
-[[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, allowed stop, continue"
-[[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, allowed 1 ... 30"
+[[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, must be one of stop, continue"
+[[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, must be in 1 ... 30"
 id=$((10#$id))
-whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, allowed whole numbers"; }
+whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
 for name in cars dds_domain middleware_domain controller_domain noise_seed startup_timeout_s; do
   whole_number "$name" "${!name}"
 done
-[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, allowed numbers from 0"
+[[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + id))
 [[ -n $out ]] || out=$root/runs/vehicle_$id
 if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
-  fail "--out = $out: a finished run, allowed a new folder, or --only for one that is under way"
+  fail "--out = $out: a finished run, must be a new folder; --only requires a running one"
 fi
 
-# run_lab.sh has reserved its domains for itself, and says so. By hand a domain is shared with other vehicles.
+# run_lab.sh reserves its domains and sets a variable. A manual start shares a domain with other vehicles.
 share_domain() { # flag, domain
   local file=/tmp/hlc_dds_domain_$(($2)).lock fd
   [[ -e $file ]] || { (umask 000 && : >>"$file"); } 2>/dev/null
@@ -112,10 +112,10 @@ if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; 
 fi
 if [[ -n $dump_problems ]]; then # other vehicles of the run may write there, too
   { mkdir -p -- "$dump_problems" && probe=$(mktemp -- "$dump_problems/XXXXXX") && rm -- "$probe"; } 2>/dev/null ||
-    fail "--dump-problems = $dump_problems: nothing can be written there, allowed a folder that can be made and written to"
+    fail "--dump-problems = $dump_problems: not writable, must be a folder that can be created and written to"
   dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
-mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: nothing can be written there"
+mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: not writable"
 out=$(cd "$out" && pwd)
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
@@ -126,7 +126,7 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
 record=$out/vehicle_$id.csv
-appends=() # a car that is started again stands where it was last, and its record goes on
+appends=() # a restarted car keeps its last pose, and its record continues
 if [[ $only == vehicle && -s $record ]]; then
   appends=(--append_record)
   last=$(grep -E '^[0-9]+(,[^,]+){7}$' "$record" | tail -n 1 | cut -d, -f2-4)
@@ -135,7 +135,7 @@ fi
 if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
   pose=$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
-  [[ -n $pose ]] || fail "--id = $id, allowed $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
+  [[ -n $pose ]] || fail "--id = $id, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
 fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
@@ -151,16 +151,16 @@ controller=("${choices[@]}")
 [[ -z $controller_peers ]] || controller+=(--controller_peers="$controller_peers")
 [[ -z $dump_problems ]] || controller+=(--dump-problems="$dump_problems")
 
-# Of two that command one car the car would follow now the one, now the other.
+# With two controllers a car would follow both alternately.
 if [[ -n $only ]]; then
   case "$only" in
     hlc) process=high_level_controller_$id ;;
     *) process=${only}_$id ;;
   esac
   pid=$(awk -v name="$process" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_$id.pids" 2>/dev/null)
-  program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)" " (deleted)") # built anew meanwhile
+  program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)" " (deleted)") # rebuilt meanwhile
   [[ ! $program =~ ^(vehicle_sim|middleware|high_level_controller)$ ]] ||
-    fail "--only = $only: $process still runs, end it first: kill -9 $pid"
+    fail "--only = $only: $process still running; stop it first: kill -9 $pid"
 fi
 
 scenario=$(realpath "$scenario") bin=$(realpath "$bin")
@@ -169,7 +169,7 @@ scenario=$(realpath "$scenario") bin=$(realpath "$bin")
   [[ -z ${!name} ]] || echo "--$name=${!name}"
 done >"$out/logs/vehicle_$id.flags"
 
-declare -A names=() # of those that have not ended, by pid
+declare -A names=() # of running processes, by pid
 is_ending=false
 # shellcheck disable=SC2317 # called by the trap
 end_all() {
@@ -179,15 +179,15 @@ end_all() {
   kill -TERM "${!names[@]}" 2>/dev/null
   local deadline=$((SECONDS + 4))
   while kill -0 "${!names[@]}" 2>/dev/null && ((SECONDS < deadline)); do sleep 0.05; done
-  kill -KILL "${!names[@]}" 2>/dev/null # whoever does not end, because it hangs or is stopped
+  kill -KILL "${!names[@]}" 2>/dev/null # processes that hang or are stopped
 }
 trap end_all INT TERM HUP EXIT
 
-start() { # what --only calls it, name, program and flags
+start() { # name for --only, name, program and flags
   local name=$2
   [[ -z $only || $only == "$1" ]] || return 0
   shift 2
-  # Told to end when this script is gone, even by SIGKILL.
+  # Gets SIGTERM when this script ends, even by SIGKILL.
   [[ -n $only ]] || : >"$out/logs/$name.log"
   setpriv --pdeathsig TERM -- "$@" >>"$out/logs/$name.log" 2>&1 </dev/null &
   names[$!]=$name
@@ -200,7 +200,7 @@ start hlc "high_level_controller_$id" "$bin/high_level_controller" "${common[@]}
   --middleware_domain="$middleware_domain" "${controller[@]}"
 printf '%s\n' "${!names[@]}" | while read -r pid; do echo "$pid ${names[$pid]}"; done \
   >>"$out/logs/vehicle_$id.pids"
-! $is_ending || end_all # told so in the middle of starting
+! $is_ending || end_all # signal during the start
 
 first=0
 while true; do
@@ -210,7 +210,7 @@ while true; do
     code=$?
     if ((code > 128)) && [[ $on_death == continue ]]; then
       which=${names[$pid]%_*}
-      echo "${names[$pid]} was killed; again: $0 --id $id --only ${which/high_level_controller/hlc} --out $out" >&2
+      echo "${names[$pid]} was killed; restart: $0 --id $id --only ${which/high_level_controller/hlc} --out $out" >&2
     elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code
@@ -218,10 +218,10 @@ while true; do
       echo "$code ${names[$pid]}" >>"$out/logs/failures"
     fi
     unset "names[$pid]"
-    ((code != 2)) || end_all # refused its input: the others would wait for it
+    ((code != 2)) || end_all # rejected its input: the others would wait for it
   done
   ((${#names[@]} > 0)) || break
-  # Only to sleep until somebody ends: whom a signal killed while another command ran, it does not report.
+  # Only sleeps until a process ends: it does not report a process killed while another command ran.
   wait -n "${!names[@]}" 2>/dev/null
 done
 exit "$first"

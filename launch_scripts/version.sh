@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What every script prints for --version, as the programs do for theirs.
+# Output of every script for --version, in the format of the programs.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 

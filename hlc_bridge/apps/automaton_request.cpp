@@ -1,4 +1,4 @@
-// Asks controllers that drive to plan on another subgraph, and tells what they answer.
+// Requests another subgraph from running controllers and prints their answers.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -48,7 +48,7 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--vehicle", flags.vehicles, "vehicles that are asked, e.g. 1,2; default: all")
+  app.add_option("--vehicle", flags.vehicles, "vehicles to ask, e.g. 1,2; default: all")
       ->delimiter(',')
       ->check(hlc::vehicle_id_range());
   auto* const criterion =
@@ -57,7 +57,7 @@ void declare(CLI::App& app, Flags& flags) {
           ->delimiter(',');
   app.add_option("--weights", flags.weights,
                  "instead: maneuvers that are optimal for a weighted sum of criteria, e.g. "
-                 "J1=0.3,J2=0.7; what is not there is made beside the run")
+                 "J1=0.3,J2=0.7; missing maneuvers are computed in the background")
       ->delimiter(',')
       ->excludes(criterion);
   app.add_option("--max_speed", flags.max_speed_mps, "speed limit [m/s]; default: the scenario's")
@@ -69,7 +69,7 @@ void declare(CLI::App& app, Flags& flags) {
   add_trims("--trims_on", flags.trims_on, "trims beside the scenario's, numbered from 1");
   add_trims("--trims_off", flags.trims_off, "trims of the scenario's that are not to be used");
   app.add_option("--edges_on", flags.edges_on,
-                 "edges that the scenario has off, from:to, e.g. 2:3,3:2")
+                 "edges that the scenario disables, from:to, e.g. 2:3,3:2")
       ->delimiter(',');
   app.add_option("--edges_off", flags.edges_off, "edges that are not to be used, from:to")
       ->delimiter(',');
@@ -81,21 +81,21 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->excludes(in_s);
   app.add_option("--timeout_s", flags.timeout_s,
-                 "how long answers are waited for, after the request's time")
+                 "how long to wait for answers after the request's time")
       ->capture_default_str()
       ->check(hlc::within(0.1, 3600.0));
   app.add_flag("--follow", flags.follow,
-               "stay until stopped: controllers that come later are asked, too, and every answer "
-               "is told");
+               "stay until stopped: controllers that appear later are asked, too, and every answer "
+               "is printed");
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   hlc::declare_controller_peers(app, flags.controller_peers);
   flags.network.declare_network(app);
   app.footer(
       "A request is a change of the scenario's subgraph, not of the last request: without any it "
-      "asks for the scenario's own, or for what the vehicle's policies say. A zone's speed limit "
-      "holds whatever is asked for. Exit codes: 0 in force, 1 somebody refused, 2 bad input, "
-      "3 somebody did not answer.");
+      "is for the scenario's own, or the choice of the vehicle's policies. A zone's speed limit "
+      "holds for every request. Exit codes: 0 in force, 1 a controller refused, 2 invalid input, "
+      "3 a controller did not answer.");
 }
 
 std::vector<hlc::TrimId> trims_of(const std::vector<int>& numbers) {
@@ -109,7 +109,7 @@ hlc::TrimId trim_of(const std::string& flag, const std::string& edge, std::strin
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), trim);
   if (error != std::errc{} || end != number.data() + number.size() || trim == 0) {
     throw std::invalid_argument(flag + ": '" + hlc::one_line(edge) +
-                                "', allowed from:to with numbers of trims, from 1");
+                                "', must be from:to with numbers of trims, from 1");
   }
   return {trim - 1};
 }
@@ -136,7 +136,7 @@ std::vector<hlc::CriterionWeight> weights_of(const std::vector<std::string>& tex
     if (one.criterion.empty() || error != std::errc{} || end != text.data() + text.size() ||
         !std::isfinite(one.weight) || one.weight < 0.0) {
       throw std::invalid_argument("--weights: '" + hlc::one_line(text) +
-                                  "', allowed criterion=number, at least 0");
+                                  "', must be criterion=number, number >= 0");
     }
     weights.push_back(std::move(one));
   }
@@ -184,7 +184,7 @@ const char* word_for(hlc::RequestOutcome outcome) {
   return "?";
 }
 
-/// One request and the answers to it.
+/// One request and its answers.
 class Asker {
  public:
   explicit Asker(const Flags& flags)
@@ -203,7 +203,7 @@ class Asker {
     ask();
     const auto deadline = Clock::now() + seconds(flags_.in_s + flags_.timeout_s);
     while (!stops() && (flags_.follow || (!is_settled() && Clock::now() < deadline))) {
-      tell_answers(flags_.follow ? Clock::now() + std::chrono::hours{1} : deadline);
+      print_answers(flags_.follow ? Clock::now() + std::chrono::hours{1} : deadline);
     }
     return exit_code();
   }
@@ -221,36 +221,36 @@ class Asker {
     return signal_.locked([this] { return stop_; });
   }
 
-  /// Of those that are there and hear us and whom we hear. Without --vehicle whoever is there a
+  /// Controllers that are matched in both directions. Without --vehicle: all that are matched one
   /// second after the first one.
   bool find_controllers() {
-    const auto hears = [this](int id) {
+    const auto is_matched = [this](int id) {
       const std::string name = hlc::controller_name(static_cast<std::uint8_t>(id));
       return writer_.matched_names().contains(name) && reader_.matched_names().contains(name);
     };
-    const auto all_hear = [&] { return stop_ || std::ranges::all_of(asked_, hears); };
-    const auto somebody = [&] { return stop_ || writer_.matched() > 0; };
+    const auto all_matched = [&] { return stop_ || std::ranges::all_of(asked_, is_matched); };
+    const auto any_matched = [&] { return stop_ || writer_.matched() > 0; };
     const auto deadline = Clock::now() + seconds(flags_.timeout_s);
     const bool is_open = asked_.empty();
-    const bool found =
-        is_open ? signal_.wait_until(deadline, somebody) : signal_.wait_until(deadline, all_hear);
+    const bool found = is_open ? signal_.wait_until(deadline, any_matched)
+                               : signal_.wait_until(deadline, all_matched);
     if (is_open && found) {
       static_cast<void>(
           signal_.wait_until(Clock::now() + std::chrono::seconds{1}, [this] { return stop_; }));
       for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
-        if (hears(id)) asked_.insert(id);
+        if (is_matched(id)) asked_.insert(id);
       }
     }
     if (found && !asked_.empty()) return true;
     std::string missing;
     for (const int id : asked_) {
-      if (!hears(id)) {
+      if (!is_matched(id)) {
         missing +=
             (missing.empty() ? "" : ", ") + hlc::controller_name(static_cast<std::uint8_t>(id));
       }
     }
-    std::cerr << "automaton_request: not there on domain " << participant_.options().domain_id
-              << ": " << (missing.empty() ? "any controller" : missing)
+    std::cerr << "automaton_request: missing on domain " << participant_.options().domain_id << ": "
+              << (missing.empty() ? "any controller" : missing)
               << " (see --dds_domain and --transport)\n";
     return false;
   }
@@ -260,7 +260,8 @@ class Asker {
     id_ = now;
     const auto in = static_cast<hlc::Nanoseconds>(1e9 * flags_.in_s);
     const hlc::Nanoseconds valid_from = in > 0 ? now + in : flags_.valid_from_ns;
-    // Whoever comes later is asked, too: the topic keeps the last request of every vehicle.
+    // Controllers that appear later are asked, too: the topic keeps the last request of every
+    // vehicle.
     for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
       if (!flags_.vehicles.empty() && !asked_.contains(id)) continue;
       writer_.write({.vehicle = {static_cast<std::uint8_t>(id)},
@@ -270,12 +271,12 @@ class Asker {
     }
   }
 
-  /// Waits for answers at most until then, and tells those that come.
-  void tell_answers(Clock::time_point until) {
+  /// Waits until `until` at the latest and prints the answers received.
+  void print_answers(Clock::time_point until) {
     static_cast<void>(signal_.wait_until(until, [this] { return stop_ || !answers_.empty(); }));
     const auto answers = signal_.locked([this] { return std::exchange(answers_, {}); });
     for (const hlc::AutomatonAnswer& answer : answers) {
-      if (answer.id != id_) continue;  // to somebody else's request
+      if (answer.id != id_) continue;  // to another request
       outcomes_[answer.vehicle.value] = answer.outcome;
       std::cout << "vehicle " << int{answer.vehicle.value} << ": " << word_for(answer.outcome)
                 << (answer.outcome == hlc::RequestOutcome::kInForce
@@ -304,8 +305,7 @@ class Asker {
       }
     }
     if (!silent.empty()) {
-      std::cerr << "automaton_request: not in force yet, and not refused: vehicles " << silent
-                << '\n';
+      std::cerr << "automaton_request: no final answer from vehicles " << silent << '\n';
       return hlc::kExitMissing;
     }
     return is_refused ? kExitRefused : hlc::kExitGood;

@@ -1,6 +1,6 @@
-// A discovery server for the lab domain, where multicast does not pass and no lab control centre
-// runs one. Debian's own (fast-discovery-server 2.9.1) does not know the lab's types and dies when
-// it meets them.
+// Discovery server for the lab domain, for networks without multicast in which no lab control
+// centre runs one. Debian's own (fast-discovery-server 2.9.1) crashes on the lab's types, which it
+// does not know.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -29,17 +29,17 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--dds_domain", flags.dds_domain, "lab domain")->capture_default_str();
   app.add_option("--discovery_server_id", flags.id, "GUID prefix")->capture_default_str();
   app.add_option("--discovery_server_ip", flags.ip,
-                 "IPv4 address of this machine by which the others reach it")
+                 "IPv4 address of this machine at which the others reach it")
       ->required();
   app.add_option("--discovery_server_port", flags.port, "port")->capture_default_str();
   app.add_option("--transport", flags.transport, "lab or loopback")->capture_default_str();
   app.footer(
       "Runs until it is stopped. The others find each other through it with "
       "--discovery_mode=client and the same --discovery_server_... flags. "
-      "Exit codes: 0 stopped, 2 bad input.");
+      "Exit codes: 0 stopped, 2 invalid input.");
 }
 
-/// The library says nothing about an address that nobody can be served at.
+/// The library reports nothing for an address that it cannot serve.
 /// @throws std::invalid_argument
 void check_can_listen(const std::string& ip, std::uint16_t port) {
   sockaddr_in address{};
@@ -53,10 +53,10 @@ void check_can_listen(const std::string& ip, std::uint16_t port) {
   if (result == 0) return;
   if (error == EADDRNOTAVAIL) {
     throw std::invalid_argument("--discovery_server_ip: " + ip +
-                                " is not allowed, an address of this machine");
+                                ", must be an address of this machine");
   }
   throw std::invalid_argument("--discovery_server_port: " + std::to_string(port) +
-                              " is not allowed, one that is free here");
+                              ", must be free on this machine");
 }
 
 /// Serves until it is stopped.
@@ -99,7 +99,7 @@ std::shared_ptr<Server> make_server(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::StopSignals signals;
-  CLI::App app{"Tells the participants of the lab domain of each other.", "discovery_server"};
+  CLI::App app{"Introduces the participants of the lab domain to each other.", "discovery_server"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;

@@ -1,5 +1,5 @@
-// Writes a run folder as a CommonRoad 2020a file: map, planning problems, planned and driven
-// motion every 10 ms.
+// Writes a run folder as a CommonRoad 2020a file: map, planning problems, planned and driven motion
+// every 10 ms.
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -35,7 +35,7 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
   const bool is_whole = facts.exit_code == 0;
   if (is_whole && own.size() < facts.steps) {
     throw std::runtime_error("reports.csv: " + std::to_string(own.size()) + " steps of " + name +
-                             ", allowed the " + std::to_string(facts.steps) + " of run.json");
+                             ", must be the " + std::to_string(facts.steps) + " of run.json");
   }
   hlc::ExportedVehicle vehicle{
       .id = id,
@@ -51,7 +51,7 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
     throw std::runtime_error(
         name + ": the record of what it drove ends " +
         std::to_string((vehicle.planned.size() - vehicle.driven.size()) / per_step) +
-        " steps before its plan, allowed a whole run");
+        " steps before its plan; the run must be complete");
   }
   return vehicle;
 }
@@ -59,10 +59,10 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
 std::string export_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
   const hlc::RunFacts facts = hlc::read_facts(run / "run.json");
   const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
-  if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: nobody drove");
+  if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: no vehicle drove");
   if (facts.period == 0 || facts.period % kInterval != 0) {
     throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
-                             ", allowed multiples of " + std::to_string(kInterval));
+                             ", must be a multiple of " + std::to_string(kInterval));
   }
   const hlc::Scenario scenario =
       hlc::read_scenario(choices.file.empty() ? hlc::kept_choices(run) : choices);
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
       option->needs("--scenario");
     }
   }
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   const auto write = [&] {
     hlc::check_output_files({out}, {run / "run.json", run / "reports.csv"});

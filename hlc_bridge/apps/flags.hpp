@@ -16,11 +16,11 @@ namespace hlc {
 
 [[nodiscard]] inline CLI::Validator vehicle_id_range() { return whole(1, kMaxVehicleId); }
 
-/// The lab's own.
+/// The lab's default.
 inline constexpr const char* kDiscoveryServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
 inline constexpr const char* kDiscoveryServerPort = "11811";
 
-/// Who is asked on the controllers' domain where multicast does not pass.
+/// Machines asked on the controllers' domain where multicast does not pass.
 inline void declare_controller_peers(CLI::App& app, std::vector<std::string>& peers) {
   app.add_option("--controller_peers", peers,
                  "IPv4 addresses of the other machines, asked on the controllers' domain besides "
@@ -43,12 +43,12 @@ struct NetworkFlags {
         ->capture_default_str();
     declare_network(app);
     app.add_option("--startup_timeout_s", startup_timeout_s,
-                   "exit code 3 if somebody is not there by then")
+                   "exit code 3 if a participant is missing by then")
         ->capture_default_str()
         ->check(whole(1, 3600));
   }
 
-  /// Without what only a run needs.
+  /// The flags that do not concern a run.
   void declare_network(CLI::App& app) {
     app.add_option("--dds_domain", dds_domain, "lab domain")->capture_default_str();
     app.add_option("--transport", transport, "lab or loopback")->capture_default_str();

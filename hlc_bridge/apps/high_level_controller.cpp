@@ -18,6 +18,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/hlc_process.hpp"
 #include "hlc_bridge/time/precedence.hpp"
+#include "hlc_bridge/time/wall_time.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/problem_dump.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -38,11 +39,11 @@ struct Flags {
   hlc::ScenarioChoices scenario;
 };
 
-/// What is driven if nobody says what, as the lab control centre does not.
+/// Scenario driven without the flag --scenario: the lab control centre does not pass it.
 constexpr const char* kDefaultScenario = "lab_three_cars";
 
-/// A file as it is; a name means scenarios/<name>.yaml beside the program, where installing puts
-/// them.
+/// A file as it is; a name means scenarios/<name>.yaml beside the program, where the installation
+/// puts them.
 std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
   const std::filesystem::path name = chosen.empty() ? kDefaultScenario : chosen;
   if (std::filesystem::exists(name) || name.has_extension()) return name;
@@ -52,7 +53,7 @@ std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
 
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_ids", flags.vehicle_ids,
-                 "vehicles to control, e.g. 1,2: each by a process of its own")
+                 "vehicles to control, e.g. 1,2: each by a separate process")
       ->delimiter(',')
       ->required()
       ->check(hlc::vehicle_id_range());
@@ -65,7 +66,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--node_id", flags.node_id,
                  "name in the log; default: high_level_controller_<id>");
   app.add_option("--dds_initial_peer", flags.dds_initial_peer,
-                 "accepted and ignored: the lab's scripts pass it, no program reads it");
+                 "accepted and ignored: the lab's scripts pass it, but no program reads it");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
@@ -74,19 +75,18 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option(
       "--dump-problems,--dump_problems", flags.problem_folder,
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
-      "written after a step's command; what is planned stays the same, but in real time "
-      "a slow disk may make the next step late. Refused if a policy drives (give --policy none)");
+      "written after a step's command; plans stay the same, but in real time "
+      "a slow disk may delay the next step. Refused if a policy drives (give --policy none)");
   app.add_option("--thread_priority", flags.thread_priority,
-                 "real-time priority of the thread that plans, where the system allows it; 0: none")
+                 "real-time priority of the planning thread, where the system allows it; 0: none")
       ->capture_default_str()
       ->check(hlc::whole(0, hlc::kMaxThreadPriority));
-  app.add_option("--core", flags.core, "processor core on which it plans; default: any")
+  app.add_option("--core", flags.core, "processor core of the planning thread; default: any")
       ->check(hlc::whole(0, hlc::kMaxCore));
   flags.network.declare(app);
   app.footer(
-      "Exit codes: 0 good, 1 good but --dump-problems has not written all, 2 bad input, 3 somebody "
-      "did not appear, 4 the middleware or lab control "
-      "died.");
+      "Exit codes: 0 success, 1 success, but --dump-problems is incomplete, 2 invalid input, 3 "
+      "startup timeout, 4 the middleware or lab control died.");
 }
 
 hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
@@ -112,8 +112,13 @@ hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
   options.controller_peers = flags.controller_peers;
   options.thread_priority = flags.thread_priority;
   options.core = flags.core;
-  options.logical_time = network.simulated_time;
   options.startup_timeout = network.startup_timeout();
+  options.time = hlc::run_time(network.simulated_time);
+  const bool keeps_commands = options.transport == hlc::Transport::kLoopback;
+  options.rules = network.simulated_time
+                      ? hlc::rules_in_logical_time(keeps_commands)
+                      : hlc::rules_in_real_time(keeps_commands, hlc::StepDeadlines{},
+                                                hlc::nanoseconds(options.startup_timeout));
   return options;
 }
 
@@ -150,7 +155,7 @@ int main(int argc, char** argv) {
     scenario = hlc::read_scenario(flags.scenario);
     if (flags.problem_folder && scenario->policy != hlc::kNoPolicy) {
       throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
-                                  ", allowed with --policy none: a problem names a subgraph that "
+                                  " requires --policy none: a problem names a subgraph that "
                                   "the automaton's file declares");
     }
   });

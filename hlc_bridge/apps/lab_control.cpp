@@ -1,4 +1,5 @@
-// The lab control of a run: starts, releases the ticks of logical time, watches, stops, records.
+// The lab control of a run: starts it, releases the ticks of logical time, monitors, stops and
+// records it.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -10,6 +11,8 @@
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
+#include "hlc_bridge/lab_control/logical_run.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/lab_control_process.hpp"
 
@@ -45,12 +48,13 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
   app.add_option(
          "--on_death", flags.on_death,
-         "stop: drive out the plans, then end the run; continue (real time): go on, and who "
-         "died may be started again")
+         "stop: minimal-risk stop of all cars, then end of the run; continue (real time): go on; a "
+         "process that died may be restarted")
       ->capture_default_str()
       ->check(CLI::IsMember({"stop", "continue"}));
   app.footer(
-      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 somebody died during the run "
+      "Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 a process died during the "
+      "run "
       "(--on_death continue: and was not back at its end), 130 interrupted.");
 }
 
@@ -70,9 +74,8 @@ hlc::LabControlOptions process_options(const Flags& flags) {
   if (flags.on_death == "continue") {
     if (flags.network.simulated_time) {
       throw std::invalid_argument(
-          "--on_death = continue with --simulated_time = true, allowed stop: logical time waits "
-          "for "
-          "everybody");
+          "--on_death = continue with --simulated_time = true, must be stop: logical time waits "
+          "for all processes");
     }
     options.run.on_death = hlc::OnDeath::kContinue;
   }
@@ -90,7 +93,10 @@ hlc::LabControlOptions process_options(const Flags& flags) {
   options.discovery_server = flags.network.discovery_server();
   hlc::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
-  options.logical_time = flags.network.simulated_time;
+  if (flags.network.simulated_time) {
+    options.time = hlc::kLogicalTime;
+    options.make_run = hlc::make_lab_run<hlc::LogicalRun>;
+  }
   options.out = flags.out;
   options.is_terminal = isatty(STDERR_FILENO) != 0;
   return options;
@@ -101,7 +107,7 @@ hlc::LabControlOptions process_options(const Flags& flags) {
 int main(int argc, char** argv) {
   hlc::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_color_mt(hlc::kLabControlName));
-  CLI::App app{"Lab control: starts, clocks, watches, stops and records a run.",
+  CLI::App app{"Lab control: starts, clocks, monitors, stops and records a run.",
                hlc::kLabControlName};
   Flags flags;
   declare(app, flags);

@@ -1,4 +1,4 @@
-// Looks at a lab before or during a run, and says what is missing and what to do.
+// Checks a lab before or during a run and reports what is missing and what to do.
 #include <algorithm>
 #include <atomic>
 #include <iostream>
@@ -30,7 +30,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->required()
       ->check(hlc::vehicle_id_range());
   app.add_option("--middleware_domain", flags.middleware_domain,
-                 "local domain of this machine; default: the middleware is not looked for");
+                 "local domain of this machine; default: no check of the middleware");
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   hlc::declare_controller_peers(app, flags.controller_peers);
@@ -39,7 +39,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::within(0.5, 600.0));
   flags.network.declare_network(app);
   app.footer(
-      "Exit codes: 0 nothing is bad, 1 something is bad, 2 bad input or an output that cannot be "
+      "Exit codes: 0 no bad finding, 1 a bad finding, 2 invalid input or an output that cannot be "
       "written.");
 }
 
@@ -59,8 +59,8 @@ hlc::ListenOptions listen_options(const Flags& flags) {
   return options;
 }
 
-/// @return whether nothing is bad
-bool tell(const std::vector<hlc::Finding>& findings) {
+/// @return true if no finding is bad
+bool print(const std::vector<hlc::Finding>& findings) {
   bool is_good = true;
   for (const hlc::Finding& finding : findings) {
     const char* const mark = finding.verdict == hlc::Verdict::kGood   ? "good"
@@ -77,7 +77,7 @@ bool tell(const std::vector<hlc::Finding>& findings) {
 
 int main(int argc, char** argv) {
   hlc::StopSignals signals;
-  CLI::App app{"Looks at a lab before or during a run: who answers, what is left over, what to do.",
+  CLI::App app{"Checks a lab before or during a run: participants, leftovers, remedies.",
                "lab_doctor"};
   Flags flags;
   declare(app, flags);
@@ -94,11 +94,11 @@ int main(int argc, char** argv) {
     }
     signals.on_stop([&stop](int) { stop = true; });
     findings.push_back(hlc::leftovers(hlc::shared_memory_files()));
-    const hlc::Heard heard =
-        hlc::listen(options, [&stop](const hlc::Heard&) { return stop.load(); });
-    std::ranges::move(hlc::diagnose(flags.vehicle_ids, heard, hlc::program_version()),
+    const hlc::Received received =
+        hlc::listen(options, [&stop](const hlc::Received&) { return stop.load(); });
+    std::ranges::move(hlc::diagnose(flags.vehicle_ids, received, hlc::program_version()),
                       std::back_inserter(findings));
-    is_good = tell(findings);
+    is_good = print(findings);
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
   return is_good ? 0 : 1;

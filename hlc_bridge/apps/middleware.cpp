@@ -42,7 +42,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_flag("--keep_running", flags.keep_running,
                "wait for the next experiment after a stop (real time)");
-  app.footer("Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died.");
+  app.footer("Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
 hlc::MiddlewareOptions process_options(const Flags& flags) {
@@ -64,18 +64,22 @@ hlc::MiddlewareOptions process_options(const Flags& flags) {
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = flags.network.discovery_server();
-  options.logical_time = flags.network.simulated_time;
+  const bool is_logical = flags.network.simulated_time;
+  const bool beside_lab_programs = options.transport == hlc::Transport::kLab;
+  options.time = hlc::run_time(is_logical);
+  options.rules = is_logical ? hlc::logical_middleware_rules(beside_lab_programs)
+                             : hlc::real_middleware_rules(beside_lab_programs);
   options.offset = flags.offset_nanoseconds;
   options.startup_timeout = flags.network.startup_timeout();
   if (flags.wait_for_start) {
-    throw std::invalid_argument("--wait_for_start = true, allowed false");
+    throw std::invalid_argument("--wait_for_start = true, must be false");
   }
-  if (options.logical_time && options.keep_running) {
+  if (is_logical && options.keep_running) {
     throw std::invalid_argument("--keep_running needs --simulated_time=false");
   }
-  if (options.logical_time && options.offset != hlc::kListOffset) {
+  if (is_logical && options.offset != hlc::kListOffset) {
     throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +
-                                ", allowed 1 in logical time");
+                                ", must be 1 in logical time");
   }
   return options;
 }

@@ -18,12 +18,13 @@ pid_t start(int id, pid_t parent, const std::function<int(int id)>& run) {
   const pid_t pid = fork();
   if (pid != 0) return pid;
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(kExitDied);  // it ended before it could be watched
+  if (getppid() != parent) _exit(kExitDied);  // the parent ended before prctl took effect
   const int code = run(id);
   std::exit(code);
 }
 
-/// Waits for its end and leaves it a zombie: its pid stays its own for whoever may still signal it.
+/// Waits for the process's end and leaves it a zombie, so that its pid is not reused while a signal
+/// may still be sent to it.
 int exit_code_of(pid_t pid) {
   siginfo_t info{};
   while (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT) < 0) {

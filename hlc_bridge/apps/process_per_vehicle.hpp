@@ -7,11 +7,11 @@
 
 namespace hlc {
 
-/// Runs `run(id)` in a process of its own for every id, as if each had been started alone: what
-/// happens to one happens to no other. They end with this process; SIGINT and SIGTERM are passed
-/// on to them. With one id `run` is called in this process.
+/// Runs `run(id)` in a process of its own for every id, as if each had been started alone: a
+/// failure of one does not affect the others. The processes end with this process; SIGINT and
+/// SIGTERM are forwarded to them. With one id `run` is called in this process.
 ///
-/// @param run  of which the process' exit code is returned; takes the stop signals itself
+/// @param run  returns the process's exit code; handles the stop signals itself
 /// @return the largest exit code; kExitDied for a process that a signal ended
 /// @throws std::system_error if a process cannot be started
 /// @pre this process has one thread: the new ones begin with a copy of it

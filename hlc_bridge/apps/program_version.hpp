@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// As every process tells the others (ParticipantOptions::version), for lab_doctor to compare.
+/// Published by every process (ParticipantOptions::version); lab_doctor compares it.
 [[nodiscard]] inline std::string program_version() {
   return "revision " + program_revision() + ", Fast DDS " + library_version();
 }

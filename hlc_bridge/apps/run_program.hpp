@@ -14,9 +14,9 @@ namespace hlc {
 /// main of a process of a run, once its flags are parsed; returns main's exit code.
 ///
 /// `make` reads the input and makes the process (a shared_ptr to something with `int run()`); an
-/// exception from it is bad input, kExitBadInput. SIGINT and SIGTERM call `stop(process)`. An
-/// exception from the run is a failure of this very process: for the others it has died, kExitDied.
-/// Either is told in one line.
+/// exception from it is invalid input, kExitBadInput. SIGINT and SIGTERM call `stop(process)`. An
+/// exception from the run is a failure of this process: for the others it has died, kExitDied.
+/// Either is logged in one line.
 template <class Make, class Stop>
 int run_program(const std::string& name, StopSignals& signals, Make make, Stop stop) {
   decltype(make()) process;
@@ -26,7 +26,7 @@ int run_program(const std::string& name, StopSignals& signals, Make make, Stop s
     spdlog::error("{}: {}", name, error.what());
     return kExitBadInput;
   }
-  // Shared with the signals' thread, which lives longer than this function.
+  // Shared with the signals' thread, which outlives this function.
   signals.on_stop([process, stop](int) { stop(*process); });
   int exit_code = kExitDied;
   try {

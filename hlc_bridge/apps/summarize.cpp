@@ -1,5 +1,5 @@
-// Reads a run folder, writes steps.csv, timing.csv, summary.json and what was configured, prints
-// the table.
+// Reads a run folder, writes steps.csv, timing.csv, summary.json and the run's configuration,
+// prints the table.
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -31,7 +31,7 @@ hlc::Drives drives_of(const std::filesystem::path& run, const hlc::RunFacts& fac
   for (const std::uint8_t id : facts.vehicle_ids) {
     if (drives.contains(id)) continue;
     std::cerr << "summarize: " << hlc::drive_file(run, id).string()
-              << " is not there; nothing is said about what vehicle " << id + 0 << " drove\n";
+              << " is missing; the result of vehicle " << id + 0 << " has no driven values\n";
   }
   return drives;
 }
@@ -58,7 +58,7 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
   hlc::write_file(run / "summary.json", hlc::summary_json(summary));
   hlc::keep_configuration(run, hlc::files_of(scenario));
   std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  const std::string fault = hlc::fault_of(summary);
+  const std::string fault = hlc::driving_fault(summary);
   if (fault.empty()) return hlc::kExitGood;
   std::cerr << "summarize: " << fault << '\n';
   return hlc::kExitDrivenBadly;
@@ -73,10 +73,10 @@ int main(int argc, char** argv) {
   std::optional<std::uint64_t> noise_seed;
   app.add_option("--run", run, "run folder")->required();
   hlc::declare_scenario_flags(app, choices);
-  app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: it had none")
+  app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: no noise")
       ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
-      "Exit codes: 0 good, 2 bad input or an output that cannot be written, 5 driven, but a "
+      "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 5 driven, but a "
       "vehicle left its plan or touched another "
       "one.");
   if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {

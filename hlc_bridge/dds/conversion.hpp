@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "hlc_bridge/messages/messages.hpp"
+#include "planner/coordination/messages.hpp"
 
 /// Common to all conversions. Only sources of this folder include this file.
 namespace hlc {
 
-/// What came of a message that was received.
+/// Result of converting a received message.
 template <class Message>
 struct Incoming {
   std::optional<Message> message;  ///< nothing: invalid as a whole
@@ -22,7 +23,7 @@ template <class Message>
   return valid ? Incoming<Message>{message, 0} : Incoming<Message>{std::nullopt, 1};
 }
 
-/// More of anything than this is not a message of ours or of the lab.
+/// A message with more entries than this is neither ours nor the lab's.
 inline constexpr std::size_t kMaxEntries = 1000;
 inline constexpr std::size_t kMaxText = 65'536;
 
@@ -33,6 +34,10 @@ template <class... Numbers>
 
 [[nodiscard]] inline bool is_finite(const Pose& pose) {
   return all_finite(pose.x_m, pose.y_m, pose.heading_rad);
+}
+
+[[nodiscard]] constexpr bool is_valid(VehicleId vehicle) {
+  return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId;
 }
 
 }  // namespace hlc

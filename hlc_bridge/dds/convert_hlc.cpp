@@ -7,11 +7,9 @@
 #include <vector>
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
-// until it is carried over.
+// until it is converted.
 namespace hlc {
 namespace {
-
-bool is_valid(VehicleId vehicle) { return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId; }
 
 PoseMessage pose_to_wire(const Pose& pose) {
   PoseMessage result;
@@ -37,10 +35,10 @@ PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
   return result;
 }
 
-/// A search takes no coordinates beyond.
+/// The search accepts no larger coordinates.
 bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= kLargestCoordinate_m; }
 
-/// Without corners that come twice in a row.
+/// Without consecutive duplicate corners.
 ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {
   ConvexPolygon result;
   auto& vertices = result.vertices_m;
@@ -117,7 +115,7 @@ bool is_known(StepStatus status) {
     case StepStatus::kStandby:
     case StepStatus::kPlanned:
     case StepStatus::kFallback:
-    case StepStatus::kDriveOut:
+    case StepStatus::kMinimalRiskStop:
       return true;
   }
   return false;
@@ -154,76 +152,10 @@ bool is_known(PlanQuality quality) {
 bool is_known(RunPhase phase) {
   switch (phase) {
     case RunPhase::kRunning:
-    case RunPhase::kDriveOut:
+    case RunPhase::kMinimalRiskStop:
       return true;
   }
   return false;
-}
-
-bool is_known(RequestOutcome outcome) {
-  switch (outcome) {
-    case RequestOutcome::kAccepted:
-    case RequestOutcome::kInForce:
-    case RequestOutcome::kRefused:
-    case RequestOutcome::kStale:
-      return true;
-  }
-  return false;
-}
-
-std::vector<std::uint32_t> trims_to_wire(const std::vector<TrimId>& trims) {
-  std::vector<std::uint32_t> wire;
-  for (const TrimId trim : trims) wire.push_back(static_cast<std::uint32_t>(trim.index));
-  return wire;
-}
-
-std::vector<TrimId> trims_from_wire(const std::vector<std::uint32_t>& wire) {
-  std::vector<TrimId> trims;
-  for (const std::uint32_t trim : wire) trims.push_back({trim});
-  return trims;
-}
-
-std::vector<EdgeMessage> edges_to_wire(const std::vector<TrimPair>& edges) {
-  std::vector<EdgeMessage> wire(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    wire[i].from(static_cast<std::uint32_t>(edges[i].from.index));
-    wire[i].to(static_cast<std::uint32_t>(edges[i].to.index));
-  }
-  return wire;
-}
-
-std::vector<TrimPair> edges_from_wire(const std::vector<EdgeMessage>& wire) {
-  std::vector<TrimPair> edges;
-  for (const EdgeMessage& edge : wire) edges.push_back({{edge.from()}, {edge.to()}});
-  return edges;
-}
-
-std::vector<CriterionWeightMessage> weights_to_wire(const std::vector<CriterionWeight>& weights) {
-  std::vector<CriterionWeightMessage> wire(weights.size());
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const auto& [criterion, weight] = weights[i];
-    wire[i].criterion(criterion);
-    wire[i].weight(weight);
-  }
-  return wire;
-}
-
-std::vector<CriterionWeight> weights_from_wire(const std::vector<CriterionWeightMessage>& wire) {
-  std::vector<CriterionWeight> weights;
-  for (const CriterionWeightMessage& one : wire) weights.push_back({one.criterion(), one.weight()});
-  return weights;
-}
-
-bool is_valid(const AutomatonRequestMessage& wire) {
-  const auto is_short = [](const auto& entries) { return entries.size() <= kMaxEntries; };
-  return is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
-         is_short(wire.labels()) && is_short(wire.weights()) && is_short(wire.trims_on()) &&
-         is_short(wire.trims_off()) && is_short(wire.edges_on()) && is_short(wire.edges_off()) &&
-         std::ranges::all_of(wire.labels(),
-                             [](const std::string& label) { return label.size() <= kMaxText; }) &&
-         std::ranges::all_of(wire.weights(), [](const CriterionWeightMessage& one) {
-           return one.criterion().size() <= kMaxText && all_finite(one.weight());
-         });
 }
 
 bool is_valid(const ReportMessage& wire) {
@@ -243,8 +175,6 @@ bool can_be_written(const Traffic& message) { return is_valid(message.vehicle); 
 bool can_be_written(const Prediction& message) { return is_valid(message.vehicle); }
 bool can_be_written(const Outcome& message) { return is_valid(message.vehicle); }
 bool can_be_written(const ReportRecord& message) { return is_valid(message.report.vehicle); }
-bool can_be_written(const AutomatonRequest& message) { return is_valid(message.vehicle); }
-bool can_be_written(const AutomatonAnswer& message) { return is_valid(message.vehicle); }
 
 void to_wire(const Traffic& message, TrafficMessage& wire) {
   const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent] = message;
@@ -307,7 +237,7 @@ Incoming<Outcome> from_wire(const OutcomeMessage& wire) {
                           .wants_fallback = wire.wants_fallback()});
 }
 
-// A name that nobody would take is cut: without the report its sender would seem dead.
+// A name that is too long is cut: without the report its sender would seem dead.
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
@@ -368,61 +298,6 @@ void to_wire(const RunState& message, RunStateMessage& wire) {
 Incoming<RunState> from_wire(const RunStateMessage& wire) {
   const auto phase = static_cast<RunPhase>(wire.phase());
   return valid_if(is_known(phase), RunState{phase, wire.start()});
-}
-
-void to_wire(const AutomatonRequest& message, AutomatonRequestMessage& wire) {
-  const auto& [vehicle, id, valid_from, subgraph] = message;
-  const auto& [labels, weights, max_speed_mps, trims_on, trims_off, edges_on, edges_off] = subgraph;
-  wire.vehicle_id(vehicle.value);
-  wire.id(id);
-  wire.valid_from(valid_from);
-  wire.labels(labels);
-  wire.weights(weights_to_wire(weights));
-  wire.limits_speed(max_speed_mps.has_value());
-  wire.max_speed_mps(max_speed_mps.value_or(0.0));
-  wire.trims_on(trims_to_wire(trims_on));
-  wire.trims_off(trims_to_wire(trims_off));
-  wire.edges_on(edges_to_wire(edges_on));
-  wire.edges_off(edges_to_wire(edges_off));
-}
-
-Incoming<AutomatonRequest> from_wire(const AutomatonRequestMessage& wire) {
-  if (!is_valid(wire)) {
-    return {std::nullopt, 1};
-  }
-  SubgraphRequest subgraph{.labels = wire.labels(),
-                           .weights = weights_from_wire(wire.weights()),
-                           .max_speed_mps = {},
-                           .trims_on = trims_from_wire(wire.trims_on()),
-                           .trims_off = trims_from_wire(wire.trims_off()),
-                           .edges_on = edges_from_wire(wire.edges_on()),
-                           .edges_off = edges_from_wire(wire.edges_off())};
-  if (wire.limits_speed()) subgraph.max_speed_mps = wire.max_speed_mps();
-  return {AutomatonRequest{.vehicle = {wire.vehicle_id()},
-                           .id = wire.id(),
-                           .valid_from = wire.valid_from(),
-                           .subgraph = std::move(subgraph)},
-          0};
-}
-
-void to_wire(const AutomatonAnswer& message, AutomatonAnswerMessage& wire) {
-  const auto& [vehicle, id, outcome, step, text] = message;
-  wire.vehicle_id(vehicle.value);
-  wire.id(id);
-  wire.outcome(static_cast<std::uint8_t>(outcome));
-  wire.step(step.value);
-  wire.text(text);
-}
-
-Incoming<AutomatonAnswer> from_wire(const AutomatonAnswerMessage& wire) {
-  const auto outcome = static_cast<RequestOutcome>(wire.outcome());
-  return valid_if(
-      is_valid(VehicleId{wire.vehicle_id()}) && is_known(outcome) && wire.text().size() <= kMaxText,
-      AutomatonAnswer{.vehicle = {wire.vehicle_id()},
-                      .id = wire.id(),
-                      .outcome = outcome,
-                      .step = {wire.step()},
-                      .text = wire.text()});
 }
 
 }  // namespace hlc

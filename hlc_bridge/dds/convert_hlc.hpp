@@ -16,11 +16,11 @@
 /// include this file.
 ///
 /// from_wire refuses a message with a number that is not finite, an unknown enumeration value, a
-/// polygon of one or two vertices, a vehicle id outside 1 ... 30, or more entries than anybody
+/// polygon of one or two vertices, a vehicle id outside 1 ... 30, or more entries than any program
 /// sends.
 namespace hlc {
 
-/// False if the vehicle id is outside 1 ... 30: there would be no room for its instance.
+/// False if the vehicle id is outside 1 ... 30: the topic has no instance for it.
 [[nodiscard]] bool can_be_written(const Traffic& message);
 [[nodiscard]] bool can_be_written(const Prediction& message);
 [[nodiscard]] bool can_be_written(const Outcome& message);

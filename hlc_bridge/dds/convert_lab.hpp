@@ -24,9 +24,9 @@
 /// tests) include this file.
 ///
 /// from_wire refuses a message with a number that is not finite, an unknown enumeration value, more
-/// entries than anybody sends, or a state list with a period of 0. One vehicle's invalid state or
-/// observation in a list, or an active id outside 1 ... 255, does not make the list invalid: it is
-/// left out, and the others are handed on. A goal is carried on as it is: it has fields that are
+/// entries than any program sends, or a state list with a period of 0. One vehicle's invalid state
+/// or observation in a list, or an active id outside 1 ... 255, does not make the list invalid: it
+/// is left out, and the others are passed on. A goal is forwarded as it is: it has fields that are
 /// not set.
 namespace hlc {
 

@@ -37,8 +37,8 @@ void EndpointPeers::on_matched(const fdds::MatchedStatus& status,
     } else if (status.current_count_change == -1) {
       peers_.erase(peer);
     } else {
-      // Two matches at the same moment on two threads of the library: the status holds both and
-      // names the later one only. What is discovered on this topic is what has matched.
+      // Of two matches at the same moment on two threads of the library, the status names only the
+      // later one. The endpoints discovered on this topic are those that have matched.
       peers_ = core_.discovered(kind_, topic_);
     }
   });

@@ -31,8 +31,8 @@ struct LabRow {
   bool late;
 };
 
-// The depths are what can come while a reader's process is held up: vehicle ticks of more than a
-// second; one ready status and some repetitions of every process; the triggers of ten logical
+// A depth covers what can arrive while the reader's process is delayed: vehicle ticks of more than
+// a second; one ready status and some repetitions of every process; the triggers of ten logical
 // seconds.
 constexpr auto kLabTable = std::to_array<LabRow>({
     // clang-format off
@@ -83,11 +83,11 @@ constexpr milliseconds kHeartbeatWithinStep{10};
 
 constexpr int kKeepAllSamples = 5000;  // as in the library's defaults, which the lab uses
 
-// Times do not decide on matching. On loopback a sample gets lost only when a buffer overflows; it
-// is repaired within some 60 ms, against the library's 3 s. Acknowledgements and heartbeats cost a
-// run in logical time a good part of its speed, and so does the nack suppression of the library's
-// default, 0 s: its timer then ends and is started anew with every sample, each time on another
-// thread. In the lab's network heartbeats towards a participant that has died are to stay rare.
+// Times do not affect matching. On loopback a sample is lost only when a buffer overflows; it is
+// repaired within some 60 ms, against the library's 3 s. Acknowledgements and heartbeats slow down
+// a run in logical time considerably, and so does the nack suppression of the library's default, 0
+// s: its timer then ends and restarts with every sample, each time on another thread. In the lab's
+// network heartbeats towards a participant that has died are to stay rare.
 void set_times(EndpointQos& qos, Transport transport) {
   const bool loopback = transport == Transport::kLoopback;
   qos.max_blocking = loopback ? milliseconds{1000} : milliseconds{100};

@@ -11,11 +11,10 @@ namespace hlc {
 enum class Reliability : std::uint8_t { kBestEffort, kReliable };
 enum class Durability : std::uint8_t { kVolatile, kTransientLocal };
 
-/// Every quality of service of one writer or reader that this project decides on. Nothing is left
-/// to the library's defaults, which differ between writers and readers and hold 10 instances only.
-/// Data sharing is always off: a process that dies while it holds the lock of a shared history
-/// makes the writes of all others throw after 1 s. Peers that have it on use the transport towards
-/// us.
+/// The complete quality of service of one writer or reader. Nothing is left to the library's
+/// defaults, which differ between writers and readers and hold 10 instances only. Data sharing is
+/// always off: a process that dies while it holds the lock of a shared history makes the writes of
+/// all others throw after 1 s. Peers that have it on use the transport towards us.
 struct EndpointQos {
   Reliability reliability{};
   Durability durability{};
@@ -26,13 +25,13 @@ struct EndpointQos {
   /// The library may allocate a whole history of the types' nominal sizes at once: good for the
   /// lab's small types, not for lists of polygons.
   bool preallocated{};
-  std::chrono::milliseconds max_blocking{};        ///< a write gives up after this
+  std::chrono::milliseconds max_blocking{};        ///< a write fails after this
   std::chrono::milliseconds heartbeat_period{};    ///< writer: until all is acknowledged
   std::chrono::milliseconds heartbeat_delay{};     ///< writer: before the first one
   std::chrono::milliseconds nack_response{};       ///< writer: from a loss reported to its repair
   std::chrono::milliseconds nack_suppression{};    ///< writer: repeated reports ignored for
   std::chrono::milliseconds initial_acknack{};     ///< reader: from the match to the first report
-  std::chrono::milliseconds heartbeat_response{};  ///< reader: from a heartbeat to the report
+  std::chrono::milliseconds heartbeat_response{};  ///< reader: from a heartbeat to its report
 };
 
 struct TopicQos {

@@ -16,17 +16,17 @@
 #if defined(__SANITIZE_ADDRESS__)
 // Fast DDS 2.9 frees the pool of every writer and reader through a base class without virtual
 // destructor: harmless, but the address sanitizer would end each of our processes at its first
-// endpoint. It asks this function for defaults.
+// endpoint. The sanitizer asks this function for its options.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "new_delete_type_mismatch=0"; }
 #endif
 
 namespace eprosima::fastrtps::rtps {
 
-// Takes the place of the library's function of that name, and calls it. In 2.9 a participant that
-// leaves keeps its flag that its lease is to be looked at, while it loses its name. The thread of
-// the timers may be about to look, and wait for the lock that the leaving takes: an assertion, with
-// which Debian builds the library, then ends the process, for nothing.
+// Replaces the library's function of that name, and calls it. In 2.9 a participant that leaves
+// keeps the flag for its lease check while it loses its name. The timer thread may be about to
+// check the lease, and wait for the lock that the removal holds: an assertion, with which Debian
+// builds the library, then ends the process without need.
 void ParticipantProxyData::clear() {
   using Clear = void (*)(ParticipantProxyData*);
   static const auto library_clear = reinterpret_cast<Clear>(

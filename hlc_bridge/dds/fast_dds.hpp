@@ -23,7 +23,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-/// The one entry to Fast DDS: its headers, and under names of our own whatever of it changes from
+/// The only entry to Fast DDS: its headers, and our own names for everything that changes from
 /// version to version (2.9 here; 2.11 to 2.14 deprecate, 3.x moves and renames). The rest of this
 /// folder uses these names and the DDS standard's, which stay. Only sources of this folder include
 /// this file.
@@ -45,22 +45,22 @@ using LibraryReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
 /// The library's own errors go to stderr.
 void log_library_errors();
-/// A write never runs a reader's callback in its own thread.
+/// A write never runs a reader's callback in the writing thread.
 void turn_off_delivery_within_process();
-/// Made by one thread: discovery threads of two participants would make them at the same time, and
-/// one of each would be lost.
+/// Called by one thread: the discovery threads of two participants would create the factories at
+/// the same time, and one of each would be lost.
 void make_type_factories();
 /// Such as "2.9.1".
 [[nodiscard]] std::string fast_dds_version();
 
-/// What discovery tells.
+/// Events of discovery.
 class DiscoveryListener : private fdds::DomainParticipantListener {
  protected:
   struct FoundParticipant {
     frtps::GuidPrefix_t prefix;
     std::string name;
     std::string user_data;
-    bool is_there{};  ///< false: it has left, or was silent for its lease
+    bool is_there{};  ///< false: it has left, or its lease has expired
   };
   struct FoundEndpoint {
     frtps::GUID_t guid;
@@ -84,7 +84,7 @@ class DiscoveryListener : private fdds::DomainParticipantListener {
                               frtps::WriterDiscoveryInfo&& info) final;
 };
 
-/// The generated type support, but bytes that it cannot read are "not a message" instead of an
+/// The generated type support, except that bytes it cannot read yield "not a message" instead of an
 /// exception on the library's receiving thread.
 template <class PubSubType>
 class TolerantType : public PubSubType {

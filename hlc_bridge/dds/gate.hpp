@@ -5,8 +5,8 @@
 
 namespace hlc {
 
-/// Lets one callback at a time through, and none after close: what a callback uses can then be
-/// destroyed.
+/// Admits one callback at a time, and none after close: the objects that a callback uses can then
+/// be destroyed.
 class Gate {
  public:
   template <class Callback>
@@ -17,7 +17,7 @@ class Gate {
     }
   }
 
-  /// Waits for a callback that is inside.
+  /// Waits for a running callback.
   void close() {
     const std::lock_guard lock{mutex_};
     open_ = false;

@@ -4,8 +4,8 @@
 
 #include "hlc_bridge/dds/fast_dds.hpp"
 
-/// What every participant, writer and reader needs of Fast DDS. Only sources of this folder include
-/// it.
+/// Everything of Fast DDS that participants, writers and readers need. Only sources of this folder
+/// include it.
 namespace hlc {
 
 /// Once per process, before its first participant: registers the lab's types
@@ -13,7 +13,7 @@ namespace hlc {
 /// errors to stderr.
 ///
 /// Without delivery within the process a write never calls a reader's callback in the writing
-/// thread, and two participants in one test talk exactly as two processes do.
+/// thread, and two participants in one test communicate exactly as two processes do.
 void set_up_library();
 
 [[nodiscard]] LibraryDuration to_duration(std::chrono::nanoseconds time);

@@ -5,7 +5,7 @@
 namespace hlc {
 namespace {
 
-// What writers and readers have in common.
+// Common to writers and readers.
 template <class LibraryQos>
 void set_common(const EndpointQos& qos, LibraryQos& result) {
   result.reliability().kind = qos.reliability == Reliability::kReliable

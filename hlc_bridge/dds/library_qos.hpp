@@ -3,7 +3,7 @@
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 #include "hlc_bridge/dds/fast_dds.hpp"
 
-/// Our quality of service in the library's words. Only sources of this folder include this file.
+/// Our quality of service as the library's. Only sources of this folder include this file.
 namespace hlc {
 
 [[nodiscard]] fdds::DataWriterQos writer_qos(const EndpointQos& qos);

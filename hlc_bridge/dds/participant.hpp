@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hlc_bridge/dds/transport.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc {
 
@@ -20,29 +21,27 @@ struct ParticipantOptions {
   int domain_id{};
   DomainRole role{DomainRole::kLab};
   Transport transport{Transport::kLoopback};
-  bool logical_time{};  ///< lease of 10 s instead of 2 s: that long after its death others see it
-                        ///< as lost
+  /// That long after its death others see it as lost.
+  Nanoseconds lease{2 * kNanosecondsPerSecond};
   std::optional<DiscoveryServer> discovery_server;  ///< none: simple discovery (multicast)
   bool is_discovery_server{};  ///< it is that server itself, not a client of it
-  /// IPv4 addresses of machines that are asked, too, where multicast does not pass. Simple
-  /// discovery only.
+  /// IPv4 addresses of machines to ask, too, where multicast does not pass. Simple discovery only.
   std::vector<std::string> peers{};
-  /// Of the program, told to all others on the domain.
+  /// Version of the program, published to all others on the domain.
   std::string version{};
-  /// Called on a DDS thread, once per reader and kind, with a line for the log: a message held
-  /// something invalid, or was lost (Reader::dropped, Reader::lost). It must only queue where a
-  /// line of the log goes to a topic, too.
+  /// Called on a DDS thread, once per reader and kind, with a line for the log: a message contained
+  /// an invalid entry, or was lost (Reader::dropped, Reader::lost). It must only queue if log lines
+  /// are themselves published on a topic.
   std::function<void(const std::string& line)> on_loss{};
 };
 
-/// One process on one domain: the entry to DDS, and who else is there.
+/// One process on one domain: the entry to DDS, and the presence of others.
 ///
-/// The first participant of a process registers the lab's types. Processes have at most one
-/// participant per domain. Topics that the process itself writes are not heard by its own readers
-/// on the same participant.
+/// The first participant of a process registers the lab's types. A process has at most one
+/// participant per domain. A participant's own readers do not receive what its writers publish.
 ///
-/// Writers and readers keep what they need of the participant alive: any order of destruction is
-/// good.
+/// Writers and readers keep the parts of the participant that they need alive: the order of
+/// destruction does not matter.
 class Participant {
  public:
   /// `on_presence_change` is called on a DDS thread after a change of alive() or lost(), possibly
@@ -57,12 +56,12 @@ class Participant {
   /// Names of the other participants now on the domain.
   [[nodiscard]] std::set<std::string> alive() const;
   [[nodiscard]] bool is_alive(const std::string& name) const;
-  /// Names that were there and are not any more: left, or silent for their lease. A name that comes
-  /// back is alive and no longer lost.
+  /// Names that have left, or whose lease has expired. A name that returns is alive and no longer
+  /// lost.
   [[nodiscard]] std::set<std::string> lost() const;
   [[nodiscard]] bool is_lost(const std::string& name) const;
 
-  /// Who of them told a version, and which, by name.
+  /// Version of each participant that publishes one, by name.
   [[nodiscard]] std::map<std::string, std::string> versions() const;
 
   /// Waits until all these names are alive; false if `deadline` passes first.

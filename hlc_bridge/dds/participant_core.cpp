@@ -29,8 +29,8 @@ ParticipantCore::ParticipantCore(const ParticipantOptions& options,
     : options_{options}, on_presence_change_{std::move(on_presence_change)} {
   check_domain_id("domain of participant " + options_.name, options_.domain_id);
   if (options_.name.empty() || options_.name.size() > kMaxParticipantName) {
-    throw std::invalid_argument("participant name \"" + options_.name + "\": 1 to " +
-                                std::to_string(kMaxParticipantName) + " characters are allowed");
+    throw std::invalid_argument("participant name \"" + options_.name + "\" must have 1 ... " +
+                                std::to_string(kMaxParticipantName) + " characters");
   }
   const fdds::DomainParticipantQos qos = participant_qos(options_);
   set_up_library();

@@ -20,15 +20,14 @@ namespace hlc {
 
 class EndpointPeers;
 
-/// What is at the other end of a match.
+/// The other end of a match.
 enum class PeerKind : std::uint8_t { kReader, kWriter };
 
 /// The Fast DDS participant with its presence, and what its endpoints share. Lives as long as the
 /// last of them.
 ///
 /// Locks: `mutex_` guards the tables and is never held while something else is called; the gates
-/// are held while the user's callback runs. DDS locks come before gates, gates before the user's
-/// locks, `mutex_` last.
+/// are held while the user's callback runs. Order: DDS locks, gates, the user's locks, `mutex_`.
 class ParticipantCore : private DiscoveryListener {
  public:
   ParticipantCore(const ParticipantOptions& options, std::function<void()> on_presence_change);
@@ -53,7 +52,7 @@ class ParticipantCore : private DiscoveryListener {
     return access(presence_);
   }
 
-  /// `change()` under the lock, then everybody in wait_until looks again.
+  /// `change()` under the lock, then every wait_until checks its condition again.
   template <class Change>
   auto update(Change&& change) {
     const std::lock_guard lock{mutex_};
@@ -69,7 +68,7 @@ class ParticipantCore : private DiscoveryListener {
   }
 
   /// Other participants' endpoints of that kind on a topic, as far as discovered (matching or not).
-  /// With the lock held, from within `update`.
+  /// @pre the lock is held: within `update`
   [[nodiscard]] std::set<frtps::GUID_t> discovered(PeerKind kind, const std::string& topic) const;
 
   /// Notifies the peers also when presence changes, since their names can become known then.

@@ -13,8 +13,6 @@ namespace {
 using fdds::DomainParticipantQos;
 using namespace std::chrono_literals;
 
-constexpr auto kRealTimeLease = 2s;
-constexpr auto kLogicalTimeLease = 10s;
 constexpr int kAnnouncementsPerLease = 8;
 constexpr std::uint32_t kParticipantsPerMachine = 32;     // of one domain, that a peer is asked for
 constexpr const char* kMulticastAddress = "239.255.0.1";  // the standard's
@@ -39,13 +37,13 @@ void set_transport(const ParticipantOptions& options, DomainParticipantQos& qos)
 
 void set_lease(const ParticipantOptions& options, DomainParticipantQos& qos) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  const std::chrono::nanoseconds lease = options.logical_time ? kLogicalTimeLease : kRealTimeLease;
+  const std::chrono::nanoseconds lease(options.lease);
   discovery.leaseDuration = to_duration(lease);
   discovery.leaseDuration_announcementperiod = to_duration(lease / kAnnouncementsPerLease);
   discovery.initial_announcements = {5, to_duration(100ms)};
 }
 
-// A list of peers takes the place of multicast, which goes on being asked here.
+// A list of peers replaces multicast, which is to stay in use here.
 void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
   if (options.peers.empty()) return;
   auto& initial_peers = qos.wire_protocol().builtin.initialPeersList;
@@ -54,13 +52,13 @@ void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
   for (const std::string& address : addresses) {
     frtps::Locator_t locator;  // port 0: those of the domain
     if (!frtps::IPLocator::setIPv4(locator, address)) {
-      throw std::invalid_argument("peer \"" + address + "\", allowed IPv4 addresses");
+      throw std::invalid_argument("peer \"" + address + "\", must be an IPv4 address");
     }
     initial_peers.push_back(locator);
   }
 }
 
-// As the lab's own clients do it.
+// As in the lab's own clients.
 void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::SIMPLE;
@@ -94,7 +92,7 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::CLIENT;
   discovery.m_DiscoveryServers.push_back(server);
   discovery.discoveryServer_client_syncperiod = to_duration(250ms);
-  // Any port of ours, unicast: a client needs no multicast.
+  // Any free port, unicast: a client needs no multicast.
   qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(frtps::Locator_t{});
 }
 

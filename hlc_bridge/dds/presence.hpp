@@ -11,22 +11,22 @@ namespace hlc {
 /// What identifies a participant on the wire (the first 12 bytes of a GUID).
 using ParticipantKey = std::array<std::uint8_t, 12>;
 
-/// Who is on a domain. Several participants can bear one name: the name is alive as long as one of
-/// them is. Not thread-safe.
+/// The participants on a domain. Several of them can have one name: the name is alive as long as
+/// one of them is. Not thread-safe.
 class Presence {
  public:
-  /// @param version  empty: it says none
+  /// @param version  empty: not published
   void appeared(const ParticipantKey& key, const std::string& name,
                 const std::string& version = "");
   void left(const ParticipantKey& key);
 
-  /// Names that somebody bears now.
+  /// Names of the present participants.
   [[nodiscard]] const std::set<std::string>& alive() const { return alive_; }
-  /// Names that somebody bore and nobody bears now.
+  /// Names of participants that were present, without those that are.
   [[nodiscard]] const std::set<std::string>& lost() const { return lost_; }
-  /// By name, of those that are there and say theirs.
+  /// By name, of the present participants that publish one.
   [[nodiscard]] std::map<std::string, std::string> versions() const;
-  /// nullptr if that participant is not there.
+  /// nullptr if that participant is not present.
   [[nodiscard]] const std::string* name_of(const ParticipantKey& key) const;
 
  private:

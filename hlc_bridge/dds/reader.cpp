@@ -9,7 +9,7 @@
 namespace hlc {
 namespace {
 
-// Converts, hands on what is valid, returns the number of what is not.
+// Converts, passes on the valid message, returns the number of invalid entries.
 template <class Message>
 std::function<std::uint64_t(const void*)> converting(
     std::function<void(const Message&)> on_message) {

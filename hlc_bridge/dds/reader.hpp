@@ -15,7 +15,7 @@ namespace hlc {
 
 class ReaderEndpoint;  // Fast DDS lives behind this
 
-/// Hands on every valid message of one topic, in the order of arrival (per writer: of writing).
+/// Passes on every valid message of one topic, in the order of arrival (per writer: of writing).
 ///
 /// A message is valid if its enumerations are in range, all numbers are finite and sizes are
 /// plausible (convert_lab.hpp, convert_hlc.hpp). Others are dropped and counted.
@@ -37,7 +37,7 @@ class Reader {
 
   /// Number of writers matched now (those of the own participant do not count).
   [[nodiscard]] std::size_t matched() const;
-  /// Names of the participants that they belong to.
+  /// Names of the writers' participants.
   [[nodiscard]] std::set<std::string> matched_names() const;
   /// Waits until at least `count` writers are matched; false if `deadline` passes first.
   [[nodiscard]] bool wait_for_matched(std::size_t count,

@@ -41,7 +41,7 @@ void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
       if (info.valid_data && !core_->is_own(frtps::iHandle2GUID(info.publication_handle))) {
         const std::uint64_t invalid = on_sample_(sample.get());
         if (invalid > 0 && dropped_.fetch_add(invalid) == 0) {
-          tell(*reader, "what came holds something that is not valid, and is left out (told once)");
+          log(*reader, "invalid content received and dropped (logged once)");
         }
       }
     }
@@ -65,11 +65,11 @@ void ReaderEndpoint::on_sample_rejected(fdds::DataReader* reader,
 
 void ReaderEndpoint::count_lost(const fdds::DataReader& reader, std::uint64_t count) {
   if (count > 0 && lost_.fetch_add(count) == 0) {
-    tell(reader, "a message was lost (told once)");
+    log(reader, "message lost (logged once)");
   }
 }
 
-void ReaderEndpoint::tell(const fdds::DataReader& reader, const std::string& what) const {
+void ReaderEndpoint::log(const fdds::DataReader& reader, const std::string& what) const {
   const auto& on_loss = core_->options().on_loss;
   if (on_loss) on_loss("topic " + reader.get_topicdescription()->get_name() + ": " + what);
 }

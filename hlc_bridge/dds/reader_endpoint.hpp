@@ -36,7 +36,7 @@ class ReaderEndpoint : private fdds::DataReaderListener {
   void on_sample_rejected(fdds::DataReader* reader,
                           const fdds::SampleRejectedStatus& status) override;
   void count_lost(const fdds::DataReader& reader, std::uint64_t count);
-  void tell(const fdds::DataReader& reader, const std::string& what) const;
+  void log(const fdds::DataReader& reader, const std::string& what) const;
 
   std::shared_ptr<ParticipantCore> core_;
   fdds::TypeSupport type_;

@@ -10,7 +10,7 @@
 
 namespace hlc {
 
-/// Which row of the table of quality of service (endpoint_qos.hpp) holds for a topic.
+/// The row of the table of quality of service (endpoint_qos.hpp) for a topic.
 enum class TopicId : std::uint8_t {
   kVehicleState,
   kVehicleObservation,
@@ -34,7 +34,7 @@ enum class TopicId : std::uint8_t {
   kAutomatonAnswer,
 };
 
-/// A topic and what is said on it: writers and readers of anything else do not compile.
+/// A topic and its message type: writers and readers of another type do not compile.
 template <class Message>
 struct Topic {
   TopicId id;

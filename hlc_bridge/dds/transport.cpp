@@ -13,14 +13,14 @@ std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
 [[noreturn]] void refuse(const std::string& flag, const std::string& value,
                          const std::string& allowed) {
-  throw std::invalid_argument(flag + ": " + value + " is not allowed, " + allowed);
+  throw std::invalid_argument(flag + ": " + value + ", must be " + allowed);
 }
 
 void refuse_equal(const char* first_flag, const std::optional<int>& first, const char* second_flag,
                   const std::optional<int>& second) {
   if (first && second && *first == *second) {
     refuse(second_flag, std::to_string(*second),
-           std::string{"it must differ from "} + first_flag + " " + std::to_string(*first));
+           std::string{"different from "} + first_flag + " " + std::to_string(*first));
   }
 }
 
@@ -39,7 +39,7 @@ Transport transport_from_name(const std::string& name) {
 void check_domain_id(const std::string& flag, int id) {
   if (id < kMinDomainId || id > kMaxDomainId) {
     refuse(flag, std::to_string(id),
-           std::to_string(kMinDomainId) + " to " + std::to_string(kMaxDomainId));
+           "in " + std::to_string(kMinDomainId) + " ... " + std::to_string(kMaxDomainId));
   }
 }
 
@@ -68,7 +68,7 @@ int default_controller_domain(int lab_domain) {
   const int domain = lab_domain + 50;
   if (domain > 100) {
     refuse("--controller_domain", "the default --dds_domain + 50 = " + std::to_string(domain),
-           "above 100 it must be given");
+           "<= 100, or given");
   }
   return domain;
 }
@@ -91,7 +91,7 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
   }
   if (mode != "client") {
     if (mode.empty() && !(server_id + server_ip + server_port).empty()) {
-      refuse("--discovery_mode", quoted(mode), "with a discovery server it must be client");
+      refuse("--discovery_mode", quoted(mode), "client with a discovery server");
     }
     return std::nullopt;
   }
@@ -105,7 +105,7 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
   const char* const end = server_port.data() + server_port.size();
   const auto [parsed_end, error] = std::from_chars(server_port.data(), end, server.port);
   if (error != std::errc{} || parsed_end != end || server.port == 0) {
-    refuse("--discovery_server_port", quoted(server_port), "1 to 65535");
+    refuse("--discovery_server_port", quoted(server_port), "in 1 ... 65535");
   }
   return server;
 }

@@ -10,14 +10,14 @@ namespace hlc {
 /// How the participants of a run reach each other.
 enum class Transport : std::uint8_t {
   kLoopback,  ///< UDP on 127.0.0.1 only, every topic reliable; leaves nothing in /dev/shm
-  kLab,       ///< what the lab's processes hear and speak: lab domain UDP, local domain shared
-              ///< memory only, controller domain UDP; reliability and histories as in the lab
+  kLab,       ///< as the lab's processes: lab domain UDP, local domain shared memory only,
+              ///< controller domain UDP; reliability and histories as in the lab
 };
 
 /// "loopback" or "lab"; throws std::invalid_argument for anything else.
 [[nodiscard]] Transport transport_from_name(const std::string& name);
 
-/// What a domain is for. It decides on transport and quality of service.
+/// Purpose of a domain; it determines transport and quality of service.
 enum class DomainRole : std::uint8_t {
   kLab,         ///< lab control, middleware, vehicles, controllers
   kLocal,       ///< one middleware and its controller
@@ -38,15 +38,15 @@ inline constexpr int kMaxDomainId = 232;  ///< the library ends the whole proces
 void check_domain_id(const std::string& flag, int id);
 
 /// Throws std::invalid_argument for a number out of range and for two equal numbers. Lab = local is
-/// allowed with Transport::kLab, as the lab itself does it (vehicle 21 on lab domain 21). Returns
-/// warnings, one line each.
+/// accepted with Transport::kLab, as in the lab (vehicle 21 on lab domain 21). Returns warnings,
+/// one line each.
 [[nodiscard]] std::vector<std::string> check_domains(const Domains& domains, Transport transport);
 
 /// Lab domain + 50, the default of --controller_domain. Throws std::invalid_argument if that is
-/// above 100, where ports can collide with those that the system hands out: then it must be given.
+/// above 100, where ports can collide with ephemeral ports of the system: then it must be given.
 [[nodiscard]] int default_controller_domain(int lab_domain);
 
-/// The server through which a client finds the others where multicast does not work (lab wire
+/// The server through which a client discovers the others where multicast does not work (lab wire
 /// contract, 1).
 struct DiscoveryServer {
   std::string guid_prefix;  ///< "44.53.00.5f.45.50.52.4f.53.49.4d.41": 12 bytes in hexadecimal
@@ -55,10 +55,9 @@ struct DiscoveryServer {
 };
 
 /// The lab's flags --discovery_mode, --discovery_server_id, --discovery_server_ip,
-/// --discovery_server_port as given
-/// ("" if not). Nothing if none is given or the mode is "simple"; throws std::invalid_argument
-/// naming the flag if the mode is neither "simple" nor "client", or if something is missing or
-/// malformed.
+/// --discovery_server_port as given ("" if not). Nothing if none is given or the mode is "simple";
+/// throws std::invalid_argument naming the flag if the mode is neither "simple" nor "client", or if
+/// something is missing or malformed.
 [[nodiscard]] std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
                                                                   const std::string& server_id,
                                                                   const std::string& server_ip,

@@ -28,8 +28,8 @@
 #include "hlc_bridge/dds/convert_lab.hpp"
 #include "hlc_bridge/dds/fast_dds.hpp"
 
-/// Which generated type carries a plain message. Only sources of this folder (and its tests)
-/// include this file.
+/// The generated type of each plain message. Only sources of this folder (and its tests) include
+/// this file.
 namespace hlc {
 
 template <class Message>

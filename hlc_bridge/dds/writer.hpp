@@ -16,9 +16,9 @@ class WriterEndpoint;  // Fast DDS lives behind this
 
 /// Writes messages of one type on one topic.
 ///
-/// What is written on a volatile topic before a reader has matched is lost for it: who must not
-/// lose a first message waits for the match on the writer's side. Matches with the own participant
-/// do not count.
+/// A message written on a volatile topic before a reader has matched is lost for that reader: where
+/// the first message must not be lost, wait for the match on the writer's side. Matches with the
+/// own participant do not count.
 template <class Message>
 class Writer {
  public:
@@ -39,7 +39,7 @@ class Writer {
 
   /// Number of readers matched now.
   [[nodiscard]] std::size_t matched() const;
-  /// Names of the participants that they belong to.
+  /// Names of the readers' participants.
   [[nodiscard]] std::set<std::string> matched_names() const;
   /// Waits until at least `count` readers are matched; false if `deadline` passes first.
   [[nodiscard]] bool wait_for_matched(std::size_t count,

@@ -24,7 +24,8 @@ WriterEndpoint::~WriterEndpoint() {
   peers_->close();
   writer_->set_listener(nullptr);
   // Fast DDS 2.9 releases the history piece by piece while a heartbeat on another thread may still
-  // walk over it, for ever in the worst case. What is not acknowledged by now is lost either way.
+  // iterate over it, in the worst case without end. Samples not acknowledged by now are lost either
+  // way.
   std::size_t removed = 0;
   writer_->clear_history(&removed);
   core_->publisher().delete_datawriter(writer_);

@@ -26,27 +26,27 @@ std::string milliseconds(std::int64_t ns) {
   return rounded(1e-6 * static_cast<double>(ns)) + " ms";
 }
 
-Finding of_lab_control(const Heard& heard) {
-  if (!heard.lab_control_answers) {
+Finding of_lab_control(const Received& received) {
+  if (!received.lab_control_answers) {
     return {Verdict::kBad, "lab control: no answer to a parameter request",
             "start the lab control centre or lab_control, with the same --dds_domain and "
             "--transport"};
   }
   const std::string period =
-      heard.period_ms ? ", period " + std::to_string(*heard.period_ms) + " ms" : "";
+      received.period_ms ? ", period " + std::to_string(*received.period_ms) + " ms" : "";
   return {Verdict::kGood, "lab control: answers" + period, ""};
 }
 
-Finding of_vehicle(int id, const Heard& heard) {
+Finding of_vehicle(int id, const Received& received) {
   const std::string name = "vehicle " + std::to_string(id) + ": ";
-  const auto found = heard.vehicles.find(static_cast<std::uint8_t>(id));
-  if (found == heard.vehicles.end()) {
+  const auto found = received.vehicles.find(static_cast<std::uint8_t>(id));
+  if (found == received.vehicles.end()) {
     return {Verdict::kBad, name + "no state",
             "start it (vehicle_sim, or the car), with the same --dds_domain; between machines "
             "multicast must pass, or all must reach the same discovery server"};
   }
-  const HeardVehicle& vehicle = found->second;
-  const double rate_hz = static_cast<double>(vehicle.states) / heard.listened_s.count();
+  const ReceivedVehicle& vehicle = found->second;
+  const double rate_hz = static_cast<double>(vehicle.states) / received.listened_s.count();
   const std::string states = rounded(rate_hz) + " states per second";
   if (!vehicle.is_located) {
     return {Verdict::kBad,
@@ -54,7 +54,7 @@ Finding of_vehicle(int id, const Heard& heard) {
                 milliseconds(static_cast<std::int64_t>(kMaxPositionAge)),
             "put it where they see it, switch it on, and see that the positioning system runs"};
   }
-  if (vehicle.logical_time) {
+  if (vehicle.has_logical_stamps) {
     return {Verdict::kGood, name + states + ", in logical time: clocks do not matter", ""};
   }
   if (vehicle.least_age_ns < -kClockAhead_ns) {
@@ -77,27 +77,27 @@ Finding of_vehicle(int id, const Heard& heard) {
   return {Verdict::kGood, name + states + age, ""};
 }
 
-Finding of_controller(int id, const Heard& heard) {
+Finding of_controller(int id, const Received& received) {
   const std::string name = controller_name(static_cast<std::uint8_t>(id));
-  if (heard.controllers.contains(name)) return {Verdict::kGood, name + ": there", ""};
+  if (received.controllers.contains(name)) return {Verdict::kGood, name + ": there", ""};
   return {Verdict::kNote, name + ": not on the controllers' domain",
           "start it with the same --controller_domain, or with none and the same --dds_domain; one "
           "of other software is not seen here"};
 }
 
-Finding of_middleware(const Heard& heard) {
-  if (heard.lists > 0) {
-    return {Verdict::kGood, "middleware: " + std::to_string(heard.lists) + " state lists", ""};
+Finding of_middleware(const Received& received) {
+  if (received.lists > 0) {
+    return {Verdict::kGood, "middleware: " + std::to_string(received.lists) + " state lists", ""};
   }
   return {Verdict::kBad, "middleware: no state list",
           "start it on this machine with the same --middleware_domain (with --transport=lab both "
           "must share /dev/shm: no private container)"};
 }
 
-/// Others than this machine's; those of the lab's own programs are not known.
-std::vector<Finding> of_versions(const Heard& heard, const std::string& version) {
+/// Machines with another version than this one's; those of the lab's own programs are unknown.
+std::vector<Finding> of_versions(const Received& received, const std::string& version) {
   std::vector<Finding> findings;
-  for (const auto& [name, other] : heard.versions) {
+  for (const auto& [name, other] : received.versions) {
     if (version.empty() || other == version) continue;
     findings.push_back({Verdict::kBad, name + ": " + other + ", this machine: " + version,
                         "build the same revision on all machines: messages may have changed"});
@@ -107,28 +107,28 @@ std::vector<Finding> of_versions(const Heard& heard, const std::string& version)
 
 }  // namespace
 
-void note(const VehicleState& state, Nanoseconds now, Heard& heard) {
+void note(const VehicleState& state, Nanoseconds now, Received& received) {
   const auto age_ns = static_cast<std::int64_t>(now - state.create_stamp);
-  const auto [found, is_first] = heard.vehicles.try_emplace(state.vehicle_id);
-  HeardVehicle& vehicle = found->second;
+  const auto [found, is_first] = received.vehicles.try_emplace(state.vehicle_id);
+  ReceivedVehicle& vehicle = found->second;
   ++vehicle.states;
   vehicle.least_age_ns = is_first ? age_ns : std::min(vehicle.least_age_ns, age_ns);
   vehicle.is_located = is_located(state);
-  vehicle.logical_time = state.create_stamp < kThisCentury;
+  vehicle.has_logical_stamps = state.create_stamp < kThisCentury;
 }
 
-std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Heard& heard,
+std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Received& received,
                               const std::string& version) {
-  std::vector<Finding> findings{of_lab_control(heard)};
-  for (const int id : vehicle_ids) findings.push_back(of_vehicle(id, heard));
-  for (const auto& [id, vehicle] : heard.vehicles) {
+  std::vector<Finding> findings{of_lab_control(received)};
+  for (const int id : vehicle_ids) findings.push_back(of_vehicle(id, received));
+  for (const auto& [id, vehicle] : received.vehicles) {
     if (std::ranges::find(vehicle_ids, static_cast<int>(id)) != vehicle_ids.end()) continue;
-    findings.push_back({Verdict::kNote, "vehicle " + std::to_string(id) + ": is there, too",
-                        "if it takes no part, nobody keeps clear of it"});
+    findings.push_back({Verdict::kNote, "vehicle " + std::to_string(id) + ": also present",
+                        "if it takes no part, the others do not keep clear of it"});
   }
-  if (heard.listened_to_middleware) findings.push_back(of_middleware(heard));
-  for (const int id : vehicle_ids) findings.push_back(of_controller(id, heard));
-  std::ranges::move(of_versions(heard, version), std::back_inserter(findings));
+  if (received.listened_to_middleware) findings.push_back(of_middleware(received));
+  for (const int id : vehicle_ids) findings.push_back(of_controller(id, received));
+  std::ranges::move(of_versions(received, version), std::back_inserter(findings));
   return findings;
 }
 

@@ -17,7 +17,7 @@ namespace hlc {
 namespace {
 
 constexpr const char* kName = "lab_doctor";
-constexpr std::uint8_t kVehicles = 30;  // as many as the lab has room for
+constexpr std::uint8_t kVehicles = 30;  // the most that a lab has
 constexpr std::chrono::milliseconds kRequestPause{500};
 
 Participant on_domain(const ListenOptions& options, std::optional<int> domain, DomainRole role) {
@@ -31,26 +31,27 @@ Participant on_domain(const ListenOptions& options, std::optional<int> domain, D
                                                 : std::vector<std::string>{}});
 }
 
-void note(const Parameter& parameter, Heard& heard) {
-  heard.lab_control_answers = true;
+void note(const Parameter& parameter, Received& received) {
+  received.lab_control_answers = true;
   if (parameter.name != kPeriodParameter) return;
   if (const auto* period_ms = std::get_if<std::uint64_t>(&parameter.value)) {
-    heard.period_ms = *period_ms;
+    received.period_ms = *period_ms;
   }
 }
 
 }  // namespace
 
-Heard listen(const ListenOptions& options, const std::function<bool(const Heard&)>& is_enough) {
+Received listen(const ListenOptions& options,
+                const std::function<bool(const Received&)>& is_enough) {
   Signal signal;
-  Heard heard;  // guarded by signal
+  Received received;  // guarded by signal
   const auto begin = std::chrono::steady_clock::now();
 
   Participant lab = on_domain(options, options.domains.lab, DomainRole::kLab);
   Participant controllers = on_domain(options, options.domains.controller, DomainRole::kController);
   std::optional<Participant> local;
   if (options.domains.local) {
-    heard.listened_to_middleware = true;
+    received.listened_to_middleware = true;
     local.emplace(ParticipantOptions{.name = kName,
                                      .domain_id = *options.domains.local,
                                      .role = DomainRole::kLocal,
@@ -58,22 +59,22 @@ Heard listen(const ListenOptions& options, const std::function<bool(const Heard&
   }
   Writer<ParameterRequest> requests(lab, topics::parameter_request());
   const Reader<Parameter> parameters(lab, topics::parameter(), [&](const Parameter& parameter) {
-    signal.post([&] { note(parameter, heard); });
+    signal.post([&] { note(parameter, received); });
   });
   std::list<Reader<VehicleState>> states;
   for (std::uint8_t id = 1; id <= kVehicles; ++id) {
     states.emplace_back(lab, topics::vehicle_state(id), [&](const VehicleState& state) {
       const Nanoseconds now = real_time_now();
-      signal.post([&] { note(state, now, heard); });
+      signal.post([&] { note(state, now, received); });
     });
   }
   std::optional<Reader<VehicleStateList>> lists;
   if (local) {
     lists.emplace(*local, topics::vehicle_state_list(),
-                  [&](const VehicleStateList&) { signal.post([&] { ++heard.lists; }); });
+                  [&](const VehicleStateList&) { signal.post([&] { ++received.lists; }); });
   }
 
-  const auto is_over = [&] { return is_enough(heard); };
+  const auto is_over = [&] { return is_enough(received); };
   static_cast<void>(signal.repeat_until(begin + options.time, kRequestPause, is_over, [&] {
     requests.write({.name = kPeriodParameter});
     const std::set<std::string> names = controllers.alive();
@@ -81,13 +82,13 @@ Heard listen(const ListenOptions& options, const std::function<bool(const Heard&
     versions.merge(controllers.versions());
     if (local) versions.merge(local->versions());
     signal.locked([&] {
-      heard.controllers = names;
-      heard.versions = std::move(versions);
+      received.controllers = names;
+      received.versions = std::move(versions);
     });
   }));
   return signal.locked([&] {
-    heard.listened_s = std::chrono::steady_clock::now() - begin;
-    return heard;
+    received.listened_s = std::chrono::steady_clock::now() - begin;
+    return received;
   });
 }
 

@@ -13,17 +13,17 @@ namespace hlc {
 
 struct ListenOptions {
   Transport transport{Transport::kLab};
-  Domains domains;  ///< local: empty if the middleware is not to be looked for
+  Domains domains;  ///< local: empty if the middleware is not to be checked
   std::optional<DiscoveryServer> discovery_server;
   std::vector<std::string>
       controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
   std::chrono::milliseconds time{3000};
 };
 
-/// Joins the domains and listens, for `time` or until `is_enough(what was heard so far)`. Sends
-/// nothing but requests for the lab control's period: a run goes on undisturbed.
+/// Joins the domains and listens, for `time` or until `is_enough(received so far)`. Publishes
+/// nothing but requests for the lab control's period: a run is not disturbed.
 /// @throws std::invalid_argument, std::runtime_error if a domain cannot be joined
-[[nodiscard]] Heard listen(const ListenOptions& options,
-                           const std::function<bool(const Heard&)>& is_enough);
+[[nodiscard]] Received listen(const ListenOptions& options,
+                              const std::function<bool(const Received&)>& is_enough);
 
 }  // namespace hlc

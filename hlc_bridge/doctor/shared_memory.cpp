@@ -21,7 +21,7 @@ bool is_number(const std::string& text) {
 /// Files that processes have mapped.
 std::set<std::string> mapped_files(const fs::path& folder, const fs::path& proc) {
   std::set<std::string> files;
-  std::error_code ignored;  // processes end while they are looked at
+  std::error_code ignored;  // processes end while they are inspected
   for (const fs::directory_entry& process : fs::directory_iterator(proc, ignored)) {
     if (!is_number(process.path().filename())) continue;
     std::ifstream maps(process.path() / "maps");
@@ -48,7 +48,7 @@ std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const 
     const std::uintmax_t bytes = entry.file_size(ignored);
     files.push_back({name, ignored ? 0 : bytes, mapped.contains(name)});
   }
-  // The lock of a segment or port (…_el) is used if what it locks is.
+  // The lock file of a segment or port (…_el) is in use if that segment or port is.
   for (SharedMemoryFile& file : files) {
     const std::string locked =
         file.name.ends_with("_el") ? file.name.substr(0, file.name.size() - 3) : file.name;
@@ -74,7 +74,7 @@ Finding leftovers(const std::vector<SharedMemoryFile>& files) {
             ""};
   }
   return {Verdict::kNote,
-          "shared memory: " + std::to_string(count) + " files in /dev/shm that nobody uses, " +
+          "shared memory: " + std::to_string(count) + " unused files in /dev/shm, " +
               std::to_string(static_cast<int>(bytes / 1e6)) + " MB, such as " + example->name,
           "remove them when no program of the lab runs: rm /dev/shm/*fastrtps_* "
           "/dev/shm/fast_datasharing_*"};

@@ -9,11 +9,11 @@
 
 namespace hlc {
 
-/// A file of Fast DDS in shared memory: a segment, a port, or a history that is shared.
+/// A shared-memory file of Fast DDS: a segment, a port, or a shared history.
 struct SharedMemoryFile {
   std::string name;
   std::uintmax_t bytes{};
-  bool is_used{};  ///< a process that may be looked at has it mapped
+  bool is_used{};  ///< a process that this user may inspect has mapped it
 };
 
 /// Those of a folder, by name. A process that dies leaves its files behind.
@@ -21,7 +21,7 @@ struct SharedMemoryFile {
 [[nodiscard]] std::vector<SharedMemoryFile> shared_memory_files(
     const std::filesystem::path& folder = "/dev/shm", const std::filesystem::path& proc = "/proc");
 
-/// Tells of files that nobody uses.
+/// Reports files that no process uses.
 [[nodiscard]] Finding leftovers(const std::vector<SharedMemoryFile>& files);
 
 }  // namespace hlc

@@ -6,9 +6,9 @@
 namespace hlc {
 namespace {
 
-/// After valid_after: until then the copy is usable, and the vehicle looks ahead.
+/// After valid_after: until then the copy is usable, including the vehicle's look-ahead.
 constexpr double kReach_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime + kLookAhead);
-/// A list that comes at the begin of its step leaves so much more.
+/// Extra time for a list that arrives at the begin of its step.
 constexpr double kReachReserve_s = 0.09;
 
 }  // namespace

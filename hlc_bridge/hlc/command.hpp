@@ -11,14 +11,14 @@ namespace hlc {
 /// The plan as the lab's timed trajectory command, in answer to the state list of `t_now` and valid
 /// at once: points every `interval_s` (which divides the period) from one before t(step), standing
 /// at the end, long enough for the vehicle's look-ahead as long as the copy is usable. Without a
-/// plan: no points, which no vehicle follows.
+/// plan: no points; vehicles follow no such command.
 [[nodiscard]] TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step,
                                            Nanoseconds t_now, Nanoseconds period,
                                            const VehicleParameters& parameters,
                                            double interval_s = kPointInterval_s);
 
-/// The same command again, usable after the first has expired: same create_stamp, valid_after later
-/// by kCopyDelay.
+/// The same command, usable after the first has expired: same create_stamp, valid_after later by
+/// kCopyDelay.
 [[nodiscard]] TrajectoryCommand copy_for_later(const TrajectoryCommand& command);
 
 }  // namespace hlc

@@ -8,17 +8,17 @@
 
 namespace hlc {
 
-/// When commands and their copies for later (command.hpp) are published. A command is published at
-/// once, its copy as the rule says.
+/// Publishes commands and their copies for later (command.hpp): a command at once, its copy
+/// according to HlcRules.
 class CommandCopies {
  public:
-  /// Between a command and its copy. Short: who dies in it leaves a car that drops its plan after
-  /// kCommandLifetime and brakes.
+  /// Between a command and its copy. Short: a controller that dies in between leaves a car that
+  /// drops its plan after kCommandLifetime and brakes.
   static constexpr Nanoseconds kPause = 5 * kNanosecondsPerMillisecond;
 
   explicit CommandCopies(CommandCopy rule) : rule_(rule) {}
 
-  /// A copy that still waits goes first. @param wall  now
+  /// A pending copy is published first. @param wall  now
   void publish(const AnswerToList& answer, Nanoseconds wall, HlcActions& actions) {
     publish_copy(actions);
     actions.add(answer.command);
@@ -34,7 +34,7 @@ class CommandCopies {
     if (wall >= due_) publish_copy(actions);
   }
 
-  /// When a copy waits: wall time at which it is to be published.
+  /// Wall time at which the pending copy is to be published; none: no copy is pending.
   [[nodiscard]] std::optional<Nanoseconds> due() const {
     return waiting_ ? std::optional{due_} : std::nullopt;
   }

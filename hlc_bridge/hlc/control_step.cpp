@@ -26,7 +26,8 @@ void ControlStep::begin(const VehicleStateList& list, const Observation& observa
 std::optional<ReportRecord> ControlStep::advance(const Instant& now,
                                                  const IsReachable& is_reachable, bool is_over,
                                                  HlcActions& actions) {
-  // Not in `begin`: traffic is published first, and warming up fills the wait for the others'.
+  // Not in `begin`: traffic is published first, and warming up uses the wait for the others'
+  // traffic.
   if (!is_warm_) static_cast<void>(loop_.warm_up());
   is_warm_ = true;
   while (is_over || ends_phase(now, is_reachable, actions)) {
@@ -87,7 +88,7 @@ Nanoseconds ControlStep::deadline() const {
     case StepPhase::kIdle:
       break;
   }
-  return deadline_in_step(list_, deadlines_->settle);
+  return deadline_in_step(list_, deadlines_->commit);
 }
 
 WakeUp ControlStep::wake_up() const {

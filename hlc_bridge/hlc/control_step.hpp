@@ -14,12 +14,12 @@
 namespace hlc {
 
 /// One control step with its waits: takes the ControlLoop from phase to phase. A phase ends when
-/// all who are awaited have answered; whoever is not reachable is not awaited. With deadlines it
-/// ends at its deadline at the latest. Without, after kMessageTimeout of wall time; who has not
-/// answered then is not awaited any more until it sends traffic again.
+/// all awaited controllers have answered; unreachable ones are not awaited. With deadlines it ends
+/// at its deadline at the latest; without, after kMessageTimeout of wall time. A controller that
+/// has not answered then is not awaited until it sends traffic again.
 class ControlStep {
  public:
-  /// Whether messages of this vehicle's controller can come.
+  /// Whether messages of this vehicle's controller can arrive.
   using IsReachable = std::function<bool(VehicleId)>;
 
   ControlStep(Controller& controller, const std::optional<StepDeadlines>& deadlines,
@@ -30,7 +30,7 @@ class ControlStep {
   void receive(const Prediction& message) { loop_.receive(message); }
   void receive(const Outcome& message) { loop_.receive(message); }
 
-  /// The step of a list that is answered: messages for the steps before are dropped.
+  /// The step of a list that is answered: messages for earlier steps are dropped.
   void advance_to(StepIndex step) { loop_.advance_to(step); }
   [[nodiscard]] Report stand_by(const Observation& observation) {
     return loop_.stand_by(observation);
@@ -41,17 +41,17 @@ class ControlStep {
              HlcActions& actions);
   [[nodiscard]] bool is_running() const { return loop_.is_in_step(); }
 
-  /// Goes on until something is to be published, something is awaited, or the step has ended; then
-  /// there is its record (the report, and what was measured).
-  /// @param is_over  nothing is waited for any more
+  /// Continues until there is something to publish, something is awaited, or the step has ended;
+  /// then it returns the step's record (the report and the measured times).
+  /// @param is_over  stop waiting
   /// @pre is_running()
   [[nodiscard]] std::optional<ReportRecord> advance(const Instant& now,
                                                     const IsReachable& is_reachable, bool is_over,
                                                     HlcActions& actions);
 
-  /// When to go on though nothing came. @pre is_running()
+  /// When to advance without an event. @pre is_running()
   [[nodiscard]] WakeUp wake_up() const;
-  /// Messages without which it does not go on; 0: it goes on at once. @pre is_running()
+  /// Number of awaited messages; 0: advance at once. @pre is_running()
   [[nodiscard]] std::size_t num_awaited() const { return num_awaited_; }
 
  private:

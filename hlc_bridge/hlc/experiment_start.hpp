@@ -10,33 +10,34 @@
 
 namespace hlc {
 
-/// When the experiment starts or started, as far as one controller knows. The start trigger is sent
-/// once: who was not there learns of it from the lab control's run state, if that is ours, or from
-/// the others' traffic.
+/// When the experiment starts or started, as far as this controller knows. The start trigger is
+/// sent once: a controller that was absent then learns of the start from the lab control's run
+/// state, if the lab control is ours, or from the others' traffic.
 class ExperimentStart {
  public:
   ExperimentStart(VehicleId vehicle, StartRule rule, Nanoseconds step)
       : vehicle_(vehicle), rule_(rule), step_ns_(step) {}
 
-  /// The first start learned of counts.
+  /// The first known start counts.
   void trigger(Nanoseconds next_start);
   void receive(const RunState& state);
   void receive(const Traffic& traffic) { newest_traffic_[traffic.vehicle] = traffic.step; }
 
-  /// Before a list is answered: only who drives sends traffic, so the experiment runs if another
-  /// active vehicle does, about this time. Who takes no part, or speaks of another time, says
-  /// nothing about this experiment.
+  /// To be called before a list is answered. Only a controller that drives sends traffic, so the
+  /// experiment is running if another active vehicle's traffic is of about this time. Traffic of
+  /// inactive vehicles, or of another time, is not evidence.
   void join_if_others_drive(const Observation& observation);
 
-  /// next_start of the trigger; of an experiment that was running before, a time since which it is.
+  /// next_start of the trigger; for an experiment that was already running, a time since which it
+  /// runs.
   [[nodiscard]] const std::optional<Nanoseconds>& time() const { return time_; }
 
   /// The controller enters the experiment with the step of this list.
   void enter(StepIndex step);
   /// The experiment's first step, once this controller has entered it. Under kAtTrigger the
-  /// trigger's, the same for all: who comes back later counts from there, too.
+  /// trigger's step, the same for all: a controller that returns later counts from there, too.
   [[nodiscard]] const std::optional<StepIndex>& first_step() const { return first_step_; }
-  /// True if a controller that enters with this list was not there at the start.
+  /// True if a controller that enters with this list was absent at the start.
   [[nodiscard]] bool is_joining(const VehicleStateList& list) const;
 
  private:

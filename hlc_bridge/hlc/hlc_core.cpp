@@ -17,8 +17,8 @@ std::string HlcCore::validate(const VehicleStateList& list) const {
   const bool fits =
       list.period_ms > 0 && std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) <= 1e-9;
   if (fits) return {};
-  return "the middleware's period is " + std::to_string(list.period_ms) +
-         " ms, the automaton's step is " + shortest_text(step_s) + " s";
+  return "middleware period = " + std::to_string(list.period_ms) +
+         " ms, must be the automaton's step of " + shortest_text(step_s) + " s";
 }
 
 std::optional<Observation> HlcCore::observe(const VehicleStateList& list) {

@@ -13,20 +13,20 @@
 
 namespace hlc {
 
-/// A command and, unless it is one to stand, the same again for later (copy_for_later).
+/// A command and, unless it is a command to stand, its copy for later (copy_for_later).
 struct AnswerToList {
   TrajectoryCommand command;
   std::optional<TrajectoryCommand> copy;
-  /// Why it is not the plan in force but what was sent last; empty if it is the plan.
+  /// Why the command is the last good one instead of the plan in force; empty if it is the plan.
   std::string fault;
 };
 
-/// The report of the step that this is the answer of: with a fault it is a fallback.
+/// The report of the answered step: with a fault it is a fallback.
 [[nodiscard]] Report with_answer(Report report, const AnswerToList& answer);
 
-/// What a controller's process decides, without network, clock or waiting: which lists count, when
-/// the experiment begins, and how a plan becomes commands. Between `begins` and `answer` the owner
-/// takes the controller through the phases of its step and exchanges the messages.
+/// The decisions of a controller's process, without network, clock or waiting: which lists count,
+/// when the experiment begins, and how a plan becomes commands. Between `begins` and `answer` the
+/// owner takes the controller through the phases of its step and exchanges the messages.
 ///
 ///     validate → observe → note → begins ─yes─► phases of controller() ─► answer
 ///                                        └────no──► controller().stand_by ─► answer
@@ -37,24 +37,23 @@ class HlcCore {
   [[nodiscard]] Controller& controller() { return *controller_; }
   [[nodiscard]] const Controller& controller() const { return *controller_; }
 
-  /// What is wrong with the list's period, in one line; empty if nothing is. Such a list must not
-  /// be used.
+  /// Error in the list's period, in one line; empty: none. A list with an error must not be used.
   [[nodiscard]] std::string validate(const VehicleStateList& list) const;
 
-  /// What the list tells; nothing if its step was observed before: each step is done once.
-  /// @pre nothing is wrong with the list
+  /// The list as an observation; nothing if its step was observed before: each step is done once.
+  /// @pre validate(list) is empty
   [[nodiscard]] std::optional<Observation> observe(const VehicleStateList& list);
 
-  /// Remembers the list's states, by which the start is decided. To be called for every list that
-  /// was observed until the experiment begins.
+  /// Remembers the list's states, which decide on the start. To be called for every observed list
+  /// until the experiment begins.
   void note(const VehicleStateList& list, const Observation& observation);
 
-  /// Under kAtTrigger, before the experiment has begun here: whether the vehicle may be told to
-  /// stand where it is. One that moves drives what a former controller left it, or somebody moves
-  /// it by hand, and one that is not seen may do so: it is left alone (no plan, no command). So is
-  /// one that has not stood in the lists of a whole horizon, since the plan that it was left may be
-  /// to wait and then drive, and one whose states cannot be trusted yet (SettledStates). Once it
-  /// has been told to stand, it is told so as long as it is not seen moving.
+  /// Under kAtTrigger, before the experiment has begun here: whether the vehicle may be commanded
+  /// to stand where it is. A moving vehicle still drives the command of a former controller, or is
+  /// moved by hand, and an unseen one may do so: it gets no plan and no command. The same holds for
+  /// a vehicle that has not stood in the lists of a whole horizon, since the plan of its former
+  /// controller may be to wait and then drive, and for one whose states cannot be trusted yet
+  /// (SettledStates). Once commanded to stand, it is commanded so as long as it is not seen moving.
   [[nodiscard]] bool may_stand_by(const Observation& observation) const;
 
   /// Under kTogether: there is no plan yet, and the vehicle drives what a former controller has
@@ -63,7 +62,7 @@ class HlcCore {
 
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and
-  ///   * under kTogether (`trigger` says nothing then) every active vehicle has a usable state in
+  ///   * under kTogether (`trigger` has no meaning then) every active vehicle has a usable state in
   ///     it and has settled (SettledStates), the same for all controllers;
   ///   * under kAtTrigger the list is not before the trigger's next_start, and shows the vehicle
   ///     standing.
@@ -71,11 +70,11 @@ class HlcCore {
                             StartRule rule, const std::optional<Nanoseconds>& trigger);
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
-  /// The plan in force as commands, in answer to the list; without a plan a command to stand. They
-  /// are checked (own_command_check.hpp). If something is wrong, the last good command is the
-  /// answer again, which ends in standstill: the vehicle leaves its plan, and the controller treats
-  /// it as one that was disturbed. Plans beyond the lab's limits do not come so far: the controller
-  /// drops them before anybody hears of them. To be called once per list.
+  /// The plan in force as commands, in answer to the list; without a plan a command to stand. The
+  /// commands are checked (own_command_check.hpp). On a fault, the last good command is
+  /// republished, which ends in standstill: the vehicle leaves its plan, and the controller treats
+  /// it as a disturbed one. Plans beyond the lab's limits do not get this far: the controller drops
+  /// them before it announces them. To be called once per list.
   [[nodiscard]] AnswerToList answer(const VehicleStateList& list);
 
  private:
@@ -87,7 +86,7 @@ class HlcCore {
   std::unique_ptr<Controller> controller_;
   std::map<VehicleId, SettledStates> settled_;
   std::optional<StepIndex> last_step_;
-  std::size_t stood_lists_{};  ///< in a row, up to the last one
+  std::size_t stood_lists_{};  ///< consecutive, up to the last one
   std::optional<TrajectoryCommand> last_good_;
   bool has_begun_{};
 };

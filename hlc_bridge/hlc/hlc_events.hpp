@@ -15,11 +15,11 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
 
-/// What a controller's machine is fed with, and what it says is to be done.
+/// Events and actions of a controller's machine.
 namespace hlc {
 
-/// Who else takes part, as far as the controller's endpoints know. The whole picture: the last one
-/// counts. Names are those of messages/node_names.hpp.
+/// The other participants, as far as the controller's endpoints know. The complete state: the last
+/// event counts. Names are those of messages/node_names.hpp.
 struct HlcPeers {
   machine::Participants lab;
   machine::Participants local;
@@ -36,7 +36,7 @@ struct LostMessage {
   std::string line;  ///< for the log
 };
 
-/// AfterStep could not be done; it is not asked for again.
+/// AfterStep failed; it is not requested again.
 struct AfterStepFailure {
   std::string reason;
 };
@@ -47,27 +47,28 @@ using HlcEvent = std::variant<HlcPeers, VehicleStateList, SystemTrigger, RunStat
                               Prediction, Outcome, AutomatonRequest, PreparedRequest,
                               machine::StopSignal, LostMessage, AfterStepFailure>;
 
-/// Prepare this request beside the run (`prepare`); comes back as PreparedRequest. One at a time.
+/// Prepare this request concurrently (`prepare`); the result is the event PreparedRequest. One at a
+/// time.
 struct PrepareRequest {
   AutomatonRequest request;
 };
 
-/// Draw what the controller did in the step that has just ended on the operator's map.
+/// Draw the step that has just ended on the operator's map.
 struct DrawStep {
   Report report;
   Nanoseconds time_to_live{};
 };
 
-/// A step of the experiment has ended, and its command is published: time for whoever looks at the
+/// A step of the experiment has ended, and its command is published: the owner may inspect the
 /// controller.
 struct AfterStep {};
 
-/// Messages are to be published.
+/// Message types are to be published.
 using HlcAction = std::variant<Traffic, Prediction, Outcome, TrajectoryCommand, ReportRecord,
                                ReadyStatus, StopRequest, AutomatonAnswer, machine::LogLine,
                                PrepareRequest, DrawStep, AfterStep>;
 
-/// Actions in the order in which they are to be done.
+/// Actions in the order of execution.
 class HlcActions {
  public:
   void add(HlcAction action) { actions_.push_back(std::move(action)); }

@@ -12,10 +12,10 @@
 namespace hlc {
 namespace {
 
-/// For a lab control that is to receive the stop request.
+/// Time for the lab control to receive the stop request.
 constexpr Nanoseconds kStopRequestWait = kNanosecondsPerSecond;
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
-constexpr Nanoseconds kAtOnce = 0;        // a wake-up that has passed
+constexpr Nanoseconds kAtOnce = 0;        // a wake-up in the past
 
 Nanoseconds step_ns(const Controller& controller) {
   return static_cast<Nanoseconds>(std::llround(1e9 * controller.subgraph().automaton().step_s));
@@ -73,7 +73,7 @@ void HlcMachine::take(const AutomatonRequest& request) {
 
 void HlcMachine::take(const AfterStepFailure& failure) {
   ending_.unwritten = "from step " + std::to_string(controller().last_step().value) +
-                      " on nothing is written: " + failure.reason;
+                      " on not written: " + failure.reason;
   actions_.error(ending_.unwritten);
 }
 
@@ -110,7 +110,7 @@ bool HlcMachine::ends(const Instant& now) {
           ? std::optional{kExitGood}
           : life_.exit_code(now.wall, phase_ == Phase::kIdle && !lists_.empty(), actions_);
   if (ending_.code == kExitGood && !ending_.unwritten.empty()) {
-    actions_.error(ending_.unwritten);  // once more, as its last word
+    actions_.error(ending_.unwritten);  // repeated as the last line of the log
     ending_.code = kExitNotWritten;
   }
   return ending_.code.has_value();
@@ -160,7 +160,7 @@ bool HlcMachine::gather(const Instant& now) {
   return true;
 }
 
-/// If it begins with this list, or has begun.
+/// True if it begins with this list, or has begun.
 void HlcMachine::enter_experiment() {
   const VehicleStateList& list = current_.list;
   Observation& observation = current_.observation;
@@ -186,7 +186,7 @@ bool HlcMachine::prepare(const Instant& now) {
   subgraphs_.begin_step(controller, current_.list, observation.step, start_.first_step(), actions_);
   current_.reconfiguring_ns = cpu_time_() - from;
   if (current_.is_running) {
-    controller.set_drives_out(life_.drives_out());
+    controller.set_minimal_risk_stop(life_.is_minimal_risk_stop());
     step_.begin(current_.list, observation, now, actions_);
     phase_ = Phase::kStepping;
     return false;
@@ -228,7 +228,7 @@ void HlcMachine::finish(ReportRecord record, const Instant& now) {
   phase_ = Phase::kAfterStep;
 }
 
-/// And notes in the report if it is not the plan.
+/// Also enters it in the report if it is not the plan.
 void HlcMachine::publish_command(Report& report, const Instant& now) {
   if (ending_.is_asked) return;
   if (!rules_.answers_every_list && controller().is_vehicle_lost()) return;

@@ -29,43 +29,42 @@ struct HlcSettings {
   Stopwatch cpu_time{};                     ///< of the calling thread; absent: 0
 };
 
-/// What the process of one controller decides, as a machine (machine/machine.hpp): takes state
-/// lists from the middleware, steps the controller, exchanges messages with the other controllers
-/// between its phases, answers every list with a command.
+/// The decisions of one controller's process, as a machine (machine/machine.hpp): takes state lists
+/// from the middleware, steps the controller, exchanges messages with the other controllers between
+/// its phases, answers every list with a command.
 ///
 ///     idle ─list─► gathering ─► preparing ─► stepping ─report─► after step ─► idle
 ///       │             all ready    requested    └── or standing by ──┘  looking ahead
 ///       └─► exit                   subgraphs
 ///
-/// * *Gathering* waits under StartRule::kTogether until all controllers are matched, since nobody
-///   waits for messages that were sent before.
-/// * *Preparing* waits where the rules say so for requested subgraphs that are being prepared.
-/// * *Stepping* is a ControlStep: traffic goes out before anything else is computed, and the
-/// command
-///   before the report, the drawings and the owner's look at the step.
-/// * *After a step* policies look ahead, when everything is published. The copy of the command goes
-///   first: without it a controller that died meanwhile would leave its vehicle half a plan.
+/// * *Gathering* waits under StartRule::kTogether until all controllers are matched, since messages
+///   sent before a match are lost.
+/// * *Preparing* waits, if the rules require it, for requested subgraphs that are being prepared.
+/// * *Stepping* is a ControlStep: traffic is published before anything else is computed, and the
+///   command before the report, the drawings and AfterStep.
+/// * *After a step* policies look ahead, when everything is published. The copy of the command is
+///   published first: a controller that dies in between would leave its vehicle half a plan.
 ///
-/// Every wait ends: at a deadline, when whom it waits for is gone from the domain, or after
+/// Every wait ends: at a deadline, when the awaited participant has left the domain, or after
 /// kMessageTimeout.
 ///
 /// **Ends** (LifeCycle) between two steps; also with kExitGood after the stop symbol or a
 /// StopSignal, with kExitBadInput if the lab's period is not the automaton's step (then the lab
-/// control is asked to stop everybody). A step that is under way when it is to stop is ended at
-/// once, and no command is sent any more. After the stop symbol the vehicle brakes, and then it
-/// listens again: it must hear nothing. After a StopSignal it is left its whole plan: the copy of
-/// the last command still goes out.
+/// control is requested to stop all vehicles). On a stop, a running step is aborted at once, and no
+/// further command is sent. After the stop symbol the vehicle brakes and then listens again: it
+/// must receive nothing. After a StopSignal the vehicle keeps its whole plan: the copy of the last
+/// command is still published.
 class HlcMachine {
  public:
   using Event = HlcEvent;
   using Action = HlcAction;
 
-  /// @param controller  of the vehicle that is driven
+  /// @param controller  of the vehicle
   /// @throws std::invalid_argument if its plans are longer than a vehicle follows a command
   HlcMachine(const HlcSettings& settings, std::unique_ptr<Controller> controller);
 
   [[nodiscard]] const Controller& controller() const { return core_.controller(); }
-  /// For whoever prepares requested subgraphs.
+  /// Base for the preparation of requested subgraphs.
   [[nodiscard]] RequestBase request_base() const {
     return subgraphs_.request_base(core_.controller());
   }
@@ -73,8 +72,8 @@ class HlcMachine {
   void on(Event event);
   [[nodiscard]] std::vector<Action> advance(const Instant& now);
   [[nodiscard]] WakeUp wake_up() const;
-  /// In a step the messages that it waits for; else only urgent events count: all but those of the
-  /// other controllers.
+  /// In a step the number of awaited messages; otherwise only urgent events count: all but those of
+  /// the other controllers.
   [[nodiscard]] std::size_t awaited() const;
   [[nodiscard]] std::optional<int> exit_code() const;
 
@@ -88,7 +87,7 @@ class HlcMachine {
     kRefusing,
   };
 
-  /// The list that is being answered.
+  /// The list being answered.
   struct Current {
     VehicleStateList list;
     Observation observation;

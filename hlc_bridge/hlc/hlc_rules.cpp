@@ -5,10 +5,11 @@
 namespace hlc {
 namespace {
 
-// Leases are 2 s in real time and 10 s in logical time (ParticipantOptions::logical_time).
+// Leases are 2 s in real time and 10 s in logical time (RunTime).
 constexpr Nanoseconds kDuplicatePatience = 4 * kNanosecondsPerSecond;
 constexpr Nanoseconds kDuplicatePatienceInLogicalTime = 12 * kNanosecondsPerSecond;
-/// The others wait 10 s for who waits (kMessageTimeout). What takes longer is in force later.
+/// The others wait 10 s for a controller (kMessageTimeout). A preparation that takes longer is in
+/// force later.
 constexpr Nanoseconds kPreparationPatience = 8 * kNanosecondsPerSecond;
 
 }  // namespace
@@ -17,6 +18,7 @@ HlcRules rules_in_logical_time(bool keeps_commands) {
   return {.start = StartRule::kTogether,
           .deadlines = std::nullopt,
           .answers_every_list = true,
+          .stops_on_lab_domain = false,
           .copy = keeps_commands ? CommandCopy::kAtOnce : CommandCopy::kNever,
           .duplicate_patience = kDuplicatePatienceInLogicalTime,
           .middleware_patience = 0,
@@ -28,6 +30,7 @@ HlcRules rules_in_real_time(bool keeps_commands, const StepDeadlines& deadlines,
   return {.start = StartRule::kAtTrigger,
           .deadlines = deadlines,
           .answers_every_list = false,
+          .stops_on_lab_domain = true,
           .copy = keeps_commands ? CommandCopy::kAtOnce : CommandCopy::kAfterPause,
           .duplicate_patience = kDuplicatePatience,
           .middleware_patience = startup_timeout,

@@ -12,18 +12,18 @@ namespace hlc {
 struct StepDeadlines {
   double traffic{0.20};
   double predecessors{0.55};
-  double settle{0.75};
+  double commit{0.75};
   double command{0.90};     ///< later than this the plan in force stays, and the miss is counted
   double look_ahead{0.50};  ///< later than this policies do not look ahead in this step
 };
 
 /// How a controller enters the experiment.
 enum class StartRule : std::uint8_t {
-  /// All controllers derive the first step from the same lists, so the first list is answered only
+  /// All controllers derive the first step from the same lists: the first list is answered only
   /// when all of them are matched, and every list from then on.
   kTogether,
   /// From the start trigger's time on, or later by joining the running experiment. Until then the
-  /// vehicle is told to stand only where that is safe (HlcCore::may_stand_by).
+  /// vehicle is commanded to stand only where that is safe (HlcCore::may_stand_by).
   kAtTrigger,
 };
 
@@ -34,26 +34,29 @@ enum class CommandCopy : std::uint8_t {
   kNever,
 };
 
-/// Where the processes of a run in logical time and in real time act differently. In logical time
-/// lab control waits for everybody, so nobody may be late, and a step ends when all who are alive
+/// Differences between logical and real time for the processes of a run. In logical time the lab
+/// control waits for every process, so none can be late, and a step ends when all live controllers
 /// have answered. In real time every step ends by its deadlines.
 struct HlcRules {
   StartRule start{};
   /// None: a phase ends after kMessageTimeout of silence (wall time) at the latest.
   std::optional<StepDeadlines> deadlines;
-  /// False: of several lists only the newest is answered. The others' steps stay without a report,
-  /// and the summary counts each as a deadline missed.
+  /// False: of several lists only the newest is answered. The steps of the others have no report,
+  /// and the summary counts each as a missed deadline.
   bool answers_every_list{};
+  /// The stop symbol of the lab domain counts, too, not only the one that the middleware forwards.
+  /// (In logical time there are 50 triggers a second and no car that a stop could save.)
+  bool stops_on_lab_domain{};
   CommandCopy copy{};
-  /// Since the start: whoever bears the vehicle's name so long is no dead instance's trace.
-  /// Longer than the lease of a participant.
+  /// Since the start: a name that is alive for longer than this is a running duplicate instance,
+  /// not the trace of a dead one. Longer than the lease of a participant.
   Nanoseconds duplicate_patience{};
   Nanoseconds middleware_patience{};   ///< for a middleware that is lost; 0: none
   Nanoseconds preparation_patience{};  ///< of a step for requested subgraphs; 0: none
 };
 
 /// @param keeps_commands  the middleware keeps all commands until it reads them (loopback); false:
-/// it keeps the last one, as the lab's
+/// it keeps the last one, as the lab's does
 [[nodiscard]] HlcRules rules_in_logical_time(bool keeps_commands);
 [[nodiscard]] HlcRules rules_in_real_time(bool keeps_commands, const StepDeadlines& deadlines,
                                           Nanoseconds startup_timeout);

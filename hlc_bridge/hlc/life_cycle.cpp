@@ -45,22 +45,23 @@ void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
       return;
     case machine::LabControlWatch::Change::kLost:
       actions.error(std::string(kLabControlName) +
-                    " is gone; the running plan is driven to its end");
+                    " lost; minimal-risk stop: driving the plan in force to its end");
       return;
     case machine::LabControlWatch::Change::kBack:
-      actions.info(std::string(kLabControlName) + " is back; planning goes on");
+      actions.info(std::string(kLabControlName) + " is back; planning resumed");
       return;
   }
 }
 
-/// Of lists only where they come by the clock: elsewhere they come as fast as everybody is done.
+/// Missing lists are reported only where they come by the clock: in logical time they come as fast
+/// as all processes are done.
 void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
-    actions.info("waits: " + readiness_.missing());
+    actions.info("waiting: " + readiness_.missing());
   }
   if (readiness_.is_ready() && !rules_.answers_every_list && list_notice_.is_due(wall)) {
     const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
-    actions.warn("waits: " + middleware_.name() + " has sent no state list for " +
+    actions.warn("waiting: no state list from " + middleware_.name() + " for " +
                  std::to_string(silence / kNanosecondsPerSecond) + " s");
   }
 }
@@ -72,7 +73,7 @@ void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bo
   repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
   if (!repeats_ready_ || wall < next_ready_at_) return;
   if (next_ready_at_ == 0 && rules_.start == StartRule::kAtTrigger) {
-    actions.info("ready, waits for a trigger");
+    actions.info("ready; waiting for the start trigger");
   }
   actions.add(ReadyStatus{.source_id = controller_ready_id(vehicle_.value)});
   next_ready_at_ = wall + kReadyRepeat;
@@ -80,7 +81,7 @@ void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bo
 
 std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
                                         HlcActions& actions) const {
-  if (middleware_.is_lost_for_good(wall) || (middleware_.is_lost() && drives_out_)) {
+  if (middleware_.is_lost_for_good(wall) || (middleware_.is_lost() && minimal_risk_stop_)) {
     return readiness_.is_ready() ? kExitDied : kExitMissing;
   }
   if (readiness_.leaves_to_duplicate(wall - *began_at_)) {

@@ -13,42 +13,48 @@
 
 namespace hlc {
 
-/// What a controller's process does beside its steps: becomes ready and says so, notices who is
-/// lost and back, logs for whom it waits, and ends.
+/// The duties of a controller's process beside its steps: becomes ready and publishes it, detects
+/// lost and returned participants, logs what it waits for, and ends.
 ///
 /// Ends between two steps, when
-///   * its middleware is lost and not back in time: at once where the rules say so, or when the
-///     lab control has everybody drive out (a lab control that is gone, too, is no reason: to a
-///     process that got no processor for the time of a lease all others are gone);
+///   * its middleware is lost and not back in time: at once if the rules require it, or in a
+///     minimal-risk stop of the run (a lost lab control is no reason: to a process that got no
+///     processor time for a lease, all others seem lost);
 ///   * it yields to a duplicate instance (Readiness);
-///   * the lab control is lost for longer than kControllerStays (until then the plan in force is
-///     driven out);
-///   * somebody has not appeared within the startup timeout.
+///   * the lab control is lost for longer than kControllerStays (until then: minimal-risk stop);
+///   * a participant has not appeared within the startup timeout.
 class LifeCycle {
  public:
   LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout);
 
   void receive(const HlcPeers& peers);
-  void receive(const RunState& state) { drives_out_ |= state.phase == RunPhase::kDriveOut; }
-  /// A list has come. @param wall  now
+  void receive(const RunState& state) {
+    minimal_risk_stop_ |= state.phase == RunPhase::kMinimalRiskStop;
+  }
+  /// A list was received. @param wall  now
   void receive_list(Nanoseconds wall);
 
   [[nodiscard]] Readiness& readiness() { return readiness_; }
   [[nodiscard]] const Readiness& readiness() const { return readiness_; }
-  /// The plan in force is to be driven to its end: the lab control says so, or is lost.
-  [[nodiscard]] bool drives_out() const { return drives_out_ || lab_control_.is_lost(); }
+  /// The plan in force is to be driven to its end and nothing new planned: by order of the lab
+  /// control, or because it is lost.
+  [[nodiscard]] bool is_minimal_risk_stop() const {
+    return minimal_risk_stop_ || lab_control_.is_lost();
+  }
   [[nodiscard]] bool has_stop_request_readers() const { return stop_request_readers_ > 0; }
 
   /// At every advance. @param has_started  the experiment has (ExperimentStart)
   void watch(Nanoseconds wall, bool has_started, HlcActions& actions);
-  /// At every advance between two steps: says again and again that it is ready, until the start.
+  /// At every advance between two steps: publishes repeatedly that the controller is ready, until
+  /// the start.
   void publish_ready(Nanoseconds wall, const Controller& controller, bool has_started,
                      HlcActions& actions);
-  /// The code with which to end now; none: go on. Logs the reason. @param has_list  one waits
+  /// The code with which to end now; none: continue. Logs the reason. @param has_list  a list is
+  /// pending
   [[nodiscard]] std::optional<int> exit_code(Nanoseconds wall, bool has_list,
                                              HlcActions& actions) const;
 
-  /// Between two steps: wall time at which the last three are to be called though nothing came.
+  /// Between two steps: wall time at which to call the last three without an event.
   [[nodiscard]] std::optional<Nanoseconds> wake_up() const;
 
  private:
@@ -68,13 +74,13 @@ class LifeCycle {
   machine::LabControlWatch lab_control_;
   bool is_lab_control_absent_{};  ///< by name
   std::size_t stop_request_readers_{};
-  bool drives_out_{};
+  bool minimal_risk_stop_{};
   std::optional<Nanoseconds> began_at_;  ///< first advance
-  machine::WaitNotice peers_notice_{0};  ///< for those who are missing
+  machine::WaitNotice peers_notice_{0};  ///< for missing participants
   machine::WaitNotice list_notice_{0};   ///< for lists
   Nanoseconds last_list_at_{};
   bool repeats_ready_{};
-  Nanoseconds next_ready_at_{};  ///< 0: it has not been said yet
+  Nanoseconds next_ready_at_{};  ///< 0: not published yet
 };
 
 }  // namespace hlc

@@ -8,11 +8,11 @@
 
 namespace hlc {
 
-/// Whether the own middleware is lost; it may be started again. Without it nothing reaches the
-/// vehicle, which drives out what it was sent.
+/// Whether the own middleware is lost; it may be restarted. Without it nothing reaches the vehicle,
+/// which drives its last command to the end.
 ///
-/// Signs: our middleware's name is gone, or nobody reads commands any more. (Others on the local
-/// domain may come and go: in the lab it holds all controllers of a computer.)
+/// Evidence: our middleware's name is lost, or no reader of commands is matched. (Others on the
+/// local domain may come and go: in the lab it holds all controllers of a computer.)
 class MiddlewareWatch {
  public:
   /// @param name      of our middleware
@@ -29,7 +29,7 @@ class MiddlewareWatch {
   void look(Nanoseconds wall, HlcActions& actions) {
     if (is_absent_ == lost_at_.has_value()) return;
     if (is_absent_) {
-      actions.error(name_ + " is gone; nothing reaches the vehicle any more");
+      actions.error(name_ + " lost; no commands reach the vehicle");
       lost_at_ = wall;
     } else {
       actions.info(name_ + " is back");
@@ -37,13 +37,13 @@ class MiddlewareWatch {
     }
   }
 
-  /// It is not waited for any longer.
+  /// The grace period is over.
   [[nodiscard]] bool is_lost_for_good(Nanoseconds wall) const {
     return lost_at_ && (patience_ == 0 || wall > *lost_at_ + patience_);
   }
   [[nodiscard]] bool is_lost() const { return lost_at_.has_value(); }
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Wall time at which it is lost for good if it does not come back.
+  /// Wall time at which the middleware is lost for good unless it returns.
   [[nodiscard]] std::optional<Nanoseconds> wake_up() const {
     return lost_at_ ? std::optional{*lost_at_ + patience_ + 1} : std::nullopt;
   }

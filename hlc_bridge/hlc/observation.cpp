@@ -9,7 +9,7 @@ namespace hlc {
 namespace {
 
 constexpr auto kMaxStateAge = static_cast<Nanoseconds>(1e9 * kMaxStateAge_s);
-constexpr std::int32_t kMaxWireId = 255;  // more than the lab has: whoever is active counts
+constexpr std::int32_t kMaxWireId = 255;  // more than the lab has: every active vehicle counts
 
 }  // namespace
 

@@ -23,12 +23,12 @@ namespace hlc {
 /// (settled_states.hpp), already valid, and not older than kMaxStateAge_s.
 [[nodiscard]] bool is_usable(const VehicleState& state, Nanoseconds t_now);
 
-/// What the list tells the controller: usable states only, with their age at t(k). Vehicle ids out
-/// of range are left out.
+/// The list as an observation of the controller: usable states only, with their age at t(k).
+/// Vehicle ids out of range are left out.
 [[nodiscard]] Observation observation_of(const VehicleStateList& list);
 
-/// The vehicle's battery voltage, as its usable state in the list tells it; none if it tells none
-/// (a vehicle that measures none tells 0).
+/// The vehicle's battery voltage from its usable state in the list; none if there is none (a
+/// vehicle without a measurement publishes 0).
 [[nodiscard]] std::optional<double> battery_voltage_v(const VehicleStateList& list,
                                                       VehicleId vehicle);
 

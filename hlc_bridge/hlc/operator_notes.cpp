@@ -25,8 +25,8 @@ void OperatorNotes::note_fallback(const Controller& controller, const Report& re
 
 void OperatorNotes::note_fault(StepIndex step, const std::string& fault, HlcActions& actions) {
   if (!fault.empty() && fault != last_fault_) {
-    actions.error("the command of step " + std::to_string(step.value) +
-                  " is not sent, the last good one is: " + fault);
+    actions.error("command of step " + std::to_string(step.value) +
+                  " not sent, republished the last good one: " + fault);
   }
   last_fault_ = fault;
 }

@@ -7,7 +7,7 @@
 namespace hlc {
 namespace {
 
-/// Times from the first point on.
+/// Times relative to the first point.
 std::vector<TimedPoint> timed_points(const TrajectoryCommand& command) {
   std::vector<TimedPoint> points;
   for (const TrajectoryPoint& point : command.points) {
@@ -34,13 +34,13 @@ std::string validate_own_command(const TrajectoryCommand& command,
   };
   if (command.points.front().t >= command.valid_after_stamp) {
     return "the first point is " + after_valid_s(command.points.front()) +
-           " s after valid_after, allowed before it";
+           " s after valid_after, must be before it";
   }
   constexpr Nanoseconds kLeast = kCommandLifetime + kLookAhead;
   if (command.points.back().t < command.valid_after_stamp + kLeast) {
     return "the last point is " + after_valid_s(command.points.back()) +
-           " s after valid_after, allowed from " + shortest_text(1e-9 * kLeast) +
-           " s on: so long the vehicle looks at it";
+           " s after valid_after, must be >= " + shortest_text(1e-9 * kLeast) +
+           " s: the vehicle's look-ahead";
   }
   return "";
 }

@@ -9,22 +9,22 @@
 
 namespace hlc {
 
-/// What is wrong with a command that a controller is about to send, in words; empty if nothing is.
+/// Error in a command that a controller is about to send, in words; empty: none.
 ///
 /// * Every number is finite, times increase strictly, the last velocity is 0 (trajectory_fault).
 /// * A point lies before valid_after.
 /// * The last point is not before valid_after + kCommandLifetime + kLookAhead: as long as the
-///   command is usable at all, the vehicle finds all that it looks at. The lab's rule asks for
-///   now + delay + period + 360 ms; what is beyond that is for missed periods.
+///   command is usable, the vehicle finds every point that its look-ahead needs. The lab's rule
+///   asks for now + delay + period + 360 ms; the rest is for missed periods.
 /// * With limits: positions in the lab's area, velocities that fit them, acceleration and
 /// curvature.
 ///
-/// A command without points tells the vehicle to stand, and is good.
+/// A command without points commands the vehicle to stand, and is good.
 [[nodiscard]] std::string validate_own_command(const TrajectoryCommand& command,
                                                const std::optional<LabLimits>& limits);
 
-/// A command that was good, as the answer to the list of `t_now`: created and valid then; standing
-/// on at its end as long as it takes to be good again.
+/// A good command again, as the answer to the list of `t_now`: created and valid then; extended at
+/// its end by standing until it is good again.
 [[nodiscard]] TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now);
 
 }  // namespace hlc

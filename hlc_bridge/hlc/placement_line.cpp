@@ -25,15 +25,15 @@ std::string placement_line(const Controller& controller) {
   const Placement& placement = controller.placement().value();
   const std::string& route = controller.route().name;
   if (controller.fits_route()) {
-    return vehicle_text(controller) + " takes route " + route +
-           (controller.routes().size() > 1 ? ", which it fits best," : "") +
+    return vehicle_text(controller) + " selects route " + route +
+           (controller.routes().size() > 1 ? " (best fit)" : "") +
            text_of(" at %.3f m, %.0f mm beside its path, turned by %.3f rad", placement.s_m,
                    1e3 * placement.distance_m, placement.turned_rad);
   }
   return vehicle_text(controller) + " fits no route: nearest is " + route +
          text_of(
-             " at %.3f m; it reaches %.0f mm beyond the lanes (allowed %.0f mm), is turned by "
-             "%.3f rad (allowed %.3f rad)",
+             " at %.3f m; it reaches %.0f mm beyond the lanes (must be <= %.0f mm), is turned by "
+             "%.3f rad (must be <= %.3f rad)",
              placement.s_m, 1e3 * std::max(0.0, placement.beyond_m()), 1e3 * kFitsBeyond_m,
              placement.turned_rad, kFitsTurned_rad) +
          (placement.is_on_ground ? "" : ", and is not on the map");
@@ -41,12 +41,12 @@ std::string placement_line(const Controller& controller) {
 
 std::string stuck_line(const Controller& controller, FallbackReason reason) {
   if (reason == FallbackReason::kBudget) {
-    return vehicle_text(controller) + " has no new plan: its search used up max_expansions = " +
+    return vehicle_text(controller) + ": no new plan, the search used up max_expansions = " +
            std::to_string(controller.options().search.max_expansions);
   }
   const auto n = controller.options().horizon_steps;
   return vehicle_text(controller) + " stands: no plan of " + std::to_string(n) +
-         " steps leads from there into the lanes of route " + controller.route().name;
+         " steps leads into the lanes of route " + controller.route().name;
 }
 
 }  // namespace hlc

@@ -46,10 +46,10 @@ std::string Readiness::missing() const {
   if (has_duplicate()) {
     return "another instance of " + controller_name(vehicle_.value) + " is running";
   }
-  if (active_.empty()) return "no state list came from the middleware";
+  if (active_.empty()) return "no state list received from the middleware";
   std::set<std::string> names = unmatched_peers();
   if (peers_.command_readers == 0) names.insert("the middleware's reader of commands");
-  return "not there: " + machine::joined(names);
+  return "missing: " + machine::joined(names);
 }
 
 }  // namespace hlc

@@ -9,14 +9,14 @@
 
 namespace hlc {
 
-/// Whether a controller takes part: whether all who need what it publishes receive it, and whether
-/// it is the only instance that drives its vehicle.
+/// Whether a controller takes part: whether all who need its messages receive them, and whether it
+/// is the only instance for its vehicle.
 ///
 /// **Duplicate instances.** A vehicle follows one controller. The one that was ready first stays: a
 /// second one that finds its vehicle's name on the lab domain is never ready, publishes nothing and
 /// leaves. Where both are ready (one was cut off or stopped for longer than its lease, and has been
-/// replaced), the vehicle would follow now the one, now the other, and nobody could reckon with
-/// what it drives: each leaves as soon as it receives the other's traffic.
+/// replaced), the vehicle would follow each of them in turn, and its motion could not be predicted:
+/// each leaves as soon as it receives the other's traffic.
 class Readiness {
  public:
   /// @param duplicate_patience  see HlcRules
@@ -27,31 +27,31 @@ class Readiness {
   /// Another instance has published for the own vehicle. (A process does not receive its own
   /// messages.)
   void receive_own_traffic() { is_duplicate_received_ = true; }
-  /// Vehicles that take part, as the last list said.
+  /// Active vehicles of the last list.
   void set_active(std::vector<VehicleId> active) { active_ = std::move(active); }
 
-  /// To be called whenever something may have changed. Becomes ready when everybody receives what
-  /// is published here; under kAtTrigger also as soon as the middleware does, if the experiment has
-  /// started: into a running one a controller comes back alone, and whoever is not there is
-  /// missing, as in any step.
+  /// To be called whenever something may have changed. Becomes ready when all participants receive
+  /// what is published here; under kAtTrigger also as soon as the middleware does, if the
+  /// experiment has started: a controller returns alone into a running experiment, and absent
+  /// participants are missing, as in any step.
   void update(bool has_started);
   [[nodiscard]] bool is_ready() const { return is_ready_; }
 
-  /// Another instance drives the vehicle: this one must not.
+  /// Another instance controls the vehicle: this one must not.
   [[nodiscard]] bool yields_to_duplicate() const;
-  /// ... and is no dead one's trace. @param since_start  wall time
+  /// As before, and the other instance is no trace of a dead one. @param since_start  wall time
   [[nodiscard]] bool leaves_to_duplicate(Nanoseconds since_start) const {
     return yields_to_duplicate() && since_start > duplicate_patience_;
   }
   [[nodiscard]] Nanoseconds duplicate_patience() const { return duplicate_patience_; }
 
-  /// Of these, whose controllers are alive. The controllers' network alone may have failed: who is
-  /// on the lab's still commands its vehicle.
+  /// The given vehicles whose controllers are alive. The controllers' network alone may have
+  /// failed: a controller that is on the lab's network still commands its vehicle.
   [[nodiscard]] std::vector<VehicleId> present(std::vector<VehicleId> vehicles) const;
-  /// True if messages from this vehicle's controller can come.
+  /// True if messages from this vehicle's controller can arrive.
   [[nodiscard]] bool is_reachable(VehicleId vehicle) const;
 
-  /// Why it is not ready yet.
+  /// Why the controller is not ready yet.
   [[nodiscard]] std::string missing() const;
 
  private:

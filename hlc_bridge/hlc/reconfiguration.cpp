@@ -52,12 +52,12 @@ std::vector<AutomatonAnswer> Reconfiguration::take(PreparedRequest prepared, Ste
   return answers;
 }
 
-std::optional<AutomatonAnswer> Reconfiguration::begin_step(SubgraphChoice& choice, StepIndex step,
-                                                           Nanoseconds t_now) {
+std::optional<AutomatonAnswer> Reconfiguration::begin_step(SubgraphSelector& selector,
+                                                           StepIndex step, Nanoseconds t_now) {
   if (!waiting_ || t_now < waiting_->request.valid_from) return std::nullopt;
   PreparedRequest now = *std::exchange(waiting_, std::nullopt);
   const bool gives_back = now.request.subgraph == SubgraphRequest{};
-  choice.ask(gives_back ? nullptr : std::move(now.choice));
+  selector.ask(gives_back ? nullptr : std::move(now.choice));
   return AutomatonAnswer{.vehicle = now.request.vehicle,
                          .id = now.request.id,
                          .outcome = RequestOutcome::kInForce,

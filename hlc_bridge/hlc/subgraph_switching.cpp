@@ -9,7 +9,7 @@ namespace hlc {
 namespace {
 
 std::string switch_line(const std::string& subgraph, StepIndex step) {
-  return "plans on subgraph " + subgraph + " from step " + std::to_string(step.value) + " on";
+  return "planning on subgraph " + subgraph + " from step " + std::to_string(step.value) + " on";
 }
 
 void publish(const AutomatonAnswer& answer, HlcActions& actions) {
@@ -21,7 +21,7 @@ void publish(const AutomatonAnswer& answer, HlcActions& actions) {
       return actions.info(switch_line(answer.text, answer.step));
     case RequestOutcome::kRefused:
     case RequestOutcome::kStale:
-      return actions.warn("a request for another subgraph is refused: " + answer.text);
+      return actions.warn("subgraph request refused: " + answer.text);
   }
 }
 
@@ -29,8 +29,8 @@ void publish(const AutomatonAnswer& answer, HlcActions& actions) {
 
 RequestBase SubgraphSwitching::request_base(const Controller& controller) const {
   const ControllerOptions& options = controller.options();
-  return {.subgraph = choice_.base(),
-          .limits_mps = choice_.limits_mps(),
+  return {.subgraph = selector_.base(),
+          .limits_mps = selector_.limits_mps(),
           .horizon_steps = options.horizon_steps,
           .search = options.search};
 }
@@ -60,8 +60,8 @@ void SubgraphSwitching::begin_step(Controller& controller, const VehicleStateLis
       publish(answer, actions);
     }
   }
-  std::optional<AutomatonAnswer> answer = reconfiguration_.begin_step(choice_, step, list.t_now);
-  const bool has_switched = choice_.begin_step(
+  std::optional<AutomatonAnswer> answer = reconfiguration_.begin_step(selector_, step, list.t_now);
+  const bool has_switched = selector_.begin_step(
       controller, step, first_step, battery_voltage_v(list, controller.options().vehicle));
   const std::string& name = controller.subgraph().spec().name;
   if (answer) {

@@ -7,20 +7,20 @@
 
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "hlc_bridge/hlc/reconfiguration.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 
 namespace hlc {
 
-/// Which subgraph a controller plans on, step by step: requests of the operator from their arrival
-/// until they are in force (Reconfiguration), zones and policies (SubgraphChoice). Every request is
-/// answered, and every switch is logged.
+/// The subgraph that a controller plans on, step by step: requests of the operator from their
+/// arrival until they are in force (Reconfiguration), zones and policies (SubgraphSelector). Every
+/// request is answered, and every switch is logged.
 class SubgraphSwitching {
  public:
   /// @pre check_reconfiguration throws nothing
   SubgraphSwitching(const Controller& controller, const ReconfigurationSettings& settings)
-      : choice_(controller, settings) {}
+      : selector_(controller, settings) {}
 
-  /// What requests are to be prepared on and for.
+  /// Base for the preparation of requests.
   [[nodiscard]] RequestBase request_base(const Controller& controller) const;
 
   /// Requests are prepared in order, one at a time; of more than kMaxWaiting the first are dropped.
@@ -28,24 +28,25 @@ class SubgraphSwitching {
   void receive(const PreparedRequest& prepared);
   /// At every advance.
   void prepare_next(HlcActions& actions);
-  /// A request waits or is in work.
+  /// A request is queued or being prepared.
   [[nodiscard]] bool is_preparing() const { return is_in_work_ || !waiting_.empty(); }
 
-  /// Before every step of the controller, also before the experiment has begun: switches it.
+  /// Before every step of the controller, also before the experiment has begun: switches the
+  /// controller.
   /// @param first_step  of the experiment; none: it has not begun
   void begin_step(Controller& controller, const VehicleStateList& list, StepIndex step,
                   std::optional<StepIndex> first_step, HlcActions& actions);
 
-  [[nodiscard]] bool looks_ahead() const { return choice_.looks_ahead(); }
-  /// After every step of the experiment, when nobody waits for the vehicle any more.
+  [[nodiscard]] bool looks_ahead() const { return selector_.looks_ahead(); }
+  /// After every step of the experiment, when the vehicle's command is published.
   void end_step(const Controller& controller, const Report& report, bool may_look_ahead) {
-    choice_.end_step(controller, report, may_look_ahead);
+    selector_.end_step(controller, report, may_look_ahead);
   }
 
   static constexpr std::size_t kMaxWaiting = 16;
 
  private:
-  SubgraphChoice choice_;
+  SubgraphSelector selector_;
   Reconfiguration reconfiguration_;
   std::deque<AutomatonRequest> waiting_;
   bool is_in_work_{};

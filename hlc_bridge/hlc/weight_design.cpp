@@ -27,20 +27,20 @@ void check_weights(const std::vector<CriterionWeight>& weights) {
     if (std::ranges::find(known, criterion) == known.end()) {
       std::string names;
       for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-      refuse_weights("criterion '" + one_line(criterion) + "', allowed " + names);
+      refuse_weights("criterion '" + one_line(criterion) + "', must be one of " + names);
     }
     if (std::ranges::count(weights, criterion, &CriterionWeight::criterion) > 1) {
       refuse_weights(criterion + " is listed twice");
     }
     if (!(weight >= 0.0) || !std::isfinite(weight)) {
-      refuse_weights(criterion + " = " + shortest_text(weight) + ", allowed at least 0");
+      refuse_weights(criterion + " = " + shortest_text(weight) + ", must be >= 0");
     }
     sum += weight;
   }
-  if (sum <= 0.0) refuse_weights("all 0, allowed at least one above 0");
+  if (sum <= 0.0) refuse_weights("all 0, at least one must be > 0");
 }
 
-/// It may have been edited since the automaton was built.
+/// The configuration may have been edited since the automaton was built.
 bool describes(const AutomatonConfiguration& configuration, const UniversalAutomaton& automaton) {
   return configuration.trims == automaton.trims && configuration.step_s == automaton.step_s &&
          to_yaml(configuration.limits) == to_yaml(automaton.limits) &&
@@ -59,10 +59,10 @@ WeightDesign::WeightDesign(std::shared_ptr<const UniversalAutomaton> automaton, 
 
 const AutomatonConfiguration& WeightDesign::configuration() {
   if (configuration_) return *configuration_;
-  if (!source_) refuse_weights("what the automaton was built from is not known");
+  if (!source_) refuse_weights("configuration of the automaton unknown");
   AutomatonConfiguration read = source_();
   if (!describes(read, *automaton_)) {
-    refuse_weights(read.source + " says something else than the automaton that is driven on");
+    refuse_weights(read.source + " differs from the automaton in use");
   }
   return configuration_.emplace(std::move(read));
 }
@@ -100,7 +100,7 @@ std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
   });
   if (!tasks.empty()) {
     std::vector<Maneuver> designed = design(wanted, tasks, [&stop] {
-      if (stop.stop_requested()) refuse_weights("the controller ends");
+      if (stop.stop_requested()) refuse_weights("the controller is stopping");
     });
     auto larger = std::make_shared<UniversalAutomaton>(*automaton);
     std::ranges::move(designed, std::back_inserter(larger->maneuvers));
@@ -111,19 +111,19 @@ std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
 }
 
 void WeightDesign::check(const Subgraph& subgraph) const {
-  for (const TrimId from : subgraph.starts()) {
+  for (const TrimId from : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(from)) {
       const double speed_mps = top_speed_mps(*edge.maneuver);
       if (speed_mps <= top_speed_mps_ + kSpeedRounding_mps) continue;
       throw std::invalid_argument("maneuver " + std::to_string(from.index + 1) + " -> " +
                                   std::to_string(edge.to.index + 1) + " (" + edge.maneuver->label +
-                                  ") reaches " + shortest_text(speed_mps) + " m/s, allowed " +
-                                  shortest_text(top_speed_mps_) +
+                                  ") reaches " + shortest_text(speed_mps) +
+                                  " m/s, must be <= " + shortest_text(top_speed_mps_) +
                                   ", the most that the scenario's automaton holds");
     }
   }
   if (!lab_) return;
-  if (const std::string fault = lab_fault_of(subgraph, *lab_); !fault.empty()) {
+  if (const std::string fault = validate_for_lab(subgraph, *lab_); !fault.empty()) {
     throw std::invalid_argument(fault + " by the lab");
   }
 }

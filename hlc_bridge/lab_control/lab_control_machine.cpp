@@ -81,7 +81,7 @@ void LabControlMachine::append(const LabRunActions& todo, Nanoseconds wall, Acti
 void LabControlMachine::show_progress(Nanoseconds wall, Actions& actions) {
   if (!progress_.is_due(wall)) return;
   if (run_->phase() == LabRun::Phase::kGathering) {
-    actions.emplace_back(ProgressText{"waiting, " + run_->waiting_for()});
+    actions.emplace_back(ProgressText{"waiting: " + run_->waiting_for()});
     return;
   }
   const LabRunSettings& settings = run_->settings();
@@ -112,7 +112,7 @@ WakeUp LabControlMachine::wake_up() const {
 }
 
 std::size_t LabControlMachine::awaited() const {
-  return leaves_at_ ? machine::kOnlyUrgent : std::max<std::size_t>(run_->answers_owed(), 1);
+  return leaves_at_ ? machine::kOnlyUrgent : std::max<std::size_t>(run_->pending_answers(), 1);
 }
 
 }  // namespace hlc

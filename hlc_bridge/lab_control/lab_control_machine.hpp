@@ -14,25 +14,25 @@
 
 namespace hlc {
 
-/// Who is on the lab's domain or the controllers', and whom triggers reach.
+/// Participants of the lab's and the controllers' domain, and readers of the triggers.
 struct LabControlPresence {
   machine::Participants participants;
   machine::Matched trigger_readers;
 };
 
-/// How far the run is, in one line for the operator.
+/// Progress of the run, in one line for the operator.
 struct ProgressText {
   std::string text;
 };
 
 /// The part of the lab control centre that a run needs: answers the parameter requests, lets a
-/// LabRun decide what happens when, and leaves when everybody has the stop symbol. A StopSignal
-/// ends the run soon, with the stop symbol.
+/// LabRun decide on the course of the run, and leaves when all participants have the stop symbol. A
+/// StopSignal ends the run soon, with the stop symbol.
 class LabControlMachine {
  public:
   using Event = std::variant<ReadyStatus, ReportRecord, VehicleState, StopRequest, ParameterRequest,
                              LabControlPresence, machine::StopSignal>;
-  /// ReportRecord: to be recorded. Log: for the operator; whoever publishes it stamps it.
+  /// ReportRecord: to be recorded. Log: for the operator; the publisher adds the time stamp.
   using Action = std::variant<Parameter, ReportRecord, Log, RunState, SystemTrigger, ProgressText,
                               machine::LogLine>;
 
@@ -49,8 +49,8 @@ class LabControlMachine {
 
   [[nodiscard]] const LabRun& run() const { return *run_; }
 
-  /// How long it waits, once the run has finished, for everybody to leave: who has the stop symbol
-  /// before the lab control is gone leaves without alarm.
+  /// Waiting time after the end of the run for the others to leave: a process that receives the
+  /// stop symbol before the lab control is gone leaves without an error.
   static constexpr Nanoseconds kLeaveTime = 800 * kNanosecondsPerMillisecond;
   static constexpr Nanoseconds kHurriedLeaveTime = 200 * kNanosecondsPerMillisecond;
 
@@ -71,7 +71,7 @@ class LabControlMachine {
 
   std::unique_ptr<LabRun> run_;
   ProgressTimes progress_;
-  Actions replies_;  ///< to what has come since the last advance
+  Actions replies_;  ///< to the messages since the last advance
   std::size_t num_trigger_readers_{};
   std::optional<Nanoseconds> began_;      ///< wall time of the first trigger
   std::optional<Nanoseconds> leaves_at_;  ///< wall; once the run has finished

@@ -27,56 +27,33 @@ std::string deaths_line(const std::vector<Death>& deaths) {
   return "died: " + join(names);
 }
 
+std::vector<std::string> controller_names(const std::vector<std::uint8_t>& ids) {
+  std::vector<std::string> names;
+  for (const std::uint8_t id : ids) names.push_back(controller_name(id));
+  return names;
+}
+
 }  // namespace
 
-LabRun::LabRun(LabRunSettings settings) : settings_{std::move(settings)} {
-  for (const std::uint8_t id : settings_.vehicle_ids) {
-    for (const std::string& name : {vehicle_name(id), middleware_name(id), controller_name(id)}) {
-      processes_.push_back(name);
-    }
-  }
-}
-
-void LabRun::presence(const std::set<std::string>& alive, const std::set<std::string>& lost) {
-  alive_ = alive;
-  lost_ = lost;
-}
+LabRun::LabRun(LabRunSettings settings)
+    : settings_{std::move(settings)},
+      attendance_{settings_.vehicle_ids},
+      reports_{settings_.vehicle_ids} {}
 
 void LabRun::report(const ReportRecord& record) {
-  const auto& ids = settings_.vehicle_ids;
-  const std::uint8_t id = record.report.vehicle.value;
-  if (std::find(ids.begin(), ids.end(), id) == ids.end()) {
-    return;
-  }
-  const std::uint64_t step = record.report.step.value;
-  std::uint64_t& last_step = last_reports_.try_emplace(id, step).first->second;
-  last_step = std::max(last_step, step);
-  just_heard_.insert(id);
+  if (!reports_.add(record)) return;
+  result_.first_step = reports_.first_step();
   note_progress();
-  if (record.report.status != StepStatus::kStandby) {
-    driving_.insert(id);
-    result_.first_step = std::min(result_.first_step.value_or(step), step);
-  }
-}
-
-std::optional<std::uint64_t> LabRun::last_report(std::uint8_t vehicle_id) const {
-  const auto found = last_reports_.find(vehicle_id);
-  return found == last_reports_.end() ? std::nullopt : std::optional{found->second};
-}
-
-Nanoseconds LabRun::last_heard(std::uint8_t vehicle_id) const {
-  const auto found = last_heard_.find(vehicle_id);
-  return found == last_heard_.end() ? 0 : found->second;
 }
 
 void LabRun::interrupt() {
-  end_asked_ = true;
+  is_end_requested_ = true;
   fail(kExitInterrupted, "interrupted");
 }
 
 void LabRun::stop_requested(std::uint8_t vehicle_id) {
-  end_asked_ = true;
-  fail(kExitDied, controller_name(vehicle_id) + " asked for the stop");
+  is_end_requested_ = true;
+  fail(kExitDied, controller_name(vehicle_id) + " requested the stop");
 }
 
 LabRunActions LabRun::advance(Nanoseconds now) {
@@ -84,18 +61,7 @@ LabRunActions LabRun::advance(Nanoseconds now) {
   if (finished()) {
     return actions;
   }
-  now_ = std::max(now_, now);
-  for (const std::uint8_t id : std::exchange(just_heard_, {})) {
-    last_heard_[id] = now_;
-  }
-  if (!started_ || progress_) {
-    last_progress_ = now_;
-    progress_ = false;
-  }
-  if (!started_) {
-    started_ = true;
-    gathering_since_ = now_;
-  }
+  note_time(now);
   if (phase_ == Phase::kGathering) {
     gather(actions);
   }
@@ -106,7 +72,7 @@ LabRunActions LabRun::advance(Nanoseconds now) {
   update_deaths(actions);
   leave_running_phases(actions);
   if (phase_ == Phase::kBraking && clock() >= phase_end()) {
-    phase_ = Phase::kFinished;
+    enter(Phase::kFinished);
     if (result_.reason.empty() && !result_.deaths.empty()) {
       result_.reason = deaths_line(result_.deaths);
     }
@@ -116,42 +82,41 @@ LabRunActions LabRun::advance(Nanoseconds now) {
   return actions;
 }
 
-void LabRun::gather(LabRunActions& actions) {
-  for (const std::string& process : processes_) {
-    if (lost_.count(process) != 0) {
-      drop(process);
-    }
-  }
-  const bool too_late = now_ - gathering_since_ >= settings_.startup_timeout;
-  if (!end_asked_ && unreached_timers().empty() && not_ready().empty()) {
-    phase_ = Phase::kRunning;
-    began_ = now_;
-    began_clock_ = clock();
-    last_progress_ = now_;
-    actions.run_state = RunPhase::kRunning;
-  } else if (end_asked_ || too_late) {
-    fail(kExitMissing, "after " + seconds(settings_.startup_timeout) + ": " + waiting_for());
-    actions.triggers.push_back(kStopSymbol);
-    phase_ = Phase::kFinished;
-  }
+void LabRun::note_time(Nanoseconds now) {
+  now_ = std::max(now_, now);
+  reports_.stamp(now_);
+  if (!started_ || progress_) last_progress_ = now_;
+  if (!started_) phase_since_.wall = now_;
+  progress_ = false;
+  started_ = true;
 }
 
-std::vector<std::string> LabRun::unreached_timers() const {
-  std::vector<std::string> names;
-  for (const std::uint8_t id : settings_.vehicle_ids) {
-    for (const std::string& name : {vehicle_name(id), middleware_name(id)}) {
-      if (trigger_readers_.count(name) == 0) {
-        names.push_back(name);
-      }
-    }
+void LabRun::enter(Phase phase) {
+  phase_ = phase;
+  phase_since_ = {.wall = now_, .clock = clock() == kNever ? 0 : clock()};
+}
+
+void LabRun::gather(LabRunActions& actions) {
+  for (const std::string& process : attendance_.lost()) drop(process);
+  const bool too_late = now_ - phase_since_.wall >= settings_.startup_timeout;
+  if (!is_end_requested_ && attendance_.unreached_timers().empty() && not_ready().empty()) {
+    enter(Phase::kRunning);
+    running_since_ = phase_since_;
+    last_progress_ = now_;
+    actions.run_state = RunPhase::kRunning;
+  } else if (is_end_requested_ || too_late) {
+    fail(kExitMissing, "after " + seconds(settings_.startup_timeout) + ": " + waiting_for());
+    actions.triggers.push_back(kStopSymbol);
+    enter(Phase::kFinished);
   }
-  return names;
 }
 
 bool LabRun::is_back(const std::string& process) const {
-  if (alive_.count(process) == 0 || lost_.count(process) != 0) return false;
+  if (!attendance_.is_there(process)) return false;
   for (const std::uint8_t id : settings_.vehicle_ids) {
-    if (process == controller_name(id)) return last_heard(id) > died_at_.at(process);
+    if (process == controller_name(id)) {
+      return reports_.last_received(id) > attendance_.died_at(process);
+    }
   }
   return true;
 }
@@ -160,10 +125,10 @@ void LabRun::update_returns(LabRunActions& actions) {
   if (settings_.on_death != OnDeath::kContinue || phase_ != Phase::kRunning) {
     return;
   }
-  const std::set<std::string> gone = dropped_;
+  const std::set<std::string> gone = attendance_.dropped();
   for (const std::string& process : gone) {
     if (is_back(process)) {
-      dropped_.erase(process);
+      attendance_.take_back(process);
       on_return(process);
       actions.returns.push_back(process);
     }
@@ -171,10 +136,8 @@ void LabRun::update_returns(LabRunActions& actions) {
 }
 
 void LabRun::update_deaths(LabRunActions& actions) {
-  for (const std::string& process : processes_) {
-    if (lost_.count(process) != 0) {
-      mark_dead(process, "its participant has left or fallen silent", actions);
-    }
+  for (const std::string& process : attendance_.lost()) {
+    mark_dead(process, "participant left or lease expired", actions);
   }
   for (const Death& death : overdue()) {
     mark_dead(death.process, death.sign, actions);
@@ -182,7 +145,7 @@ void LabRun::update_deaths(LabRunActions& actions) {
   const std::vector<std::string> pending = pending_replies();
   if (!pending.empty() && now_ - last_progress_ >= kAnswerTimeout) {
     for (const std::string& process : pending) {
-      mark_dead(process, "it owes an answer for too long", actions);
+      mark_dead(process, "answer overdue", actions);
     }
     last_progress_ = now_;
   }
@@ -190,25 +153,24 @@ void LabRun::update_deaths(LabRunActions& actions) {
 
 void LabRun::mark_dead(const std::string& process, const std::string& sign,
                        LabRunActions& actions) {
-  if (!dropped_.insert(process).second) {
+  if (!attendance_.drop(process)) {
     return;
   }
   drop(process);
-  const bool leaves_as_told = phase_ == Phase::kBraking && lost_.count(process) != 0;
-  if (leaves_as_told) {
+  const bool is_expected_exit = phase_ == Phase::kBraking && attendance_.is_lost(process);
+  if (is_expected_exit) {
     return;
   }
   actions.deaths.push_back({process, sign});
   record_death({process, sign});
-  died_at_[process] = now_;
+  attendance_.died(process, now_);
   if (settings_.on_death == OnDeath::kContinue) {
     return;
   }
   fail(kExitDied, "");
   if (phase_ == Phase::kRunning) {
-    phase_ = Phase::kDriveOut;
-    drive_out_since_ = clock() == kNever ? 0 : clock();
-    actions.run_state = RunPhase::kDriveOut;
+    enter(Phase::kMinimalRiskStop);
+    actions.run_state = RunPhase::kMinimalRiskStop;
   }
 }
 
@@ -225,35 +187,36 @@ void LabRun::record_death(const Death& death) {
 }
 
 void LabRun::leave_running_phases(LabRunActions& actions) {
-  if (phase_ != Phase::kRunning && phase_ != Phase::kDriveOut) {
+  if (phase_ != Phase::kRunning && phase_ != Phase::kMinimalRiskStop) {
     return;
   }
-  if (end_asked_) {
+  if (is_end_requested_) {
     stop(actions);
   } else if (clock() >= phase_end()) {
     if (phase_ == Phase::kRunning && !result_.first_step) {
       fail(kExitMissing, standby_line());
     }
-    if (phase_ == Phase::kRunning && driving_.size() < settings_.vehicle_ids.size()) {
-      fail(kExitMissing, "still on standby at the end: " + join(on_standby()) + "; see its log");
+    const std::vector<std::uint8_t> standing = reports_.on_standby();
+    if (phase_ == Phase::kRunning && !standing.empty()) {
+      fail(kExitMissing,
+           "still on standby at the end: " + join(controller_names(standing)) + "; see its log");
     }
-    if (settings_.on_death == OnDeath::kContinue && !dropped_.empty()) {
-      fail(kExitDied, "died and not back: " + join({dropped_.begin(), dropped_.end()}));
+    const std::set<std::string>& gone = attendance_.dropped();
+    if (settings_.on_death == OnDeath::kContinue && !gone.empty()) {
+      fail(kExitDied, "died and not back: " + join({gone.begin(), gone.end()}));
     }
     stop(actions);
   }
 }
 
 void LabRun::stop(LabRunActions& actions) {
-  result_.wall = last_progress_ - began_;
-  result_.clock = clock() == kNever ? 0 : clock() - began_clock_;
-  braking_since_ = clock() == kNever ? 0 : clock();
-  braking_since_wall_ = now_;
-  phase_ = Phase::kBraking;
+  result_.wall = last_progress_ - running_since_.wall;
+  result_.clock = clock() == kNever ? 0 : clock() - running_since_.clock;
+  enter(Phase::kBraking);
   actions.triggers.push_back(kStopSymbol);
   for (const std::uint8_t id : settings_.vehicle_ids) {
     for (const std::string& process : {middleware_name(id), controller_name(id)}) {
-      dropped_.insert(process);
+      attendance_.drop(process);
       drop(process);
     }
   }
@@ -263,14 +226,14 @@ Nanoseconds LabRun::phase_end() const {
   switch (phase_) {
     case Phase::kRunning:
       return result_.first_step ? (*result_.first_step + settings_.steps + 1) * settings_.period
-                                : began_clock_ + kStandbyTimeout;
-    case Phase::kDriveOut:
-      return drive_out_since_ + kDriveOutTime;
+                                : phase_since_.clock + kStandbyTimeout;
+    case Phase::kMinimalRiskStop:
+      return phase_since_.clock + kMinimalRiskStopTime;
     case Phase::kBraking:
-      if (result_.exit_code == kExitInterrupted && now_ - braking_since_wall_ >= kInterruptTime) {
+      if (result_.exit_code == kExitInterrupted && now_ - phase_since_.wall >= kInterruptTime) {
         return 0;
       }
-      return braking_since_ + kBrakingTime;
+      return phase_since_.clock + kBrakingTime;
     case Phase::kGathering:
     case Phase::kFinished:
       break;
@@ -280,7 +243,7 @@ Nanoseconds LabRun::phase_end() const {
 
 Nanoseconds LabRun::wake_up() const {
   if (phase_ == Phase::kGathering) {
-    return gathering_since_ + settings_.startup_timeout;
+    return phase_since_.wall + settings_.startup_timeout;
   }
   Nanoseconds time = wall_time_of(phase_end());
   if (!pending_replies().empty()) {
@@ -288,7 +251,7 @@ Nanoseconds LabRun::wake_up() const {
   }
   time = std::min(time, next_overdue());
   if (phase_ == Phase::kBraking && result_.exit_code == kExitInterrupted) {
-    time = std::min(time, braking_since_wall_ + kInterruptTime);
+    time = std::min(time, phase_since_.wall + kInterruptTime);
   }
   return time;
 }
@@ -309,25 +272,20 @@ void LabRun::fail(int exit_code, const std::string& reason) {
 }
 
 std::string LabRun::waiting_for() const {
-  std::vector<std::string> absent;
-  for (const std::string& process : processes_) {
-    if (alive_.count(process) == 0 || lost_.count(process) != 0) {
-      absent.push_back(process);
-    }
-  }
+  const std::vector<std::string> absent = attendance_.absent();
   std::vector<std::string> waiting;
   for (const std::string& what : not_ready()) {
     if (std::find(absent.begin(), absent.end(), what) == absent.end()) {
       waiting.push_back(what);
     }
   }
-  const std::vector<std::string> unreached = unreached_timers();
+  const std::vector<std::string> unreached = attendance_.unreached_timers();
   if (absent.empty() && waiting.empty() && !unreached.empty()) {
-    waiting.push_back("triggers, which do not yet reach " + join(unreached));
+    waiting.push_back("triggers, not yet matched by " + join(unreached));
   }
   std::string line;
   if (!absent.empty()) {
-    line += "not there: " + join(absent);
+    line += "missing: " + join(absent);
   }
   if (!waiting.empty()) {
     line += (absent.empty() ? "" : "; ") + ("not ready: " + join(waiting));
@@ -335,21 +293,13 @@ std::string LabRun::waiting_for() const {
   return line;
 }
 
-std::vector<std::string> LabRun::on_standby() const {
-  std::vector<std::string> names;
-  for (const std::uint8_t id : settings_.vehicle_ids) {
-    if (!has_left_standby(id)) names.push_back(controller_name(id));
-  }
-  return names;
-}
-
 std::string LabRun::standby_line() const {
   std::vector<std::string> names;
   for (const std::uint8_t id : settings_.vehicle_ids) {
-    names.push_back(controller_name(id) + (last_report(id) ? "" : " (silent)"));
+    names.push_back(controller_name(id) + (reports_.last(id) ? "" : " (silent)"));
   }
-  return "after " + seconds(kStandbyTimeout) + " nobody has left standby: " + join(names) +
-         "; is every vehicle's state valid?";
+  return "no vehicle left standby within " + seconds(kStandbyTimeout) + ": " + join(names) +
+         "; check that every vehicle's state is valid";
 }
 
 }  // namespace hlc

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/lab_control/attendance.hpp"
+#include "hlc_bridge/lab_control/reported_steps.hpp"
 #include "hlc_bridge/messages/death.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/instant.hpp"
@@ -15,10 +17,10 @@
 
 namespace hlc {
 
-/// What becomes of a run in which a process dies.
+/// Reaction of the run to the death of a process.
 enum class OnDeath : std::uint8_t {
-  kStop,      ///< the others drive out their plans, and the run ends
-  kContinue,  ///< it goes on, and who died may come back (real time only)
+  kStop,      ///< the others make a minimal-risk stop, and the run ends
+  kContinue,  ///< the run continues, and the dead process may return (real time only)
 };
 
 struct LabRunSettings {
@@ -29,69 +31,73 @@ struct LabRunSettings {
   OnDeath on_death{OnDeath::kStop};
 };
 
-/// After a death the others drive out their plans for this long before the stop symbol.
-inline constexpr Nanoseconds kDriveOutTime = 3 * kNanosecondsPerSecond;
-/// Vehicles brake for 50 ticks after the stop symbol; one more may be under way.
+/// Duration of the minimal-risk stop after a death, until the stop symbol.
+inline constexpr Nanoseconds kMinimalRiskStopTime = 3 * kNanosecondsPerSecond;
+/// Vehicles brake for 50 ticks after the stop symbol; one more tick may have begun.
 inline constexpr Nanoseconds kBrakingTime = 51 * kVehiclePeriod;
-/// A process that owes an answer this long (wall time, since the last answer of anybody) is dead.
-/// Longer than kMessageTimeout, so that those who wait for the dead one have given up and answered
-/// before: only the culprit is still silent then.
+/// A process with a reply pending for this long (wall time, since the last reply of any process) is
+/// dead. Longer than kMessageTimeout, so that processes that wait for the dead one have timed out
+/// and replied before: only the cause is still silent then.
 inline constexpr Nanoseconds kAnswerTimeout = kMessageTimeout + 2 * kNanosecondsPerSecond;
 /// From the start on, controllers must leave standby within this time of the run.
 inline constexpr Nanoseconds kStandbyTimeout = 10 * kNanosecondsPerSecond;
 /// Wall time for the end of an interrupted run.
 inline constexpr Nanoseconds kInterruptTime = 700'000'000;
 
-/// What the lab control has to do now, in this order.
+/// Actions of the lab control, in this order.
 struct LabRunActions {
-  std::vector<Death> deaths;          ///< to be told: log, operator
-  std::vector<std::string> returns;   ///< who died and is back; to be told, too
+  std::vector<Death> deaths;         ///< for the log and the operator
+  std::vector<std::string> returns;  ///< dead processes that are back; for the log and the operator
   std::optional<RunPhase> run_state;  ///< to be published
   std::vector<Nanoseconds> triggers;  ///< SystemTriggers to be sent, in this order
 };
 
 struct LabRunResult {
   int exit_code{kExitGood};
-  std::string reason;  ///< one line; empty if all went well
-  /// In the order in which they were noticed, but a middleware before its controller: that one
-  /// leaves when its middleware is lost, and may know of it earlier than the lab control.
+  std::string reason;  ///< one line; empty on success
+  /// In the order of detection, but a middleware before its controller: the controller leaves when
+  /// its middleware is lost, and may detect that earlier than the lab control.
   std::vector<Death> deaths;
-  std::optional<std::uint64_t> first_step;  ///< k0: first step that anybody reported as not standby
+  std::optional<std::uint64_t> first_step;  ///< k0: first step reported as not standby
   Nanoseconds wall{};   ///< wall time from the first trigger to the last answer before the stop
   Nanoseconds clock{};  ///< time of the run that passed meanwhile
 };
 
 /// The course of one run as a state machine without clock, thread or network: the lab control's
-/// machine (LabControlMachine) feeds what arrives, calls advance() after it and at wake_up(), and
-/// does what advance() returns.
+/// machine (LabControlMachine) passes on arriving messages, calls advance() after them and at
+/// wake_up(), and executes the returned actions.
 ///
 ///     gathering ──all ready──► running ──(k0 + steps + 1) periods──► braking ──1 s──► finished (0)
-///         │                       ├──somebody died──► drive out ──3 s──► braking ──► finished (4)
+///         │                       ├──death──► minimal-risk stop ──3 s──► braking ──► finished (4)
 ///         └──timeout──► finished (3)    nobody leaves standby for 10 s ► braking ──► finished (3)
 ///
-/// With OnDeath::kContinue a death is recorded, and the run goes on. Who died is back when it is
-/// there again, a controller when it reports again; a run in whose end somebody is not back has
-/// failed (4).
+/// With OnDeath::kContinue a death is recorded, and the run continues. A dead process is back when
+/// its participant is present again, a controller when it reports again; a run that ends while a
+/// dead process is not back has failed (4).
 ///
-/// Step k0 is the first that a controller reports as not standby. The run goes on one period after
-/// the last of its `steps` steps has ended, so that the pose which that step led to is recorded
-/// too; a run in whose end a controller has never left standby has failed (3). An interruption or a
-/// controller's stop request leads from anywhere to braking. How time goes on is said by the two
-/// kinds of run, LogicalRun and RealTimeRun.
+/// Step k0 is the first that a controller reports as not standby. The run continues for one period
+/// after the last of its `steps` steps, so that the pose at the end of that step is recorded, too;
+/// a run in which a controller never leaves standby has failed (3). An interruption or a
+/// controller's stop request leads from any phase to braking. The two kinds of run, LogicalRun and
+/// RealTimeRun, define how time advances.
 class LabRun {
  public:
-  enum class Phase : std::uint8_t { kGathering, kRunning, kDriveOut, kBraking, kFinished };
+  enum class Phase : std::uint8_t { kGathering, kRunning, kMinimalRiskStop, kBraking, kFinished };
 
   explicit LabRun(LabRunSettings settings);
   virtual ~LabRun() = default;
   LabRun(const LabRun&) = delete;
   LabRun& operator=(const LabRun&) = delete;
 
-  /// Who is there, and who was there and is not any more; a name in both is lost.
-  void presence(const std::set<std::string>& alive, const std::set<std::string>& lost);
-  /// Whom the lab control's triggers reach: before the run begins all timers, every vehicle and
-  /// every middleware, so that the first trigger is not lost.
-  void trigger_readers(std::set<std::string> names) { trigger_readers_ = std::move(names); }
+  /// Live and lost participants; a name in both is lost.
+  void presence(const std::set<std::string>& alive, const std::set<std::string>& lost) {
+    attendance_.update(alive, lost);
+  }
+  /// Readers of the lab control's triggers: before the run begins all timers, every vehicle and
+  /// every middleware must be among them, so that the first trigger is not lost.
+  void trigger_readers(std::set<std::string> names) {
+    attendance_.trigger_readers(std::move(names));
+  }
   virtual void ready(const ReadyStatus& status) = 0;
   virtual void state(const VehicleState& /*state*/) {}
   void report(const ReportRecord& record);
@@ -108,9 +114,13 @@ class LabRun {
   [[nodiscard]] virtual WakeUp wake_up_at(Nanoseconds time) const { return {.wall = time}; }
   /// Real time: next_start of the start trigger; 0: there is none.
   [[nodiscard]] virtual Nanoseconds start() const { return 0; }
-  /// Answers without which advance() has nothing to do, once the run has begun; 0 if anything that
-  /// arrives may count.
-  [[nodiscard]] std::size_t answers_owed() const {
+  /// Logical time: only the run's triggers advance time.
+  [[nodiscard]] virtual bool releases_time() const = 0;
+  /// The run begins only with states of all vehicles.
+  [[nodiscard]] virtual bool awaits_states() const { return false; }
+  /// Number of replies without which advance() has nothing to do, once the run has begun; 0 if any
+  /// message may count.
+  [[nodiscard]] std::size_t pending_answers() const {
     return phase_ == Phase::kGathering ? 0 : pending_replies().size();
   }
 
@@ -118,7 +128,7 @@ class LabRun {
   [[nodiscard]] bool finished() const { return phase_ == Phase::kFinished; }
   /// Steps that have begun, 0 before k0; at most `steps`.
   [[nodiscard]] std::uint64_t steps_begun() const;
-  /// Before the beginning: "not there: a, b; not ready: c".
+  /// Before the beginning: "missing: a, b; not ready: c".
   [[nodiscard]] std::string waiting_for() const;
   /// Complete once finished.
   [[nodiscard]] const LabRunResult& result() const { return result_; }
@@ -127,42 +137,41 @@ class LabRun {
   static constexpr Nanoseconds kNever = ~Nanoseconds{0};
 
  protected:
-  /// Processes that have not yet said that they are ready; empty: the run can begin.
+  /// Processes that are not yet ready; empty: the run can begin.
   [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
   /// Triggers that are due. Called at every advance from the beginning on.
   virtual void go_on(LabRunActions& actions) = 0;
-  /// Time of the run up to which everything is done; kNever if nobody is left for whom time could
-  /// go on.
+  /// Time of the run up to which everything is done; kNever without a process to advance time for.
   [[nodiscard]] virtual Nanoseconds clock() const = 0;
-  /// Who is dead though its participant lives, with the sign; and when such a death is due next if
-  /// nothing arrives (wall time).
+  /// Processes that are dead although their participant is alive, with the evidence; and when the
+  /// next such death is due if no message arrives (wall time).
   [[nodiscard]] virtual std::vector<Death> overdue() const { return {}; }
   [[nodiscard]] virtual Nanoseconds next_overdue() const { return kNever; }
-  /// Processes that owe an answer now. All of them are dead when nobody has answered for
+  /// Processes with a pending reply. All of them are dead when no process has replied for
   /// kAnswerTimeout.
   [[nodiscard]] virtual std::vector<std::string> pending_replies() const { return {}; }
-  /// The process is gone. Before the beginning it may come back and starts anew then.
+  /// The process is gone. Before the beginning it may return, and starts again.
   virtual void drop(const std::string& /*process*/) {}
   /// The process, dropped before, is back.
   virtual void on_return(const std::string& /*process*/) {}
   /// Wall time at which clock() itself reaches `t`; kNever if that takes an answer.
   [[nodiscard]] virtual Nanoseconds wall_time_of(Nanoseconds /*t*/) const { return kNever; }
 
-  /// To be called for every answer that brings the run forward.
+  /// To be called for every reply that advances the run.
   void note_progress() { progress_ = true; }
   [[nodiscard]] Nanoseconds now() const { return now_; }
-  /// Step up to which the controller has reported; nothing before its first report.
-  [[nodiscard]] std::optional<std::uint64_t> last_report(std::uint8_t vehicle_id) const;
-  /// Wall time (of advance) at which the controller's last report was there; 0 before the first.
-  [[nodiscard]] Nanoseconds last_heard(std::uint8_t vehicle_id) const;
-  [[nodiscard]] bool has_left_standby(std::uint8_t vehicle_id) const {
-    return driving_.count(vehicle_id) != 0;
-  }
-  [[nodiscard]] std::optional<std::uint64_t> first_step() const { return result_.first_step; }
+  [[nodiscard]] const ReportedSteps& reports() const { return reports_; }
 
  private:
+  /// Begin of the phase by the wall clock and by clock() (0: no process to advance time for).
+  struct Since {
+    Nanoseconds wall{};
+    Nanoseconds clock{};
+  };
+
+  void enter(Phase phase);
+  void note_time(Nanoseconds now);
   void gather(LabRunActions& actions);
-  [[nodiscard]] std::vector<std::string> unreached_timers() const;
   void update_deaths(LabRunActions& actions);
   void update_returns(LabRunActions& actions);
   [[nodiscard]] bool is_back(const std::string& process) const;
@@ -171,35 +180,28 @@ class LabRun {
   void leave_running_phases(LabRunActions& actions);
   void stop(LabRunActions& actions);
   void fail(int exit_code, const std::string& reason);
-  [[nodiscard]] std::vector<std::string> on_standby() const;
   [[nodiscard]] std::string standby_line() const;
   /// Time of the run at which the present phase ends; kNever if an answer decides.
   [[nodiscard]] Nanoseconds phase_end() const;
 
   LabRunSettings settings_;
   Phase phase_{Phase::kGathering};
+  Since phase_since_;    ///< the present phase
+  Since running_since_;  ///< Phase::kRunning
   LabRunResult result_;
-  std::vector<std::string> processes_;  ///< all that take part
-  std::set<std::string> alive_;
-  std::set<std::string> lost_;
-  std::set<std::string> dropped_;
-  std::map<std::string, Nanoseconds> died_at_;          ///< wall
-  std::map<std::uint8_t, std::uint64_t> last_reports_;  ///< step, by vehicle
-  std::map<std::uint8_t, Nanoseconds> last_heard_;      ///< wall, by vehicle
-  std::set<std::uint8_t> just_heard_;                   ///< reported since the last advance
-  std::set<std::uint8_t> driving_;                      ///< vehicles that have left standby
-  std::set<std::string> trigger_readers_;
-  bool end_asked_{};  ///< interrupted, or a controller asked for the stop
+  Attendance attendance_;
+  ReportedSteps reports_;
+  bool is_end_requested_{};  ///< interrupted, or a controller requested the stop
   bool progress_{};
   bool started_{};
   Nanoseconds now_{};
-  Nanoseconds gathering_since_{};
   Nanoseconds last_progress_{};  ///< wall
-  Nanoseconds began_{};          ///< wall
-  Nanoseconds began_clock_{};
-  Nanoseconds drive_out_since_{};  ///< clock
-  Nanoseconds braking_since_{};    ///< clock
-  Nanoseconds braking_since_wall_{};
 };
+
+/// One of the two kinds of run.
+template <class Run>
+[[nodiscard]] std::unique_ptr<LabRun> make_lab_run(LabRunSettings settings) {
+  return std::make_unique<Run>(std::move(settings));
+}
 
 }  // namespace hlc

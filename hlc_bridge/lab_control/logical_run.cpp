@@ -41,7 +41,7 @@ std::vector<std::string> LogicalRun::unreported_before(Nanoseconds tick) const {
   }
   const std::uint64_t step = step_at(*list, settings().period);
   for (const std::uint8_t id : settings().vehicle_ids) {
-    const std::optional<std::uint64_t> reported = last_report(id);
+    const std::optional<std::uint64_t> reported = reports().last(id);
     if (controllers_.count(controller_name(id)) != 0 && (!reported || *reported < step)) {
       names.push_back(controller_name(id));
     }

@@ -10,17 +10,18 @@ namespace hlc {
 /// Timers are those of the vehicles and of the middlewares. The next tick T is released when
 ///   * every living timer has answered all ticks before (TickMaster), and
 ///   * every living controller has reported the step of the last list before T.
-/// Then everything that happens before T has happened, whatever the order in which messages arrive:
-/// a run's results depend on its inputs only. A controller without a middleware gets no lists and
-/// owes no reports.
+/// Then everything that happens before T has happened, in any order of messages: the results of a
+/// run depend only on its inputs. A controller without a middleware gets no lists, so no reports
+/// are pending.
 ///
 /// A timer that repeats its request for the tick that is released already may have missed the
-/// trigger: it is sent again. (Timers ignore triggers for other ticks than the one they wait for.)
+/// trigger: it is sent again. (Timers ignore triggers for other ticks.)
 class LogicalRun : public LabRun {
  public:
   explicit LogicalRun(LabRunSettings settings);
 
   void ready(const ReadyStatus& status) override;
+  [[nodiscard]] bool releases_time() const override { return true; }
 
  protected:
   [[nodiscard]] std::vector<std::string> not_ready() const override;

@@ -7,8 +7,8 @@
 
 namespace hlc {
 
-/// When the operator is shown how far a run is: every `interval` of wall time, but not in the first
-/// second, since most starts and short runs are over by then.
+/// Times of the progress lines: every `interval` of wall time, but not in the first second, since
+/// most starts and short runs have ended by then.
 class ProgressTimes {
  public:
   static constexpr Nanoseconds kQuietTime = kNanosecondsPerSecond;

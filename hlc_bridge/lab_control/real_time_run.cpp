@@ -66,24 +66,24 @@ Nanoseconds RealTimeRun::report_due(std::uint8_t vehicle_id) const {
   if (!start_ || silenced_.count(vehicle_id) != 0) {
     return kNever;
   }
-  return std::max(*start_, last_heard(vehicle_id)) + kReportTimeout;
+  return std::max(*start_, reports().last_received(vehicle_id)) + kReportTimeout;
 }
 
 Nanoseconds RealTimeRun::drive_due(std::uint8_t vehicle_id) const {
-  if (!start_ || !first_step() || silenced_.count(vehicle_id) != 0 ||
-      has_left_standby(vehicle_id)) {
+  if (!start_ || !reports().first_step() || silenced_.count(vehicle_id) != 0 ||
+      reports().has_left_standby(vehicle_id)) {
     return kNever;
   }
-  return std::max(*start_, *first_step() * settings().period) + kReportTimeout;
+  return std::max(*start_, *reports().first_step() * settings().period) + kReportTimeout;
 }
 
 std::vector<Death> RealTimeRun::overdue() const {
   std::vector<Death> deaths;
   for (const std::uint8_t id : settings().vehicle_ids) {
     if (now() >= report_due(id)) {
-      deaths.push_back({controller_name(id), "it has not reported for too long"});
+      deaths.push_back({controller_name(id), "report overdue"});
     } else if (now() >= drive_due(id)) {
-      deaths.push_back({controller_name(id), "it stays on standby while others drive"});
+      deaths.push_back({controller_name(id), "on standby while others drive"});
     }
   }
   return deaths;

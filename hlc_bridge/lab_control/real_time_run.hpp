@@ -8,26 +8,29 @@ namespace hlc {
 /// A run in real time: the lab control starts and stops it, time passes by itself (wire
 /// contract, 5.2).
 ///
-/// It begins when every middleware has told that its controller is ready, every vehicle's
-/// states have settled, and the triggers reach every timer; step 0 is the first list at or after
-/// the start trigger's time, one second later. `now` of advance() is the time since the epoch.
+/// It begins when every middleware has reported its controller ready, every vehicle's states have
+/// settled, and the triggers reach every timer; step 0 is the first list at or after the start
+/// trigger's time, one second later. `now` of advance() is the time since the epoch.
 ///
-/// From the start trigger's time on, every living controller owes a report at least every
-/// kReportTimeout, since it reports every list; and when one has left standby, so must the others
-/// within that time. Who does not is dead, even if its participant still announces itself.
+/// From the start trigger's time on, a report of every live controller is due at least every
+/// kReportTimeout, since it reports every list; and when one has left standby, the others must
+/// follow within that time. A controller that does not is dead, even if its participant still
+/// announces itself.
 class RealTimeRun : public LabRun {
  public:
   /// From the trigger to the start.
   static constexpr Nanoseconds kStartDelay = 1 * kNanosecondsPerSecond;
 
   /// Longer than the lease of 2 s, after which a process without signs of life is lost: a
-  /// controller whose middleware is gone gets no lists to report, and is not the one to be named.
+  /// controller whose middleware is gone gets no lists to report, and is not the cause.
   static constexpr Nanoseconds kReportTimeout = 2'500'000'000;
 
   explicit RealTimeRun(LabRunSettings settings) : LabRun{std::move(settings)} {}
 
   void ready(const ReadyStatus& status) override;
   void state(const VehicleState& state) override;
+  [[nodiscard]] bool releases_time() const override { return false; }
+  [[nodiscard]] bool awaits_states() const override { return true; }
   [[nodiscard]] Nanoseconds time_of(const Instant& now) const override { return now.run; }
   [[nodiscard]] WakeUp wake_up_at(Nanoseconds time) const override { return {.run = time}; }
   [[nodiscard]] Nanoseconds start() const override { return start_.value_or(0); }

@@ -13,14 +13,13 @@ namespace hlc {
 ///
 /// Every timer *requests* the tick that it wants next. The smallest request T is *released* once
 /// every timer has answered the ticks before, that is, requests a tick later than all released
-/// ones. So ticks are released in order of time, and each one only when everything that earlier
-/// ticks had to do is done. Timers that are dropped are not waited for. Plain data: no clock, no
-/// lock.
+/// ones. So ticks are released in order of time, and each one only when all work of earlier ticks
+/// is done. Dropped timers are not waited for. Plain data: no clock, no lock.
 class TickMaster {
  public:
   explicit TickMaster(const std::vector<std::string>& timers);
 
-  /// The timer wants to be released at `tick`; true if that is news. Unknown timers are ignored.
+  /// Request of the timer for `tick`; true if it is new. Unknown timers are ignored.
   bool request(const std::string& timer, Nanoseconds tick);
   /// The timer has not yet requested anything, as at the start.
   void forget(const std::string& timer);
@@ -35,7 +34,7 @@ class TickMaster {
   /// Releases it. @pre releasable()
   Nanoseconds release();
 
-  /// True if the timer waits for the tick released last: it may not have heard of it.
+  /// True if the timer waits for the tick released last: it may have missed the trigger.
   [[nodiscard]] bool waits_for_released(const std::string& timer, Nanoseconds tick) const;
   [[nodiscard]] std::optional<Nanoseconds> released() const { return released_; }
   /// No timer is left.

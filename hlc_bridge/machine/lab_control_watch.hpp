@@ -8,13 +8,13 @@
 
 namespace hlc::machine {
 
-/// How long a process goes on after the lab control is lost.
+/// How long a process continues after the lab control is lost.
 class LabControlGrace {
  public:
   explicit LabControlGrace(Nanoseconds grace) : grace_(grace) {}
 
-  /// True once it has been lost for the grace without a break.
-  /// @param is_lost  somebody bore its name, and nobody does now
+  /// True once the lab control has been lost for the grace period without interruption.
+  /// @param is_lost  its name was present, and is no longer
   /// @param now      of any one clock; never goes back
   [[nodiscard]] bool is_over(bool is_lost, Nanoseconds now) {
     if (!is_lost) {
@@ -30,21 +30,20 @@ class LabControlGrace {
   std::optional<Nanoseconds> lost_at_;
 };
 
-/// Whether the lab control, which alone can stop all cars, is lost; it may come back.
+/// Whether the lab control, which alone can stop all cars, is lost; it may return.
 ///
-/// Two signs: nobody bears the name of ours (messages/node_names) any more; or stop requests, which
-/// of all programs the lab control alone reads (wire contract, 4.2), have had readers and for kGap
-/// have none. The latter holds for the lab's own, too, whose participant bears the name that all
-/// the lab's programs have. All times are wall time.
+/// Two signs: the name of ours (messages/node_names) is no longer present; or stop requests, which
+/// only the lab control reads (wire contract, 4.2), have had readers and for kGap have none. The
+/// latter also detects the lab's own control centre, whose participant has the name that all the
+/// lab's programs have. All times are wall time.
 class LabControlWatch {
  public:
-  /// A reader that is made anew is no loss. (Gaps of the network that are shorter than its lease
-  /// do not show here.)
+  /// A reader that is recreated is no loss. (Network gaps shorter than the lease do not show here.)
   static constexpr Nanoseconds kGap = 500 * kNanosecondsPerMillisecond;
 
   enum class Change : std::uint8_t { kNone, kLost, kBack };
 
-  /// @param is_name_lost          somebody bore the name, and nobody does now
+  /// @param is_name_lost          the name was present, and is no longer
   /// @param stop_request_readers  matched now
   /// @param now                   never goes back
   Change look(bool is_name_lost, std::size_t stop_request_readers, Nanoseconds now) {
@@ -62,11 +61,11 @@ class LabControlWatch {
   }
 
   [[nodiscard]] bool is_lost() const { return lost_at_.has_value(); }
-  /// Nobody waits for it to come back any more.
+  /// The grace period is over.
   [[nodiscard]] bool is_lost_for_good(Nanoseconds now) const {
     return lost_at_ && now > *lost_at_ + kControllerStays;
   }
-  /// When look or is_lost_for_good changes by time alone.
+  /// When look or is_lost_for_good changes without an event.
   [[nodiscard]] std::optional<Nanoseconds> wake_up() const {
     if (lost_at_) return *lost_at_ + kControllerStays + 1;
     if (without_readers_since_) return *without_readers_since_ + kGap;

@@ -16,36 +16,35 @@ namespace hlc::machine {
 /// Event: the process is to end soon (SIGINT, SIGTERM, a call of stop).
 struct StopSignal {};
 
-/// Who is on a domain: part of a machine's presence event.
+/// Participants of a domain: part of a machine's presence event.
 struct Participants {
   std::set<std::string> alive;
-  std::set<std::string> lost;  ///< were there and are not any more
+  std::set<std::string> lost;  ///< were present and are no longer
 };
 
-/// With whom one endpoint of the process is matched: part of a machine's presence event.
+/// Matches of one endpoint of the process: part of a machine's presence event.
 struct Matched {
   std::size_t count{};          ///< endpoints of others
   std::set<std::string> names;  ///< participants that they belong to
 };
 
-/// What Machine::awaited returns while no event but an urgent one lets advance do anything.
+/// Returned by Machine::awaited while only an urgent event lets advance do anything.
 inline constexpr std::size_t kOnlyUrgent = std::numeric_limits<std::size_t>::max();
 
-/// What a process decides: a value that is fed events and says what to do next. It knows no clock,
-/// thread, socket, file or logger.
+/// The decisions of a process: a value that is fed events and returns what to do next. It knows no
+/// clock, thread, socket, file or logger.
 ///
-///     on(event)      something came: a message, a change of presence, a signal
+///     on(event)      an event: a message, a change of presence, a signal
 ///     advance(now)   what to do now, in this order
-///     wake_up()      when advance must be called though nothing came
-///     awaited()      events without which advance has nothing to do, at least 1 (urgent ones
-///     aside,
-///                    Shell::post_urgent). In logical time most messages bring only a part of what
-///                    a process waits for, and to wake the thread for each would cost a good part
-///                    of the run's speed. A hint: advance may be called at any time.
-///     exit_code()    once it is there, the process ends
+///     wake_up()      when advance must be called without an event
+///     awaited()      number of events before advance has something to do, at least 1 (urgent ones
+///                    aside, Shell::post_urgent). In logical time most messages bring only a part
+///                    of what a process waits for, and waking the thread for each would slow down
+///                    the run considerably. A hint: advance may be called at any time.
+///     exit_code()    once it is set, the process ends
 ///
-/// `Event` and `Action` are variants; an event StopSignal is among the events. After an advance the
-/// wake-up lies in the future, or advance is called again at once.
+/// `Event` and `Action` are variants; StopSignal is among the events. After an advance the wake-up
+/// lies in the future, or advance is called again at once.
 template <class M>
 concept Machine = requires(M machine, const M& fixed, typename M::Event event, Instant now) {
   machine.on(std::move(event));
@@ -56,7 +55,7 @@ concept Machine = requires(M machine, const M& fixed, typename M::Event event, I
   requires std::constructible_from<typename M::Event, StopSignal>;
 };
 
-/// The earlier of two times of which either may be missing.
+/// The earlier of two times, either of which may be missing.
 [[nodiscard]] constexpr std::optional<Nanoseconds> earlier(std::optional<Nanoseconds> a,
                                                            std::optional<Nanoseconds> b) {
   if (!a || !b) return a ? a : b;

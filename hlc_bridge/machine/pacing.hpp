@@ -10,7 +10,7 @@
 namespace hlc {
 
 /// How the time of a run passes for the machine of a process. Knows no clock and no thread:
-/// `clocks` is what they show, `run` being CLOCK_REALTIME. The shell asks it under its lock.
+/// `clocks` are their values, `run` being CLOCK_REALTIME. The shell calls it under its lock.
 class Pacing {
  public:
   Pacing() = default;
@@ -18,26 +18,26 @@ class Pacing {
   Pacing& operator=(const Pacing&) = delete;
   virtual ~Pacing() = default;
 
-  /// What the machine is advanced with.
+  /// The time with which the machine is advanced.
   [[nodiscard]] virtual Instant now(const Instant& clocks) const = 0;
 
   /// The tick that the machine waits for (WakeUp::run); after every advance.
   virtual void want(std::optional<Nanoseconds> tick) = 0;
-  /// The tick wanted is there.
+  /// The requested tick is due.
   [[nodiscard]] virtual bool is_due() const = 0;
-  /// When the thread must look again, by the clocks.
+  /// When the thread must check again, by the clocks.
   [[nodiscard]] virtual WakeUp wake_up() const = 0;
-  /// How long an event that is not urgent may lie until enough have come (Machine::awaited).
+  /// How long an event that is not urgent may wait until enough have arrived (Machine::awaited).
   [[nodiscard]] virtual Nanoseconds mail_delay() const = 0;
 
-  /// A SystemTrigger came. True if it releases the tick wanted.
+  /// A SystemTrigger was received. True if it releases the requested tick.
   virtual bool on_trigger(Nanoseconds /*next_start*/, Nanoseconds /*wall*/) { return false; }
-  /// The tick to be said in a ReadyStatus now, if any.
+  /// The tick to be announced in a ReadyStatus now, if any.
   [[nodiscard]] virtual std::optional<Nanoseconds> announcement(Nanoseconds /*wall*/) {
     return std::nullopt;
   }
-  /// No trigger has come for too long while a tick is wanted.
-  [[nodiscard]] virtual bool has_given_up(Nanoseconds /*wall*/) const { return false; }
+  /// No trigger has arrived for too long while a tick is requested.
+  [[nodiscard]] virtual bool is_timed_out(Nanoseconds /*wall*/) const { return false; }
 };
 
 /// Real time: the computer's clock is the time of the run.
@@ -54,16 +54,16 @@ class RealPacing : public Pacing {
 };
 
 /// Logical time: ticks released one by one by the lab control (lab wire contract, 5.3). The process
-/// says which tick it wants next (ReadyStatus), and the tick is there when a SystemTrigger with
-/// exactly that time has come. Asking for a tick says that everything before it is done.
+/// publishes which tick it wants next (ReadyStatus), and the tick is due when a SystemTrigger with
+/// exactly that time has arrived. Requesting a tick means that everything before it is done.
 ///
-/// A ready status can be lost: it is said again every second of wall time. A lab control can hang
-/// while its participant still announces itself. Then no trigger comes any more, not even for
-/// others, and after `patience` the process ends. In a run that goes on, the longest time without a
-/// trigger is that in which the lab control finds out that somebody is dead: kMessageTimeout + 2 s.
+/// A ready status can be lost: it is republished every second of wall time. A lab control can stop
+/// responding while its participant still announces itself. Then no trigger arrives, not even for
+/// others, and after `patience` the process ends. In a healthy run, the longest time without a
+/// trigger is that in which the lab control detects a death: kMessageTimeout + 2 s.
 ///
-/// Whoever wants no ticks (a controller, which follows lists; the lab control, which releases them)
-/// only learns from it that no time passes.
+/// A process that requests no ticks (a controller, which follows lists; the lab control, which
+/// releases them) learns from it only that no time passes.
 class LogicalPacing : public Pacing {
  public:
   static constexpr Nanoseconds kRepeat = kNanosecondsPerSecond;
@@ -95,7 +95,7 @@ class LogicalPacing : public Pacing {
 
   bool on_trigger(Nanoseconds next_start, Nanoseconds wall) override {
     last_trigger_ = wall;
-    if (wanted_ != next_start) return false;  // meant for others
+    if (wanted_ != next_start) return false;  // for other processes
     released_ = next_start;
     return true;
   }
@@ -104,7 +104,7 @@ class LogicalPacing : public Pacing {
     next_announcement_ = wall + kRepeat;
     return wanted_;
   }
-  [[nodiscard]] bool has_given_up(Nanoseconds wall) const override {
+  [[nodiscard]] bool is_timed_out(Nanoseconds wall) const override {
     return wanted_ && !is_due() && wall - std::min(wall, last_trigger_) >= patience_;
   }
 
@@ -116,12 +116,30 @@ class LogicalPacing : public Pacing {
   Nanoseconds next_announcement_{};  ///< wall
 };
 
-/// @param startup_timeout  wall time; @param since  wall time now
-[[nodiscard]] inline std::unique_ptr<Pacing> make_pacing(bool logical_time,
-                                                         Nanoseconds startup_timeout,
-                                                         Nanoseconds since) {
-  if (!logical_time) return std::make_unique<RealPacing>();
-  return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since);
+/// What a process is given of the kind of time that its run has (flag --simulated_time), so that it
+/// never asks which of the two it is. What its machine is given: pacing_rules.hpp and the machines'
+/// own rules.
+struct RunTime {
+  using MakePacing = std::unique_ptr<Pacing> (*)(Nanoseconds startup_timeout, Nanoseconds since);
+
+  /// startup_timeout: wall time. since: wall time now.
+  MakePacing make_pacing{};
+  Nanoseconds lease{};  ///< that long after its death others see a participant as lost
+};
+
+inline constexpr RunTime kRealTime{
+    .make_pacing = [](Nanoseconds, Nanoseconds) -> std::unique_ptr<Pacing> {
+      return std::make_unique<RealPacing>();
+    },
+    .lease = 2 * kNanosecondsPerSecond};
+inline constexpr RunTime kLogicalTime{
+    .make_pacing = [](Nanoseconds startup_timeout, Nanoseconds since) -> std::unique_ptr<Pacing> {
+      return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since);
+    },
+    .lease = 10 * kNanosecondsPerSecond};
+
+[[nodiscard]] constexpr RunTime run_time(bool is_logical) {
+  return is_logical ? kLogicalTime : kRealTime;
 }
 
 }  // namespace hlc

@@ -9,8 +9,8 @@
 namespace hlc::machine {
 namespace {
 
-std::string within(Nanoseconds timeout) {
-  return "within " + std::to_string(timeout / kNanosecondsPerSecond) + " s";
+std::string in_seconds(Nanoseconds timeout) {
+  return std::to_string(timeout / kNanosecondsPerSecond) + " s";
 }
 
 }  // namespace
@@ -32,14 +32,14 @@ std::vector<std::string> StartUp::requests_at(Nanoseconds now) {
   }
   const std::vector<std::string> missing = parameters_.missing();
   if (is_too_late(now)) {
-    fail(std::string(kLabControlName) + " did not tell " + joined(missing) + " " +
-         within(timeout_));
+    fail(std::string(kLabControlName) + " did not send " + joined(missing) + " within " +
+         in_seconds(timeout_));
     return {};
   }
   if (now < next_request_) return {};
   next_request_ = now + kRequestInterval;
   if (notice_.is_due(now)) {
-    line_ = info("waiting for " + std::string(kLabControlName) + " to tell " + joined(missing));
+    line_ = info("waiting for " + std::string(kLabControlName) + " to send " + joined(missing));
   }
   wake_up_ = std::min(next_request_, *since_ + timeout_);
   return missing;
@@ -50,7 +50,7 @@ void StartUp::wait_for(Nanoseconds now, const std::string& missing) {
     wake_up_.reset();
     return;
   }
-  if (is_too_late(now)) return fail("not there " + within(timeout_) + ": " + missing);
+  if (is_too_late(now)) return fail("missing after " + in_seconds(timeout_) + ": " + missing);
   if (notice_.is_due(now)) line_ = info("waiting for " + missing);
   wake_up_ = std::min(notice_.next(), *since_ + timeout_);
 }

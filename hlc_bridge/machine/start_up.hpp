@@ -10,10 +10,10 @@
 
 namespace hlc::machine {
 
-/// What a process does before its first tick: it learns the run's parameters from the lab control,
-/// and (where the rules say so) waits until everybody is there. Both together take `timeout` at
-/// most, from the first call of learn on; then the process ends with kExitMissing. All times are
-/// wall time.
+/// The phase of a process before its first tick: it gets the run's parameters from the lab control,
+/// and (if the rules require it) waits until all participants are present. Both together take at
+/// most `timeout`, from the first call of learn on; then the process ends with kExitMissing. All
+/// times are wall time.
 ///
 ///     if (!start_up_.learn(now.wall, actions)) return;
 ///     if (!start_up_.connect(now.wall, who_is_missing(), actions)) return;
@@ -21,11 +21,11 @@ class StartUp {
  public:
   explicit StartUp(Nanoseconds timeout) : timeout_(timeout) {}
 
-  /// The lab control answered.
+  /// An answer of the lab control.
   void take(const Parameter& parameter) { parameters_.take(parameter); }
   [[nodiscard]] const RunParameters& parameters() const { return parameters_; }
 
-  /// Asks for what is missing, again every kRequestInterval. True once all is known.
+  /// Requests missing parameters every kRequestInterval. True once all are known.
   /// @param actions  gets ParameterRequest and LogLine
   template <class Action>
   [[nodiscard]] bool learn(Nanoseconds now, std::vector<Action>& actions) {
@@ -33,8 +33,8 @@ class StartUp {
     return move_line(actions) && parameters_.complete();
   }
 
-  /// True once nobody is missing.
-  /// @param missing  who is not there yet: "a, b"; empty: everybody is
+  /// True once all participants are present.
+  /// @param missing  absent participants: "a, b"; empty: none
   template <class Action>
   [[nodiscard]] bool connect(Nanoseconds now, const std::string& missing,
                              std::vector<Action>& actions) {
@@ -44,7 +44,7 @@ class StartUp {
 
   /// kExitMissing after the timeout.
   [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }
-  /// When the last of these two is to be called again though nothing came; empty once it is done.
+  /// When to call these two again without an event; empty once the start-up is done.
   [[nodiscard]] std::optional<Nanoseconds> wake_up() const { return wake_up_; }
 
   static constexpr Nanoseconds kRequestInterval = 100 * kNanosecondsPerMillisecond;

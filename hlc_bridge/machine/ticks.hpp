@@ -10,8 +10,8 @@ namespace hlc::machine {
 /// The ticks of a periodic machine, at k * period + offset, k whole. They never repeat or go back,
 /// even if the clock does.
 ///
-/// A tick is due when the time of the run has reached it. One that is late by less than a period is
-/// given late, older ones are skipped and counted. (In logical time none is late.)
+/// A tick is due when the time of the run has reached it. A tick late by less than a period is
+/// delivered late; older ones are skipped and counted. (In logical time none is late.)
 class Ticks {
  public:
   /// The first tick is the first of the grid that is not before `now`.
@@ -20,7 +20,7 @@ class Ticks {
 
   /// When the next tick is due: for WakeUp::run.
   [[nodiscard]] Nanoseconds next() const { return next_; }
-  /// The tick that is due now, once.
+  /// The due tick, once.
   [[nodiscard]] std::optional<Nanoseconds> take(const Instant& now);
   /// Ticks skipped so far.
   [[nodiscard]] std::uint64_t missed() const { return missed_; }

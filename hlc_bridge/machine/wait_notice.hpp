@@ -6,13 +6,13 @@
 
 namespace hlc::machine {
 
-/// When somebody who waits logs for whom: 2 s after the wait began, then after twice the time of
-/// before, up to every minute. All times are wall time.
+/// When a waiting process logs what it waits for: 2 s after the wait began, then at doubling
+/// intervals, up to a minute. All times are wall time.
 class WaitNotice {
  public:
   explicit WaitNotice(Nanoseconds since) : next_(since + pause_) {}
 
-  /// True if it is time at `now`; the next time is later then.
+  /// True if a notice is due at `now`; schedules the next one.
   [[nodiscard]] bool is_due(Nanoseconds now) {
     if (now < next_) return false;
     pause_ = std::min(2 * pause_, 60 * kNanosecondsPerSecond);

@@ -9,10 +9,10 @@
 
 namespace hlc {
 
-/// Asks a vehicle's controller to plan on another subgraph. The last request of a vehicle counts.
+/// Requests another subgraph of a vehicle's controller. The last request of a vehicle counts.
 struct AutomatonRequest {
   VehicleId vehicle;
-  /// Grows from request to request, whoever asks: the time of asking [ns].
+  /// Increases from request to request, whatever its sender: the time of the request [ns].
   std::uint64_t id{};
   /// The subgraph is in force from the first step that begins then or later; 0: from the next one.
   Nanoseconds valid_from{};
@@ -22,7 +22,7 @@ struct AutomatonRequest {
 enum class RequestOutcome : std::uint8_t {
   kAccepted,  ///< it will be in force
   kInForce,   ///< planned on from this step on
-  kRefused,   ///< the subgraph before stays
+  kRefused,   ///< the former subgraph stays
   kStale,     ///< a later request counts
 };
 
@@ -31,7 +31,7 @@ struct AutomatonAnswer {
   VehicleId vehicle;
   std::uint64_t id{};  ///< of the request
   RequestOutcome outcome{};
-  StepIndex step;    ///< in force from this one on; otherwise that in which it was answered
+  StepIndex step;    ///< in force from this step on; otherwise the step in which it was answered
   std::string text;  ///< name of the subgraph, or why it is not in force
 };
 

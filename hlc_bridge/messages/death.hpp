@@ -4,7 +4,7 @@
 
 namespace hlc {
 
-/// A process of a run that is not there any more, or gives no answer.
+/// A process of a run that has left, or does not respond.
 struct Death {
   std::string process;
   std::string sign;  ///< how it was noticed, in words

@@ -8,8 +8,8 @@
 
 #include "planner/geometry/pose.hpp"
 
-/// The lab's messages as plain data, field for field what a controller, a middleware and a vehicle
-/// need of them (cpm lab wire contract). Times are nanoseconds of the run's clock. `hlc_bridge/dds`
+/// The lab's messages as plain data, with the fields that a controller, a middleware and a vehicle
+/// need (cpm lab wire contract). Times are nanoseconds of the run's clock. `hlc_bridge/dds`
 /// converts.
 namespace hlc {
 
@@ -25,7 +25,7 @@ inline constexpr Nanoseconds kCommandLifetime = 1'000'000'000;
 /// drive the whole plan even if its controller dies at once.
 inline constexpr Nanoseconds kCopyDelay = 800'000'000;
 
-/// Until so long after `now` the lab's vehicle looks at the points of its command.
+/// The lab's vehicle evaluates the points of its command until so long after `now`.
 inline constexpr Nanoseconds kLookAhead = 360'000'000;
 /// Period of the vehicle's ticks.
 inline constexpr Nanoseconds kVehiclePeriod = 20'000'000;
@@ -133,7 +133,7 @@ struct ParameterRequest {
   std::string name;
 };
 
-/// Asks the lab control to stop everybody.
+/// Requests that the lab control stops all vehicles.
 struct StopRequest {
   std::uint8_t vehicle_id{};
 };
@@ -146,16 +146,15 @@ struct Log {
   std::uint16_t level{1};
 };
 
-/// Programs send the lines whose level is not above this.
+/// Programs publish the lines whose level is not above this.
 struct LogLevel {
   std::uint16_t level{1};
 };
 
-/// A goal of a CommonRoad planning problem, which the control centre tells the controllers of a
-/// scenario. Middlewares carry it on and read nothing of it: what is in it only `hlc_bridge/dds`
-/// knows.
+/// A goal of a CommonRoad planning problem, published by the control centre for the controllers of
+/// a scenario. Middlewares forward it without reading it: only `hlc_bridge/dds` knows its content.
 struct GoalState {
-  std::any carried;
+  std::any payload;
 };
 
 /// What a Visualization draws of its points. In the lab's order.

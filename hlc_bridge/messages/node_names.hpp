@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-/// Names of a run's processes, by vehicle and whatever their --node_id: all their participants bear
+/// Names of a run's processes, by vehicle and independent of --node_id: all their participants have
 /// them, and so does the ready status of vehicles.
 namespace hlc {
 
@@ -24,12 +24,12 @@ inline constexpr const char* kLabControlName = "lab_control";
   return "high_level_controller_" + std::to_string(vehicle_id);
 }
 
-/// source_id with which a controller tells its middleware that it is ready.
+/// source_id with which a controller reports to its middleware that it is ready.
 [[nodiscard]] inline std::string controller_ready_id(std::uint8_t vehicle_id) {
   return "hlc_" + std::to_string(vehicle_id);
 }
 
-/// source_id with which a middleware tells the lab control that its controllers are ready.
+/// source_id with which a middleware reports to the lab control that its controllers are ready.
 [[nodiscard]] inline std::string middleware_ready_id(std::span<const std::uint8_t> vehicle_ids) {
   std::string ids;
   for (const std::uint8_t id : vehicle_ids) {

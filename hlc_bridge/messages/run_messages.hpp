@@ -3,14 +3,13 @@
 #include "hlc_bridge/messages/messages.hpp"
 #include "planner/coordination/report.hpp"
 
-/// What controllers and lab control tell each other about the run, beside what the lab's messages
-/// say.
+/// Messages between controllers and lab control about the run, beside the lab's messages.
 namespace hlc {
 
-/// A controller's report with what its process measured by the clock.
+/// A controller's report with the times measured by its process.
 struct ReportRecord {
   Report report;
-  /// Processor time of Controller::plan, see there. How late an answer is, is wall time.
+  /// Processor time of Controller::plan, see there. The lateness of an answer is wall time.
   Nanoseconds planning_ns{};
   bool deadline_missed{};  ///< an answer of this step came after its deadline
   Nanoseconds late_ns{};   ///< by how much
@@ -18,14 +17,14 @@ struct ReportRecord {
 
 enum class RunPhase : std::uint8_t {
   kRunning,
-  kDriveOut,  ///< plan nothing new; drive the running plan to its end
+  kMinimalRiskStop,  ///< plan nothing new; drive the running plan to its end
 };
 
-/// Said by lab control to all controllers.
+/// Published by the lab control for all controllers.
 struct RunState {
   RunPhase phase{RunPhase::kRunning};
-  /// Real time: next_start of the start trigger, for controllers that were not there when it was
-  /// sent. 0: none.
+  /// Real time: next_start of the start trigger, for controllers that were absent when it was sent.
+  /// 0: none.
   Nanoseconds start{};
 };
 

@@ -13,7 +13,7 @@ namespace hlc {
 inline constexpr const char* kPeriodParameter = "middleware_period_ms";
 inline constexpr const char* kActiveIdsParameter = "active_vehicle_ids";
 
-/// What a process has learned of a run from the lab control's answers.
+/// What a process knows of a run from the lab control's answers.
 class RunParameters {
  public:
   /// The first answer with the right type counts; others are ignored.

@@ -4,27 +4,27 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-/// Which instants a run consists of, and which message belongs to which instant. All processes
-/// derive what they must hold from these functions and the time stamps alone, never from the order
-/// of arrivals.
+/// The instants of a run, and which message belongs to which instant. All processes derive them
+/// from these functions and the time stamps alone, never from the order of arrivals.
 ///
 ///     vehicle ticks   t = i * 20 ms
 ///     state lists     t = k * P + 1 ns      k is the number of the control step, P the period
 namespace hlc {
 
-/// Lists come this much after the step's begin, so that the vehicle tick at the same instant is
-/// over.
+/// Lists are published this much after the step's begin, so that the vehicle tick at the same
+/// instant is over.
 inline constexpr Nanoseconds kListOffset = 1;
 
 inline constexpr Nanoseconds kNanosecondsPerSecond = 1'000'000'000;
 inline constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
 
-/// No process waits longer than this (wall time) for a message of another one that seems to live.
+/// No process waits longer than this (wall time) for a message of another one that seems to be
+/// alive.
 inline constexpr Nanoseconds kMessageTimeout = 10 * kNanosecondsPerSecond;
 
-/// In real time, when the lab control has died: controllers drive out their plans for so long and
-/// leave, then the middlewares leave, then the vehicles, which stand by then. (In logical time the
-/// clock stands still without it, and everybody leaves at once.)
+/// In real time, after the lab control has died: controllers make a minimal-risk stop for this long
+/// and leave, then the middlewares leave, then the vehicles, which stand by then. (In logical time
+/// the clock stands still without it, and all processes leave at once.)
 inline constexpr Nanoseconds kControllerStays = 3 * kNanosecondsPerSecond;
 inline constexpr Nanoseconds kMiddlewareStays = 4 * kNanosecondsPerSecond;
 inline constexpr Nanoseconds kVehicleStays = 5 * kNanosecondsPerSecond;
@@ -34,8 +34,8 @@ inline constexpr Nanoseconds kVehicleStays = 5 * kNanosecondsPerSecond;
   return t / period;
 }
 
-/// The latest list that was written strictly before `t`; nothing before the very first one.
-/// A vehicle computes the tick at `t` with the answer to this list.
+/// The last list published strictly before `t`; nothing before the very first one. A vehicle
+/// computes the tick at `t` with the answer to this list.
 [[nodiscard]] constexpr std::optional<Nanoseconds> last_list_before(Nanoseconds t,
                                                                     Nanoseconds period) {
   if (t <= kListOffset) {

@@ -8,8 +8,8 @@
 
 namespace hlc {
 
-/// What a middleware finds in a controller's command (wire contract, 5.5). The lab's middleware
-/// forwards whatever it finds and only logs; ours keeps back what no vehicle can drive.
+/// Faults of a controller's command (wire contract, 5.5). The lab's middleware forwards every
+/// command and only logs; ours holds back what no vehicle can drive.
 enum class CommandFault : std::uint8_t {
   kNotAssigned,         ///< vehicle_id is not this middleware's                        (kept back)
   kNotFinite,           ///< a coordinate or velocity is not a finite number            (kept back)
@@ -28,15 +28,15 @@ struct CommandVerdict {
   std::vector<CommandFault> faults;  ///< empty for a command without fault
 };
 
-/// Of any command: to whom, and when.
-/// @param t_now       the clock when the command arrived
-/// @param newest_list t_now of the last list that was written
-/// @param vehicle_ids the vehicles that the middleware is responsible for
+/// Checks vehicle and time of a command of any kind.
+/// @param t_now       time of arrival
+/// @param newest_list t_now of the last published list
+/// @param vehicle_ids the vehicles of the middleware
 [[nodiscard]] CommandVerdict check_header(std::uint8_t vehicle_id, Nanoseconds create_stamp,
                                           Nanoseconds t_now, Nanoseconds newest_list,
                                           std::span<const std::uint8_t> vehicle_ids);
 
-/// The same and the trajectory.
+/// The same, and the trajectory.
 [[nodiscard]] CommandVerdict check_command(const TrajectoryCommand& command, Nanoseconds t_now,
                                            Nanoseconds newest_list,
                                            std::span<const std::uint8_t> vehicle_ids);

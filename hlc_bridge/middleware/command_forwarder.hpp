@@ -10,7 +10,7 @@
 
 namespace hlc {
 
-/// Forwards the controllers' commands to their vehicles, and knows who has answered which list.
+/// Forwards the controllers' commands to their vehicles, and records who has answered which list.
 class CommandForwarder {
  public:
   /// @param vehicle_ids  of the controllers; at least one, each once
@@ -19,16 +19,16 @@ class CommandForwarder {
   /// Forwards the command if a vehicle can drive it (check_command); it counts as an answer in any
   /// case. A fault of each kind is logged once.
   /// @param t_now        time of the run
-  /// @param newest_list  t_now of the list that was published last; 0 before the first one
-  /// @param is_withheld  no command goes to a vehicle now
+  /// @param newest_list  t_now of the last published list; 0 before the first one
+  /// @param is_withheld  commands are not forwarded now
   void receive(VehicleCommand command, Nanoseconds t_now, Nanoseconds newest_list, bool is_withheld,
                MiddlewareActions& actions);
 
   /// Vehicles whose controllers have not answered the list of this time or a later one.
   [[nodiscard]] std::vector<std::uint8_t> unanswered(Nanoseconds list) const;
 
-  /// Counts the controllers that have not answered `list` now that its period is over; the first
-  /// time it is logged.
+  /// Counts the controllers that have not answered `list` at the end of its period, and logs the
+  /// first time.
   void count_missed_answers(Nanoseconds list, MiddlewareActions& actions);
   [[nodiscard]] std::uint64_t missed_answers() const { return missed_answers_; }
 

@@ -12,15 +12,15 @@ DueMessages::DueMessages(std::string (*name)(std::uint8_t), Nanoseconds patience
 
 bool DueMessages::are_in(const std::vector<std::uint8_t>& peers, Nanoseconds now,
                          MiddlewareActions& actions) {
-  std::vector<std::string> owing;
+  std::vector<std::string> pending;
   for (const std::uint8_t peer : peers) {
-    if (!silent_.contains(peer)) owing.push_back(name_(peer));
+    if (!silent_.contains(peer)) pending.push_back(name_(peer));
   }
-  awaited_ = owing.size();
-  if (owing.empty()) return true;
+  awaited_ = pending.size();
+  if (pending.empty()) return true;
   if (now < deadline_) return false;
   silent_.insert(peers.begin(), peers.end());
-  actions.emplace_back(machine::warning(machine::joined(owing) + ": no message for " +
+  actions.emplace_back(machine::warning(machine::joined(pending) + ": no message for " +
                                         std::to_string(patience_ / kNanosecondsPerSecond) +
                                         " s; no longer waiting"));
   awaited_ = 0;

@@ -9,28 +9,28 @@
 
 namespace hlc {
 
-/// Messages of one kind that a tick waits for. A peer that owes its message for longer than the
-/// patience is silent: nobody waits for it until its next message, whatever that is. All times are
-/// wall time.
+/// Messages of one kind that a tick waits for. A peer whose message is overdue for longer than the
+/// patience is silent: it is not awaited until its next message of any kind. All times are wall
+/// time.
 class DueMessages {
  public:
   /// @param name    of a peer, for the log
-  /// @param silent  peers that are not waited for before their first message
+  /// @param silent  peers that are not awaited before their first message
   DueMessages(std::string (*name)(std::uint8_t), Nanoseconds patience,
               std::set<std::uint8_t> silent = {});
 
-  /// A message has come from the peer.
+  /// A message of the peer was received.
   void received(std::uint8_t peer) { silent_.erase(peer); }
 
   /// A new wait begins.
   void begin(Nanoseconds now) { deadline_ = now + patience_; }
-  /// True once nobody is waited for any more. Who has fallen silent is logged.
-  /// @param peers  that owe their message now
+  /// True once no peer is awaited. Peers that have fallen silent are logged.
+  /// @param peers  whose message is pending
   [[nodiscard]] bool are_in(const std::vector<std::uint8_t>& peers, Nanoseconds now,
                             MiddlewareActions& actions);
-  /// Peers that the last are_in waited for.
+  /// Number of peers that the last are_in waited for.
   [[nodiscard]] std::size_t awaited() const { return awaited_; }
-  /// When are_in changes though nothing comes.
+  /// When are_in changes without an event.
   [[nodiscard]] Nanoseconds deadline() const { return deadline_; }
 
  private:

@@ -18,9 +18,9 @@ namespace hlc {
 ///               ▲                                         │ keep_running
 ///               └──trigger── between experiments ◄────────┘
 ///
-/// Between experiments commands are withheld, the controllers must report ready anew, and the lab
-/// control is asked for the parameters of the next experiment (NextExperiment): whoever is told
-/// that a vehicle is ready may start the experiment, so lists must hold its vehicles by then.
+/// Between experiments commands are withheld, the controllers must report ready again, and the
+/// parameters of the next experiment are requested from the lab control (NextExperiment): a ready
+/// status allows the lab control to start the experiment, so lists must hold its vehicles by then.
 class ExperimentCycle {
  public:
   /// @param vehicle_ids   of the controllers
@@ -41,23 +41,23 @@ class ExperimentCycle {
   [[nodiscard]] std::string begin(const RunParameters& parameters);
   /// Begin has succeeded.
   [[nodiscard]] bool has_begun() const { return parameters_.complete(); }
-  /// Of the experiment under way, or the last one. @pre has_begun()
+  /// Of the current experiment, or the last one. @pre has_begun()
   [[nodiscard]] const RunParameters& parameters() const { return parameters_; }
 
-  /// To be called once a period; between experiments it asks for the next one's parameters, and
-  /// takes them over. All times are wall time.
+  /// To be called once a period; between experiments it requests the next one's parameters and
+  /// adopts them. All times are wall time.
   void prepare_next(Nanoseconds now, MiddlewareActions& actions);
   /// Forwards the goals withheld if all controllers are ready.
   void forward_goals(MiddlewareActions& actions);
-  /// Before a trigger has come: announces that the controllers are ready, or, now and then, logs
-  /// for whom it waits.
+  /// Before the first trigger: announces that the controllers are ready, or logs from time to time
+  /// which are not.
   void announce_readiness(Nanoseconds now, MiddlewareActions& actions);
 
-  /// A trigger has come in this experiment.
+  /// A trigger was received in this experiment.
   [[nodiscard]] bool is_triggered() const { return is_triggered_; }
-  /// The stop symbol has come, and the process ends.
+  /// The stop symbol was received, and the process ends.
   [[nodiscard]] bool is_stopped() const { return is_stopped_; }
-  /// No command goes to a vehicle.
+  /// Commands are not forwarded to vehicles.
   [[nodiscard]] bool withholds_commands() const { return is_between_ || is_stopped_; }
 
  private:
@@ -72,7 +72,7 @@ class ExperimentCycle {
   std::vector<GoalState> goals_;
   std::optional<machine::WaitNotice> notice_;
   bool is_triggered_{};
-  bool is_between_{};  ///< the stop symbol has come, and no trigger since
+  bool is_between_{};  ///< the stop symbol was received, and no trigger since
   bool is_stopped_{};
 };
 

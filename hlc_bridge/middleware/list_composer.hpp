@@ -8,15 +8,15 @@
 
 namespace hlc {
 
-/// Composes the lists for the controllers from what vehicles and cameras have published.
+/// Composes the lists for the controllers from the messages of vehicles and cameras.
 class ListComposer {
  public:
   /// @param with_observations  the list holds the newest observation of every active vehicle in the
-  ///     order of the active vehicles, a default-constructed one for a vehicle without any; else
-  ///     none
+  /// order of the active vehicles, a default-constructed one for a vehicle without any; otherwise
+  /// none
   explicit ListComposer(bool with_observations) : with_observations_{with_observations} {}
 
-  /// @param vehicle_id  the vehicle whose topic it came on
+  /// @param vehicle_id  the vehicle of the topic
   void add(std::uint8_t vehicle_id, const VehicleState& state) { states_.add(vehicle_id, state); }
   /// The one with the largest create_stamp counts, the later arrival among equals.
   void add(std::uint8_t vehicle_id, const VehicleObservation& observation);

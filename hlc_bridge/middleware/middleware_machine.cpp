@@ -137,7 +137,7 @@ void MiddlewareMachine::start(const Instant& now) {
   phase_ = Phase::kIdle;
 }
 
-/// Nothing of the run may be lost, since ticks wait for it.
+/// No message of the run may be lost, since ticks wait for it.
 std::string MiddlewareMachine::missing_peers() const {
   std::vector<std::string> missing;
   if (!peers_.lab_control_is_matched) missing.emplace_back(kLabControlName);
@@ -163,7 +163,7 @@ void MiddlewareMachine::look_for_end(const Instant& now) {
   if (ending_.is_asked || cycle_.is_stopped()) return leave(kExitGood, now);
   if (phase_ == Phase::kStarting) return;
   if (grace_.is_over(peers_.lab_control_is_lost, now.wall)) {
-    actions_.emplace_back(machine::error(std::string{kLabControlName} + " is gone"));
+    actions_.emplace_back(machine::error(std::string{kLabControlName} + " lost"));
     leave(kExitDied, now);
   }
 }
@@ -210,18 +210,18 @@ void MiddlewareMachine::publish_list(const Instant& now) {
 bool MiddlewareMachine::states_are_in(const Instant& now) {
   const std::optional<Nanoseconds> stamp = newest_valid_state_stamp(t_now_);
   if (!waits() || !stamp) return true;
-  std::vector<std::uint8_t> owing;
+  std::vector<std::uint8_t> pending;
   for (const std::uint8_t id : peers_.state_publishers) {
-    if (!lists_.holds_state(id, *stamp)) owing.push_back(id);
+    if (!lists_.holds_state(id, *stamp)) pending.push_back(id);
   }
-  return due_states_.are_in(owing, now.wall, actions_);
+  return due_states_.are_in(pending, now.wall, actions_);
 }
 
 bool MiddlewareMachine::answers_are_in(const Instant& now) {
   if (!waits() || !peers_.commands_are_sent) return true;
-  std::vector<std::uint8_t> owing = forwarder_.unanswered(t_now_);
-  std::erase_if(owing, [this](std::uint8_t id) { return peers_.lost_controllers.contains(id); });
-  return due_answers_.are_in(owing, now.wall, actions_);
+  std::vector<std::uint8_t> pending = forwarder_.unanswered(t_now_);
+  std::erase_if(pending, [this](std::uint8_t id) { return peers_.lost_controllers.contains(id); });
+  return due_answers_.are_in(pending, now.wall, actions_);
 }
 
 }  // namespace hlc

@@ -16,11 +16,11 @@
 
 namespace hlc {
 
-/// Stands between controllers and vehicles (machine/machine.hpp says how it is run).
+/// Connects controllers and vehicles (run as described in machine/machine.hpp).
 ///
 /// Every period, at t_now = k P + offset, it publishes a VehicleStateList with the newest valid
-/// state of every active vehicle. Commands of a controller go on to its vehicle as soon as they
-/// come, after a check (CommandForwarder); triggers of the lab control go on to the controllers,
+/// state of every active vehicle. Commands of a controller are forwarded to its vehicle on arrival,
+/// after a check (CommandForwarder); triggers of the lab control are forwarded to the controllers,
 /// the stop symbol before the process ends.
 ///
 ///     starting ──parameters, connected──► idle ──tick──► states ──► list, answers ──► idle
@@ -29,13 +29,13 @@ namespace hlc {
 ///     finished ◄──controllers gone, or kLeaveTime── leaving
 ///
 /// A tick with patience waits, before the list, for the state of every active vehicle that must be
-/// in it, and, after the list, for every controller's answer: only then the next tick is asked for.
-/// Who is gone is not waited for, nor who has been silent for the patience, until its next message.
-/// Without patience lists come from the first period on, whoever is there; answers that did not
-/// come within the period are counted.
+/// in it, and, after the list, for every controller's answer: only then the next tick is requested.
+/// Lost peers are not awaited, nor peers that have been silent for the patience, until their next
+/// message. Without patience lists are published from the first period on, whatever the presence;
+/// answers that did not arrive within the period are counted.
 ///
-/// Controllers get the stop symbol kLeaveTime before their middleware is gone, or leave before, so
-/// that they leave without alarm.
+/// Controllers receive the stop symbol kLeaveTime before their middleware leaves, or leave earlier,
+/// so that they do not take it for lost.
 class MiddlewareMachine {
  public:
   using Event = MiddlewareEvent;
@@ -49,8 +49,8 @@ class MiddlewareMachine {
   [[nodiscard]] std::vector<Action> advance(const Instant& now);
   [[nodiscard]] WakeUp wake_up() const;
   [[nodiscard]] std::size_t awaited() const;
-  /// 0 good, 2 the lab control's parameters do not fit, 3 somebody needed did not appear, 4 the lab
-  /// control is lost.
+  /// 0 success, 2 the lab control's parameters do not fit, 3 a required participant did not appear,
+  /// 4 the lab control is lost.
   [[nodiscard]] std::optional<int> exit_code() const;
 
  private:
@@ -90,7 +90,7 @@ class MiddlewareMachine {
   MiddlewarePeers peers_;
   machine::StartUp start_up_;
   std::optional<machine::Ticks> ticks_;
-  Nanoseconds t_now_{};  ///< of the tick under way
+  Nanoseconds t_now_{};  ///< of the current tick
   ListComposer lists_;
   DueMessages due_states_;
   DueMessages due_answers_;

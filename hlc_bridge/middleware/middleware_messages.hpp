@@ -9,36 +9,36 @@
 #include "hlc_bridge/machine/machine.hpp"
 #include "hlc_bridge/messages/messages.hpp"
 
-/// What a middleware is told, and what it says to do.
+/// Events and actions of a middleware's machine.
 namespace hlc {
 
 using VehicleCommand =
     std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand, DirectCommand>;
 
-/// A state from a vehicle's topic. The topic says which vehicle's it is, not the state.
+/// A state from a vehicle's topic. The topic determines the vehicle, not the state.
 struct PublishedState {
   std::uint8_t vehicle_id{};
   VehicleState state;
 };
 
-/// The same of an observation.
+/// An observation from a vehicle's topic.
 struct PublishedObservation {
   std::uint8_t vehicle_id{};
   VehicleObservation observation;
 };
 
-/// Who is there now.
+/// Current presence.
 struct MiddlewarePeers {
   bool lab_control_is_matched{};   ///< receives the ready status, and sends triggers
-  bool lab_control_is_lost{};      ///< was there and is not any more
+  bool lab_control_is_lost{};      ///< was present and is no longer
   bool controllers_are_matched{};  ///< receive lists and triggers, and send commands and readiness
   bool commands_are_sent{};        ///< at least one controller is matched that sends commands
-  std::set<std::uint8_t> lost_controllers;     ///< by vehicle: were there and are not any more
+  std::set<std::uint8_t> lost_controllers;     ///< by vehicle: were present and are no longer
   std::set<std::uint8_t> state_publishers;     ///< vehicles whose states would be received
   std::set<std::uint8_t> command_subscribers;  ///< vehicles that would receive commands
 };
 
-/// Receive states (and observations, where lists hold them) of these vehicles, too.
+/// Also receive states (and observations, where lists hold them) of these vehicles.
 struct SubscribeToVehicles {
   std::vector<std::int32_t> vehicle_ids;
 };

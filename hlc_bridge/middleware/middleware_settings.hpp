@@ -8,22 +8,23 @@
 
 namespace hlc {
 
-/// What differs between middlewares in logical and in real time, and beside the lab's programs.
+/// Differences between middlewares in logical and in real time, and beside the lab's programs.
 struct MiddlewareRules {
   machine::PacingRules pacing;
-  /// The lab control is told every period that the controllers are ready, until its first trigger.
+  /// The middleware reports to the lab control every period that its controllers are ready, until
+  /// the first trigger.
   bool announces_readiness{};
-  /// Controllers get every trigger; else the first one and the stop symbol.
+  /// Controllers receive every trigger; otherwise the first one and the stop symbol.
   bool forwards_every_trigger{};
   /// Lists hold the camera system's observations.
   bool lists_observations{};
-  /// A tick waits for the answer of a controller that has not answered yet.
+  /// A tick waits for the answer of a controller that has not answered before.
   bool awaits_first_answers{};
 };
 
-/// @param beside_lab_programs  controllers and vehicles may be the lab's own: they are used to all
-///     triggers, those of the vehicles' ticks too, and do not answer before the start. Ours need 50
-///     triggers a second less, which would cost a good part of a run's speed.
+/// @param beside_lab_programs  controllers and vehicles may be the lab's own: they expect all
+/// triggers, those of the vehicles' ticks too, and do not answer before the start. Ours need 50
+/// triggers a second less, which would slow down a run considerably.
 [[nodiscard]] constexpr MiddlewareRules logical_middleware_rules(bool beside_lab_programs) {
   return {.pacing = machine::logical_rules(),
           .announces_readiness = false,

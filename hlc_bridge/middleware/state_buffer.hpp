@@ -9,7 +9,7 @@
 
 namespace hlc {
 
-/// The states that a middleware has received from each vehicle, until they are of no more use.
+/// The states that a middleware has received from each vehicle, as long as they are needed.
 ///
 /// A state is *valid* at t_now if valid_after_stamp <= t_now; the newest is the one with the
 /// largest create_stamp, the later arrival among equals (wire contract, 6.1). Arrival order does
@@ -19,7 +19,7 @@ class StateBuffer {
   /// Most states kept per vehicle; the oldest are dropped (the lab's readers keep as many).
   static constexpr std::size_t kCapacity = 2000;
 
-  /// @param vehicle_id  the vehicle whose topic the state came on
+  /// @param vehicle_id  the vehicle of the topic
   void add(std::uint8_t vehicle_id, const VehicleState& state);
 
   /// True if a state with create_stamp >= `create_stamp` has arrived from the vehicle.

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "hlc_bridge/lab_control/logical_run.hpp"
-#include "hlc_bridge/lab_control/real_time_run.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/result/run_record.hpp"
@@ -25,18 +23,11 @@ ParticipantOptions on_domain(const LabControlOptions& options, DomainRole role) 
           .domain_id = lab ? options.lab_domain : options.controller_domain,
           .role = role,
           .transport = options.transport,
-          .logical_time = options.logical_time,
+          .lease = options.time.lease,
           .discovery_server = lab ? options.discovery_server : std::nullopt,
           .peers = lab ? std::vector<std::string>{} : options.controller_peers,
           .version = options.version,
           .on_loss = [](const std::string& line) { log(kLabControlName, machine::warning(line)); }};
-}
-
-std::unique_ptr<LabRun> make_run(const LabControlOptions& options) {
-  if (options.logical_time) {
-    return std::make_unique<LogicalRun>(options.run);
-  }
-  return std::make_unique<RealTimeRun>(options.run);
 }
 
 std::optional<ReportFile> make_report_file(const std::filesystem::path& folder) {
@@ -48,27 +39,32 @@ std::optional<ReportFile> make_report_file(const std::filesystem::path& folder) 
   const std::filesystem::path file = folder / "reports.csv";
   if (error || std::filesystem::exists(file)) {
     throw std::invalid_argument("--out = " + folder.string() +
-                                ", must be a folder that can be made and holds no reports.csv");
+                                ", must be a folder that can be created and holds no reports.csv");
   }
   return std::optional<ReportFile>{std::in_place, file};
 }
 
 }  // namespace
 
+LabControlProcess::Writers::Writers(Participant& lab, Participant& controllers,
+                                    std::function<void()> on_presence)
+    : trigger(lab, topics::system_trigger(), std::move(on_presence)),
+      parameter(lab, topics::parameter()),
+      log(lab, topics::log()),
+      run_state(controllers, topics::run_state()) {}
+
 LabControlProcess::LabControlProcess(LabControlOptions options)
     : options_(std::move(options)),
       reports_(make_report_file(options_.out)),
       progress_(stderr, options_.is_terminal),
       shell_(kLabControlName,
-             LabControlMachine(make_run(options_), ProgressLine::interval(options_.is_terminal)),
-             make_pacing(options_.logical_time, options_.run.startup_timeout, wall_time_now())),
+             LabControlMachine(options_.make_run(options_.run),
+                               ProgressLine::interval(options_.is_terminal)),
+             options_.time.make_pacing(options_.run.startup_timeout, wall_time_now())),
       lab_(on_domain(options_, DomainRole::kLab), [this] { shell_.presence_changed(); }),
       controllers_(on_domain(options_, DomainRole::kController),
                    [this] { shell_.presence_changed(); }),
-      trigger_writer_(lab_, topics::system_trigger(), [this] { shell_.presence_changed(); }),
-      parameter_writer_(lab_, topics::parameter()),
-      log_writer_(lab_, topics::log()),
-      run_state_writer_(controllers_, topics::run_state()),
+      writers_(lab_, controllers_, [this] { shell_.presence_changed(); }),
       ready_reader_(lab_, topics::ready_status(),
                     [this](const ReadyStatus& status) { shell_.post(status); }),
       request_reader_(lab_, topics::parameter_request(),
@@ -77,11 +73,11 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
                    [this](const StopRequest& request) { shell_.post(request); }),
       report_reader_(controllers_, topics::report(),
                      [this](const ReportRecord& record) { shell_.post(record); }) {
-  if (!options_.logical_time) listen_to_vehicles();
+  if (shell_.machine().run().awaits_states()) listen_to_vehicles();
 }
 
-/// Real time: a vehicle is there when a state has come. While the run gathers, every state counts,
-/// since a vehicle may leave and come back; later ones tell nothing new.
+/// Real time: a vehicle is present once a state has been received. While the run gathers, every
+/// state counts, since a vehicle may leave and come back; later ones have no effect.
 void LabControlProcess::listen_to_vehicles() {
   for (const std::uint8_t id : options_.run.vehicle_ids) {
     state_readers_.try_emplace(id, lab_, topics::vehicle_state(id),
@@ -106,7 +102,7 @@ LabControlPresence LabControlProcess::presence() const {
   both.alive.merge(controllers_.alive());
   both.lost.merge(controllers_.lost());
   return {.participants = std::move(both),
-          .trigger_readers = {trigger_writer_.matched(), trigger_writer_.matched_names()}};
+          .trigger_readers = {writers_.trigger.matched(), writers_.trigger.matched_names()}};
 }
 
 void LabControlProcess::perform(const ReportRecord& record) {
@@ -115,12 +111,12 @@ void LabControlProcess::perform(const ReportRecord& record) {
 
 void LabControlProcess::perform(Log log) {
   log.stamp = real_time_now();
-  log_writer_.write(log);
+  writers_.log.write(log);
 }
 
 void LabControlProcess::perform(const RunState& state) {
   is_gathering_ = false;
-  run_state_writer_.write(state);
+  writers_.run_state.write(state);
 }
 
 void LabControlProcess::perform(const machine::LogLine& line) {
@@ -144,7 +140,7 @@ void LabControlProcess::record_facts() const {
   const LabRun& run = shell_.machine().run();
   const LabRunResult& result = run.result();
   RunFacts facts;
-  facts.simulated_time = options_.logical_time;
+  facts.simulated_time = run.releases_time();
   facts.vehicle_ids = options_.run.vehicle_ids;
   facts.period = options_.run.period;
   facts.steps = options_.run.steps;
@@ -152,7 +148,7 @@ void LabControlProcess::record_facts() const {
   facts.wall_s = static_cast<double>(result.wall) * kSecondsPerNanosecond;
   facts.clock_s = static_cast<double>(result.clock) * kSecondsPerNanosecond;
   facts.died = result.deaths;
-  // What stands in the file until the run has finished, and for ever if it does not.
+  // Content of the file until the run has finished, also if it never does.
   facts.exit_code = run.finished() ? result.exit_code : kExitDied;
   facts.reason = run.finished() ? result.reason : "lab_control did not end the run";
   write_file(options_.out / "run.json", facts_json(facts));

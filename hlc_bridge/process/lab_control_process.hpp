@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +13,8 @@
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/lab_control/lab_control_machine.hpp"
+#include "hlc_bridge/lab_control/real_time_run.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/progress_line.hpp"
 #include "hlc_bridge/process/shell.hpp"
@@ -27,7 +31,8 @@ struct LabControlOptions {
   std::optional<DiscoveryServer> discovery_server;
   std::vector<std::string>
       controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
-  bool logical_time{};
+  RunTime time{kRealTime};
+  std::unique_ptr<LabRun> (*make_run)(LabRunSettings){make_lab_run<RealTimeRun>};
   std::filesystem::path out;  ///< run folder; empty: nothing is recorded
   bool is_terminal{};         ///< standard error is one
 };
@@ -48,13 +53,22 @@ class LabControlProcess {
  private:
   friend class Shell<LabControlMachine>;
 
+  struct Writers {
+    Writers(Participant& lab, Participant& controllers, std::function<void()> on_presence);
+
+    Writer<SystemTrigger> trigger;
+    Writer<Parameter> parameter;
+    Writer<Log> log;
+    Writer<RunState> run_state;
+  };
+
   void listen_to_vehicles();
   [[nodiscard]] LabControlPresence presence() const;
-  void perform(const Parameter& parameter) { parameter_writer_.write(parameter); }
+  void perform(const Parameter& parameter) { writers_.parameter.write(parameter); }
   void perform(const ReportRecord& record);
   void perform(Log log);
   void perform(const RunState& state);
-  void perform(const SystemTrigger& trigger) { trigger_writer_.write(trigger); }
+  void perform(const SystemTrigger& trigger) { writers_.trigger.write(trigger); }
   void perform(const ProgressText& progress) { progress_.show(progress.text); }
   void perform(const machine::LogLine& line);
   void log_result();
@@ -69,10 +83,7 @@ class LabControlProcess {
   // Destroyed first: no callback comes afterwards.
   Participant lab_;
   Participant controllers_;
-  Writer<SystemTrigger> trigger_writer_;
-  Writer<Parameter> parameter_writer_;
-  Writer<Log> log_writer_;
-  Writer<RunState> run_state_writer_;
+  Writers writers_;
   Reader<ReadyStatus> ready_reader_;
   Reader<ParameterRequest> request_reader_;
   Reader<StopRequest> stop_reader_;

@@ -7,8 +7,8 @@
 
 namespace hlc {
 
-/// While it lives, what this process logs (spdlog's default logger) is told to the operator, too:
-/// topic `log` of the lab domain, in the lab's levels.
+/// During its lifetime the log lines of this process (spdlog's default logger) are also published
+/// to the operator: topic `log` of the lab domain, in the lab's levels.
 ///
 /// | spdlog | lab |
 /// |---|---|
@@ -16,8 +16,8 @@ namespace hlc {
 /// | warning | 2 |
 /// | info and less | 3 |
 ///
-/// Lines above the operator's level (topic `logLevel`; 1 as long as nobody says another) are not
-/// sent. Never blocks: the writer keeps the newest line.
+/// Lines above the operator's level (topic `logLevel`; default 1) are not sent. Never blocks: the
+/// writer keeps the newest line.
 class LabLog {
  public:
   /// @param node_id  of the program, as the operator's log window names it

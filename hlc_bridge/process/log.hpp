@@ -7,7 +7,7 @@
 namespace hlc {
 
 /// Logs a machine's line (spdlog's default logger).
-/// @param process  whose name stands before it; empty: none, since the logger has it
+/// @param process  prefix of the line; empty: none, since the logger has it
 void log(const std::string& process, const machine::LogLine& line);
 
 }  // namespace hlc

@@ -13,18 +13,12 @@
 namespace hlc {
 namespace {
 
-Nanoseconds nanoseconds(std::chrono::nanoseconds time) {
-  return static_cast<Nanoseconds>(time.count());
-}
-
 MiddlewareSettings settings_of(const MiddlewareOptions& options) {
-  const bool beside_lab_programs = options.transport == Transport::kLab;
   return {.vehicle_ids = options.vehicle_ids,
           .offset = options.offset,
           .keep_running = options.keep_running,
           .startup_timeout = nanoseconds(options.startup_timeout),
-          .rules = options.logical_time ? logical_middleware_rules(beside_lab_programs)
-                                        : real_middleware_rules(beside_lab_programs)};
+          .rules = options.rules};
 }
 
 ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
@@ -33,7 +27,7 @@ ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) 
           .domain_id = lab ? options.lab_domain : options.local_domain,
           .role = role,
           .transport = options.transport,
-          .logical_time = options.logical_time,
+          .lease = options.time.lease,
           .discovery_server = lab ? options.discovery_server : std::nullopt,
           .version = options.version,
           .on_loss = [id = options.node_id](const std::string& line) {
@@ -45,8 +39,7 @@ ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) 
 
 struct MiddlewareProcess::Vehicle {
   Vehicle(MiddlewareProcess& process, std::uint8_t id)
-      : trajectory{process.lab_, topics::vehicle_command(id),
-                   [&process] { process.shell_.presence_changed(); }} {
+      : trajectory{process.lab_, topics::vehicle_command(id), process.on_presence()} {
     if (process.options_.transport == Transport::kLab) {
       path_tracking.emplace(process.lab_, topics::vehicle_command<PathTrackingCommand>(id));
       speed_curvature.emplace(process.lab_, topics::vehicle_command<SpeedCurvatureCommand>(id));
@@ -79,7 +72,7 @@ struct MiddlewareProcess::LabEndpoints {
     return Reader<Command>{
         process.local_, topics::command<Command>(),
         [&process](const Command& command) { process.shell_.post_urgent(VehicleCommand{command}); },
-        [&process] { process.shell_.presence_changed(); }};
+        process.on_presence()};
   }
 
   [[nodiscard]] bool commands_are_sent() const {
@@ -94,31 +87,37 @@ struct MiddlewareProcess::LabEndpoints {
   std::map<std::uint8_t, Reader<VehicleObservation>> observations;
 };
 
+MiddlewareProcess::LabControlEndpoints::LabControlEndpoints(MiddlewareProcess& process)
+    : ready(process.lab_, topics::ready_status(), process.on_presence()),
+      request(process.lab_, topics::parameter_request()),
+      parameter(process.lab_, topics::parameter(),
+                [&process](const Parameter& one) { process.shell_.post(one); }),
+      trigger(
+          process.lab_, topics::system_trigger(),
+          [&process](const SystemTrigger& one) { process.receive(one); }, process.on_presence()) {}
+
+MiddlewareProcess::ControllerEndpoints::ControllerEndpoints(MiddlewareProcess& process)
+    : list(process.local_, topics::vehicle_state_list(), process.on_presence()),
+      trigger(process.local_, topics::system_trigger(), process.on_presence()),
+      command(
+          process.local_, topics::command(),
+          [&process](const TrajectoryCommand& one) {
+            process.shell_.post_urgent(VehicleCommand{one});
+          },
+          process.on_presence()),
+      ready(
+          process.local_, topics::ready_status(),
+          [&process](const ReadyStatus& status) { process.shell_.post(status); },
+          process.on_presence()) {}
+
 MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
     : options_(std::move(options)),
       shell_(options_.node_id, MiddlewareMachine{settings_of(options_)},
-             make_pacing(options_.logical_time, nanoseconds(options_.startup_timeout),
-                         wall_time_now())),
-      lab_(on_domain(options_, DomainRole::kLab), [this] { shell_.presence_changed(); }),
-      local_(on_domain(options_, DomainRole::kLocal), [this] { shell_.presence_changed(); }),
-      list_writer_(local_, topics::vehicle_state_list(), [this] { shell_.presence_changed(); }),
-      trigger_writer_(local_, topics::system_trigger(), [this] { shell_.presence_changed(); }),
-      ready_writer_(lab_, topics::ready_status(), [this] { shell_.presence_changed(); }),
-      request_writer_(lab_, topics::parameter_request()),
-      parameter_reader_(lab_, topics::parameter(),
-                        [this](const Parameter& parameter) { shell_.post(parameter); }),
-      trigger_reader_(
-          lab_, topics::system_trigger(),
-          [this](const SystemTrigger& trigger) { receive(trigger); },
-          [this] { shell_.presence_changed(); }),
-      command_reader_(
-          local_, topics::command(),
-          [this](const TrajectoryCommand& command) { shell_.post_urgent(VehicleCommand{command}); },
-          [this] { shell_.presence_changed(); }),
-      ready_reader_(
-          local_, topics::ready_status(),
-          [this](const ReadyStatus& status) { shell_.post(status); },
-          [this] { shell_.presence_changed(); }) {
+             options_.time.make_pacing(nanoseconds(options_.startup_timeout), wall_time_now())),
+      lab_(on_domain(options_, DomainRole::kLab), on_presence()),
+      local_(on_domain(options_, DomainRole::kLocal), on_presence()),
+      lab_control_(*this),
+      controllers_(*this) {
   for (const std::uint8_t id : options_.vehicle_ids) {
     vehicles_.emplace(id, std::make_unique<Vehicle>(*this, id));
   }
@@ -129,9 +128,8 @@ MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
 
 MiddlewareProcess::~MiddlewareProcess() = default;
 
-/// On a DDS thread. A trigger that is to be forwarded is there before the tick that it releases;
-/// the others, 50 a second, wake nobody: that would cost a run in logical time a good part of its
-/// speed.
+/// On a DDS thread. A trigger to be forwarded arrives before the tick that it releases; the others,
+/// 50 a second, do not wake the thread: that would slow down a run in logical time.
 void MiddlewareProcess::receive(const SystemTrigger& trigger) {
   const bool is_first = !std::exchange(is_triggered_, true);
   if (is_first || trigger.next_start == kStopSymbol || options_.transport == Transport::kLab) {
@@ -152,7 +150,7 @@ void MiddlewareProcess::perform(const SubscribeToVehicles& vehicles) {
         [this, id](const VehicleState& state) {
           shell_.post(PublishedState{.vehicle_id = id, .state = state});
         },
-        [this] { shell_.presence_changed(); });
+        on_presence());
     if (lab_endpoints_) {
       lab_endpoints_->observations.try_emplace(
           id, lab_, topics::vehicle_observation(id),
@@ -172,12 +170,13 @@ void MiddlewareProcess::perform(const VehicleCommand& command) {
 
 MiddlewarePeers MiddlewareProcess::presence() const {
   MiddlewarePeers peers;
-  peers.lab_control_is_matched = ready_writer_.matched() > 0 && trigger_reader_.matched() > 0;
+  peers.lab_control_is_matched = lab_control_.are_matched();
   peers.lab_control_is_lost = lab_.is_lost(kLabControlName);
   peers.commands_are_sent =
-      command_reader_.matched() > 0 || (lab_endpoints_ && lab_endpoints_->commands_are_sent());
-  peers.controllers_are_matched = list_writer_.matched() > 0 && trigger_writer_.matched() > 0 &&
-                                  peers.commands_are_sent && ready_reader_.matched() > 0;
+      controllers_.command.matched() > 0 || (lab_endpoints_ && lab_endpoints_->commands_are_sent());
+  peers.controllers_are_matched = controllers_.list.matched() > 0 &&
+                                  controllers_.trigger.matched() > 0 && peers.commands_are_sent &&
+                                  controllers_.ready.matched() > 0;
   for (const auto& [id, reader] : state_readers_) {
     if (reader.matched() > 0) peers.state_publishers.insert(id);
   }

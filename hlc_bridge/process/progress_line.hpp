@@ -8,8 +8,8 @@
 
 namespace hlc {
 
-/// Shows the operator how far a run is: on a terminal one line that is rewritten, else (log files)
-/// a line each time.
+/// Shows the operator the progress of the run: on a terminal one line that is rewritten, otherwise
+/// (log files) a line each time.
 class ProgressLine {
  public:
   static constexpr std::size_t kTerminalColumns = 79;
@@ -25,7 +25,7 @@ class ProgressLine {
 
   /// On a terminal cut to one line.
   void show(const std::string& text);
-  /// Ends a rewritten line, so that other output stands below it.
+  /// Ends a rewritten line, so that further output starts on the next line.
   void end_line();
 
  private:

@@ -25,9 +25,8 @@ namespace hlc {
 ///
 ///     on -> advance -> perform -> wait
 ///
-/// on the one thread that calls `run`; the machine is touched by that thread alone. The process
-/// around it (the host) has the endpoints, whose callbacks post events, and performs what the
-/// machine says:
+/// on the one thread that calls `run`; only that thread accesses the machine. The process around it
+/// (the host) has the endpoints, whose callbacks post events, and performs the machine's actions:
 ///
 ///     Shell<VehicleMachine> shell_;     // before the endpoints: their callbacks use it
 ///     Reader<Parameter> reader_{lab_, topics::parameter(),
@@ -35,12 +34,12 @@ namespace hlc {
 ///     void perform(const VehicleState& state) { state_writer_.write(state); }   // every Action
 ///     void perform(const machine::LogLine& line) { log(name_, line); }
 ///     void perform(const ReadyStatus& status);       // logical time, if the machine wants ticks
-///     VehicleMachine::Event presence() const;        // a snapshot of who is there
+///     VehicleMachine::Event presence() const;        // a snapshot of the participants
 ///     int run() { return shell_.run(*this); }
 ///
-/// The thread wakes up for an urgent event, a change of presence, a tick that is there, the
-/// machine's wake-up, and when as many events have come as the machine awaits or one has lain for
-/// the pacing's mail delay. So it never waits without a reason that the machine has named.
+/// The thread wakes up for an urgent event, a change of presence, a released tick, the machine's
+/// wake-up, and when the number of events that the machine awaits has arrived or one has waited for
+/// the pacing's mail delay. So it never waits without a reason given by the machine.
 template <machine::Machine M>
 class Shell {
  public:
@@ -52,30 +51,29 @@ class Shell {
   Shell(const Shell&) = delete;  // callbacks refer to it
   Shell& operator=(const Shell&) = delete;
 
-  // From any thread; also before `run`. They wait for nothing but the mailbox's lock.
+  // From any thread; also before `run`. They wait only for the mailbox's lock.
   void post(Event event) {
     signal_.post([&] { mail_.push_back(std::move(event)); });
   }
-  /// Wakes the machine at once, whatever it awaits.
+  /// Wakes the machine at once, independent of what it awaits.
   void post_urgent(Event event) {
     signal_.post([&] {
       mail_.push_back(std::move(event));
       is_urgent_ = true;
     });
   }
-  /// Who is there, or who hears or is heard, has changed: urgent. Presence comes before other
-  /// events.
+  /// Participants or matches have changed: urgent. Presence comes before other events.
   void presence_changed() {
     signal_.post([this] { has_presence_changed_ = true; });
   }
-  /// Every SystemTrigger of the lab control, of whatever time.
+  /// Every SystemTrigger of the lab control, for any time.
   void trigger(Nanoseconds next_start) {
     const Nanoseconds wall = wall_time_now();
     signal_.post([&] { pacing_->on_trigger(next_start, wall); });
   }
   void stop() { post_urgent(machine::StopSignal{}); }
 
-  /// Until the machine ends. Its exit code; kExitDied if no triggers come any more.
+  /// Runs until the machine ends. Returns its exit code; kExitDied if triggers stop arriving.
   template <class Host>
   [[nodiscard]] int run(Host& host) {
     while (true) {
@@ -113,15 +111,15 @@ class Shell {
     read_.clear();
   }
 
-  /// Logical time: says which tick is wanted. False if the lab control is not responding.
+  /// Logical time: announces the wanted tick. False if the lab control is not responding.
   template <class Host>
   [[nodiscard]] bool announce(Host& host) {
     if constexpr (requires { host.perform(ReadyStatus{}); }) {
       const Nanoseconds wall = wall_time_now();
-      const auto [has_given_up, tick] = signal_.locked([&] {
-        return std::pair{pacing_->has_given_up(wall), pacing_->announcement(wall)};
+      const auto [is_timed_out, tick] = signal_.locked([&] {
+        return std::pair{pacing_->is_timed_out(wall), pacing_->announcement(wall)};
       });
-      if (has_given_up) {
+      if (is_timed_out) {
         host.perform(machine::error(std::string(kLabControlName) +
                                     " is not responding: no triggers received"));
         return false;
@@ -153,14 +151,14 @@ class Shell {
     return until - std::min(until, now);
   }
 
-  /// Only a bound for a wait that is woken.
+  /// Only a bound for an interruptible wait.
   static constexpr Nanoseconds kLongestWait = 3600 * kNanosecondsPerSecond;
 
   std::string node_id_;
   M machine_;
   std::vector<Event> read_;  ///< keeps its memory
 
-  Signal signal_;  // guards what follows
+  Signal signal_;  // guards the members below
   std::unique_ptr<Pacing> pacing_;
   std::vector<Event> mail_;
   bool is_urgent_{};

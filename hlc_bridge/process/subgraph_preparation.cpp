@@ -9,7 +9,7 @@
 namespace hlc {
 namespace {
 
-/// Only a bound for a wait that is woken.
+/// Only a bound for an interruptible wait.
 constexpr std::chrono::hours kLong{1};
 
 }  // namespace

@@ -10,14 +10,14 @@
 
 namespace hlc {
 
-/// Prepares requested subgraphs on a thread of its own while the controller drives. The thread
-/// gives way to others, since making maneuvers takes a core for a good while.
+/// Prepares requested subgraphs on a background thread while the controller drives. The thread has
+/// a low priority, since designing maneuvers takes a core for some time.
 class SubgraphPreparation {
  public:
   /// @param on_prepared  called on that thread, in the order of the requests; must not block
   SubgraphPreparation(RequestBase base, WeightDesign weights,
                       std::function<void(PreparedRequest)> on_prepared);
-  /// Waits for the one in work, of new weights for the maneuver in work.
+  /// Waits for the current preparation, of new weights for the current maneuver.
   ~SubgraphPreparation();
   SubgraphPreparation(const SubgraphPreparation&) = delete;
   SubgraphPreparation& operator=(const SubgraphPreparation&) = delete;

@@ -88,7 +88,7 @@ void add_problem(CommonRoadWriter& xml, int id, const VehicleParameters& vehicle
 
 void check_ids(const LaneletMap& map) {
   if (!map.lanelets.empty() && map.lanelets.rbegin()->first > kProblemIds) {
-    throw std::runtime_error(fmt::format("{}: lanelet {}, allowed ids up to {}", map.benchmark_id,
+    throw std::runtime_error(fmt::format("{}: lanelet {}, id must be <= {}", map.benchmark_id,
                                          map.lanelets.rbegin()->first, kProblemIds));
   }
 }

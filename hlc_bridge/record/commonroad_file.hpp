@@ -9,7 +9,7 @@
 
 namespace hlc {
 
-/// One vehicle of a run as the file holds it: states at 0, 1, 2 ... time steps.
+/// One vehicle of a run in the file's form: states at 0, 1, 2 ... time steps.
 struct ExportedVehicle {
   VehicleId id;
   std::vector<State> planned;  ///< heading of the single-track model, speed, steering
@@ -22,8 +22,8 @@ inline constexpr int kPlannedIds = 2'000'000;  ///< + vehicle id: what was plann
 inline constexpr int kDrivenIds = 3'000'000;   ///< + vehicle id: what was driven
 
 /// A run as CommonRoad 2020a: the map; per vehicle its planned and its driven motion, a dynamic
-/// obstacle each, with the vehicle's own rectangle; per vehicle a planning problem, from where its
-/// plan begins, whose goal is any state at the end. Numbers with 9 decimals, angles in (-pi, pi].
+/// obstacle each, with the vehicle's own rectangle; per vehicle a planning problem from the begin
+/// of its plan, whose goal is any state at the end. Numbers with 9 decimals, angles in (-pi, pi].
 ///
 /// The reference point is the centre of gravity. Equal runs give equal bytes.
 ///
@@ -34,8 +34,8 @@ inline constexpr int kDrivenIds = 3'000'000;   ///< + vehicle id: what was drive
                                          const std::vector<ExportedVehicle>& vehicles,
                                          double time_step_s);
 
-/// For a run without lanes, since the format asks for one: a single lane, 0.5 m wider on all sides
-/// than the place where the vehicles' reference points have been.
+/// A map for a run without lanes, since the format requires one: a single lane, 0.5 m wider on all
+/// sides than the area of the vehicles' reference points.
 [[nodiscard]] LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles);
 
 }  // namespace hlc

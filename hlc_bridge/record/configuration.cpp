@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the copy of a file lies.
+/// Location of a file's copy.
 fs::path copy_of(const fs::path& run_folder, const fs::path& file) {
   const fs::path full = fs::absolute(file).lexically_normal();
   return run_folder / "configuration" / full.parent_path().filename() / full.filename();
@@ -39,7 +39,7 @@ void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>&
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-      throw std::runtime_error(folder.string() + ": cannot be made");
+      throw std::runtime_error(folder.string() + ": cannot be created");
     }
     write_file(copy, read_file(file));
   }
@@ -62,7 +62,7 @@ std::string flags_yaml(const ScenarioChoices& choices) {
 ScenarioChoices kept_choices(const fs::path& run_folder) {
   const fs::path file = run_folder / "configuration" / "flags.yaml";
   if (!fs::exists(file)) {
-    throw std::invalid_argument(file.string() + ": is not there, so the scenario must be given");
+    throw std::invalid_argument(file.string() + ": missing; --scenario must be given");
   }
   const Node flags = Node::read_yaml(file);
   ScenarioChoices choices;

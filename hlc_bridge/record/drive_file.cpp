@@ -23,7 +23,7 @@ Drive read_drive(const std::filesystem::path& file) {
     sample.steering = table.number(row, 6);
     sample.command_create = table.unsigned_number(row, 7);
     if (!drive.empty() && sample.t <= drive.back().t) {
-      table.refuse(row, 0, "more than in the row before");
+      table.refuse(row, 0, "larger than in the row before");
     }
     drive.push_back(sample);
   }

@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// Heading of a vehicle's record, one row per tick: the true state at the tick, the inputs that are
+/// Heading of a vehicle's record, one row per tick: the true state at the tick, the inputs
 /// commanded then (they act 80 ms later), and the command that they come from.
 inline constexpr std::string_view kDriveHeading =
     "t_ns,x_m,y_m,yaw_rad,speed_mps,throttle,steering,command_create_ns";
@@ -16,11 +16,10 @@ inline constexpr std::string_view kDriveHeading =
 [[nodiscard]] std::filesystem::path drive_file(const std::filesystem::path& run_folder,
                                                std::uint8_t vehicle_id);
 
-/// @throws std::runtime_error naming file, line, column, value and what is allowed; times must
-/// increase
+/// @throws std::runtime_error naming file, line, column, value and bound; times must increase
 [[nodiscard]] Drive read_drive(const std::filesystem::path& file);
 
-/// The drives of these vehicles; one whose file is not there is left out. @throws as read_drive
+/// The drives of these vehicles, without those whose file is missing. @throws as read_drive
 [[nodiscard]] Drives read_drives(const std::filesystem::path& run_folder,
                                  const std::vector<std::uint8_t>& vehicle_ids);
 

@@ -47,7 +47,7 @@ RunFacts read_facts(const std::filesystem::path& file) {
     }
     return facts;
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(file.string() + ": broken, allowed what lab_control wrote (" +
+    throw std::runtime_error(file.string() + ": broken, must be as written by lab_control (" +
                              error.what() + ")");
   }
 }

@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// The machine that this program runs on; "unknown" where the system does not tell.
+/// The machine that this program runs on; "unknown" where the system does not provide it.
 [[nodiscard]] Host this_host();
 
 }  // namespace hlc

@@ -44,7 +44,7 @@ std::optional<Enum> enum_from(const std::string& name, std::uint8_t count) {
   return std::nullopt;
 }
 
-constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kDriveOut) + 1;
+constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kMinimalRiskStop) + 1;
 constexpr std::uint8_t kQualities = static_cast<std::uint8_t>(PlanQuality::kUnproven) + 1;
 constexpr std::uint8_t kReasons = static_cast<std::uint8_t>(FallbackReason::kOffRoute) + 1;
 
@@ -58,7 +58,7 @@ class RowReader {
   std::uint64_t whole(std::uint64_t least = 0, std::uint64_t most = ~std::uint64_t{0}) {
     const std::uint64_t value = table_.unsigned_number(row_, column_);
     if (value < least || value > most) {
-      table_.refuse(row_, column_, fmt::format("{} ... {}", least, most));
+      table_.refuse(row_, column_, fmt::format("in {} ... {}", least, most));
     }
     ++column_;
     return value;
@@ -67,7 +67,7 @@ class RowReader {
   Enum name(std::uint8_t count) {
     const std::optional<Enum> value = enum_from<Enum>(table_.text(row_, column_), count);
     if (!value) {
-      std::string allowed;
+      std::string allowed = "one of ";
       for (std::uint8_t i = 0; i < count; ++i) {
         allowed += (i == 0 ? "" : ", ") + std::string{to_string(static_cast<Enum>(i))};
       }

@@ -10,8 +10,8 @@
 
 namespace hlc {
 
-/// reports.csv: every report of a run. One line per report as it arrives, at once handed to the
-/// system, so that a crash of the program loses nothing; sorted by step, then vehicle, at the end.
+/// reports.csv: every report of a run. One line per report as it arrives, flushed to the system at
+/// once, so that a crash of the program loses nothing; sorted by step, then vehicle, at the end.
 class ReportFile {
  public:
   /// Starts an empty file. @throws std::runtime_error naming the file
@@ -28,7 +28,7 @@ class ReportFile {
   std::vector<ReportRecord> records_;
 };
 
-/// @throws std::runtime_error naming file, line, column, value and what is allowed
+/// @throws std::runtime_error naming file, line, column, value and bound
 [[nodiscard]] std::vector<ReportRecord> read_reports(const std::filesystem::path& file);
 
 /// Ids in one field: "2;3", empty for none.

@@ -7,13 +7,13 @@
 
 namespace hlc {
 
-/// steps.csv: every step of every vehicle, with nothing in it that depends on the wall clock: two
-/// runs of the same scenario in logical time give the same bytes. Driven fields are empty where
-/// nothing was recorded; trims are numbered from 1 as in the paper; ids are separated by `;`; names
-/// are quoted where they hold commas, quotes or line breaks.
+/// steps.csv: every step of every vehicle, with nothing that depends on the wall clock: two runs of
+/// the same scenario in logical time give the same bytes. Driven fields are empty where nothing was
+/// recorded; trims are numbered from 1 as in the paper; ids are separated by `;`; names are quoted
+/// if they contain commas, quotes or line breaks.
 [[nodiscard]] std::string steps_csv(std::span<const StepRecord> rows);
 
-/// timing.csv: what the clock had to do with the same steps.
+/// timing.csv: the measured times of the same steps.
 [[nodiscard]] std::string timing_csv(std::span<const StepRecord> rows);
 
 }  // namespace hlc

@@ -44,7 +44,7 @@ Json vehicle_json(const VehicleSummary& vehicle) {
   json["fallback_steps"] = vehicle.fallback_steps;
   json["deadline_misses"] = vehicle.deadline_misses;
   json["budget_share"] = or_null(vehicle.budget_share);
-  json["overlong_plans"] = vehicle.overlong_plans;
+  json["plans_exceeding_step"] = vehicle.plans_exceeding_step;
   json["undrivable_steps"] = vehicle.undrivable_steps;
   json["driven_error_mm"] =
       figures(vehicle.driven_error_m, kMillimetresPerMetre,

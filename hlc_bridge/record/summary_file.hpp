@@ -6,7 +6,7 @@
 
 namespace hlc {
 
-/// summary.json. Lengths in mm, planning times in ms; null where there is nothing to say.
+/// summary.json. Lengths in mm, planning times in ms; null where there is no value.
 [[nodiscard]] std::string summary_json(const RunSummary& summary);
 
 }  // namespace hlc

@@ -4,17 +4,17 @@
 
 #include "hlc_bridge/result/run_summary.hpp"
 
-/// Whether a run was well driven. Nothing else decides that, neither for one run nor in a campaign.
+/// Whether a run was driven well: the only criterion, for one run and in a campaign.
 namespace hlc {
 
-/// Why a run's driving was dangerous, in one line: vehicles touched, or a vehicle was outside the
-/// areas that it had told the others (VehicleSummary::astray_steps). Empty if it was not. A
-/// campaign leaves such a run out.
+/// Why a run's driving was dangerous, in one line: vehicles touched, or a vehicle left the areas
+/// that it had announced (VehicleSummary::steps_outside_announced_area). Empty if it was not. A
+/// campaign excludes such a run.
 [[nodiscard]] std::string danger_of(const RunSummary& summary);
 
 /// Why a run was driven badly: a danger, or a vehicle was farther from its plan than the safety
-/// margin, be it within the areas that it had told: then it endangered nobody, but it did not drive
-/// what was planned (subgraph A asks for more than the car gives, and its controller knows).
-[[nodiscard]] std::string fault_of(const RunSummary& summary);
+/// margin, even if within its announced areas: then it was no danger, but did not drive its
+/// plan (subgraph A demands more than the car can do, which its controller predicts).
+[[nodiscard]] std::string driving_fault(const RunSummary& summary);
 
 }  // namespace hlc

@@ -28,7 +28,7 @@ std::vector<Nanoseconds> instants(const Drive& a, const Drive& b, Nanoseconds fr
   return times;
 }
 
-/// A vehicle whose record has ended stands where it was seen last: it can still be hit.
+/// A vehicle whose record has ended stands at its last position: others can still hit it.
 std::optional<Pose> pose_at(const Drive& drive, Nanoseconds t) {
   return !drive.empty() && t > drive.back().t ? drive.back().pose : driven_pose_at(drive, t);
 }
@@ -37,7 +37,7 @@ double distance_of(const Footprint& a, const Pose& pose_a, const Footprint& b, c
   return distance_m(footprint_area(a, pose_a), footprint_area(b, pose_b));
 }
 
-void look_at_pair(const VehicleDescription& a, const Drive& drive_a, const VehicleDescription& b,
+void measure_pair(const VehicleDescription& a, const Drive& drive_a, const VehicleDescription& b,
                   const Drive& drive_b, Nanoseconds from, Nanoseconds to, Encounters& result) {
   bool touched = false;
   for (const Nanoseconds t : instants(drive_a, drive_b, from, to)) {
@@ -71,7 +71,7 @@ Encounters encounters(std::span<const VehicleDescription> vehicles, const Drives
       const auto drive_i = drives.find(vehicles[i].id.value);
       const auto drive_j = drives.find(vehicles[j].id.value);
       if (drive_i != drives.end() && drive_j != drives.end()) {
-        look_at_pair(vehicles[i], drive_i->second, vehicles[j], drive_j->second, from, to, result);
+        measure_pair(vehicles[i], drive_i->second, vehicles[j], drive_j->second, from, to, result);
       }
     }
   }

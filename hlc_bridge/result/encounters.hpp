@@ -15,10 +15,10 @@ struct Encounters {
   std::size_t collisions{};              ///< how often a pair began to touch
 };
 
-/// Looks at every instant in [from, to] at which a vehicle was recorded, for every pair of vehicles
-/// that both have a pose then (driven_pose_at; after the end of its record a vehicle stands where
-/// it was seen last). Footprints are rectangles along the yaw, without margin.
-/// @param vehicles  their footprints; vehicles without a drive are passed over
+/// Checks every instant in [from, to] at which a vehicle was recorded, for every pair of vehicles
+/// that both have a pose then (driven_pose_at; after the end of its record a vehicle stands at its
+/// last position). Footprints are rectangles along the yaw, without margin.
+/// @param vehicles  their footprints; vehicles without a drive are skipped
 [[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
                                     const Drives& drives, Nanoseconds from, Nanoseconds to);
 
@@ -28,7 +28,7 @@ struct TimedDistance {
   double distance_m{};  ///< 0: they touch
 };
 
-/// The same for one pair at every such instant, for who wants to see it over time.
+/// The same for one pair at every such instant, as a series over time.
 [[nodiscard]] std::vector<TimedDistance> footprint_distances(const VehicleDescription& a,
                                                              const Drive& drive_a,
                                                              const VehicleDescription& b,

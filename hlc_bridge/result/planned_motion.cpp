@@ -14,10 +14,10 @@ namespace {
                            ", step " + std::to_string(row.step) + ": " + what);
 }
 
-/// As people count them, from 1.
+/// Numbered from 1, for readers.
 std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
-/// Pose at the begin of a motion of which the end is known.
+/// Pose at the begin of a motion with a known end.
 Pose begin_of(const Maneuver& maneuver, const Pose& end) {
   return compose(end, between(maneuver.displacement, Pose{}));
 }
@@ -28,10 +28,10 @@ const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
                                 const UniversalAutomaton& automaton) {
   if (next == nullptr || next->step != row.step + 1) return nullptr;
   const Report& report = row.record.report;
-  // Who stands and is set down anew may go on in another equilibrium.
-  const bool is_own_step = report.maneuver == kOwnStepLabel;
-  const TrimId to = is_own_step ? report.planned_trim : next->record.report.planned_trim;
-  if (to == report.planned_trim && !is_own_step) return nullptr;
+  // A vehicle that stands and whose plan is re-anchored may continue in another equilibrium.
+  const bool is_self_loop = report.maneuver == kSelfLoopLabel;
+  const TrimId to = is_self_loop ? report.planned_trim : next->record.report.planned_trim;
+  if (to == report.planned_trim && !is_self_loop) return nullptr;
   return automaton.find(report.planned_trim, to, report.maneuver);
 }
 
@@ -54,7 +54,7 @@ std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanos
     if (maneuver == nullptr) {
       refuse(*rows[k], "no maneuver from trim " + number_of(report.planned_trim) + " to " +
                            number_of(rows[k + 1]->record.report.planned_trim) + " with label '" +
-                           one_line(report.maneuver) + "', allowed those of the automaton");
+                           one_line(report.maneuver) + "', must be in the automaton");
     }
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
     for (Nanoseconds t = interval; t < period; t += interval) {

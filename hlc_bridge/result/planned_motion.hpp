@@ -5,34 +5,34 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-/// What a vehicle was planned to do between the steps: the reports tell pose and trim at every
-/// t(k) and which maneuver was under way, the automaton knows its motion.
+/// The planned motion of a vehicle between the steps: the reports give pose and trim at every t(k)
+/// and the maneuver under way, the automaton its motion.
 namespace hlc {
 
 /// The maneuver under way in the step of `row`: of that label, from its trim to that of the next
-/// row. A plan that is set down anew meanwhile leads elsewhere with the same maneuvers.
+/// row. A plan that is re-anchored meanwhile leads elsewhere with the same maneuvers.
 ///
-/// nullptr if there is no next row, if the row knows of no plan, or if the automaton does not hold
-/// the maneuver: one of new weights (weight_design.hpp).
+/// nullptr if there is no next row, if the row has no plan, or if the automaton does not hold the
+/// maneuver: one of new weights (weight_design.hpp).
 /// @param next  the vehicle's next row; nullptr: none
 [[nodiscard]] const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
                                               const UniversalAutomaton& automaton);
 
 /// The planned states of one vehicle every `interval`, from t(0) of the run to the time of its last
-/// row. At t(k) that is what was reported; in between, the motion that ends where the plan is at
-/// t(k + 1). So a plan that its controller sets down anew in step k, where the car really is
-/// (planner/controller/plan_in_force.hpp), shows as a jump just after t(k), when it comes into
+/// row. At t(k) that is the reported state; in between, the motion that ends where the plan is at
+/// t(k + 1). So a plan that its controller re-anchors in step k at the car's real pose
+/// (planner/controller/plan_in_force.hpp) shows as a jump just after t(k), when it comes into
 /// force.
 ///
 /// @param rows  of that vehicle, by step
 /// @pre `interval` divides `period`
-/// @throws std::runtime_error naming vehicle and step where a row is missing, or whose maneuver the
-/// automaton does not hold
+/// @throws std::runtime_error naming vehicle and step if a row is missing, or its maneuver is not
+/// in the automaton
 [[nodiscard]] std::vector<State> planned_motion(std::span<const StepRecord* const> rows,
                                                 Nanoseconds period, Nanoseconds interval,
                                                 const UniversalAutomaton& automaton);
 
-/// What was driven at the same times: true pose (heading_rad is the yaw) and speed, steering 0.
+/// The driven states at the same times: true pose (heading_rad is the yaw) and speed, steering 0.
 /// Between two ticks the simulated car's motion is linear.
 ///
 /// @param count  states; fewer are returned if the drive ends before

@@ -14,7 +14,7 @@
 #include "planner/policy/policy_settings.hpp"
 #include "planner/road/reference_path.hpp"
 
-/// What a run leaves behind, as plain data; `hlc_bridge/record` reads and writes the files.
+/// The records of a run as plain data; `hlc_bridge/record` reads and writes the files.
 namespace hlc {
 
 struct VehicleDescription {
@@ -24,11 +24,11 @@ struct VehicleDescription {
   Footprint footprint;                 ///< without margin
 };
 
-/// What was driven: the scenario, as far as the result speaks of it.
+/// What was driven: the scenario, as needed for the result.
 struct RunDescription {
   std::string scenario;
   std::string profile;
-  std::string engine;  ///< that searched
+  std::string engine;  ///< of the search
   std::string map;
   std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;
@@ -36,21 +36,22 @@ struct RunDescription {
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;
-  /// What was planned on: knows the planned poses between steps. None: only those at the steps.
+  /// The automaton of the plans: gives the planned poses between steps. None: only those at the
+  /// steps.
   std::shared_ptr<const Subgraph> automaton;
 };
 
-/// How the run went, as the lab control saw it.
+/// How the run went, as observed by the lab control.
 struct RunFacts {
   bool simulated_time{};
   std::vector<std::uint8_t> vehicle_ids;
   Nanoseconds period{};
-  std::uint64_t steps{};                    ///< asked for
-  std::optional<std::uint64_t> first_step;  ///< k0; none if nobody started
+  std::uint64_t steps{};                    ///< requested
+  std::optional<std::uint64_t> first_step;  ///< k0; none if no controller started
   double wall_s{};                          ///< from the first trigger to the last answer
-  double clock_s{};                         ///< time of the run that passed meanwhile
+  double clock_s{};                         ///< time of the run in that span
   int exit_code{};
-  std::string reason;  ///< one line; empty if all went well
+  std::string reason;  ///< one line; empty: no fault
   std::vector<Death> died;
 };
 
@@ -61,10 +62,10 @@ struct DrivenSample {
   double speed_mps{};
   double throttle{};
   double steering{};
-  Nanoseconds command_create{};  ///< create_stamp of the command that was followed; 0: none
+  Nanoseconds command_create{};  ///< create_stamp of the command being followed; 0: none
 };
 
-/// Everything that one vehicle's process recorded, by increasing time.
+/// Everything recorded by one vehicle's process, by increasing time.
 using Drive = std::vector<DrivenSample>;
 using Drives = std::map<std::uint8_t, Drive>;
 
@@ -75,7 +76,7 @@ struct StepRecord {
   std::optional<Pose> driven;  ///< at t(k); none if it was not recorded
 };
 
-/// The first step that anybody reported as not standby; nothing if nobody started.
+/// The first step with a report other than standby; nothing if no vehicle started.
 [[nodiscard]] std::optional<std::uint64_t> first_step_of(std::span<const ReportRecord> reports);
 
 /// Pose at `t`: the sample of that time, else linear between its neighbours if they are not farther
@@ -83,8 +84,8 @@ struct StepRecord {
 [[nodiscard]] std::optional<Pose> driven_pose_at(std::span<const DrivenSample> drive,
                                                  Nanoseconds t);
 
-/// The steps 0 ... steps - 1 that were reported, by step, then vehicle; the last report of a step
-/// counts. Empty if nobody started.
+/// The reported steps among 0 ... steps - 1, by step, then vehicle; the last report of a step
+/// counts. Empty if no vehicle started.
 [[nodiscard]] std::vector<StepRecord> step_records(std::span<const ReportRecord> reports,
                                                    const Drives& drives, const RunFacts& facts);
 

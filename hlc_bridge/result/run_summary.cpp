@@ -54,7 +54,7 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
       planning_s.push_back(static_cast<double>(row->record.planning_ns) * kSecondsPerNanosecond);
-      summary.overlong_plans += planning_s.back() > step_s ? 1U : 0U;
+      summary.plans_exceeding_step += planning_s.back() > step_s ? 1U : 0U;
     }
   }
   if (found > 0) summary.budget_share = static_cast<double>(budget) / static_cast<double>(found);
@@ -63,9 +63,9 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
   summary.planning_s = statistics(planning_s);
 }
 
-/// Compares what was driven with what was planned, tick by tick. A step that begins or ends near
-/// the steering limit may lead away from its plan; the deviation is foreseen from there until a
-/// step in which the vehicle kept to the margin.
+/// Compares the drive with the plan, tick by tick. A step that begins or ends near the steering
+/// limit may lead away from its plan; the deviation is predicted from there until a step in which
+/// the vehicle kept to the margin.
 class Tracking {
  public:
   explicit Tracking(const UniversalAutomaton& automaton) : automaton_(automaton) {}
@@ -109,7 +109,7 @@ class Tracking {
   const UniversalAutomaton& automaton_;
   std::vector<double> errors_m_;
   std::optional<double> deviation_m_;
-  double step_m_{};  ///< largest deviation in the step under way
+  double step_m_{};  ///< largest deviation in the current step
   bool is_foreseen_{};
 };
 
@@ -143,7 +143,7 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
   }
   tracking.write(summary);
   const double margin_m = automaton.vehicle.safety_margin_m;
-  summary.astray_steps =
+  summary.steps_outside_announced_area =
       static_cast<std::size_t>(std::ranges::count_if(rows, [margin_m](const StepRecord* row) {
         return row->record.report.reason == FallbackReason::kDeviation &&
                row->record.report.deviation_m > margin_m;
@@ -151,8 +151,8 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
 }
 
 /// Steps of the run for which the vehicle has no row: in real time its controller answers only the
-/// newest list, and reports what it has answered. A run that ended early had the steps that anybody
-/// reported.
+/// newest list, and reports the answered steps. A run that ended early has the steps that any
+/// vehicle reported.
 std::size_t unreported_steps(std::span<const StepRecord* const> own, const RunFacts& facts,
                              std::span<const StepRecord> rows) {
   const std::uint64_t reported = rows.empty() ? 0 : rows.back().step + 1;

@@ -11,7 +11,7 @@ struct Statistics {
   std::size_t count{};
   double mean{};
   double std{};  ///< corrected sample standard deviation (divided by n - 1); 0 for n = 1
-  double p99{};  ///< smallest value that at least 99 % of the sample do not exceed (nearest rank)
+  double p99{};  ///< smallest value that >= 99 % of the sample do not exceed (nearest rank)
   double min{};
   double max{};
 };

@@ -96,7 +96,8 @@ std::string summary_table(const RunSummary& summary) {
   text +=
       "\nMeans are followed by standard deviations in parentheses, or by \"/\" and the maximum.\n"
       "reference error  planned positions to the centre of the lane\n"
-      "lap              from the first plan's begin until the planned positions are round; -: not "
+      "lap              from the first plan's begin until the planned path completes one lap; -: "
+      "not "
       "completed\n"
       "vertices         of the search tree, with its root and those never expanded\n"
       "p99              99 of 100 plans took no longer\n"

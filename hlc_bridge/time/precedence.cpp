@@ -7,9 +7,9 @@ namespace hlc {
 namespace {
 
 constexpr pid_t kThisThread = 0;
-/// A third of an ordinary thread's share: the control loop wakes up at once, and where the core has
-/// nothing else to do nothing is lost. Less would make a step of logical time, which waits, last
-/// long on a busy computer.
+/// A third of an ordinary thread's share: the control loop wakes up at once, and on an idle core
+/// nothing is lost. Less would make a step of logical time, which waits for this thread, slow on a
+/// busy computer.
 constexpr int kNicer = 5;
 
 }  // namespace
@@ -30,7 +30,7 @@ bool stay_on_core(int core) {
 }
 
 void give_precedence() {
-  static_cast<void>(nice(kNicer));  // of Linux: concerns the calling thread alone
+  static_cast<void>(nice(kNicer));  // on Linux it affects the calling thread only
 }
 
 }  // namespace hlc

@@ -13,7 +13,7 @@ namespace {
 
 std::size_t page_size() { return static_cast<std::size_t>(sysconf(_SC_PAGESIZE)); }
 
-/// An object's segments that nobody writes to. The address sanitizer has fences among constants.
+/// An object's read-only segments. The address sanitizer places fences among constants.
 __attribute__((no_sanitize("address"))) int read_segments(dl_phdr_info* object, std::size_t,
                                                           void*) {
   const std::uintptr_t page = page_size();

@@ -4,15 +4,15 @@
 
 namespace hlc {
 
-/// Memory that a control loop needs is the process's before the loop begins: the first touch of a
-/// page is a fault, which takes longer than a whole search where the memory has to come from a
-/// virtual machine's host, and milliseconds where code has to be read from a disk.
+/// Makes the memory of a control loop resident before the loop begins: the first touch of a page is
+/// a fault, which takes longer than a whole search if the memory has to come from a virtual
+/// machine's host, and milliseconds if code has to be read from a disk.
 
-/// Reads all pages of code and constants of the program and of the libraries that are loaded.
-/// A system that is short of memory may still drop them.
+/// Reads all pages of code and constants of the program and of the loaded libraries. A system that
+/// is short of memory may still drop them.
 void make_code_resident();
 
-/// Gives the calling thread's heap so many bytes that were touched, and lets the process keep all
+/// Gives the calling thread's heap this many touched bytes, and lets the process keep all memory
 /// that it frees from now on. Blocks up to that size come from the heap.
 void reserve_heap(std::size_t bytes);
 

@@ -11,8 +11,8 @@
 namespace hlc {
 
 /// The one place where a process's control thread waits. Callbacks of other threads (messages,
-/// matches, presence, signals) put what they have under the signal's lock; the control thread waits
-/// until what it needs is there, or until a deadline.
+/// matches, presence, signals) store their data under the signal's lock; the control thread waits
+/// until its condition holds, or until a deadline.
 ///
 ///     Signal signal;
 ///     std::vector<TrajectoryCommand> inbox;  // guarded by signal
@@ -23,18 +23,18 @@ namespace hlc {
 ///     auto commands = signal.locked([&] { return std::exchange(inbox, {}); });
 ///
 /// Rules: nothing blocks while the lock is held - no write to a topic, no creation or destruction
-/// of an endpoint or participant. Asking what Participant, Writer and Reader know (alive, matched
-/// ...) is allowed.
+/// of an endpoint or participant. Queries of Participant, Writer and Reader (alive, matched ...)
+/// are permitted.
 ///
-/// Conditions are evaluated under the lock, and also on the threads that post, while their own
-/// thread waits. So they are pure (they read, and change nothing), read only what the lock guards,
-/// what the waiting thread alone writes, or what guards itself, and do not throw.
+/// Conditions are evaluated under the lock, and also on the posting threads, while their own thread
+/// waits. So they are pure (they read, and change nothing), read only data guarded by the lock,
+/// written by the waiting thread alone, or self-guarded, and do not throw.
 class Signal {
  public:
   /// Runs `change` under the lock, then wakes the waiting threads if one of their conditions holds.
   /// The conditions are evaluated here, on the posting thread: in logical time most messages bring
-  /// only a part of what a process waits for, and waking it for each would cost a good part of the
-  /// run's speed.
+  /// only a part of what a process waits for, and waking it for each would slow down the run
+  /// considerably.
   template <class Change>
   void post(Change&& change) {
     {
@@ -47,7 +47,7 @@ class Signal {
     changed_.notify_all();
   }
 
-  /// Looks again at what is waited for: for changes of state that is guarded elsewhere.
+  /// Evaluates the conditions again: for changes of state that is guarded elsewhere.
   void notify() {
     post([] {});
   }
@@ -59,19 +59,20 @@ class Signal {
     return std::forward<Access>(access)();
   }
 
-  /// Waits until `condition` (evaluated under the lock) holds, at most until `deadline`; the
-  /// condition's last value. Deadlines of the run's real time are std::chrono::system_clock's,
-  /// watchdogs those of steady_clock.
+  /// Waits until `condition` (evaluated under the lock) holds, at most until `deadline`; returns
+  /// the condition's last value. Deadlines of the run's real time use std::chrono::system_clock,
+  /// watchdogs steady_clock.
   template <class TimePoint, class Condition>
   [[nodiscard]] bool wait_until(const TimePoint& deadline, Condition&& condition) const {
     const std::function<bool()> holds{std::ref(condition)};
     std::unique_lock lock{mutex_};
-    const Entry entry{waiting_, &holds};  // goes before the lock does
+    const Entry entry{waiting_, &holds};  // destroyed before the lock
     return changed_.wait_until(lock, deadline, holds);
   }
 
   /// Calls `act` (with no lock held) at once and then every `interval` until `condition` holds, at
-  /// most until `deadline`; the condition's last value. For questions whose answer can be lost.
+  /// most until `deadline`; returns the condition's last value. For requests whose answer can be
+  /// lost.
   template <class Condition, class Act>
   [[nodiscard]] bool repeat_until(std::chrono::steady_clock::time_point deadline,
                                   std::chrono::milliseconds interval, Condition&& condition,
@@ -88,7 +89,7 @@ class Signal {
  private:
   using Conditions = std::vector<const std::function<bool()>*>;
 
-  /// A condition among those that are looked at, for as long as it lives. Under the lock.
+  /// Registers a condition for evaluation, for its own lifetime. Under the lock.
   class Entry {
    public:
     Entry(Conditions& conditions, const std::function<bool()>* condition)

@@ -46,7 +46,7 @@ int wait_for_signal(int signal_fd, int end_fd) {
 
 StopSignals::StopSignals() : end_fd_{eventfd(0, EFD_CLOEXEC)} {
   check(end_fd_, "eventfd");
-  ::signal(SIGXFSZ, SIG_IGN);  // a file too large is an output that cannot be written, as others
+  ::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is then a write error like others
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }

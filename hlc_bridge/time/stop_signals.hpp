@@ -5,7 +5,7 @@
 
 namespace hlc {
 
-/// SIGINT and SIGTERM as a callback on a thread of its own.
+/// SIGINT and SIGTERM as a callback on a separate thread.
 ///
 /// To be constructed first in main, before any other thread exists (participants start threads): it
 /// blocks both signals, and threads inherit that. A signal that comes before on_stop is called
@@ -14,7 +14,7 @@ class StopSignals {
  public:
   /// Blocks SIGINT and SIGTERM in this thread and those that it starts from now on.
   StopSignals();
-  /// Ends the thread; a callback that is running is waited for. The signals stay blocked.
+  /// Ends the thread, after a running callback. The signals stay blocked.
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;

@@ -6,7 +6,7 @@
 
 namespace hlc {
 
-/// Processor time of the calling thread [ns]: what it computes, however often others interrupt it.
+/// Processor time of the calling thread [ns]: its own computation, without preemption.
 [[nodiscard]] inline Nanoseconds thread_time_now() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -6,10 +6,14 @@
 
 namespace hlc {
 
-/// Wall time: of a clock that never goes back, from any beginning (std::chrono::steady_clock).
+[[nodiscard]] constexpr Nanoseconds nanoseconds(std::chrono::nanoseconds time) {
+  return static_cast<Nanoseconds>(time.count());
+}
+
+/// Wall time: of a clock that never goes back, with an arbitrary origin
+/// (std::chrono::steady_clock).
 [[nodiscard]] inline Nanoseconds wall_time_now() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return static_cast<Nanoseconds>(std::chrono::nanoseconds(now).count());
+  return nanoseconds(std::chrono::steady_clock::now().time_since_epoch());
 }
 
 /// The same instant as a deadline for Signal::wait_until.

@@ -7,7 +7,7 @@
 namespace hlc {
 namespace {
 
-// Above the ids that the lab's own programs draw with.
+// Above the ids that the lab's own programs use for drawing.
 constexpr std::uint64_t kFirstId = 0x484c'4300'0000;
 
 constexpr DrawingColor kGoodColor{.red = 0, .green = 130, .blue = 60};

@@ -7,16 +7,16 @@
 
 namespace hlc {
 
-/// What the operator sees of a controller on the lab control centre's map:
+/// Drawings of a controller on the lab control centre's map for the operator:
 ///
 /// * the plan in force from t(k) to its end, a green line (red after a step that fell back),
 /// * the reference points of the step's search, a grey line, if there was one,
-/// * a text beside the vehicle: its id and what the controller did in the step, with the reason.
+/// * a text beside the vehicle: its id and the step's status with the reason.
 ///
-/// Coordinates are the lab's [m]. Every vehicle has ids of its own, so that a step's drawings
-/// replace those of the step before.
+/// Coordinates are the lab's [m]. Every vehicle has its own ids, so that a step's drawings replace
+/// those of the step before.
 /// @param report        of the controller's last step
-/// @param time_to_live  of all drawings: longer than a period, or they flicker
+/// @param time_to_live  of all drawings: longer than a period, otherwise they flicker
 [[nodiscard]] std::vector<Visualization> lab_map(const Controller& controller, const Report& report,
                                                  Nanoseconds time_to_live);
 

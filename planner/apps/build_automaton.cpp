@@ -36,7 +36,7 @@ struct Choices {
 
 [[noreturn]] void fail(const std::string& place, const std::string& allowed,
                        const std::string& reason) {
-  throw std::invalid_argument(place + ", allowed " + allowed + "; " + reason);
+  throw std::invalid_argument(place + ", must be " + allowed + "; " + reason);
 }
 
 hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, std::size_t jobs) {
@@ -50,14 +50,15 @@ hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, 
   return hlc::assembled(configuration, std::move(maneuvers));
 }
 
-/// A speed limit may have taken maneuvers away.
+/// A speed limit may have removed maneuvers.
 void check_subgraphs(const hlc::AutomatonFile& file, const hlc::ConfigurationPlaces& places) {
   for (std::size_t i = 0; i < file.subgraphs.size(); ++i) {
     try {
       hlc::check_driving(hlc::Subgraph(file.automaton, file.subgraphs[i]), file.horizon_steps);
     } catch (const std::invalid_argument& error) {
       const hlc::ConfigurationPlaces::Subgraph& place = places.subgraphs[i];
-      if (place.max_speed_mps.empty()) fail(place.trims, "what the maneuvers allow", error.what());
+      if (place.max_speed_mps.empty())
+        fail(place.trims, "a set that the maneuvers connect", error.what());
       fail(place.max_speed_mps, "a limit that leaves every trim a way from and to standstill",
            error.what());
     }
@@ -67,7 +68,7 @@ void check_subgraphs(const hlc::AutomatonFile& file, const hlc::ConfigurationPla
 void run(const Choices& choices) {
   if (hlc::is_automaton_file(choices.configuration)) {
     throw std::invalid_argument(choices.configuration.string() +
-                                ": a built automaton, allowed a configuration");
+                                ": a built automaton, must be a configuration");
   }
   const hlc::AutomatonConfiguration configuration =
       hlc::read_automaton_configuration(choices.configuration);
@@ -114,7 +115,7 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", choices.jobs, "maneuvers designed at a time")
       ->check(hlc::whole(1, 256))
       ->capture_default_str();
-  app.footer("Exit codes: 0 good, 1 an output cannot be written, 2 bad input.");
+  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("build_automaton", [&choices] { run(choices); });
 }

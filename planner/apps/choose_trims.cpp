@@ -23,7 +23,7 @@
 
 namespace {
 
-constexpr double kWindow_s = 0.2;  // long enough that measurement noise does not pass for steering
+constexpr double kWindow_s = 0.2;  // long enough that measurement noise is not taken for steering
 
 /// Columns of a drive, by name.
 class DriveTable {
@@ -69,7 +69,7 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
   for (const std::string& column : {time, std::string("x_m"), std::string("y_m"), heading}) {
     if (table.has(column)) continue;
     throw std::invalid_argument(
-        fmt::format("{}:1: columns = {}, allowed speed_mps and steering_rad, or t_ns or t_s, x_m, "
+        fmt::format("{}:1: columns = {}, must be speed_mps and steering_rad, or t_ns or t_s, x_m, "
                     "y_m and yaw_rad or heading_rad",
                     path.string(), hlc::one_line(table.columns())));
   }
@@ -77,7 +77,7 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
   for (std::size_t row = 0; row < table.size(); ++row) {
     const double time_s = table.number(row, time) * (time == "t_ns" ? 1e-9 : 1.0);
     if (!points.empty() && time_s <= points.back().time_s) {
-      table.refuse(row, time, "only increasing");
+      table.refuse(row, time, "larger than in the row before");
     }
     points.push_back(
         {time_s, {table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, heading)}});
@@ -85,7 +85,7 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
   return hlc::drive_samples(points, kWindow_s, vehicle);
 }
 
-/// Vehicle and limits of a configuration, of which nothing else need be there.
+/// Vehicle and limits of a configuration; its other keys may be absent.
 struct Car {
   std::string name{"the uCar"};
   hlc::VehicleParameters vehicle;
@@ -112,7 +112,7 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
   if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
   if (limits.curvature_max_per_m) std::printf(", curvature %g 1/m", *limits.curvature_max_per_m);
   std::printf("; wheelbase %g m\n", car.vehicle.wheelbase_m);
-  std::printf("# Trims that stand for %s; the share of the drive that each stands for.\ntrims:\n",
+  std::printf("# Trims that represent %s; the share of the drive that each represents.\ntrims:\n",
               drive.filename().c_str());
   for (std::size_t i = 0; i < trims.size(); ++i) {
     const hlc::Trim& trim = trims[i].trim;
@@ -122,7 +122,7 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
   }
 }
 
-/// What is said of samples that do not count as they are.
+/// Samples that do not count as they are.
 struct Notes {
   std::size_t outside{};
   std::size_t reversing{};
@@ -154,26 +154,28 @@ Notes notes_on(const std::vector<hlc::DriveSample>& samples, const hlc::VehicleL
 
 std::string excess(const Notes& notes, const hlc::VehicleLimits& limits) {
   std::string text;
-  const auto add = [&text](const char* what, double value, const char* unit, double allowed) {
+  const auto add = [&text](const char* what, double value, const char* unit, const char* bound,
+                           double allowed) {
     std::ostringstream part;
-    part << (text.empty() ? "" : "; ") << what << ' ' << value << unit << ", allowed " << allowed;
+    part << (text.empty() ? "" : "; ") << what << ' ' << value << unit << ", must be " << bound
+         << allowed;
     text += part.str();
   };
   if (notes.fastest_mps > limits.speed_max_mps) {
-    add("speed up to", notes.fastest_mps, " m/s", limits.speed_max_mps);
+    add("speed up to", notes.fastest_mps, " m/s", "<= ", limits.speed_max_mps);
   }
   if (notes.slowest_mps < limits.speed_min_mps) {
-    add("speed down to", notes.slowest_mps, " m/s", limits.speed_min_mps);
+    add("speed down to", notes.slowest_mps, " m/s", ">= ", limits.speed_min_mps);
   }
   if (notes.sharpest_rad > limits.steering_max_rad) {
-    add("steering up to", notes.sharpest_rad, " rad", limits.steering_max_rad);
+    add("steering up to", notes.sharpest_rad, " rad", "<= ", limits.steering_max_rad);
   }
   return text;
 }
 
 /// A line per kind of samples that do not count as they are.
-void tell(const Notes& notes, const std::string& drive, std::size_t samples,
-          const hlc::VehicleLimits& limits) {
+void print_notes(const Notes& notes, const std::string& drive, std::size_t samples,
+                 const hlc::VehicleLimits& limits) {
   if (notes.outside > 0) {
     std::cerr << "choose_trims: " << drive << ": " << notes.outside << " of " << samples
               << " samples are outside the limits (" << excess(notes, limits)
@@ -207,7 +209,7 @@ int main(int argc, char** argv) {
       "--config", configuration,
       "file with the keys `vehicle` and `limits` of an automaton configuration; default: the "
       "uCar");
-  app.footer("Exit codes: 0 good, 1 an output cannot be written, 2 bad input.");
+  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("choose_trims", [&] {
     const Car car = configuration.empty() ? Car{} : read_car(configuration);
@@ -215,13 +217,14 @@ int main(int argc, char** argv) {
       try {
         return read_drive(drive, car.vehicle);
       } catch (const std::runtime_error& error) {
-        throw std::invalid_argument(error.what());  // the drive is the user's
+        throw std::invalid_argument(error.what());  // the drive is user input
       }
     }();
     try {
       const std::vector<hlc::ChosenTrim> trims =
           hlc::choose_trims(samples, count, car.vehicle, car.limits);
-      tell(notes_on(samples, car.limits), drive.filename().string(), samples.size(), car.limits);
+      print_notes(notes_on(samples, car.limits), drive.filename().string(), samples.size(),
+                  car.limits);
       print(trims, drive, car);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(drive.string() + ": " + error.what());

@@ -26,9 +26,9 @@
 #include <utility>
 #include <vector>
 
-// The one entry to CLI11. All of it is inline, and the compiler would spend ten seconds of every
-// program on optimising what runs once, before the work begins. The standard library's headers
-// come first, so that they stay as they are.
+// The only entry to CLI11. All of it is inline, and the compiler would spend ten seconds per
+// program on optimising code that runs once, before the work begins. The standard library's headers
+// come first, so that they are not affected.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
 #pragma GCC optimize("O0")

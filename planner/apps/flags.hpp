@@ -24,17 +24,17 @@
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/scenario.hpp"
 
-/// What the command lines of all programs have in common: `--name=value` and `--name value`,
-/// `--help` and `--version`, unknown flags refused, one line and exit code 2 for bad ones.
+/// Common to the command lines of all programs: `--name=value` and `--name value`, `--help` and
+/// `--version`, unknown flags refused, one line and exit code 2 for bad ones.
 namespace hlc {
 
-/// One line about what is wrong, whatever the names of files and keys in it hold.
+/// Prints an error in one line, even if names of files and keys in it contain line breaks.
 inline void complain(const std::string& program, const std::string& message) {
   std::cerr << program << ": " << escaped(message) << '\n';
 }
 
-/// What is printed waits in a buffer: whether it came to its end shows only here.
-/// @throws std::runtime_error if some of it did not
+/// Standard output is buffered: write errors show only here.
+/// @throws std::runtime_error if some output could not be written
 inline void flush_standard_output() {
   errno = 0;
   const bool is_flushed = std::fflush(stdout) == 0;
@@ -44,19 +44,19 @@ inline void flush_standard_output() {
                            (reason == 0 ? "" : ": " + std::generic_category().message(reason)));
 }
 
-/// A validator by what is good and what is allowed then.
+/// A validator from a predicate and the description of good values.
 /// @param shown  in the help, beside the flag's type; empty: nothing
 template <class IsGood>
 [[nodiscard]] CLI::Validator allowing(IsGood is_good, const std::string& allowed,
                                       const std::string& shown) {
   return CLI::Validator(
       [is_good, allowed](std::string& text) {
-        return is_good(text) ? std::string{} : one_line(text) + ", allowed " + allowed;
+        return is_good(text) ? std::string{} : one_line(text) + ", must be " + allowed;
       },
       shown);
 }
 
-/// For flags of that type, whatever value of it: CLI11 would not say what is allowed.
+/// For flags of that type, without further bounds: CLI11 would not describe the good values.
 template <class Type>
 [[nodiscard]] CLI::Validator of_type(const std::string& allowed) {
   const auto is_good = [](const std::string& text) {
@@ -66,31 +66,30 @@ template <class Type>
   return allowing(is_good, allowed, "");
 }
 
-/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range lets
-/// pass.
+/// For flags with numbers: min <= x <= max, and neither infinite nor NaN, which CLI::Range accepts.
 inline CLI::Validator within(double min, double max) {
-  const std::string allowed = std::isfinite(min) && std::isfinite(max)
-                                  ? shortest_text(min) + " ... " + shortest_text(max)
-                                  : "a finite number";
+  const bool is_bounded = std::isfinite(min) && std::isfinite(max);
+  const std::string shown =
+      is_bounded ? shortest_text(min) + " ... " + shortest_text(max) : "a finite number";
   const auto is_good = [min, max](const std::string& text) {
     double value{};
     return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= min &&
            value <= max;
   };
-  return allowing(is_good, allowed, allowed);
+  return allowing(is_good, (is_bounded ? "in " : "") + shown, shown);
 }
 
-/// For flags with whole numbers: digits alone. CLI11 takes "-5" for a large unsigned number, and
-/// one that is too large for the largest.
+/// For flags with whole numbers: digits only. CLI11 converts "-5" to a large unsigned number, and a
+/// number that is too large to the largest.
 inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
-  const std::string allowed = fmt::format("{} ... {}", min, max);
+  const std::string shown = fmt::format("{} ... {}", min, max);
   const auto is_good = [min, max](const std::string& text) {
     std::uint64_t value{};
     const char* const end = text.data() + text.size();
     const auto [read_until, error] = std::from_chars(text.data(), end, value);
     return error == std::errc{} && read_until == end && value >= min && value <= max;
   };
-  return allowing(is_good, allowed, allowed);
+  return allowing(is_good, "in " + shown, shown);
 }
 
 /// The same for every finite number.
@@ -101,14 +100,14 @@ inline CLI::Validator finite() {
 
 /// For flags with names.
 inline CLI::Validator among(const std::vector<std::string>& names) {
-  const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
+  const std::string shown = fmt::format("{}", fmt::join(names, ", "));
   const auto is_good = [names](const std::string& text) {
     return std::ranges::find(names, text) != names.end();
   };
-  return allowing(is_good, allowed, allowed);
+  return allowing(is_good, "one of " + shown, shown);
 }
 
-/// Checks of the type alone, after those that a flag has of its own.
+/// Checks of the type alone, after the flag's own checks.
 inline void check_types(CLI::App& app) {
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
     const std::string type = option->get_type_name();
@@ -119,9 +118,9 @@ inline void check_types(CLI::App& app) {
   }
 }
 
-/// Nothing if the flags are good; else the exit code: 0 after the help or the version, 2 after one
-/// line about the bad flag, `failed`, as exit_code_of has it, after one line about a help that is
-/// not out.
+/// Nothing if the flags are good; otherwise the exit code: 0 after the help or the version, 2 after
+/// one line about the bad flag, `failed`, as in exit_code_of, after one line about a help that
+/// could not be printed.
 inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int failed = 1) {
   check_types(app);
   app.set_version_flag(
@@ -140,10 +139,10 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
       return failed;
     }
   } catch (const CLI::ExtrasError& error) {
-    complain(app.get_name(), std::string(error.what()) + ", allowed what --help lists");
+    complain(app.get_name(), std::string(error.what()) + ", must be a flag that --help lists");
     return 2;
   } catch (const CLI::ArgumentMismatch& error) {
-    complain(app.get_name(), std::string(error.what()) + ", allowed with a value");
+    complain(app.get_name(), std::string(error.what()) + ", must have a value");
     return 2;
   } catch (const CLI::ParseError& error) {
     complain(app.get_name(), error.what());
@@ -151,9 +150,9 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
   }
 }
 
-/// Runs the program's work, which returns nothing or an exit code. That code, or 0, if it is good
-/// and all that it printed is out; 2 after one line about bad input (std::invalid_argument),
-/// `failed` after one line about anything else.
+/// Runs the program's work, which returns nothing or an exit code. Returns that code, or 0, if the
+/// work succeeds and all its output is written; 2 after one line about invalid input
+/// (std::invalid_argument), `failed` after one line about any other error.
 template <class Work>
 int exit_code_of(const char* program, Work work, int failed = 1) {
   try {
@@ -174,12 +173,12 @@ int exit_code_of(const char* program, Work work, int failed = 1) {
   }
 }
 
-/// @throws std::invalid_argument naming the flag for a value that is there twice
+/// @throws std::invalid_argument naming the flag for a duplicate value
 template <class Value>
 void check_each_once(const std::string& flag, const std::vector<Value>& values) {
   for (auto value = values.begin(); value != values.end(); ++value) {
     if (std::find(values.begin(), value, *value) == value) continue;
-    throw std::invalid_argument(fmt::format("{} = {} twice, allowed each once", flag, *value));
+    throw std::invalid_argument(fmt::format("{} = {} twice, must be unique", flag, *value));
   }
 }
 
@@ -188,7 +187,7 @@ inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
   app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
   app.add_option("--engine", choices.engine,
-                 std::string("what plans: ") + kEngineChoices +
+                 std::string("search engine: ") + kEngineChoices +
                      " (default: the scenario's, else the profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--policy", choices.policy,

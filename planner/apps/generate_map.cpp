@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
       "generate_map"};
   hlc::OutputFile out{"--out", {}};
   hlc::declare_output(app, out, "file to write (XML)")->required();
-  app.footer("Exit codes: 0 good, 1 an output cannot be written, 2 bad input.");
+  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("generate_map", [&out] { run(out); });
 }

@@ -1,10 +1,10 @@
-// The planner in an OMPL program, beside OMPL's own kinodynamic planners on the same problem: same
-// start, same goal, same obstacles, same motions, same cost.
+// Compares our planner with OMPL's own kinodynamic planners on the same problem: same start, same
+// goal, same obstacles, same motions, same cost.
 //
 // Read it as an example of how the pieces fit together: a space information with controls
 // (planner/search/ompl/ompl_control.hpp), a goal and an objective (ompl_problem.hpp), the planner
-// (ompl_planner.hpp), and OMPL's SimpleSetup, Benchmark and PlannerData, which know nothing of the
-// rest.
+// (ompl_planner.hpp), and OMPL's SimpleSetup, Benchmark and PlannerData, which are independent of
+// the rest.
 #include <ompl/base/ProjectionEvaluator.h>
 #include <ompl/control/PlannerData.h>
 #include <ompl/control/SimpleSetup.h>
@@ -40,8 +40,8 @@ namespace oc = ompl::control;
 namespace ot = ompl::tools;
 
 #if defined(__SANITIZE_ADDRESS__)
-// OMPL 1.5's SST never frees the motions of witnesses that it has looked for; the leak sanitizer
-// asks these functions what not to report, and needs whole stacks to know SST in them.
+// OMPL 1.5's SST never frees the motions of witnesses that it has searched; the leak sanitizer asks
+// these functions what not to report, and needs whole stacks to recognise SST in them.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "fast_unwind_on_malloc=0"; }
 extern "C" const char* __lsan_default_options();
@@ -58,7 +58,7 @@ constexpr int kExitFailed = 2;
 constexpr char kCost[] = "path cost REAL";
 constexpr char kIsOptimal[] = "optimal BOOLEAN";
 constexpr char kShipped[] = "launch_scripts/problems/parked_car.json";
-/// OMPL's Benchmark names control planners so.
+/// Prefix that OMPL's Benchmark puts before names of control planners.
 constexpr std::string_view kPrefix = "control_";
 constexpr int kBareCalls = 20;
 
@@ -96,7 +96,7 @@ void declare(CLI::App& app, Flags& flags) {
       "its "
       "engines, and cost_to_go for best_first; criterion_weights are refused: the planners are "
       "compared by the distance from the reference alone.\n\n"
-      "Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+      "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
 }
 
 /// KPIECE covers this plane with cells.
@@ -138,7 +138,7 @@ double number(const ot::Benchmark::RunProperties& run, const char* name) {
   return found == run.end() ? 0.0 : std::stod(found->second);
 }
 
-/// What the costs of a planner's plans say.
+/// What the costs of a planner's plans mean.
 const char* kind_of_plans(const ot::Benchmark::PlannerExperiment& experiment,
                           const ob::Planner& planner) {
   const auto is_optimal = [](const ot::Benchmark::RunProperties& run) {
@@ -174,8 +174,7 @@ void forget_plans(ob::Planner& planner, const ob::ProblemDefinitionPtr& definiti
   planner.setProblemDefinition(definition);
 }
 
-/// Shortest time of a `solve` in which nobody watches the planner; nothing if none comes to its end
-/// within `seconds`.
+/// Shortest time of a `solve` without monitoring; nothing if none finishes within `seconds`.
 std::optional<double> bare_solve_us(ob::Planner& planner,
                                     const ob::ProblemDefinitionPtr& definition, double seconds) {
   const auto time_is_up = ob::timedPlannerTerminationCondition(seconds);
@@ -207,7 +206,7 @@ void print(const ob::State& at) {
               state.pose.heading_rad, state.trim.index + 1);
 }
 
-/// What a planner tells of its last `solve`, in words: OMPL's way for whoever draws or stores it.
+/// The PlannerData of the last `solve` as text: OMPL's interface for drawing or storing it.
 void print_data(const ob::Planner& planner, const ob::SpaceInformationPtr& si) {
   oc::PlannerData data(std::dynamic_pointer_cast<oc::SpaceInformation>(si));
   planner.getPlannerData(data);
@@ -239,11 +238,31 @@ void check_can_be_compared(const hlc::ProblemFile& file, const std::filesystem::
   }
   const auto& weights = file.search.criterion_weights;
   if (weights.empty()) return;
-  throw std::invalid_argument(path.string() + ": search.criterion_weights." +
-                              weights.front().criterion + " = " +
-                              hlc::shortest_text(weights.front().weight_m2) +
-                              ", allowed none: the planners are compared by the distance from the "
-                              "reference alone");
+  throw std::invalid_argument(
+      path.string() + ": search.criterion_weights." + weights.front().criterion + " = " +
+      hlc::shortest_text(weights.front().weight_m2) +
+      ", must be absent: the planners are compared by the distance from the "
+      "reference alone");
+}
+
+void print_table(const Flags& flags, const hlc::ProblemFile& file, const ot::Benchmark& benchmark,
+                 const std::vector<ob::PlannerPtr>& planners) {
+  std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
+              file.problem.horizon_steps(), flags.radius_m, flags.seconds);
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
+  std::printf("%-32s %5s %7s %10s %10s %12s %12s  %s\n", "planner", "runs", "solved", "median",
+              "max", "best", "median", "plans");
+  const auto& experiments =
+      benchmark.getRecordedExperimentData().planners;  // in the order of adding
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    print(experiments[i], kind_of_plans(experiments[i], *planners[i]));
+  }
+  std::printf(
+      "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
+      "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
+      "Times are Benchmark's, including its threads that run and monitor a planner.\n",
+      hlc::is_admissible(file.search.cost_to_go) ? "" : ", and so does best_first with 2022");
+  std::fflush(stdout);
 }
 
 int run(const Flags& flags) {
@@ -282,22 +301,7 @@ int run(const Flags& flags) {
   request.saveConsoleOutput = false;
   benchmark.benchmark(request);
 
-  std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
-              problem.horizon_steps(), flags.radius_m, flags.seconds);
-  std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
-  std::printf("%-32s %5s %7s %10s %10s %12s %12s  %s\n", "planner", "runs", "solved", "median",
-              "max", "best", "median", "plans");
-  const auto& experiments =
-      benchmark.getRecordedExperimentData().planners;  // in the order of adding
-  for (std::size_t i = 0; i < experiments.size(); ++i) {
-    print(experiments[i], kind_of_plans(experiments[i], *planners[i]));
-  }
-  std::printf(
-      "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
-      "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
-      "Times are Benchmark's, with the threads in which it runs and watches a planner.\n",
-      hlc::is_admissible(file.search.cost_to_go) ? "" : ", and so does best_first with 2022");
-  std::fflush(stdout);
+  print_table(flags, file, benchmark, planners);
   for (const ob::PlannerPtr& planner : planners) {
     if (dynamic_cast<const hlc::RecedingHorizonPlanner*>(planner.get()) == nullptr) continue;
     print_alone(*planner, setup.getProblemDefinition(), flags.seconds);
@@ -316,7 +320,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"This planner beside OMPL's own kinodynamic planners on one problem.",
+  CLI::App app{"Compares this planner with OMPL's own kinodynamic planners on one problem.",
                "ompl_example"};
   Flags flags;
   declare(app, flags);

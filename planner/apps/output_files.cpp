@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 bool are_same(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  // Absolute first: of a path without any folder that exists, weakly_canonical leaves `x` and makes
-  // `./x` absolute.
+  // Absolute first: for a path without any existing folder, weakly_canonical leaves `x` relative
+  // and makes `./x` absolute.
   const fs::path full_a = fs::weakly_canonical(fs::absolute(a), error);
   if (error) return false;
   const fs::path full_b = fs::weakly_canonical(fs::absolute(b), error);
@@ -26,19 +26,19 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// What is allowed instead of this file alone; empty if it is good.
+/// Description of a good file instead of this one; empty if it is good.
 std::string objection_to(const fs::path& file) {
   if (file.empty()) return "the name of a file";
   std::error_code error;
   const fs::path folder = folder_of(file);
-  if (!fs::is_directory(folder, error)) return "a file in a folder that exists";
-  // Of a link itself: /dev/stdout may lead to a regular file.
+  if (!fs::is_directory(folder, error)) return "a file in an existing folder";
+  // The link itself is checked: /dev/stdout may lead to a regular file.
   const fs::file_status status = fs::symlink_status(file, error);
   if (!file.has_filename() ||
       !(status.type() == fs::file_type::not_found || status.type() == fs::file_type::regular)) {
     return "a new or a regular file";
   }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) return "a file in a folder that may be written to";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) return "a file in a writable folder";
   return "";
 }
 
@@ -56,7 +56,7 @@ void check_output_files(const std::vector<OutputFile>& outputs,
     if (!output.file) continue;
     const auto fail = [&output](const std::string& allowed) {
       throw std::invalid_argument(output.flag + " = " + one_line(output.file->string()) +
-                                  ", allowed " + allowed);
+                                  ", must be " + allowed);
     };
     const std::string objection = objection_to(*output.file);
     if (!objection.empty()) fail(objection);

@@ -20,10 +20,10 @@ struct OutputFile {
 /// @pre `output` outlives the reading
 CLI::Option* declare_output(CLI::App& app, OutputFile& output, const std::string& help);
 
-/// To be called before anything is computed. Each file that is given must lie in a folder that
-/// exists and may be written to, be new or a regular file (no link to one), and be another one
-/// than each input and each other output, under whatever name (hard links, `./x`).
-/// @throws std::invalid_argument with one line "flag = file, allowed ..."
+/// To be called before the computation. Each given file must lie in an existing, writable folder,
+/// be new or a regular file (no link to one), and differ from each input and each other output,
+/// under any name (hard links, `./x`).
+/// @throws std::invalid_argument with one line "flag = file, must be ..."
 void check_output_files(const std::vector<OutputFile>& outputs,
                         const std::vector<std::filesystem::path>& inputs = {});
 

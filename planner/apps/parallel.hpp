@@ -11,7 +11,7 @@
 namespace hlc {
 
 /// Runs `task(i)` for i = 0 ... count - 1 in `jobs` threads, each task once, and waits for all. If
-/// tasks throw, no new ones are begun, and the exception of the smallest i that was run is thrown.
+/// tasks throw, no new ones are begun, and the exception of the smallest such i is thrown.
 /// @param done  called after every task with the number of tasks done, by one thread at a time
 /// @pre jobs >= 1
 inline void run_parallel(std::size_t count, std::size_t jobs,

@@ -1,5 +1,5 @@
-// The Pareto front of the maneuvers between two trims, as a table and as a plot in the manner of
-// the paper's Fig. 1:
+// The Pareto front of the maneuvers between two trims, as a table and as a plot in the style of the
+// paper's Fig. 1:
 //
 //     pareto_front launch_scripts/automata/pareto_example.yaml --from 0 0 --to 2.3 0.62
 //         --points 31 --out front.csv --plot front.svg
@@ -59,7 +59,7 @@ void declare(CLI::App& app, Flags& flags) {
       app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
           ->check(hlc::within(kShortest_s, kLongest_s));
   app.add_option("--free_duration", flags.free_duration_s,
-                 "MIN MAX [s]: each maneuver lasts what is best for it within these bounds, for "
+                 "MIN MAX [s]: each maneuver has its own best duration within these bounds, for "
                  "criteria such as travel_time; the table has a column `duration` then")
       ->expected(2)
       ->check(hlc::within(kShortest_s, kLongest_s))
@@ -80,7 +80,8 @@ void declare(CLI::App& app, Flags& flags) {
   hlc::declare_output(app, flags.table, "table to write (CSV)")->required();
   hlc::declare_output(app, flags.plot, "plot to write (SVG)");
   app.footer(
-      "Exit codes: 0 good, 1 a point was not found or an output cannot be written, 2 bad input.");
+      "Exit codes: 0 success, 1 a point was not found or an output cannot be written, 2 invalid "
+      "input.");
 }
 
 std::string printed(const std::vector<double>& numbers) {
@@ -94,16 +95,16 @@ void check_trim(const char* flag, const std::vector<double>& trim,
     return;
   }
   const std::string steering = hlc::shortest_text(limits.steering_max_rad);
-  throw std::invalid_argument(std::string(flag) + " = " + printed(trim) + ", allowed " +
+  throw std::invalid_argument(std::string(flag) + " = " + printed(trim) + ", must be in " +
                               hlc::shortest_text(limits.speed_min_mps) + " ... " +
                               hlc::shortest_text(limits.speed_max_mps) + " m/s and -" + steering +
                               " ... " + steering + " rad");
 }
 
-/// Durations are free within the bounds; the search starts as near to step_s as they let it.
+/// Durations are free within the bounds; the search starts at the duration nearest to step_s.
 void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& problem) {
   if (bounds_s[0] > bounds_s[1]) {
-    throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", allowed MIN <= MAX");
+    throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", must be MIN <= MAX");
   }
   problem.free_duration = {bounds_s[0], bounds_s[1]};
   problem.duration_s = std::clamp(problem.duration_s, bounds_s[0], bounds_s[1]);
@@ -112,7 +113,7 @@ void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& pr
 hlc::ParetoProblem problem_of(const Flags& flags) {
   if (flags.criteria[0] == flags.criteria[1]) {
     throw std::invalid_argument("--criteria = " + flags.criteria[0] + " " + flags.criteria[1] +
-                                ", allowed two that differ");
+                                ", must be two different ones");
   }
   const hlc::AutomatonConfiguration c = hlc::read_automaton_configuration(flags.configuration);
   check_trim("--from", flags.from, c.limits);

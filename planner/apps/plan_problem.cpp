@@ -1,5 +1,5 @@
-// Solves one planning problem from a file alone: what a controller decided in one step, or a
-// problem written by hand.
+// Solves a single planning problem from a file: a controller's planning step, or a problem written
+// by hand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFallback = 1;
 constexpr int kExitFailed = 2;
-/// The shortest of several calls is told: the first one also allocates and fills caches.
+/// The shortest of several calls is reported: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
 constexpr double kEnough_us = 2e4;
 
@@ -66,7 +66,8 @@ void declare(CLI::App& app, Flags& flags) {
       "planning_us");
   hlc::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
   app.footer(
-      "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 bad input or an output that "
+      "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 invalid input or an output "
+      "that "
       "cannot be written.");
 }
 

@@ -9,8 +9,8 @@
 
 namespace hlc {
 
-/// "what 13 of 64" on stderr, written over itself and wiped out at the end; nothing where stderr is
-/// no terminal.
+/// "what 13 of 64" on stderr, updated in place and erased at the end; nothing if stderr is no
+/// terminal.
 class ProgressLine {
  public:
   ProgressLine(std::string what, std::size_t total)

@@ -1,5 +1,5 @@
-// Proposes a budget of expansions for a deadline, from what this machine does with the problems of
-// a scenario. A run never measures: the budget stays a number in the scenario file.
+// Proposes a budget of expansions for a deadline, measured on this machine with the problems of a
+// scenario. A run never measures: the budget stays a number in the scenario file.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,11 +23,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFailed = 2;
 
-/// Searches of fewer expansions say little about the time of one: preparing the search is most of
-/// it. They say how long that takes.
-constexpr std::size_t kTelling = 1000;
+/// Searches of fewer expansions do not show the time of one: most of their time is the preparation
+/// of the search, which they measure.
+constexpr std::size_t kInformative = 1000;
 constexpr int kCalls = 3;
-/// The tree of a long horizon has no end: measuring stops here.
+/// The tree of a long horizon is practically infinite: measuring stops here.
 constexpr std::size_t kMeasured = 300'000;
 
 struct Flags {
@@ -60,7 +60,8 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
       ->check(hlc::whole(1, 100000));
   app.footer(
-      "Exit codes: 0 good, 1 the deadline leaves no time to search, 2 bad input or an output that "
+      "Exit codes: 0 success, 1 the deadline leaves no time to search, 2 invalid input or an "
+      "output that "
       "cannot be written.");
 }
 
@@ -78,7 +79,7 @@ std::vector<hlc::HorizonProblem> problems_of(const hlc::Scenario& scenario) {
   return problems;
 }
 
-/// No path has a free end, so all of the tree is searched.
+/// No path has a free end, so the whole tree is searched.
 hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
   constexpr double kFar_m = 1e3;
   const hlc::Point at = problem.start.position_m();
@@ -89,7 +90,7 @@ hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
   return problem;
 }
 
-/// The shortest time of some calls: what else the machine does is not the search's.
+/// The shortest time of some calls, without the load of other processes.
 double time_s(hlc::SearchEngine& engine, const hlc::HorizonProblem& problem,
               std::size_t& expanded) {
   double shortest_s = std::numeric_limits<double>::infinity();
@@ -123,23 +124,23 @@ Measurements measure(const hlc::Scenario& scenario,
   const auto engine = hlc::make_search_engine(*scenario.subgraph, reachable, options);
   Measurements result;
   std::optional<Measured> ordinary;
-  std::size_t telling = 0;
+  std::size_t informative = 0;
   for (const hlc::HorizonProblem& problem : problems) {
     const Measured one = measured(*engine, problem, "slowest of the scenario's");
-    if (one.expansions < kTelling) {
+    if (one.expansions < kInformative) {
       result.preparation_s = std::max(result.preparation_s, one.time_s);
       continue;
     }
-    ++telling;
+    ++informative;
     if (!ordinary || one.rate_per_s() < ordinary->rate_per_s()) ordinary = one;
   }
   if (ordinary) {
-    ordinary->problems = telling;
+    ordinary->problems = informative;
     result.slowest.push_back(*ordinary);
   }
 
-  // The problem with the most obstacles and boundary, since each of them is looked at; but one
-  // whose way is not blocked at once.
+  // The problem with the most obstacles and boundary, since each of them is checked; but one whose
+  // way is not blocked at once.
   const auto size = [](const hlc::HorizonProblem& problem) {
     std::size_t count = problem.boundary_m.size();
     for (const auto& areas_m : problem.obstacles_m) count += areas_m.size();
@@ -153,9 +154,9 @@ Measurements measure(const hlc::Scenario& scenario,
     hlc::HorizonProblem hardest = with_blocked_ends(*problem);
     hardest.incumbent.clear();
     const Measured within_lanes = measured(*engine, hardest, "all ends blocked");
-    if (within_lanes.expansions < kTelling) continue;
+    if (within_lanes.expansions < kInformative) continue;
     result.slowest.push_back(within_lanes);
-    hardest.boundary_m.clear();  // far more of the tree is free
+    hardest.boundary_m.clear();  // much more of the tree is free
     result.slowest.push_back(measured(*engine, hardest, "the same without lanes"));
     break;
   }
@@ -177,14 +178,15 @@ int run(const Flags& flags) {
   const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
   const std::vector<hlc::HorizonProblem> problems = problems_of(scenario);
   if (problems.empty()) {
-    throw std::invalid_argument(flags.scenario.file.string() +
-                                ": nothing is planned in its steps, allowed one that drives");
+    throw std::invalid_argument(
+        flags.scenario.file.string() +
+        ": nothing is planned in its steps, must be a scenario that drives");
   }
   const Measurements found = measure(scenario, problems);
   if (found.slowest.empty()) {
     throw std::invalid_argument(flags.scenario.file.string() + ": no search expands " +
-                                std::to_string(kTelling) +
-                                " vertices, allowed a scenario that takes some searching");
+                                std::to_string(kInformative) +
+                                " vertices, must be a scenario with harder searches");
   }
   std::printf(
       "%s: engine %s, cost-to-go %s, horizon %zu, subgraph %s; %zu problems of %zu steps\n\n",
@@ -194,7 +196,7 @@ int run(const Flags& flags) {
   std::printf("%-26s %8s %12s %12s %18s\n", "measured", "problems", "expansions", "time [ms]",
               "expansions per s");
   for (const Measured& one : found.slowest) print(one);
-  std::printf("longest with fewer than %zu expansions: %.3f ms\n\n", kTelling,
+  std::printf("longest with fewer than %zu expansions: %.3f ms\n\n", kInformative,
               1e3 * found.preparation_s);
 
   const double rate_per_s = found.rate_per_s();
@@ -218,9 +220,8 @@ int run(const Flags& flags) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Proposes max_expansions for a scenario: measures the expansions per second of its engine on "
-      "this machine, with the scenario's problems and with one in which all of the tree is "
-      "searched "
-      "in vain, and takes the slowest.",
+      "this machine, with the scenario's problems and with one in which the whole tree is "
+      "searched without a result, and takes the slowest.",
       "propose_budget"};
   Flags flags;
   declare(app, flags);

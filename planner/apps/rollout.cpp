@@ -1,6 +1,5 @@
-// Planning and coordination alone: all controllers of a scenario in one process, with vehicles that
-// follow their plans perfectly. For a quick look at a scenario, without DDS and without vehicle
-// dynamics.
+// Planning and coordination without DDS and vehicle dynamics: all controllers of a scenario in one
+// process, with vehicles that follow their plans perfectly. For a quick check of a scenario.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -54,7 +53,7 @@ void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_
               static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks, tally.changed);
 }
 
-/// True if the plan of this step would have been another one without the other vehicles.
+/// True if the plan of this step would be different without the other vehicles.
 bool others_changed_the_plan(const hlc::Controller& controller, hlc::SearchEngine& alone,
                              const hlc::Report& report) {
   if (controller.problems().empty() || report.status != hlc::StepStatus::kPlanned) return false;
@@ -100,7 +99,7 @@ int main(int argc, char** argv) {
   hlc::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::whole(1, 100000));
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::exit_code_of(
       "rollout", [&choices] { return run(choices); }, kExitFailed);

@@ -1,4 +1,4 @@
-// Prints what an automaton file holds.
+// Prints the content of an automaton file.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -41,7 +41,7 @@ void print_head(const AutomatonFile& file, const std::string& path) {
 /// Trims with the number of other trims that they have edges to and from, and their unit costs.
 void print_trims(const hlc::UniversalAutomaton& automaton) {
   std::printf(
-      "\ntrims, with the number of other trims that they lead to and come from, and unit costs "
+      "\ntrims, with the number of edges to and from other trims, and unit costs "
       "[1/s]\n");
   std::printf("%4s %9s %14s %4s %5s", "trim", "v [m/s]", "delta [rad]", "out", "in");
   for (const hlc::CriterionValue& cost : automaton.unit_costs.front()) {
@@ -85,7 +85,7 @@ void print_labels(const AutomatonFile& file) {
       "way\n");
   std::printf("%-12s %6s %19s %19s %19s %15s\n", "label", "edges", "dx [m]", "dy [m]", "dpsi [rad]",
               "v_max [m/s]");
-  std::vector<std::string> labels{hlc::kOwnStepLabel};
+  std::vector<std::string> labels{hlc::kSelfLoopLabel};
   labels.insert(labels.end(), file.labels.begin(), file.labels.end());
   for (const std::string& label : labels) {
     std::size_t edges = 0;
@@ -116,10 +116,10 @@ std::string joined(const std::vector<std::string>& words) {
 
 void print_subgraphs(const AutomatonFile& file) {
   std::printf(
-      "\nsubgraphs: trims that are on, edges between them, trims that are off but may be left,\n"
+      "\nsubgraphs: enabled trims, edges between them, disabled trims with exit edges,\n"
       "and for each trim the steps to standstill (- : cannot be planned from)\n");
   std::printf("%-12s %-12s %-10s %6s %6s %6s  %s\n", "name", "labels", "rule", "trims", "edges",
-              "off", "steps to standstill of trims 1, 2, ...");
+              "disabled", "steps to standstill of trims 1, 2, ...");
   for (const hlc::SubgraphSpec& spec : file.subgraphs) {
     const hlc::Subgraph subgraph(file.automaton, spec);
     std::size_t edges = 0;
@@ -128,7 +128,7 @@ void print_subgraphs(const AutomatonFile& file) {
     }
     std::printf("%-12s %-12s %-10s %6zu %6zu %6zu ", spec.name.c_str(), joined(spec.labels).c_str(),
                 spec.rule == hlc::EdgeRule::kChain ? "chain" : "reachable", subgraph.trims().size(),
-                edges, subgraph.starts().size() - subgraph.trims().size());
+                edges, subgraph.start_trims().size() - subgraph.trims().size());
     for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
       const std::size_t steps = subgraph.distance_to_standstill({i});
       std::printf(" %s", steps == hlc::Subgraph::kNever ? "-" : std::to_string(steps).c_str());
@@ -140,14 +140,16 @@ void print_subgraphs(const AutomatonFile& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Checks an automaton file and prints what it holds.", "show_automaton"};
+  CLI::App app{"Checks an automaton file and prints its content.", "show_automaton"};
   std::filesystem::path path;
   std::optional<std::filesystem::path> configuration;
   app.add_option("AUTOMATON", path, "file written by build_automaton")->required();
-  app.add_option("--configuration", configuration,
-                 "configuration that it must be built from (default: the one beside it, if any)");
+  app.add_option(
+      "--configuration", configuration,
+      "configuration that it must be built from (default: the one in the same folder, if any)");
   app.footer(
-      "Exit codes: 0 good, 1 an output cannot be written, 2 bad input, a stale or edited file.");
+      "Exit codes: 0 success, 1 an output cannot be written, 2 invalid input, a stale or edited "
+      "file.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("show_automaton", [&] {
     const AutomatonFile file = hlc::read_current_automaton_file(path);

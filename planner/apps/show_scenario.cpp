@@ -1,4 +1,5 @@
-// Checks a scenario, prints who drives where (with --starts in a form for scripts) and draws it.
+// Checks a scenario, prints its vehicles and starts (with --starts in a form for scripts) and draws
+// it.
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -41,8 +42,7 @@ void print_table(const hlc::Scenario& scenario) {
   }
 }
 
-/// One line per vehicle: id and the pose at which its vehicle stands (yaw), for `vehicle_sim
-/// --pose`.
+/// One line per vehicle: id and start pose of the vehicle (yaw), for `vehicle_sim --pose`.
 void print_starts(const hlc::Scenario& scenario) {
   for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
     const hlc::Pose pose = hlc::measured_start(scenario, vehicle);
@@ -53,7 +53,7 @@ void print_starts(const hlc::Scenario& scenario) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Checks a scenario file and prints what a run of it is.", "show_scenario"};
+  CLI::App app{"Checks a scenario file and describes a run of it.", "show_scenario"};
   hlc::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
@@ -64,9 +64,9 @@ int main(int argc, char** argv) {
       ->check(hlc::whole(1, 100000));
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
   app.add_flag("--print_steps", steps, "print only the number of steps");
-  app.add_flag("--print_policy", policy, "print only the name of the policy that holds, or none");
+  app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
   hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};

@@ -8,7 +8,7 @@
 namespace hlc {
 
 const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::string& label) const {
-  const std::string& wanted = from == to ? kOwnStepLabel : label;
+  const std::string& wanted = from == to ? kSelfLoopLabel : label;
   const auto found = std::find_if(maneuvers.begin(), maneuvers.end(), [&](const Maneuver& m) {
     return m.from == from && m.to == to && m.label == wanted;
   });
@@ -54,7 +54,8 @@ State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters&
   }
   const std::size_t intervals = maneuver.inputs.size();
   const double interval_s = maneuver.duration_s / static_cast<double>(intervals);
-  // Times are sums of ticks: where an interval ends to within their rounding, its state is known.
+  // Times are sums of ticks: at the end of an interval (to within their rounding) the state is
+  // known.
   constexpr double kSameInstant_s = 1e-12;
   const auto knot = static_cast<std::size_t>(std::lround(time / interval_s));
   if (std::abs(time - static_cast<double>(knot) * interval_s) < kSameInstant_s) {

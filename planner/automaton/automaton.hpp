@@ -18,22 +18,22 @@ struct Trim {
   double speed_mps{};
   double steering_rad{};
 
-  /// The vehicle can stay here for ever: speed 0.
+  /// The vehicle can stay here forever: speed 0.
   [[nodiscard]] bool is_equilibrium() const { return speed_mps == 0.0; }
   friend bool operator==(const Trim&, const Trim&) = default;
 };
 
-/// Label of every trim's own step.
-inline const std::string kOwnStepLabel = "trim";
+/// Label of every trim's self-loop.
+inline const std::string kSelfLoopLabel = "trim";
 
-/// Motion of one step from one trim to another, or of a trim itself (`from == to`: its own step,
+/// Motion of one step from one trim to another, or of a trim itself (`from == to`: its self-loop,
 /// the trim driven for one step, for every label).
 ///
-/// Everything is given in the frame of the start pose (start at the origin, heading 0).
+/// All quantities are in the frame of the start pose (start at the origin, heading 0).
 struct Maneuver {
   TrimId from;
   TrimId to;
-  std::string label;  ///< what it is optimal for ("J2"); "trim" for a trim's own step
+  std::string label;  ///< criterion that it is optimal for ("J2"); "trim" for a self-loop
   double duration_s{};
   std::vector<Input> inputs;  ///< N intervals of equal length of constant input
   std::vector<State> states;  ///< N + 1 states at the interval bounds, the first at the origin
@@ -45,8 +45,8 @@ struct Maneuver {
   /// Convex area that contains the footprint itself (planned heading, no margin) at every time: for
   /// the test against lane bounds.
   ConvexPolygon lane_area_m;
-  /// Of all criteria, whatever the label. For a trim's own step in J1, which depends on the
-  /// position: the integral from the step's own start.
+  /// Of all criteria, whatever the label. For a trim's self-loop in J1, which depends on the
+  /// position: the integral from the self-loop's start.
   std::vector<CriterionValue> criteria;
 };
 
@@ -63,7 +63,7 @@ struct UniversalAutomaton {
   std::vector<std::vector<CriterionValue>> unit_costs;
   std::vector<Maneuver> maneuvers;
 
-  /// nullptr if the automaton does not hold that edge. A trim's own step is found under every
+  /// nullptr if the automaton does not hold that edge. A trim's self-loop is found under every
   /// label.
   [[nodiscard]] const Maneuver* find(TrimId from, TrimId to, const std::string& label) const;
 };
@@ -72,7 +72,7 @@ struct UniversalAutomaton {
 /// trims. Exact, because the speed is linear between two states.
 [[nodiscard]] double top_speed_mps(const Maneuver& maneuver);
 
-/// The same over all its maneuvers, whatever of them is on.
+/// The same over all its maneuvers, enabled or not.
 [[nodiscard]] double top_speed_mps(const UniversalAutomaton& automaton);
 
 /// Angle from a planned heading to the yaw at which the identified vehicle drives the same path:
@@ -82,13 +82,14 @@ struct UniversalAutomaton {
                                            const IdentifiedVehicle& identified);
 
 /// True if the identified vehicle has less than 20 % of its steering left on this trim's path, or
-/// cannot drive it at all: it can hardly correct an error there. Of the paper's trims those at 0.60
-/// and 0.48 rad; they take 0.9998 and 0.83 of the steering on the left, 1.09 and 0.90 on the right.
+/// cannot drive it at all: it can hardly correct an error there. Of the paper's trims this holds
+/// for those at 0.60 and 0.48 rad; they take 0.9998 and 0.83 of the steering on the left, 1.09 and
+/// 0.90 on the right.
 [[nodiscard]] bool is_at_steering_limit(const Trim& trim, const VehicleParameters& vehicle,
                                         const IdentifiedVehicle& identified);
 
 /// State of the motion at `time_s` in [0, duration], in the maneuver's frame: the model integrated
-/// from the last interval bound before (exact arc for a trim's own step).
+/// from the last interval bound before (exact arc for a trim's self-loop).
 [[nodiscard]] State state_at(const Maneuver& maneuver, double time_s,
                              const VehicleParameters& vehicle);
 

@@ -64,7 +64,7 @@ void append_maneuver(std::string& text, const Maneuver& m) {
   append_table(text, "lane_area_m", m.lane_area_m.vertices_m);
 }
 
-/// Everything but the line with the hash, which comes second.
+/// Everything except the line with the hash, which comes second.
 std::string text_without_hash(const AutomatonFile& file) {
   const UniversalAutomaton& automaton = *file.automaton;
   std::string text = fmt::format("automaton_schema: {}\n", kAutomatonSchema);
@@ -157,7 +157,7 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   m.from = {entry.required<std::size_t>("from", trims) - 1};
   m.to = {entry.required<std::size_t>("to", trims) - 1};
   m.label = entry.required<std::string>("label",
-                                        m.from == m.to ? one_of({kOwnStepLabel}) : one_of(labels));
+                                        m.from == m.to ? one_of({kSelfLoopLabel}) : one_of(labels));
   m.duration_s = automaton.step_s;
   const auto end = entry.list("displacement", 3, "x, y and heading");
   m.displacement = {end[0].as<double>(), end[1].as<double>(), end[2].as<double>()};
@@ -169,7 +169,7 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   m.swept_area_m = read_area(entry, "swept_area_m");
   m.lane_area_m = read_area(entry, "lane_area_m");
   entry.check_no_unknown_keys();
-  const std::string fault = fault_of(m, automaton);
+  const std::string fault = validate(m, automaton);
   if (!fault.empty()) {
     entry.fail("label", fmt::format("a maneuver that its vehicle can drive: {} -> {}: {}",
                                     m.from.index + 1, m.to.index + 1, fault));
@@ -187,21 +187,22 @@ void read_trims(const Node& node, UniversalAutomaton& automaton) {
 
 void check_subgraphs(const Node& node, const AutomatonFile& file) {
   for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
-    if (file.automaton->find({i}, {i}, kOwnStepLabel) == nullptr) {
+    if (file.automaton->find({i}, {i}, kSelfLoopLabel) == nullptr) {
       node.fail("maneuvers",
-                fmt::format("the own step of every trim; that of trim {} is missing", i + 1));
+                fmt::format("a list with the self-loop of every trim; that of trim {} is missing",
+                            i + 1));
     }
   }
   for (const SubgraphSpec& spec : file.subgraphs) {
     try {
       check_driving(Subgraph(file.automaton, spec), file.horizon_steps);
     } catch (const std::invalid_argument& error) {
-      node.fail("subgraphs", std::string("what the maneuvers allow: ") + error.what());
+      node.fail("subgraphs", std::string("possible with the maneuvers: ") + error.what());
     }
   }
 }
 
-/// The path as a shell takes it, in quotes if it needs them.
+/// The path as a shell word, quoted if necessary.
 std::string shell_word(const std::filesystem::path& path) {
   const std::string text = path.string();
   const bool is_plain = text.find_first_not_of(
@@ -213,24 +214,23 @@ std::string shell_word(const std::filesystem::path& path) {
   return word + "'";
 }
 
-/// Before anything else is read: another version may have other keys.
+/// Checked before anything else is read: another version may have other keys.
 void check_version(const Node& node, const std::filesystem::path& path) {
   if (!node.has("automaton_schema")) {
     throw std::invalid_argument(path.string() +
-                                ":1: no built automaton, allowed a file of build_automaton");
+                                ":1: no built automaton, must be a file of build_automaton");
   }
   if (node.required<std::size_t>("automaton_schema") == kAutomatonSchema) return;
   node.fail("automaton_schema",
-            fmt::format("{}; build the file anew from its configuration: build_automaton "
+            fmt::format("{}; rebuild the file from its configuration: build_automaton "
                         "CONFIG.yaml --out {}",
                         kAutomatonSchema, shell_word(path)));
 }
 
 void check_hash(const Node& node, const std::string& text, const std::string& command) {
   if (node.required<std::string>("sha256") == hash_of_rest(text)) return;
-  node.fail(
-      "sha256",
-      "the hash of the file's other lines: it was edited or damaged; build it anew: " + command);
+  node.fail("sha256",
+            "the hash of the file's other lines: it was edited or damaged; rebuild it: " + command);
 }
 
 }  // namespace
@@ -248,7 +248,7 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
 bool is_automaton_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
-  // The first line is enough: large files are read once.
+  // The first line is sufficient: large files are read once.
   std::ifstream stream(path, std::ios::binary);
   std::string line;
   return std::getline(stream, line) && line.starts_with("automaton_schema:");

@@ -11,14 +11,13 @@
 
 namespace hlc {
 
-/// A built automaton as it lies in a file, with what it was built from.
+/// The content of an automaton file, with its origin.
 struct AutomatonFile {
-  std::string configuration_file;  ///< name of the configuration, without its folder
-  std::string
-      configuration_sha256;  ///< of all that the configuration says (see built_automaton.hpp)
-  /// Intervals of constant input that were chosen instead of the configuration's, if any.
+  std::string configuration_file;    ///< name of the configuration, without its folder
+  std::string configuration_sha256;  ///< of the whole configuration (see built_automaton.hpp)
+  /// Intervals of constant input chosen instead of the configuration's, if any.
   std::optional<std::size_t> chosen_intervals{};
-  std::size_t horizon_steps{};  ///< that its subgraphs were checked for
+  std::size_t horizon_steps{};  ///< for which its subgraphs were checked
   std::vector<std::string> labels;
   std::vector<SubgraphSpec> subgraphs;
   std::shared_ptr<const UniversalAutomaton> automaton;
@@ -45,23 +44,23 @@ inline constexpr std::size_t kAutomatonSchema = 1;
 /// gives the same text.
 [[nodiscard]] std::string to_text(const AutomatonFile& file);
 
-/// Writes the text beside `path` and renames it, so that there is never a half-written file.
+/// Writes the text to a temporary file and renames it, so that there is never a half-written file.
 /// @throws std::runtime_error naming the file if it cannot be written
 void write_automaton_file(const AutomatonFile& file, const std::filesystem::path& path);
 
-/// True if the file has the key `automaton_schema`, which a configuration has not.
-/// False if it cannot be read, too: who reads it as a configuration then says why.
+/// True if the file has the key `automaton_schema`, which a configuration does not have. Also false
+/// if it cannot be read: reading it as a configuration then reports the reason.
 [[nodiscard]] bool is_automaton_file(const std::filesystem::path& path);
 
-/// Reads a file and checks it: version, hash, each maneuver (fault_of in maneuver_check.hpp), and
-/// that it holds what its subgraphs need. Whether it still is what its configuration says is
-/// another question: built_automaton.hpp.
+/// Reads a file and checks it: version, hash, each maneuver (validate in maneuver_check.hpp), and
+/// that it holds what its subgraphs need. Whether it is up to date with its configuration is
+/// checked in built_automaton.hpp.
 ///
-/// @throws std::invalid_argument with one line: file, line, what is wrong, and, if the file was
-/// edited or is of another version, the command that builds it anew
+/// @throws std::invalid_argument with one line: file, line, error, and, if the file was edited or
+/// is of another version, the command that rebuilds it
 [[nodiscard]] AutomatonFile read_automaton_file(const std::filesystem::path& path);
 
-/// The command that builds the file anew.
+/// The command that rebuilds the file.
 [[nodiscard]] std::string rebuild_command(const AutomatonFile& file,
                                           const std::filesystem::path& path,
                                           const std::filesystem::path& configuration_path);

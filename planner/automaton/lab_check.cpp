@@ -21,21 +21,21 @@ std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
 }  // namespace
 
-std::string lab_fault_of(const Subgraph& subgraph, const LabLimits& limits) {
+std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  // A trim explains its maneuvers: first the trims.
-  for (const bool own_steps : {true, false}) {
-    for (const TrimId trim : subgraph.starts()) {
+  // Trims first: a fault of a trim explains those of its maneuvers.
+  for (const bool self_loops : {true, false}) {
+    for (const TrimId trim : subgraph.start_trims()) {
       for (const Edge& edge : subgraph.successors(trim)) {
         const Maneuver& m = *edge.maneuver;
-        if ((m.from == m.to) != own_steps) continue;
+        if ((m.from == m.to) != self_loops) continue;
         const std::vector<TimedPoint> points =
             points_of(m, limits.point_interval_s, automaton.vehicle);
         const auto found = curve_fault(points, limits);
         if (!found) continue;
-        const std::string who = own_steps ? "trim " + number_of(trim)
-                                          : "maneuver " + number_of(m.from) + " -> " +
-                                                number_of(m.to) + " (" + m.label + ")";
+        const std::string who = self_loops ? "trim " + number_of(trim)
+                                           : "maneuver " + number_of(m.from) + " -> " +
+                                                 number_of(m.to) + " (" + m.label + ")";
         return who + ": " + to_text(*found, limits);
       }
     }

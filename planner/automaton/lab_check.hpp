@@ -12,9 +12,10 @@ namespace hlc {
 /// all.
 ///
 /// The points of a command lie on that grid of every step, and an interval lies within one
-/// maneuver. So if this finds nothing, no plan on the subgraph has a curve_fault, wherever it
-/// leads: what is found in a command is a fault of the program or of its data.
+/// maneuver. So if this function finds nothing, no plan on the subgraph has a curve_fault, wherever
+/// it leads: a fault of a command is then a fault of the program or of its data.
 /// @pre point_interval_s divides the step length
-[[nodiscard]] std::string lab_fault_of(const Subgraph& subgraph, const LabLimits& limits);
+/// @pre point_interval_s divides the step length
+[[nodiscard]] std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits);
 
 }  // namespace hlc

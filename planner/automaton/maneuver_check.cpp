@@ -29,56 +29,56 @@ double distance(const Pose& a, const Pose& b) {
                   std::abs(a.heading_rad - b.heading_rad));
 }
 
-std::string fault_of_ends(const Maneuver& m, const UniversalAutomaton& automaton) {
-  if (m.duration_s != automaton.step_s) return "its duration is not the step";
+std::string validate_ends(const Maneuver& m, const UniversalAutomaton& automaton) {
+  if (m.duration_s != automaton.step_s) return "duration must be the step";
   if (m.inputs.empty() || m.states.size() != m.inputs.size() + 1) {
-    return "it has " + std::to_string(m.inputs.size()) + " inputs and " +
-           std::to_string(m.states.size()) + " states, not one state more than inputs";
+    return std::to_string(m.inputs.size()) + " inputs and " + std::to_string(m.states.size()) +
+           " states, not one state more than inputs";
   }
-  if (m.states.front().pose != Pose{}) return "it does not begin at the origin";
+  if (m.states.front().pose != Pose{}) return "begin must be the origin";
   if (!is_trim(m.states.front(), automaton.trims[m.from.index], automaton.limits)) {
-    return "it does not begin in its trim";
+    return "begin must be its trim";
   }
   if (!is_trim(m.states.back(), automaton.trims[m.to.index], automaton.limits))
-    return "it does not end in its trim";
-  if (m.displacement != m.states.back().pose) return "its displacement is not its last pose";
+    return "end must be its trim";
+  if (m.displacement != m.states.back().pose) return "displacement must be the last pose";
   return "";
 }
 
-std::string fault_of_bounds(const Maneuver& m, const UniversalAutomaton& automaton) {
+std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automaton) {
   const VehicleLimits& limits = automaton.limits;
   for (const Input& u : m.inputs) {
     if (!is_bounded(u.acceleration_mps2, -limits.acceleration_mps2, limits.acceleration_mps2)) {
-      return "it accelerates by " + shortest_text(u.acceleration_mps2) +
-             " m/s^2, more than the limit";
+      return "acceleration = " + shortest_text(u.acceleration_mps2) + " m/s^2, exceeds the limit";
     }
     if (!is_bounded(u.steering_rate_radps, -limits.steering_rate_radps,
                     limits.steering_rate_radps)) {
-      return "it steers by " + shortest_text(u.steering_rate_radps) + " rad/s, more than the limit";
+      return "steering rate = " + shortest_text(u.steering_rate_radps) +
+             " rad/s, exceeds the limit";
     }
   }
   for (const State& x : m.states) {
     if (!is_bounded(x.speed_mps, limits.speed_min_mps, limits.speed_max_mps)) {
-      return "its speed is " + shortest_text(x.speed_mps) + " m/s, outside the limits";
+      return "speed = " + shortest_text(x.speed_mps) + " m/s, outside the limits";
     }
     if (!is_bounded(x.steering_rad, -limits.steering_max_rad, limits.steering_max_rad)) {
-      return "its steering angle is " + shortest_text(x.steering_rad) + " rad, outside the limits";
+      return "steering angle = " + shortest_text(x.steering_rad) + " rad, outside the limits";
     }
   }
   for (std::size_t k = 0; k < m.inputs.size(); ++k) {
     if (!is_within_friction(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
         !is_within_friction(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
-      return "it exceeds the friction circle in interval " + std::to_string(k + 1);
+      return "friction circle exceeded in interval " + std::to_string(k + 1);
     }
     if (!is_within_curvature(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
         !is_within_curvature(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
-      return "its path bends more than the limit in interval " + std::to_string(k + 1);
+      return "curvature limit exceeded in interval " + std::to_string(k + 1);
     }
   }
   return "";
 }
 
-/// Where the model leads from state k in one interval.
+/// State k integrated over one interval.
 State integrated_again(const Maneuver& m, std::size_t k, const VehicleParameters& vehicle) {
   constexpr int kFiner = 10;
   const double interval_s = m.duration_s / static_cast<double>(m.inputs.size());
@@ -94,7 +94,7 @@ State integrated_again(const Maneuver& m, std::size_t k, const VehicleParameters
   return state;
 }
 
-std::string fault_of_motion(const Maneuver& m, const VehicleParameters& vehicle) {
+std::string validate_motion(const Maneuver& m, const VehicleParameters& vehicle) {
   const double tolerance =
       (m.from == m.to ? kSame : 1e-6) *
       std::max(1.0, top_speed_mps(m) * m.duration_s / static_cast<double>(m.inputs.size()));
@@ -105,7 +105,7 @@ std::string fault_of_motion(const Maneuver& m, const VehicleParameters& vehicle)
                          std::abs(reached.steering_rad - stored.steering_rad) <= tolerance;
     // Negated, so that a NaN is a fault.
     if (!(is_same && distance(reached.pose, stored.pose) <= tolerance)) {
-      return "integrated again, it does not meet its state " + std::to_string(k + 2);
+      return "integrated again, does not meet state " + std::to_string(k + 2);
     }
   }
   return "";
@@ -120,7 +120,7 @@ bool contains_footprint(const ConvexPolygon& area_m, const Pose& pose, double ma
          });
 }
 
-std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automaton) {
+std::string validate_areas(const Maneuver& m, const UniversalAutomaton& automaton) {
   const VehicleParameters& vehicle = automaton.vehicle;
   const std::size_t halves = 2 * m.inputs.size();
   for (std::size_t i = 0; i <= halves; ++i) {
@@ -131,10 +131,10 @@ std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automato
     const double margin_m = vehicle.safety_margin_m;
     if (!contains_footprint(m.swept_area_m, state.pose, margin_m, vehicle) ||
         !contains_footprint(m.swept_area_m, driven, margin_m, vehicle)) {
-      return "its swept area does not contain the footprint at " + shortest_text(time_s) + " s";
+      return "swept area does not contain the footprint at " + shortest_text(time_s) + " s";
     }
     if (!contains_footprint(m.lane_area_m, state.pose, 0.0, vehicle)) {
-      return "its lane area does not contain the footprint at " + shortest_text(time_s) + " s";
+      return "lane area does not contain the footprint at " + shortest_text(time_s) + " s";
     }
   }
   return "";
@@ -142,11 +142,11 @@ std::string fault_of_areas(const Maneuver& m, const UniversalAutomaton& automato
 
 }  // namespace
 
-std::string fault_of(const Maneuver& maneuver, const UniversalAutomaton& automaton) {
-  std::string fault = fault_of_ends(maneuver, automaton);
-  if (fault.empty()) fault = fault_of_bounds(maneuver, automaton);
-  if (fault.empty()) fault = fault_of_motion(maneuver, automaton.vehicle);
-  if (fault.empty()) fault = fault_of_areas(maneuver, automaton);
+std::string validate(const Maneuver& maneuver, const UniversalAutomaton& automaton) {
+  std::string fault = validate_ends(maneuver, automaton);
+  if (fault.empty()) fault = validate_bounds(maneuver, automaton);
+  if (fault.empty()) fault = validate_motion(maneuver, automaton.vehicle);
+  if (fault.empty()) fault = validate_areas(maneuver, automaton);
   return fault;
 }
 

@@ -6,19 +6,19 @@
 
 namespace hlc {
 
-/// What is wrong with a maneuver of that automaton (its vehicle, limits, trims, step length), in
-/// words; empty if nothing is. It must
+/// Error of a maneuver of that automaton (its vehicle, limits, trims, step length), in words;
+/// empty: none. The maneuver must
 ///
-/// * last one step, have N inputs and N + 1 states, begin at the origin in the trim it comes from
-///   and end in the trim it goes to (1e-9 m/s, or of the largest speed if that is more than 1; 1e-9
-///   rad), its displacement being its last pose;
+/// * last one step, have N inputs and N + 1 states, begin at the origin in the trim that it comes
+///   from and end in the trim that it goes to (1e-9 m/s, or of the largest speed if that is more
+///   than 1; 1e-9 rad), its displacement being its last pose;
 /// * respect the bounds on inputs and states (1e-9, relative to the bound if that is more than 1)
 ///   and, at both ends of each interval, the friction circle and the limit on the curvature (1e-6);
 /// * obey the model: integrated again from each state with ten times finer steps, it meets the next
-///   state to 1e-6 (of position in m and heading in rad, relative to what it covers if that is more
-///   than 1); a trim's own step follows the exact arc to 1e-9;
-/// * carry areas that contain the footprint at every state and midway between two (1e-9 m): the
+///   state to 1e-6 (of position in m and heading in rad, relative to the covered distance or angle
+///   if that is more than 1); a trim's self-loop follows the exact arc to 1e-9;
+/// * have areas that contain the footprint at every state and midway between two (1e-9 m): the
 ///   swept area with margin for planned heading and driven yaw, the lane area without.
-[[nodiscard]] std::string fault_of(const Maneuver& maneuver, const UniversalAutomaton& automaton);
+[[nodiscard]] std::string validate(const Maneuver& maneuver, const UniversalAutomaton& automaton);
 
 }  // namespace hlc

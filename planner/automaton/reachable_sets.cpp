@@ -14,7 +14,7 @@ namespace {
 /// Kept vertices of a swept area's hull; the recursion itself uses all of them.
 constexpr std::size_t kMaxReachVertices = 16;
 
-/// The extreme points in eight directions, counter-clockwise; one may stand there several times.
+/// The extreme points in eight directions, counter-clockwise; points may repeat.
 std::array<Point, 8> extreme_points(const std::vector<Point>& points_m) {
   const std::array<Point, 8> directions{Point{1, 0},  Point{1, 1},   Point{0, 1},  Point{-1, 1},
                                         Point{-1, 0}, Point{-1, -1}, Point{0, -1}, Point{1, -1}};
@@ -33,7 +33,7 @@ std::array<Point, 8> extreme_points(const std::vector<Point>& points_m) {
 }
 
 /// Drops points that lie clearly inside the polygon of the extreme points: they are no vertices of
-/// the hull, and sorting what is left is quicker by far.
+/// the hull, and sorting the remaining ones is much faster.
 void drop_inner_points(std::vector<Point>& points_m) {
   constexpr std::size_t kFew = 64;
   if (points_m.size() < kFew) return;
@@ -105,11 +105,11 @@ ConvexPolygon containing(std::vector<Point> points_m, std::size_t steps) {
 
 ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
     : max_steps_(max_steps), num_trims_(subgraph.automaton().trims.size()) {
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     max_steps_left_ = std::max(max_steps_left_, subgraph.distance_to_standstill(trim));
   }
   shifts_.resize(num_trims_);
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       const Pose& end = edge.maneuver->displacement;
       shifts_[trim.index].push_back(
@@ -126,8 +126,8 @@ ReachableSets::ReachableSets(const Subgraph& subgraph, std::size_t max_steps)
   shifts_.clear();
 }
 
-/// Vertices of the hull of what the successors hold, each seen through its edge:
-/// hull of union over successors u of T_tu * sets[u].
+/// Vertices of the hull of the successors' sets, each seen through its edge: hull of union over
+/// successors u of T_tu * sets[u].
 std::vector<Point> ReachableSets::hull_over_successors(TrimId trim,
                                                        const SetPerTrim& sets_m) const {
   std::vector<Point> points_m;
@@ -146,7 +146,7 @@ void ReachableSets::compute_reach(const Subgraph& subgraph, std::size_t steps_le
   SetPerTrim sets_m(num_trims_);
   for (std::size_t steps = 0; steps <= max_steps_; ++steps) {
     SetPerTrim next_m(num_trims_);
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       if (steps > 0) {
         next_m[trim.index] = hull_over_successors(trim, sets_m);
       } else if (subgraph.distance_to_standstill(trim) <= steps_left) {
@@ -167,7 +167,7 @@ void ReachableSets::compute_swept_areas(const Subgraph& subgraph) {
   SetPerTrim until_m(num_trims_);
   for (std::size_t step = 0; step <= max_steps_; ++step) {
     SetPerTrim next_m(num_trims_);
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       std::vector<Point>& set_m = next_m[trim.index];
       if (step == 0) {
         set_m = standing_area_m(subgraph.automaton(), trim);

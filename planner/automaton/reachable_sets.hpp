@@ -23,23 +23,22 @@ inline constexpr std::array<std::array<double, 2>, 16> kReachDirections = [] {
   return directions;
 }();
 
-/// A set of positions from outside, in the frame of the start pose: a circle around the start and
-/// sixteen half-planes, n_i p <= s_i, contain it. All -infinity if the set is empty.
+/// Outer approximation of a set of positions, in the frame of the start pose: a circle around the
+/// start and sixteen half-planes, n_i p <= s_i, contain it. All -infinity if the set is empty.
 struct Reach {
   double max_distance_m{};             ///< d: of a position from the start
   std::array<double, 16> support_m{};  ///< s_i = max n_i p over the set
 };
 
-/// What a subgraph can reach, in the frame of the start pose. Tables, computed once per subgraph,
-/// for every trim that planning may start from (Subgraph::starts). For the paper's 12 trims and 9
-/// steps that takes 3 ms, for 95 trims with 5000 edges 0.7 s (Release, one core).
+/// Reachable sets of a subgraph, in the frame of the start pose. Tables, computed once per
+/// subgraph, for every trim that planning may start from (Subgraph::start_trims). For the paper's
+/// 12 trims and 9 steps that takes 3 ms, for 95 trims with 5000 edges 0.7 s (Release, one core).
 ///
 /// With T_tu the displacement of the edge t -> u, the sets after m steps follow from those before:
 ///
 ///     hull S(t, m) = hull of the union over the successors u of t of T_tu * hull S(u, m - 1)
 ///
-/// so only hull vertices are carried on, and nothing is lost by it: a linear map takes hulls to
-/// hulls.
+/// so only hull vertices are propagated, without loss: a linear map takes hulls to hulls.
 ///
 /// A path is *permitted* with `steps_left` steps still to go after it if its last trim's distance
 /// to standstill is at most `steps_left` (recursive feasibility: every plan ends in standstill).
@@ -61,25 +60,25 @@ class ReachableSets {
     return reach(trim, steps, steps_left).max_distance_m;
   }
 
-  /// The same positions from outside: `max_distance_m` and the support in sixteen directions. Each
-  /// number may be too large by `allowance_m(steps)`, none is too small.
+  /// Outer approximation of the same positions: `max_distance_m` and the support in sixteen
+  /// directions. Each number may be too large by `allowance_m(steps)`, none is too small.
   /// @pre steps <= max_steps
   [[nodiscard]] const Reach& reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;
 
-  /// Vertices of the convex hull of the same positions, counter-clockwise; the hull may leave out
-  /// what stands out from it by less than `allowance_m(steps)`. Empty if no permitted path exists.
+  /// Vertices of the convex hull of the same positions, counter-clockwise; the hull may omit what
+  /// protrudes by less than `allowance_m(steps)`. Empty if no permitted path exists.
   /// @pre steps <= max_steps
   [[nodiscard]] std::span<const Point> positions_m(TrimId trim, std::size_t steps,
                                                    std::size_t steps_left) const;
 
-  /// What the hulls of so many steps may have left out (kHullTolerance_m each, a few at a time),
-  /// and rounding.
+  /// Bound on what the hulls of this many steps have omitted (kHullTolerance_m each, a few at a
+  /// time), and rounding.
   [[nodiscard]] static constexpr double allowance_m(std::size_t steps) {
     return 10.0 * kHullTolerance_m * static_cast<double>(steps);
   }
 
-  /// Largest distance to standstill of a trim that planning may start from: `steps_left` is capped
-  /// to it.
+  /// Largest distance to standstill of a trim that planning may start from; `steps_left` is capped
+  /// at it.
   [[nodiscard]] std::size_t max_steps_left() const { return max_steps_left_; }
 
   /// Convex area that contains every swept area of the step number `step` (1: the first) of every
@@ -117,7 +116,7 @@ class ReachableSets {
   std::vector<ConvexPolygon> swept_area_m_;
   std::vector<ConvexPolygon> swept_area_until_m_;
   std::size_t num_trims_{};
-  std::vector<std::vector<Shift>> shifts_;  ///< by trim; empty once the tables are there
+  std::vector<std::vector<Shift>> shifts_;  ///< by trim; empty after the tables are computed
 };
 
 }  // namespace hlc

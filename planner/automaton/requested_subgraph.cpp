@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
 
-/// As people count them, from 1.
+/// Numbered from 1, for users.
 std::string as_text(TrimId trim) { return std::to_string(trim.index + 1); }
 
 std::string as_text(const TrimPair& edge) { return as_text(edge.from) + " -> " + as_text(edge.to); }
@@ -33,7 +33,8 @@ bool contains(const std::vector<TrimId>& trims, TrimId trim) {
 
 void check_trim(TrimId trim, const UniversalAutomaton& automaton) {
   if (trim.index >= automaton.trims.size()) {
-    refuse("trim " + as_text(trim) + ", allowed 1 ... " + std::to_string(automaton.trims.size()));
+    refuse("trim " + as_text(trim) + ", must be in 1 ... " +
+           std::to_string(automaton.trims.size()));
   }
 }
 
@@ -41,7 +42,8 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
                    const SubgraphRequest& request) {
   const std::vector<std::string>& labels = request.labels;
   if (!request.weights.empty()) {
-    if (!labels.empty()) refuse("labels " + listed(labels) + " and weights, allowed one of both");
+    if (!labels.empty())
+      refuse("labels " + listed(labels) + " and weights, must be only one of both");
     spec.labels = {label_of(request.weights)};
     spec.edges.clear();
     return;
@@ -53,28 +55,28 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
   }
   for (const std::string& label : labels) {
     if (!known.contains(label)) {
-      refuse("label '" + one_line(label) + "', allowed " + listed(known) +
-             ", which the automaton holds");
+      refuse("label '" + one_line(label) + "', must be one of " + listed(known) +
+             " in the automaton");
     }
   }
   spec.labels = labels;
   spec.edges.clear();
 }
 
-/// Keeps the order of the declaration, which the rule of chains goes by: a new trim comes before
-/// the first with a larger number.
-void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
+/// Keeps the order of the declaration, which the chain rule depends on: a new trim comes before the
+/// first one with a larger number.
+void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (contains(spec.trims, trim))
-    refuse("trim " + as_text(trim) + " on: it is on, allowed trims that are off");
+    refuse("trim " + as_text(trim) + " on: must be disabled, is enabled");
   spec.trims.insert(std::ranges::find_if(spec.trims, [trim](TrimId other) { return other > trim; }),
                     trim);
 }
 
-void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
+void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (!contains(spec.trims, trim))
-    refuse("trim " + as_text(trim) + " off: it is off, allowed trims that are on");
+    refuse("trim " + as_text(trim) + " off: must be enabled, is disabled");
   std::erase(spec.trims, trim);
   const auto names_it = [trim](const auto& one) {
     return one.edge.from == trim || one.edge.to == trim;
@@ -82,15 +84,15 @@ void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId 
   std::erase_if(spec.edges, names_it);
 }
 
-void switch_on(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
+void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
-  if (std::erase_if(spec.off, [&](const EdgesOff& off) { return off.edge == edge; }) == 0) {
-    refuse("edge " + as_text(edge) + " on: the scenario's subgraph does not have it off");
+  if (std::erase_if(spec.off, [&](const DisabledEdges& off) { return off.edge == edge; }) == 0) {
+    refuse("edge " + as_text(edge) + " on: must be disabled in the scenario's subgraph");
   }
 }
 
-void switch_off(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
+void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
   spec.off.push_back({edge, std::nullopt});
@@ -103,8 +105,8 @@ void limit_speed(SubgraphSpec& spec, const UniversalAutomaton& automaton, double
     if (speed_mps > 0.0) slowest_mps = std::min(slowest_mps, speed_mps);
   }
   if (!(max_speed_mps >= slowest_mps) || !std::isfinite(max_speed_mps)) {
-    refuse("speed limit " + shortest_text(max_speed_mps) + " m/s, allowed at least " +
-           shortest_text(slowest_mps) + ", the slowest moving trim that is on");
+    refuse("speed limit " + shortest_text(max_speed_mps) +
+           " m/s, must be >= " + shortest_text(slowest_mps) + ", the slowest enabled moving trim");
   }
   spec.max_speed_mps = max_speed_mps;
 }
@@ -141,10 +143,10 @@ SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request
   SubgraphSpec spec = base.spec();
   spec.name = name_of(spec.name, request);
   change_labels(spec, automaton, request);
-  for (const TrimId trim : request.trims_on) switch_on(spec, automaton, trim);
-  for (const TrimId trim : request.trims_off) switch_off(spec, automaton, trim);
-  for (const TrimPair& edge : request.edges_on) switch_on(spec, automaton, edge);
-  for (const TrimPair& edge : request.edges_off) switch_off(spec, automaton, edge);
+  for (const TrimId trim : request.trims_on) enable(spec, automaton, trim);
+  for (const TrimId trim : request.trims_off) disable(spec, automaton, trim);
+  for (const TrimPair& edge : request.edges_on) enable(spec, automaton, edge);
+  for (const TrimPair& edge : request.edges_off) disable(spec, automaton, edge);
   if (request.max_speed_mps) limit_speed(spec, automaton, *request.max_speed_mps);
   return spec;
 }

@@ -27,8 +27,8 @@ bool holds_twice(const std::vector<T>& list, const T& value) {
 }
 
 /// True if constant inputs that make the change within one step are within the limits. Without a
-/// friction circle and a limit on the curvature there are none otherwise: v and delta are linear in
-/// the inputs.
+/// friction circle and a limit on the curvature there are no other limits: v and delta are linear
+/// in the inputs.
 bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle,
                   const VehicleLimits& limits, double step_s) {
   constexpr double kRounding = 1.0 + 1e-9;
@@ -54,8 +54,8 @@ bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle
   return true;
 }
 
-bool is_off(const SubgraphSpec& spec, const TrimPair& edge, const std::string& label) {
-  return std::any_of(spec.off.begin(), spec.off.end(), [&](const EdgesOff& off) {
+bool is_disabled(const SubgraphSpec& spec, const TrimPair& edge, const std::string& label) {
+  return std::any_of(spec.off.begin(), spec.off.end(), [&](const DisabledEdges& off) {
     return off.edge == edge && (!off.label || *off.label == label);
   });
 }
@@ -86,7 +86,7 @@ const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
   return nullptr;
 }
 
-/// Which maneuvers may be exit edges, from what is preferred to what is taken at last.
+/// Candidates for exit edges, in order of preference.
 struct ExitChoice {
   bool under_speed_limit;  ///< only of a subgraph with a limit: not faster than both their trims
   bool any_label;
@@ -103,15 +103,16 @@ bool allows(const ExitChoice& choice, const Maneuver& maneuver, const SubgraphSp
             const std::vector<Trim>& trims) {
   const TrimPair pair{maneuver.from, maneuver.to};
   if (!choice.any_label && !holds(declared_labels(spec, pair), maneuver.label)) return false;
-  if (is_off(spec, pair, maneuver.label)) return false;
+  if (is_disabled(spec, pair, maneuver.label)) return false;
   return !choice.under_speed_limit || !speeds_up(maneuver, trims);
 }
 
-/// An equilibrium that is off can be held, too.
-void add_standing_if_off(bool is_on, const Trim& trim, TrimId id,
-                         const std::vector<const Maneuver*>& maneuvers, std::vector<Edge>& edges) {
-  if (is_on || !trim.is_equilibrium()) return;
-  if (const Maneuver* standing = find(maneuvers, id, kOwnStepLabel)) {
+/// A disabled equilibrium can be held, too.
+void add_standing_if_disabled(bool is_enabled, const Trim& trim, TrimId id,
+                              const std::vector<const Maneuver*>& maneuvers,
+                              std::vector<Edge>& edges) {
+  if (is_enabled || !trim.is_equilibrium()) return;
+  if (const Maneuver* standing = find(maneuvers, id, kSelfLoopLabel)) {
     edges.push_back({id, standing});
   }
 }
@@ -147,12 +148,12 @@ std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
 
 std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edge) {
   if (edge.from == edge.to) {
-    return is_off(spec, edge, kOwnStepLabel) ? std::vector<std::string>{}
-                                             : std::vector<std::string>{kOwnStepLabel};
+    return is_disabled(spec, edge, kSelfLoopLabel) ? std::vector<std::string>{}
+                                                   : std::vector<std::string>{kSelfLoopLabel};
   }
   std::vector<std::string> labels;
   for (const std::string& label : declared_labels(spec, edge)) {
-    if (!is_off(spec, edge, label)) labels.push_back(label);
+    if (!is_disabled(spec, edge, label)) labels.push_back(label);
   }
   return labels;
 }
@@ -174,7 +175,7 @@ void Subgraph::fail(const std::string& reason) const {
 void Subgraph::check_trim(TrimId trim) const {
   const std::size_t count = automaton_->trims.size();
   if (trim.index < count) return;
-  fail("trim " + printed(trim) + ", allowed 1 ... " + std::to_string(count));
+  fail("trim " + printed(trim) + ", must be in 1 ... " + std::to_string(count));
 }
 
 void Subgraph::check_labels(const std::vector<std::string>& labels) const {
@@ -202,11 +203,11 @@ void Subgraph::check_spec() const {
     check_labels(one.labels);
     if (one.edge.from == one.edge.to) fail("labels for a self-loop, " + printed(one.edge));
   }
-  for (const EdgesOff& off : spec_.off) {
+  for (const DisabledEdges& off : spec_.off) {
     check_trim(off.edge.from);
     check_trim(off.edge.to);
     if (off.edge.from == off.edge.to && stands(off.edge.from)) {
-      fail("edge " + printed(off.edge) + " is off, but standing must be possible");
+      fail("edge " + printed(off.edge) + " is disabled, but standing must be possible");
     }
   }
 }
@@ -215,33 +216,33 @@ bool Subgraph::is_too_fast(double speed_mps) const {
   return spec_.max_speed_mps && speed_mps > *spec_.max_speed_mps + kRounding_mps;
 }
 
-/// Fills trims_, is_on_ and standstill_.
+/// Fills trims_, is_enabled_ and standstill_.
 void Subgraph::switch_trims_on() {
   const std::vector<Trim>& trims = automaton_->trims;
-  is_on_.assign(trims.size(), false);
+  is_enabled_.assign(trims.size(), false);
   for (const TrimId trim : spec_.trims) {
     if (is_too_fast(trims[trim.index].speed_mps)) continue;
-    is_on_[trim.index] = true;
+    is_enabled_[trim.index] = true;
     trims_.push_back(trim);
   }
   standstill_ = *std::find_if(trims_.begin(), trims_.end(),
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 }
 
-/// Fills successors_ of the trims that are on.
+/// Fills successors_ of the enabled trims.
 void Subgraph::switch_edges_on() {
   const std::vector<TrimPair> pairs =
       rule_edges(spec_.rule, automaton_->trims, spec_.trims, automaton_->vehicle,
                  automaton_->limits, automaton_->step_s);
   for (const EdgeLabels& one : spec_.edges) {
     if (!std::binary_search(pairs.begin(), pairs.end(), one.edge)) {
-      fail("labels for edge " + printed(one.edge) + ", which its rule does not give");
+      fail("labels for edge " + printed(one.edge) + ", which is not an edge of its rule");
     }
   }
   const ManeuversFrom held = maneuvers_from(*automaton_);
   successors_.resize(automaton_->trims.size());
   for (const TrimPair& pair : pairs) {
-    if (!is_on(pair.from) || !is_on(pair.to)) continue;
+    if (!is_enabled(pair.from) || !is_enabled(pair.to)) continue;
     for (const std::string& label : labels_of(spec_, pair)) {
       const Maneuver* maneuver = find(held[pair.from.index], pair.to, label);
       if (maneuver == nullptr) {
@@ -282,8 +283,8 @@ void Subgraph::measure_distances() {
   }
 }
 
-/// Of the maneuvers out of a trim those into a trim that is nearer to the trims that are on, by the
-/// labels and speeds that rule 2 of Subgraph prefers; none if there is no way out.
+/// The maneuvers out of a trim into a trim that is nearer to the enabled trims, by the labels and
+/// speeds that rule 2 of Subgraph prefers; none if there is no way out.
 std::vector<Edge> Subgraph::exits_among(const std::vector<const Maneuver*>& maneuvers,
                                         const std::vector<bool>& is_nearer) const {
   std::vector<Edge> exits;
@@ -300,12 +301,12 @@ std::vector<Edge> Subgraph::exits_among(const std::vector<const Maneuver*>& mane
   return exits;
 }
 
-/// Fills successors_ and distances of the trims that are off, and starts_.
+/// Fills successors_ and distances of the disabled trims, and start_trims_.
 void Subgraph::add_exits() {
   const std::vector<Trim>& trims = automaton_->trims;
   const ManeuversFrom held = maneuvers_from(*automaton_);
-  // Trims by exit distance: the trims that are on are left at once, then ring after ring.
-  std::vector<bool> is_nearer = is_on_;
+  // Trims by exit distance: the enabled trims are left at once, then ring after ring.
+  std::vector<bool> is_nearer = is_enabled_;
   std::vector<TrimId> ring;
   do {
     ring.clear();
@@ -321,20 +322,20 @@ void Subgraph::add_exits() {
   } while (!ring.empty());
 
   for (std::size_t i = 0; i < trims.size(); ++i) {
-    add_standing_if_off(is_on_[i], trims[i], {i}, held[i], successors_[i]);
-    if (sort_by_target(successors_[i])) starts_.push_back({i});
+    add_standing_if_disabled(is_enabled_[i], trims[i], {i}, held[i], successors_[i]);
+    if (sort_by_target(successors_[i])) start_trims_.push_back({i});
   }
 }
 
 void Subgraph::list_permitted() {
   std::size_t farthest = 0;
-  for (const TrimId trim : starts_) {
+  for (const TrimId trim : start_trims_) {
     farthest = std::max(farthest, distance_to_standstill_[trim.index]);
   }
   // With one step more than the farthest trim's distance, every edge is permitted.
   permitted_.assign(farthest + 1, std::vector<std::vector<Edge>>(successors_.size()));
   for (std::size_t steps_left = 1; steps_left <= farthest; ++steps_left) {
-    for (const TrimId trim : starts_) {
+    for (const TrimId trim : start_trims_) {
       for (const Edge& edge : successors_[trim.index]) {
         if (distance_to_standstill_[edge.to.index] + 1 <= steps_left) {
           permitted_[steps_left][trim.index].push_back(edge);
@@ -344,7 +345,7 @@ void Subgraph::list_permitted() {
   }
 }
 
-bool Subgraph::is_on(TrimId trim) const { return is_on_.at(trim.index); }
+bool Subgraph::is_enabled(TrimId trim) const { return is_enabled_.at(trim.index); }
 
 std::span<const Edge> Subgraph::successors(TrimId trim) const { return successors_.at(trim.index); }
 
@@ -378,7 +379,7 @@ void check_driving(const Subgraph& subgraph, std::size_t horizon_steps) {
     const std::size_t steps = subgraph.distance_to_standstill(trim);
     if (steps > horizon_steps) {
       fail(trim, " needs " + std::to_string(steps) +
-                     " steps to standstill, allowed the horizon of " +
+                     " steps to standstill, must be <= the horizon of " +
                      std::to_string(horizon_steps));
     }
   }

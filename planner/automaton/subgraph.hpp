@@ -11,19 +11,19 @@
 
 namespace hlc {
 
-/// Which edges there are between the trims of a subgraph, beside each trim's self-loop.
+/// The rule for edges between the trims of a subgraph, beside each trim's self-loop.
 enum class EdgeRule {
   kChain,  ///< every equilibrium trim to and from every trim, and neighbours in their order
-  /// All pairs that the bounds on acceleration and steering rate allow in one step. With a friction
-  /// circle or a limit on the curvature: those that constant inputs connect within it.
+  /// All pairs that the bounds on acceleration and steering rate permit in one step. With a
+  /// friction circle or a limit on the curvature: those that constant inputs connect within it.
   kReachable,
 };
 
-/// Edges that are off: those from one trim to another with that label, or with every label.
-struct EdgesOff {
+/// Disabled edges: those from one trim to another with that label, or with every label.
+struct DisabledEdges {
   TrimPair edge;
   std::optional<std::string> label;
-  friend bool operator==(const EdgesOff&, const EdgesOff&) = default;
+  friend bool operator==(const DisabledEdges&, const DisabledEdges&) = default;
 };
 
 /// Labels of the edges from one trim to another, instead of those of the subgraph.
@@ -33,20 +33,20 @@ struct EdgeLabels {
   friend bool operator==(const EdgeLabels&, const EdgeLabels&) = default;
 };
 
-/// What of a universal automaton is switched on.
+/// The enabled part of a universal automaton.
 ///
-/// The rule says which pairs of the declared trims have edges; between two trims there is one edge
-/// for each label. Of these, `off` and `max_speed_mps` take away.
+/// The rule defines which pairs of the declared trims have edges; between two trims there is one
+/// edge for each label. `off` and `max_speed_mps` remove some of these.
 struct SubgraphSpec {
   std::string name;                 ///< "A" ... "D" of the paper
   std::vector<std::string> labels;  ///< of the maneuvers between different trims: {"J2"}
   std::vector<TrimId> trims;        ///< declared trims, in order; must hold an equilibrium
   EdgeRule rule{EdgeRule::kChain};
-  /// Takes away the trims that are faster, and the maneuvers that are faster *anywhere*: a J1
-  /// maneuver between trims of 0.8 m/s reaches 2 m/s. One that ends in a trim at the limit exceeds
-  /// it by the rounding of its last state: 1e-6 m/s are let pass.
+  /// Removes the trims that are faster, and the maneuvers that are faster *anywhere*: a J1 maneuver
+  /// between trims of 0.8 m/s reaches 2 m/s. One that ends in a trim at the limit exceeds it by the
+  /// rounding of its last state: 1e-6 m/s are tolerated.
   std::optional<double> max_speed_mps{};
-  std::vector<EdgesOff> off{};
+  std::vector<DisabledEdges> off{};
   std::vector<EdgeLabels> edges{};
   friend bool operator==(const SubgraphSpec&, const SubgraphSpec&) = default;
 };
@@ -58,73 +58,75 @@ struct SubgraphSpec {
                                                const VehicleParameters& vehicle,
                                                const VehicleLimits& limits, double step_s);
 
-/// The labels of the edges from one trim to another, without those that are off.
+/// The labels of the edges from one trim to another, without disabled ones.
 [[nodiscard]] std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edge);
 
-/// One switched-on edge: a maneuver, or a trim's self-loop.
+/// One enabled edge: a maneuver, or a trim's self-loop.
 struct Edge {
   TrimId to;
   const Maneuver* maneuver{};
 };
 
-/// A view on a universal automaton: what the planner plans on. It points into the automaton, keeps
-/// it alive and copies nothing of it; for the paper's automaton it is made in 0.01 ms.
+/// A view on a universal automaton: the part that the planner plans on. It points into the
+/// automaton, keeps it alive and copies nothing of it; for the paper's automaton it is made in 0.01
+/// ms.
 ///
-/// A trim is *on* if it is declared and not faster than the speed limit. Every trim that is on can
-/// reach an equilibrium along edges that are on.
+/// A trim is *enabled* if it is declared and not faster than the speed limit. Every enabled trim
+/// can reach an equilibrium along enabled edges.
 ///
 /// **Switching to another subgraph between two steps.** Whatever subgraphs follow each other, the
-/// vehicle always has a plan, and if nothing new is ever found it stands within the horizon:
+/// vehicle always has a plan, and if no new one is ever found it stands within the horizon:
 ///
-/// 1. A plan holds maneuvers of the *universal* automaton, which owns them whatever is on. So the
-///    plan in force stays valid to its end, an equilibrium, also where its trims or maneuvers have
-///    just been switched off: it is the fallback. Its areas were checked when it was made.
-/// 2. Planning starts from a trim of the plan in force, and that may be off now. Such a trim has
+/// 1. A plan holds maneuvers of the *universal* automaton, which owns them, enabled or not. So the
+///    plan in force stays valid to its end, an equilibrium, even if its trims or maneuvers have
+///    just been disabled: it is the fallback. Its areas were checked when it was made.
+/// 2. Planning starts from a trim of the plan in force, which may be disabled now. Such a trim has
 ///    *exit edges*: let its exit distance be the fewest edges of the universal automaton, of any
-///    label but without those in `off`, that lead to a trim that is on. Its exit edges are those
-///    that lead one nearer; with the labels of the subgraph, or, if there are none, with any label.
-///    Under a speed limit first of all those of any label that are not faster than both their
-///    trims: who has to slow down does not speed up before. So a vehicle that is too fast for the
-///    subgraph is slowed down over as many steps as it needs, and what is off is left on the
-///    shortest way. The speed limit does not hold on it: it cannot.
-/// 3. An equilibrium trim can be held for ever, on or off: it keeps its self-loop. So standing is
-///    always a plan.
+///    label but without those in `off`, that lead to an enabled trim. Its exit edges are those that
+///    lead one nearer; with the labels of the subgraph, or, if there are none, with any label.
+///    Under a speed limit those of any label that are not faster than both their trims come first:
+///    a vehicle that has to slow down does not speed up before. So a vehicle that is too fast for
+///    the subgraph is slowed down over as many steps as it needs, and disabled trims are left on
+///    the shortest way. The speed limit does not hold on that way: it cannot.
+/// 3. An equilibrium trim can be held forever, enabled or not: it keeps its self-loop. So standing
+///    is always a plan.
 /// 4. A trim without any way out gives no new plan; the fallback is driven.
 ///
-/// The distance to standstill counts the exit edges too. Once a plan has been found from a trim
-/// that is off, one is found in every later step too, as long as nothing is switched and nothing
-/// new is in the way: the rest of that plan, and then to stand, is made of edges of this subgraph.
+/// The distance to standstill counts the exit edges, too. Once a plan has been found from a
+/// disabled trim, one is found in every later step, too, as long as nothing is switched and no new
+/// obstacle appears: the rest of that plan, followed by standing, consists of edges of this
+/// subgraph.
 class Subgraph {
  public:
   /// @throws std::invalid_argument naming the edge that the automaton does not hold, a trim from
-  /// which no equilibrium can be reached, or what else of `spec` is wrong
+  /// which no equilibrium can be reached, or another error of `spec`
   Subgraph(std::shared_ptr<const UniversalAutomaton> automaton, SubgraphSpec spec);
 
   [[nodiscard]] const UniversalAutomaton& automaton() const { return *automaton_; }
-  /// The same, to be kept.
+  /// The same, shared.
   [[nodiscard]] const std::shared_ptr<const UniversalAutomaton>& shared_automaton() const {
     return automaton_;
   }
   [[nodiscard]] const SubgraphSpec& spec() const { return spec_; }
-  [[nodiscard]] bool is_on(TrimId trim) const;
-  /// The trims that are on, in the order of the declaration.
+  [[nodiscard]] bool is_enabled(TrimId trim) const;
+  /// The enabled trims, in the order of the declaration.
   [[nodiscard]] std::span<const TrimId> trims() const { return trims_; }
-  /// The trims that planning may start from: those that are on and those with a way out, sorted.
-  [[nodiscard]] std::span<const TrimId> starts() const { return starts_; }
+  /// The trims that planning may start from: enabled ones and those with a way out, sorted.
+  [[nodiscard]] std::span<const TrimId> start_trims() const { return start_trims_; }
 
   /// Edges out of `trim`, sorted by target, then by label in the order of the declaration. Of a
-  /// trim that is off: its exit edges (none if it has no way out).
+  /// disabled trim: its exit edges (none if it has no way out).
   [[nodiscard]] std::span<const Edge> successors(TrimId trim) const;
-  /// Those of them that a plan may take with `steps_left` steps to go, this one included: from
-  /// their targets, standstill is at most steps_left - 1 steps away.
+  /// The edges that a plan may take with `steps_left` steps to go, this one included: from their
+  /// targets, standstill is at most steps_left - 1 steps away.
   [[nodiscard]] std::span<const Edge> successors(TrimId trim, std::size_t steps_left) const;
 
-  /// Fewest steps from `trim` to an equilibrium; 0 for an equilibrium; kNever for a trim that is
-  /// off and has no way out.
+  /// Fewest steps from `trim` to an equilibrium; 0 for an equilibrium; kNever for a disabled trim
+  /// without a way out.
   [[nodiscard]] std::size_t distance_to_standstill(TrimId trim) const;
   static constexpr std::size_t kNever = static_cast<std::size_t>(-1);
 
-  /// The first equilibrium trim that is on.
+  /// The first enabled equilibrium trim.
   [[nodiscard]] TrimId standstill() const { return standstill_; }
 
  private:
@@ -146,16 +148,17 @@ class Subgraph {
   SubgraphSpec spec_;
   TrimId standstill_;
   std::vector<TrimId> trims_;
-  std::vector<TrimId> starts_;
-  std::vector<bool> is_on_;
+  std::vector<TrimId> start_trims_;
+  std::vector<bool> is_enabled_;
   std::vector<std::vector<Edge>> successors_;
   std::vector<std::size_t> distance_to_standstill_;
-  /// By steps left, then trim. What is permitted with the last number of steps is so with more.
+  /// By steps left, then trim. An edge that is permitted with the last number of steps is so with
+  /// more.
   std::vector<std::vector<std::vector<Edge>>> permitted_;
 };
 
-/// What every declared subgraph must fulfil beyond what makes a Subgraph: each trim that is on can
-/// be reached from standstill, and reaches standstill within the horizon.
+/// Checks what every declared subgraph must fulfil beyond Subgraph itself: each enabled trim can be
+/// reached from standstill, and reaches standstill within the horizon.
 /// @throws std::invalid_argument naming subgraph and trim
 void check_driving(const Subgraph& subgraph, std::size_t horizon_steps);
 

@@ -9,20 +9,20 @@
 
 namespace hlc {
 
-/// What a running controller is asked to plan on: a change of the subgraph that its scenario names.
-/// Every request starts from that one, not from the request before, so whoever comes late needs
-/// only the last one; the empty request asks for the scenario's own.
+/// A request to a running controller to plan on another subgraph: a change of the subgraph that its
+/// scenario names. Every request is relative to that one, not to the request before, so a late
+/// joiner needs only the last one; the empty request stands for the scenario's own.
 struct SubgraphRequest {
-  /// Of all maneuvers between different trims, instead of the scenario's; empty: as they are.
+  /// Of all maneuvers between different trims, instead of the scenario's; empty: unchanged.
   std::vector<std::string> labels{};
-  /// Instead of labels: what all maneuvers between different trims are to be optimal for, a plain
-  /// weighted sum (see planner/maneuver_design). Maneuvers of such weights may have to be made
-  /// first; empty: `labels` say it.
+  /// Instead of labels: the criterion of all maneuvers between different trims, a plain weighted
+  /// sum (see planner/maneuver_design). Maneuvers of such weights may have to be designed first;
+  /// empty: `labels` decide.
   std::vector<CriterionWeight> weights{};
-  std::optional<double> max_speed_mps{};  ///< instead of the scenario's; absent: as it is
+  std::optional<double> max_speed_mps{};  ///< instead of the scenario's; absent: unchanged
   std::vector<TrimId> trims_on{};         ///< beside those of the scenario
   std::vector<TrimId> trims_off{};
-  std::vector<TrimPair> edges_on{};  ///< of those that the scenario has off
+  std::vector<TrimPair> edges_on{};  ///< of those that the scenario disables
   std::vector<TrimPair> edges_off{};
   friend bool operator==(const SubgraphRequest&, const SubgraphRequest&) = default;
 };

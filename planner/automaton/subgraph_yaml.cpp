@@ -30,12 +30,12 @@ std::vector<TrimId> read_trims(const Node& entry, const SubgraphContext& context
   }
   for (const Node& one : entry.list("trims")) {
     const TrimId trim = as_trim(one.as<std::size_t>(trim_numbers(context)));
-    if (contains(result, trim)) one.fail("each trim once");
+    if (contains(result, trim)) one.fail("unique");
     result.push_back(trim);
   }
   if (std::none_of(result.begin(), result.end(),
                    [&](TrimId id) { return context.trims[id.index].is_equilibrium(); })) {
-    entry.fail("trims", "a list that holds a trim of speed 0");
+    entry.fail("trims", "a list with a trim of speed 0");
   }
   return result;
 }
@@ -44,9 +44,9 @@ std::vector<std::string> read_label_list(const Node& entry, const SubgraphContex
   std::vector<std::string> labels;
   for (const Node& one : entry.list("labels")) {
     labels.push_back(one.as<std::string>(one_of(context.labels)));
-    if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("each label once");
+    if (std::count(labels.begin(), labels.end(), labels.back()) > 1) one.fail("unique");
   }
-  if (labels.empty()) entry.fail("labels", "at least one label");
+  if (labels.empty()) entry.fail("labels", "a list with at least one label");
   return labels;
 }
 
@@ -54,7 +54,7 @@ std::vector<std::string> read_labels(const Node& entry, const SubgraphContext& c
   if (!entry.has("labels")) {
     return {entry.required<std::string>("label", one_of(context.labels))};
   }
-  if (entry.has("label")) entry.fail("label", "either `label` or `labels`");
+  if (entry.has("label")) entry.fail("label", "given without `labels`");
   return read_label_list(entry, context);
 }
 
@@ -64,7 +64,7 @@ TrimPair read_pair(const Node& entry, const SubgraphContext& context) {
   return {as_trim(from), as_trim(to)};
 }
 
-/// The pairs that the rule gives among the declared trims.
+/// The rule's pairs among the declared trims.
 std::vector<TrimPair> pairs_of(const SubgraphSpec& spec, const SubgraphContext& context) {
   return rule_edges(spec.rule, context.trims, spec.trims, context.vehicle, context.limits,
                     context.step_s);
@@ -79,16 +79,16 @@ void read_edge_labels(const Node& entry, const SubgraphContext& context, Subgrap
     }
     if (std::any_of(spec.edges.begin(), spec.edges.end(),
                     [&](const EdgeLabels& other) { return other.edge == pair; })) {
-      one.fail("each edge once");
+      one.fail("unique");
     }
     spec.edges.push_back({pair, read_label_list(one, context)});
     one.check_no_unknown_keys();
   }
 }
 
-/// Checks an entry of `off` between other trims. Edges out of trims that are on are those of the
-/// subgraph; any other edge of the automaton may lead out of a trim that is off (see Subgraph).
-void check_off(const Node& one, const EdgesOff& off, const std::vector<TrimPair>& pairs,
+/// Checks an entry of `off` between other trims. Edges out of enabled trims are those of the
+/// subgraph; any other edge of the automaton may lead out of a disabled trim (see Subgraph).
+void check_off(const Node& one, const DisabledEdges& off, const std::vector<TrimPair>& pairs,
                const SubgraphContext& context, const SubgraphSpec& spec) {
   const bool is_left_from =
       !contains(spec.trims, off.edge.from) ||
@@ -104,17 +104,17 @@ void check_off(const Node& one, const EdgesOff& off, const std::vector<TrimPair>
 void read_off(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
   for (const Node& one : entry.optional_list("off")) {
-    EdgesOff off{read_pair(one, context), std::nullopt};
+    DisabledEdges off{read_pair(one, context), std::nullopt};
     if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
     one.check_no_unknown_keys();
     if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
       one.fail("to", "an edge other than standing, which must be possible");
     }
     if (off.edge.from == off.edge.to && off.label) {
-      one.fail("label", "none for a self-loop, which is the same for all labels");
+      one.fail("label", "absent for a self-loop, which is the same for all labels");
     }
     if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
-    if (contains(spec.off, off)) one.fail("each edge once");
+    if (contains(spec.off, off)) one.fail("unique");
     spec.off.push_back(std::move(off));
   }
 }
@@ -156,9 +156,8 @@ void check_connected(const Node& entry, const SubgraphContext& context, const Su
   for (const TrimId trim : spec.trims) {
     if (is_too_fast(trim)) continue;
     if (from_start[trim.index] == Subgraph::kNever) {
-      entry.fail("trims",
-                 fmt::format("trims that hang together: no edges lead from trim {} to trim {}",
-                             standing.front().index + 1, trim.index + 1));
+      entry.fail("trims", fmt::format("connected trims: no edges lead from trim {} to trim {}",
+                                      standing.front().index + 1, trim.index + 1));
     }
     if (to_stand[trim.index] > context.horizon_steps) {
       const std::string needed = to_stand[trim.index] == Subgraph::kNever
@@ -216,7 +215,7 @@ std::vector<SubgraphSpec> read_subgraphs(const Node& file, const SubgraphContext
     }
     subgraphs.push_back(std::move(spec));
   }
-  if (subgraphs.empty()) file.fail("subgraphs", "at least one subgraph");
+  if (subgraphs.empty()) file.fail("subgraphs", "a list with at least one subgraph");
   return subgraphs;
 }
 
@@ -226,7 +225,7 @@ std::string to_yaml(const SubgraphSpec& spec) {
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {
-    text += ", off: " + list_of(spec.off, [](const EdgesOff& off) {
+    text += ", off: " + list_of(spec.off, [](const DisabledEdges& off) {
               return fmt::format("{{{}{}}}", ends(off.edge),
                                  off.label ? ", label: " + quoted_yaml(*off.label) : "");
             });

@@ -8,14 +8,14 @@
 
 namespace hlc {
 
-/// What the subgraphs of a file belong to.
+/// The file's part that its subgraphs refer to.
 struct SubgraphContext {
   const std::vector<Trim>& trims;
   const VehicleParameters& vehicle;
   const VehicleLimits& limits;
   double step_s{};
   std::size_t horizon_steps{};
-  const std::vector<std::string>& labels;  ///< that the automaton has
+  const std::vector<std::string>& labels;  ///< of the automaton
 };
 
 /// Reads the list `subgraphs` of a configuration or automaton file. Each entry:
@@ -31,7 +31,7 @@ struct SubgraphContext {
 ///                            with a label that it has
 ///     edges: list of {from, to, labels: [...]}     labels of single edges, instead of the above
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...": also if the
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ...": also if the
 /// trims do not hang together (each must be reached from the first trim of speed 0 and reach
 /// standstill within the horizon, over the edges that the rule gives and `off` leaves; what a speed
 /// limit takes away is known only once the maneuvers are, see Subgraph)

@@ -10,7 +10,7 @@ constexpr std::size_t kMaxAreaVertices = 8;
 constexpr double kChordError_m = 1e-5;
 constexpr double kIntegrationError_m = 1e-6;
 
-/// Yaw of the vehicle that a sampled motion has.
+/// Yaw of the vehicle for a sampled motion.
 enum class Yaw {
   kPlanned,   ///< the planned heading
   kDriven,    ///< that of the identified vehicle, its steering taken as unlimited
@@ -32,7 +32,7 @@ double yaw_offset_rad(double steering_rad, Yaw yaw, const VehicleParameters& veh
          identified.slip_offset_rad;
 }
 
-/// Which of the driven yaws belongs to this steering.
+/// The driven yaw for this steering.
 Yaw driven_yaw(double steering_rad, const VehicleParameters& vehicle,
                const IdentifiedVehicle& identified) {
   const double s = steady_steering(curvature_per_m(steering_rad, vehicle), identified) -
@@ -88,8 +88,8 @@ double acceleration_bound_mps2(const State& from, const State& to, const Input& 
   return std::hypot(a, v * chi1) + radius_m * std::hypot(theta1 * theta1, theta2);
 }
 
-/// Appends the footprint's corners at samples of one interval, both ends included, so many that
-/// none strays from the chord between two of its samples by more than kChordError_m.
+/// Appends the footprint's corners at samples of one interval, both ends included, dense enough
+/// that no corner strays from the chord between two samples by more than kChordError_m.
 void append_corners(const Maneuver& maneuver, std::size_t interval, double margin_m, Yaw yaw,
                     const VehicleParameters& vehicle, const IdentifiedVehicle& identified,
                     std::vector<Point>& corners_m) {

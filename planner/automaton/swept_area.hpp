@@ -62,8 +62,8 @@ struct SweptAreas {
 /// sampled as two motions, each on the intervals where it occurs; at full steering s1 = s2 = 0, and
 /// the bound above holds all the more.
 ///
-/// `states` between the interval bounds come from a Runge-Kutta step and not from the exact
-/// solution; 1 um is added for that (its error is below 0.1 um with 20 intervals in 0.2 s).
+/// States between the interval bounds come from a Runge-Kutta step instead of the exact solution; 1
+/// um is added for that (its error is below 0.1 um with 20 intervals in 0.2 s).
 ///
 /// @pre `maneuver` has inputs and states; 0 <= l_r <= L, p4 > 0, p2 <= 0
 [[nodiscard]] SweptAreas swept_areas(const Maneuver& maneuver, const VehicleParameters& vehicle,

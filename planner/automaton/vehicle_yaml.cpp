@@ -14,7 +14,7 @@ namespace {
 
 using Field = std::pair<const char*, double>;
 
-// Beyond these no wheeled vehicle is meant, but another unit.
+// Values beyond these are no wheeled vehicle's, but given in another unit.
 constexpr double kLongest_m = 100.0;
 constexpr double kFastest_mps = 1000.0;
 constexpr double kStrongest = 1e4;  // m/s^2, rad/s, 1/m

@@ -17,15 +17,15 @@ namespace hlc {
                                                 const VehicleParameters& parameters,
                                                 const VehicleLimits& limits);
 
-/// Keys as the members of VehicleLimits, all required but friction_mps2 and curvature_max_per_m. At
-/// most 1000 m/s, 1e4 m/s², 1e4 rad/s, 1.5 rad, 1e4 1/m.
+/// Keys as the members of VehicleLimits, all required except friction_mps2 and curvature_max_per_m.
+/// At most 1000 m/s, 1e4 m/s², 1e4 rad/s, 1.5 rad, 1e4 1/m.
 [[nodiscard]] VehicleLimits read_limits(const Node& limits);
 
 /// Keys speed_mps, steering_rad, within the limits. Others are not checked.
 [[nodiscard]] Trim read_trim(const Node& trim, const VehicleParameters& vehicle,
                              const VehicleLimits& limits);
 
-/// One line of YAML each, that reads back to the same bits; the first with `identified` inside.
+/// One line of YAML each, which reads back to the same bits; the first with `identified` inside.
 [[nodiscard]] std::string to_yaml(const VehicleParameters& vehicle,
                                   const IdentifiedVehicle& identified);
 [[nodiscard]] std::string to_yaml(const VehicleLimits& limits);

@@ -19,7 +19,7 @@ bool parse(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Takes a CSV text apart, row by row.
+/// Splits a CSV text row by row.
 class RowScanner {
  public:
   /// @param begin  of the second line
@@ -44,7 +44,7 @@ class RowScanner {
 
   [[noreturn]] void refuse(std::size_t line, const std::string& what) const {
     throw std::runtime_error(
-        fmt::format("{}:{}: {}, allowed quotes around a whole field, doubled within it",
+        fmt::format("{}:{}: {}, quotes must be around a whole field, doubled within it",
                     file_.string(), line, what));
   }
 
@@ -56,7 +56,7 @@ class RowScanner {
     return field;
   }
 
-  /// Nothing if the text ends within it.
+  /// Nothing if the text ends within the field.
   std::optional<std::string> quoted() {
     const std::size_t begin_line = line_;
     std::string field;
@@ -151,13 +151,13 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
 std::uint64_t CsvTable::unsigned_number(std::size_t row, std::size_t column) const {
   std::uint64_t value{};
   if (!parse(text(row, column), value)) {
-    refuse(row, column, "a whole number, not negative");
+    refuse(row, column, "a whole number >= 0");
   }
   return value;
 }
 
 void CsvTable::refuse(std::size_t row, std::size_t column, std::string_view allowed) const {
-  throw std::runtime_error(fmt::format("{}:{}: {} = \"{}\", allowed {}", file_.string(),
+  throw std::runtime_error(fmt::format("{}:{}: {} = \"{}\", must be {}", file_.string(),
                                        rows_.at(row).line, columns_.at(column), text(row, column),
                                        allowed));
 }

@@ -12,12 +12,11 @@
 
 namespace hlc {
 
-/// The text as a field of comma-separated values: in quotes, its own quotes doubled, if it needs
-/// them.
+/// The text as a CSV field: quoted, with its own quotes doubled, if necessary.
 [[nodiscard]] std::string csv_field(std::string_view text);
 
-/// A row that is being written. Numbers are written so that they read back to the same bits, truth
-/// values as 1 and 0, texts as csv_field has them, what is not there as an empty field.
+/// A row under construction. Numbers are written so that they read back to the same bits, truth
+/// values as 1 and 0, texts as in csv_field, absent values as an empty field.
 class CsvLine {
  public:
   template <class... Fields>
@@ -56,20 +55,20 @@ class CsvLine {
 };
 
 struct CsvRow {
-  std::size_t line{};  ///< of the file, from 1, in which it begins
+  std::size_t line{};  ///< line of the file, from 1, in which it begins
   std::vector<std::string> fields;
 };
 
-/// A CSV file. A field in quotes may hold commas, line breaks and, doubled, quotes (RFC 4180).
+/// A CSV file. A quoted field may hold commas, line breaks and, doubled, quotes (RFC 4180).
 class CsvTable {
  public:
   /// Reads a file of ours and checks its heading. An incomplete last line (the writer was killed)
-  /// is left out. What ends within a quoted field of several lines is no such line, but a quote too
-  /// many.
-  /// @throws std::runtime_error naming file, line and what is expected
+  /// is left out. A text that ends within a quoted field of several lines is not such a line, but
+  /// has an unmatched quote.
+  /// @throws std::runtime_error naming file, line and expectation
   CsvTable(const std::filesystem::path& file, std::string_view heading);
-  /// Reads a file of anybody, whatever its columns: lines may end as on other systems, the last one
-  /// without any sign.
+  /// Reads a file of any origin and with any columns: lines may end as on other systems, the last
+  /// one without a line break.
   /// @throws std::invalid_argument if it is no regular file or cannot be read, std::runtime_error
   /// as above
   explicit CsvTable(const std::filesystem::path& file);
@@ -83,8 +82,8 @@ class CsvTable {
   [[nodiscard]] double number(std::size_t row, std::size_t column) const;
   [[nodiscard]] std::uint64_t unsigned_number(std::size_t row, std::size_t column) const;
   [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const;
-  /// @throws std::runtime_error that says so, for a value of which only the caller knows what is
-  /// allowed
+  /// For a value whose bounds only the caller knows. @throws std::runtime_error naming file, line,
+  /// column, value and bound
   [[noreturn]] void refuse(std::size_t row, std::size_t column, std::string_view allowed) const;
 
  private:

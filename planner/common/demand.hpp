@@ -7,18 +7,18 @@
 #include <string_view>
 #include <type_traits>
 
-/// HLC_DEMAND(condition, values...): an assertion that is also there in release. If the condition
-/// is false, one line with the place, the condition and the values goes to standard error, and the
-/// program aborts:
+/// HLC_DEMAND(condition, values...): an assertion that is also active in release builds. If the
+/// condition is false, one line with the place, the condition and the values goes to standard
+/// error, and the program aborts:
 ///
 ///     planner/geometry/polygon.cpp:198: demanded distance_m >= 0.0; distance_m = -0.5
 ///
-/// It is for a programmer's mistake, a broken precondition or invariant. What comes from outside, a
-/// file, a flag or a message, is refused with an error instead. Values: numbers, bool, enumerators,
-/// strings, and what holds a number called `value` (VehicleId, StepIndex). They are evaluated only
-/// where the condition is false.
+/// It is for a programmer's mistake, a broken precondition or invariant. Bad input (a file, a flag,
+/// a message) is refused with an error instead. Values: numbers, bool, enumerators, strings, and
+/// types with a number called `value` (VehicleId, StepIndex). They are evaluated only if the
+/// condition is false.
 ///
-/// Plain assert stays where a check costs per vertex of a search: in the kernel, vectors,
+/// Plain assert remains where a check costs per vertex of a search: in the kernel, vectors,
 /// collision, preparation and data headers of planner/search/branch_and_bound.
 #define HLC_DEMAND(condition, ...)                                                       \
   do {                                                                                   \
@@ -64,7 +64,7 @@ class DemandedValue {
   std::string text_;
 };
 
-/// What HLC_DEMAND calls. `names`: the values as they are written there, with commas between them.
+/// Called by HLC_DEMAND. `names`: the values as written there, separated by commas.
 [[noreturn]] void demand_failed(std::string_view file, int line, std::string_view condition,
                                 std::string_view names,
                                 std::initializer_list<DemandedValue> values);

@@ -37,7 +37,7 @@ std::string type_name() {
 template <typename T>
 std::string description(const Allowed& allowed) {
   if (!allowed.words.empty()) {
-    return joined(allowed.words);
+    return (allowed.words.size() > 1 ? "one of " : "") + joined(allowed.words);
   }
   std::string text = type_name<T>();
   const bool has_min = std::isfinite(allowed.min);
@@ -153,7 +153,7 @@ Node Node::parse_yaml(const std::string& text, const std::string& name) {
 Node Node::read_json(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path)) {
-    throw std::invalid_argument(path.string() + ": cannot be read, allowed a JSON file");
+    throw std::invalid_argument(path.string() + ": cannot be read, must be a JSON file");
   }
   return root_of(parse_json(stream, path.string()), path.string(), FileFormat::kJson);
 }
@@ -233,7 +233,7 @@ std::vector<Node> Node::entries(std::size_t count, const std::string& allowed) c
   if (!is_list()) fail(allowed);
   if (value_->values.size() != count) {
     fail_at(line_,
-            fmt::format("{} has {} entries, allowed {}", path_, value_->values.size(), allowed));
+            fmt::format("{} has {} entries, must have {}", path_, value_->values.size(), allowed));
   }
   return entries();
 }
@@ -250,9 +250,8 @@ void Node::check_no_unknown_keys() const {
     const std::string& key = value_->keys[i];
     if (std::ranges::find(*asked_, key) != asked_->end()) continue;
     const Value& value = value_->values[i];
-    fail_at(value.line,
-            fmt::format("{} = {}, unknown key, allowed keys {}", joined_path(path_, key),
-                        shown(value, file_->format), joined(*asked_)));
+    fail_at(value.line, fmt::format("{} = {}, unknown key; known keys: {}", joined_path(path_, key),
+                                    shown(value, file_->format), joined(*asked_)));
   }
 }
 
@@ -267,7 +266,7 @@ void Node::fail(const std::string& key, const std::string& allowed) const {
 }
 
 void Node::fail(const std::string& allowed) const {
-  fail_at(line_, fmt::format("{}{}{}, allowed {}", path_, path_.empty() ? "" : " = ", shown_value(),
+  fail_at(line_, fmt::format("{}{}{}, must be {}", path_, path_.empty() ? "" : " = ", shown_value(),
                              allowed));
 }
 
@@ -284,7 +283,7 @@ std::optional<Node> Node::find(const std::string& key) const {
 
 Node Node::child(const std::string& key, const std::string& allowed) const {
   const std::optional<Node> found = find(key);
-  if (!found) fail_at(line_, joined_path(path_, key) + " is missing, allowed " + allowed);
+  if (!found) fail_at(line_, joined_path(path_, key) + " is missing, must be " + allowed);
   return *found;
 }
 

@@ -16,7 +16,7 @@ using nlohmann::json;
 constexpr std::size_t kLongestReason = 200;
 constexpr int kNumberOverflow = 406;  // of nlohmann's exceptions
 
-/// The characters of a stream; counts the lines that are read.
+/// The characters of a stream; counts the lines read.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -30,7 +30,7 @@ class CountingIterator {
 
   char operator*() const { return *at_; }
   CountingIterator& operator++() {
-    // The parser is one character ahead: a number ends before its line does.
+    // The parser reads one character ahead: a number ends before its line does.
     if (was_line_break_) ++*line_;
     was_line_break_ = *at_ == '\n';
     ++at_;
@@ -51,7 +51,7 @@ std::string reason_of(const json::exception& error) {
   return one_line(end == std::string::npos ? text : text.substr(end + 2), kLongestReason);
 }
 
-/// What nlohmann's parser calls.
+/// Callbacks of nlohmann's parser.
 class TreeEvents : public json::json_sax_t {
  public:
   TreeEvents(const std::string& name, const int& line)
@@ -88,12 +88,12 @@ class TreeEvents : public json::json_sax_t {
       const std::size_t begin = reason.find('\'') + 1;
       const std::string path = tree_.path();
       throw std::invalid_argument(
-          fmt::format("{}: line {}: {} = {}, allowed a finite number", name_, line_,
+          fmt::format("{}: line {}: {} = {}, must be a finite number", name_, line_,
                       path.empty() ? "a number" : path,
                       one_line(reason.substr(begin, reason.rfind('\'') - begin))));
     }
     throw std::invalid_argument(
-        fmt::format("{}: {}, allowed one JSON object (RFC 8259)", name_, reason_of(error)));
+        fmt::format("{}: {}, must be one JSON object (RFC 8259)", name_, reason_of(error)));
   }
 
   [[nodiscard]] Value take() { return tree_.take(); }

@@ -21,7 +21,7 @@ void add(const YAML::Node& node, int line, ValueTreeBuilder& tree) {
     case YAML::NodeType::Map:
       tree.open(Value::Kind::kMap, line);
       for (const auto& entry : node) {
-        // The key's line: a value that is left out has no place of its own.
+        // The key's line: an omitted value has no place of its own.
         const int key_line = entry.first.Mark().line + 1;
         tree.key(entry.first.IsScalar() ? entry.first.Scalar() : "(no text)", key_line);
         add(entry.second, key_line, tree);

@@ -6,8 +6,8 @@
 
 namespace hlc {
 
-/// SHA-256 of bytes that come piece by piece (OpenSSL's libcrypto). Equal pieces in equal order
-/// give equal hashes; where one piece ends and the next begins makes no difference.
+/// SHA-256 of bytes added piece by piece (OpenSSL's libcrypto). Equal pieces in equal order give
+/// equal hashes; how the bytes are split makes no difference.
 /// @throws std::runtime_error if the library refuses
 class Sha256 {
  public:
@@ -17,7 +17,7 @@ class Sha256 {
   Sha256& operator=(Sha256&&) noexcept;
 
   void add(std::string_view bytes);
-  /// 64 hexadecimal digits, of all that was added. @pre called once, nothing is added afterwards
+  /// 64 hexadecimal digits, over all added bytes. @pre called once, nothing is added afterwards
   [[nodiscard]] std::string hex();
 
  private:

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A new file beside `path`, opened for writing; null if there cannot be one. No other process and
-/// no other thread has it, and none that was there before is taken.
+/// A new file beside `path`, opened for writing; null if that fails. No other process and no other
+/// thread uses it, and no existing file is reused.
 std::pair<fs::path, std::FILE*> new_file_beside(const fs::path& path) {
   for (int number = 0;; ++number) {
     fs::path name = path;
@@ -37,7 +37,7 @@ void write_file(const fs::path& path, std::string_view text) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw std::runtime_error(path.string() + ": cannot be written, allowed a regular file");
+    throw std::runtime_error(path.string() + ": cannot be written, must be a regular file");
   }
   const auto [temporary, file] = new_file_beside(path);
   if (file != nullptr) {
@@ -62,10 +62,10 @@ std::string read_regular_file(const fs::path& path, std::string_view allowed) {
   try {
     if (fs::is_regular_file(path, error)) return read_file(path);
   } catch (const std::runtime_error&) {
-    // The same message for whatever reason.
+    // The same message for every cause.
   }
   throw std::invalid_argument(
-      fmt::format("{}: cannot be read, allowed {}", path.string(), allowed));
+      fmt::format("{}: cannot be read, must be {}", path.string(), allowed));
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

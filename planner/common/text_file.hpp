@@ -7,17 +7,17 @@
 
 namespace hlc {
 
-/// Writes the text to a new file beside `path` and renames that: whoever reads `path` sees what was
-/// there before or all of the new text, never a part. No other file is touched, and of several
-/// writers the last one's text stays, whole.
-/// @throws std::runtime_error naming the file if it cannot be written, also if `path` is there and
-/// no regular file itself (a link, which the renaming would replace); nothing new is left then
+/// Writes the text to a new file beside `path` and renames it: a reader of `path` sees the old
+/// content or all of the new text, never a part. No other file is touched, and of several writers
+/// the last one's text remains, complete.
+/// @throws std::runtime_error naming the file if it cannot be written, also if `path` exists and is
+/// no regular file itself (a link, which the renaming would replace); no new file remains then
 void write_file(const std::filesystem::path& path, std::string_view text);
 
 /// The whole file. @throws std::runtime_error naming the file if it cannot be read
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
-/// The same of a file that a user names, which may be a device without end.
+/// The same for a file named by a user, which may be an endless device.
 /// @param allowed  kind of file, for the message
 /// @throws std::invalid_argument naming the file if it is no regular file or cannot be read
 [[nodiscard]] std::string read_regular_file(const std::filesystem::path& path,

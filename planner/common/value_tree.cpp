@@ -13,9 +13,9 @@
 namespace hlc {
 namespace {
 
-/// Whoever prints or frees a value goes into it as deep as it is.
+/// Printing and freeing a value recurse to its depth.
 constexpr std::size_t kDeepest = 100;
-/// Aliases of YAML multiply what a short text holds.
+/// Aliases of YAML can multiply the values of a short text.
 constexpr std::size_t kMostValues = 10'000'000;
 constexpr std::size_t kLongestPath = 200;
 constexpr std::size_t kLongestShown = 60;
@@ -84,14 +84,14 @@ std::string file_and_line(const std::string& file, int line) {
 Value& ValueTreeBuilder::add(Value::Kind kind, int line) {
   if (++count_ > kMostValues) {
     throw std::invalid_argument(
-        fmt::format("{}more values than allowed, {}", file_and_line(name_, line), kMostValues));
+        fmt::format("{}too many values, must be <= {}", file_and_line(name_, line), kMostValues));
   }
   if (open_.empty()) {
     root_ = {.kind = kind, .line = line};
     return root_;
   }
   Value& parent = *open_.back();
-  // A map's entry was made with its key.
+  // The entry of a map was made with its key.
   if (parent.kind == Value::Kind::kList) parent.values.push_back({.line = line});
   Value& value = parent.values.back();
   value.kind = kind;
@@ -109,9 +109,9 @@ void ValueTreeBuilder::scalar(Value::Kind kind, std::string text, int line) {
 
 void ValueTreeBuilder::open(Value::Kind kind, int line) {
   if (open_.size() == kDeepest) {
-    throw std::invalid_argument(
-        fmt::format("{}{}: lists or objects within each other, allowed {} at most",
-                    file_and_line(name_, line), one_line(path(true), kLongestPath), kDeepest));
+    throw std::invalid_argument(fmt::format("{}{}: too deeply nested, must be <= {} levels",
+                                            file_and_line(name_, line),
+                                            one_line(path(true), kLongestPath), kDeepest));
   }
   open_.push_back(&add(kind, line));
 }
@@ -122,10 +122,9 @@ void ValueTreeBuilder::close() {
   std::set<std::string_view> keys;
   for (std::size_t i = 0; i < closed.keys.size(); ++i) {
     if (keys.insert(closed.keys[i]).second) continue;
-    throw std::invalid_argument(fmt::format("{}{} = {}, allowed once; the key is there twice",
-                                            file_and_line(name_, closed.values[i].line),
-                                            joined_path(path(false), closed.keys[i]),
-                                            shown(closed.values[i], format_)));
+    throw std::invalid_argument(fmt::format(
+        "{}{} = {}, duplicate key, must be unique", file_and_line(name_, closed.values[i].line),
+        joined_path(path(false), closed.keys[i]), shown(closed.values[i], format_)));
   }
 }
 

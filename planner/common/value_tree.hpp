@@ -8,7 +8,7 @@
 
 namespace hlc {
 
-/// What a YAML or JSON file holds, in the order of the file and without any meaning yet.
+/// The content of a YAML or JSON file, in the order of the file and without interpretation.
 struct Value {
   enum class Kind {
     kNothing,
@@ -34,7 +34,7 @@ enum class FileFormat { kYaml, kJson };
 [[nodiscard]] Value parse_yaml(const std::string& text, const std::string& name);
 [[nodiscard]] Value parse_json(std::istream& stream, const std::string& name);
 
-/// The value as messages show it: one short line.
+/// The value as shown in messages: one short line.
 [[nodiscard]] std::string shown(const Value& value, FileFormat format);
 
 /// "limits" and "speed" -> "limits.speed"; "wheels" and the first entry -> "wheels[1]" (YAML) or
@@ -42,10 +42,10 @@ enum class FileFormat { kYaml, kJson };
 [[nodiscard]] std::string joined_path(const std::string& path, const std::string& key);
 [[nodiscard]] std::string joined_path(const std::string& path, std::size_t index,
                                       FileFormat format);
-/// "car.yaml:3: ", or "car.json: " if the line is not known.
+/// "car.yaml:3: ", or "car.json: " if the line is unknown.
 [[nodiscard]] std::string file_and_line(const std::string& file, int line);
 
-/// Builds the tree from a parser's events, and refuses what the functions above say.
+/// Builds the tree from a parser's events, and throws as stated for the functions above.
 class ValueTreeBuilder {
  public:
   ValueTreeBuilder(std::string name, FileFormat format) : name_(std::move(name)), format_(format) {}
@@ -56,10 +56,9 @@ class ValueTreeBuilder {
   void open(Value::Kind kind, int line);  ///< a list or map
   void close();
 
-  /// Where the next value (or the one that was begun last) stands, "limits.speed"; empty at the
-  /// top.
+  /// Place of the next value (or of the one begun last), "limits.speed"; empty at the top.
   [[nodiscard]] std::string path(bool is_next = true) const;
-  /// @pre all that was opened is closed
+  /// @pre every opened list or map is closed
   [[nodiscard]] Value take() { return std::move(root_); }
 
  private:

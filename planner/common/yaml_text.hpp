@@ -17,8 +17,8 @@ namespace hlc {
 /// Line breaks and other control characters escaped as in C.
 [[nodiscard]] std::string escaped(const std::string& text);
 
-/// The text as a message shows it: one line, escaped, and cut after so many bytes (no character in
-/// two) with `...`.
+/// The text as shown in messages: one line, escaped, and cut after `longest` bytes (never within a
+/// character) with `...`.
 [[nodiscard]] std::string one_line(const std::string& text, std::size_t longest = 60);
 
 }  // namespace hlc

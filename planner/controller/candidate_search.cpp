@@ -1,19 +1,19 @@
 #include "planner/controller/candidate_search.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/controller/trajectory.hpp"
 
 namespace hlc {
 namespace {
 
-/// Swept areas are rounded outwards on the way to the reachable area.
+/// Swept areas are rounded outwards before they enter the reachable area.
 constexpr double kReachRounding_m = 1e-5;
 
-/// A warm-up ends when the engine has asked so often whether to stop, every 64 expansions: after a
+/// A warm-up ends when the engine has checked for a stop this often, every 64 expansions: after a
 /// fraction of a millisecond.
 constexpr int kWarmUpLooks = 16;
 
@@ -41,7 +41,7 @@ void add_figures(const SearchResult& result, const Subgraph& on, Report& report)
   report.gap_m2 = result.status == SearchStatus::kOptimal ? 0.0 : result.cost - result.lower_bound;
 }
 
-/// The command that the plan would become is looked at before the plan is published.
+/// The command of the plan is checked before the plan is published.
 bool is_drivable(const Plan& plan, const CandidateInputs& inputs,
                  const UniversalAutomaton& automaton) {
   if (!inputs.lab) return true;
@@ -50,8 +50,8 @@ bool is_drivable(const Plan& plan, const CandidateInputs& inputs,
                            inputs.lab);
 }
 
-/// The search has kept the swept areas free, and they are within reach; those that hold a drift may
-/// be larger.
+/// The search has kept the swept areas free, and they are within reach; areas with drift may be
+/// larger.
 bool is_free(const PlanCandidate& candidate, const CandidateInputs& inputs) {
   const OccupiedAreas& areas = candidate.areas;
   const auto is_in_reach = [&](const ConvexPolygon& area) {
@@ -94,10 +94,11 @@ double CandidateSearch::reach_m(TrimId trim) const {
 
 void CandidateSearch::switch_to(const PreparedSubgraph& next, const SearchOptions& search,
                                 StepIndex now) {
-  assert(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
-  assert(next.reachable->max_steps() > horizon_steps_);
+  HLC_DEMAND(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
+  HLC_DEMAND(next.reachable->max_steps() > horizon_steps_, next.reachable->max_steps(),
+             horizon_steps_);
   EngineCache engine(next, search);
-  // Of several switches in a row: what the plan in force was found on.
+  // Of several switches in a row: the subgraph that the plan in force was found on.
   if (!former_) former_ = Former{std::move(current_), {}};
   former_->last = {now.value + horizon_steps_};
   current_ = std::move(engine);
@@ -167,7 +168,7 @@ void CandidateSearch::search_on_former(const CandidateInputs& inputs, PlanCandid
     former_.reset();
     return;
   }
-  // A second search would take as long again: what is left is for the next step.
+  // A second search would take as long again: the former subgraph is tried in the next step.
   if (candidate.obstacle == FallbackReason::kBudget) return;
   candidate.obstacle = FallbackReason::kNone;
   if (candidate.problems.size() > 1) candidate.problems.push_back(candidate.problems.front());

@@ -12,39 +12,39 @@
 
 namespace hlc {
 
-/// What a new plan must fit to. Not owned.
+/// Constraints on a new plan. Not owned.
 struct CandidateInputs {
-  const PlanInForce& in_force;            ///< what the plan continues
+  const PlanInForce& in_force;            ///< continued by the new plan
   StepIndex now;                          ///< k; the plan is new from t(k+1) on
   const ConvexPolygon& reachable_area_m;  ///< as announced in this step's traffic
-  const std::optional<LabLimits>& lab;    ///< what the vehicle can follow; absent: anything
+  const std::optional<LabLimits>& lab;    ///< limits of the vehicle; absent: none
 };
 
-/// What came of the search for a new plan.
+/// Result of the search for a new plan.
 struct PlanCandidate {
   std::optional<Plan> plan;  ///< none: see `obstacle`
   OccupiedAreas areas;       ///< of the plan from t(k+1) on
   FallbackReason obstacle{FallbackReason::kNone};
-  /// Those given to the search, in order: two if the first plan would have drifted into something,
-  /// after a switch perhaps more.
+  /// Problems given to the search, in order: two if the first plan would have drifted into
+  /// something, after a switch perhaps more.
   std::vector<HorizonProblem> problems;
 };
 
-/// Searches a new plan and checks it: what a vehicle can follow, and what its drift (drift.hpp)
-/// does not lead into anything. Where the drift does, a plan without any is searched.
+/// Searches a new plan and checks it: the vehicle must be able to follow it, and its drift
+/// (drift.hpp) must not lead into anything. If it does, a plan without drift is searched.
 ///
-/// After a switch to another subgraph the former one is searched where nothing is found, until
-/// something is, for a horizon at most. A value (EngineCache).
+/// After a switch to another subgraph, the former one is searched when nothing is found on the new
+/// one, until something is, for a horizon at most. A value (EngineCache).
 class CandidateSearch {
  public:
   /// @throws std::invalid_argument as EngineCache
   CandidateSearch(PreparedSubgraph on, const SearchOptions& search, std::size_t horizon_steps);
 
-  /// What is searched on now.
+  /// The current subgraph.
   [[nodiscard]] const PreparedSubgraph& on() const { return current_.on(); }
-  /// Reachable sets of all that may be searched on, that of `on` first.
+  /// Reachable sets of all subgraphs that may be searched, that of `on` first.
   [[nodiscard]] std::vector<const ReachableSets*> reachable() const;
-  /// How far the vehicle can get from the trim in a horizon.
+  /// How far the vehicle can get from the trim within a horizon.
   [[nodiscard]] double reach_m(TrimId trim) const;
 
   /// @param now  the last step
@@ -52,21 +52,21 @@ class CandidateSearch {
   void switch_to(const PreparedSubgraph& next, const SearchOptions& search, StepIndex now);
   void set_max_expansions(std::size_t max_expansions);
 
-  /// One search, unchecked, on what is searched on now.
+  /// One search, unchecked, on the current subgraph.
   [[nodiscard]] SearchResult search(const HorizonProblem& problem);
-  /// Searches for a fraction of a millisecond and forgets what is found.
+  /// Searches for a fraction of a millisecond and drops the result.
   /// @return expansions
   std::uint64_t warm_up(const HorizonProblem& problem);
 
-  /// @param report  gets the figures of the search
+  /// @param report  receives the figures of the search
   [[nodiscard]] PlanCandidate find(HorizonProblem problem, const CandidateInputs& inputs,
                                    Report& report);
 
  private:
-  /// What was searched on before a switch.
+  /// The subgraph before a switch.
   struct Former {
     EngineCache engine;
-    StepIndex last;  ///< of the steps that may still use it
+    StepIndex last;  ///< last step that may still use it
   };
 
   static void search_on(EngineCache& on, const CandidateInputs& inputs, PlanCandidate& candidate,

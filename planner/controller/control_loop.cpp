@@ -1,7 +1,8 @@
 #include "planner/controller/control_loop.hpp"
 
-#include <cassert>
 #include <utility>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -16,7 +17,7 @@ ControlLoop::ControlLoop(Controller& controller, Stopwatch stopwatch)
 }
 
 StepOutput ControlLoop::begin(const Observation& observation) {
-  assert(!is_in_step());
+  HLC_DEMAND(!is_in_step(), phase_);
   advance_to(observation.step);
   active_ = observation.active;
   planning_ns_ = 0;
@@ -25,7 +26,7 @@ StepOutput ControlLoop::begin(const Observation& observation) {
 }
 
 Report ControlLoop::stand_by(const Observation& observation) {
-  assert(!is_in_step());
+  HLC_DEMAND(!is_in_step(), phase_);
   advance_to(observation.step);
   return controller_->stand_by(observation);
 }
@@ -51,7 +52,7 @@ void ControlLoop::keep(const Message& message) {
   std::get<Received<Message>>(received_)[message.step].insert_or_assign(message.vehicle, message);
 }
 
-/// Those of this step, by sender.
+/// Messages of this step, by sender.
 template <class Message>
 std::vector<Message> ControlLoop::received() const {
   std::vector<Message> result;
@@ -93,7 +94,7 @@ Awaited ControlLoop::awaited() const {
                  ? missing_of<Outcome>(MessageKind::kOutcome, controller_->component())
                  : missing_of<Prediction>(MessageKind::kPrediction, controller_->coupled());
   }
-  assert(false && "nothing is awaited outside a step");
+  HLC_DEMAND(is_in_step());  // nothing is awaited outside a step
   return {};
 }
 
@@ -112,7 +113,7 @@ StepOutput ControlLoop::proceed() {
       phase_ = StepPhase::kIdle;
       return {.report = controller_->commit(received<Prediction>(), received<Outcome>())};
   }
-  assert(false && "proceed needs a step that has begun");
+  HLC_DEMAND(is_in_step());
   return {};
 }
 
@@ -126,7 +127,7 @@ StepOutput ControlLoop::plan() {
 }
 
 StepOutput ControlLoop::fall_back(FallbackReason reason) {
-  assert(is_in_step());
+  HLC_DEMAND(is_in_step());
   phase_ = StepPhase::kIdle;
   return {.report = controller_->fall_back(reason)};
 }

@@ -21,7 +21,7 @@ struct StepOutput {
   std::optional<Report> report{};
 };
 
-/// Whose messages the next phase needs and has not received.
+/// Senders whose messages the next phase needs and has not received.
 struct Awaited {
   MessageKind kind{};
   std::vector<VehicleId> from;
@@ -46,14 +46,14 @@ using Stopwatch = std::function<std::uint64_t()>;
 ///     while is_in_step: publish output; wait until `awaited` is empty or the phase's deadline has
 ///                       passed, passing on to `receive` what arrives; output = proceed()
 ///
-/// Each phase works with whatever has been received. Messages are kept by step and sender, so a
-/// peer may be a phase or some steps ahead; what is for a step that is over, too far ahead to come
-/// from a sane sender, or in the own name is dropped. The last message of a sender in a step
-/// counts.
+/// Each phase works with the messages received so far. Messages are kept by step and sender, so a
+/// peer may be a phase or some steps ahead; a message is dropped if its step is over, if it is too
+/// far ahead to come from a sane sender, or if it has the own name. The last message of a sender in
+/// a step counts.
 class ControlLoop {
  public:
-  /// @param controller  not owned; must outlive this object; between the steps its owner may do
-  /// with it what it likes (switch_to, set_drives_out)
+  /// @param controller  not owned; must outlive this object; between the steps its owner may change
+  /// it freely (switch_to, set_minimal_risk_stop)
   /// @param stopwatch   measures planning_ns; absent: 0
   explicit ControlLoop(Controller& controller, Stopwatch stopwatch = {});
 
@@ -64,8 +64,8 @@ class ControlLoop {
   [[nodiscard]] StepOutput begin(const Observation& observation);
   /// Controller::stand_by, a step before the start. @pre not in a step
   [[nodiscard]] Report stand_by(const Observation& observation);
-  /// The step of the next `begin`, if it is to be known earlier: messages for the steps before are
-  /// dropped. To be called, too, in a step that has neither `begin` nor `stand_by`.
+  /// The step of the next `begin`, if it is known earlier: messages for the steps before are
+  /// dropped. Also to be called in a step that has neither `begin` nor `stand_by`.
   void advance_to(StepIndex step);
 
   void receive(const Traffic& message);
@@ -74,17 +74,17 @@ class ControlLoop {
 
   [[nodiscard]] StepPhase phase() const { return phase_; }
   [[nodiscard]] bool is_in_step() const { return phase_ != StepPhase::kIdle; }
-  /// By sender; without the own vehicle. Empty if nothing is awaited any more. @pre in a step
+  /// By sender; without the own vehicle. Empty if nothing is awaited. @pre in a step
   [[nodiscard]] Awaited awaited() const;
   /// Controller::warm_up, while the others' messages are on their way. @pre in the first phase
   std::uint64_t warm_up() { return controller_->warm_up(); }
 
-  /// The next phase, with whatever has been received. @pre in a step
+  /// The next phase, with the messages received so far. @pre in a step
   [[nodiscard]] StepOutput proceed();
   /// Ends the step instead; outputs the report: the plan in force stays. @pre in a step
   [[nodiscard]] StepOutput fall_back(FallbackReason reason);
 
-  /// How long planning took in the last step, by the stopwatch.
+  /// Duration of planning in the last step, by the stopwatch.
   [[nodiscard]] std::uint64_t planning_ns() const { return planning_ns_; }
 
  private:

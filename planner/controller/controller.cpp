@@ -1,10 +1,10 @@
 #include "planner/controller/controller.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
+#include "planner/common/demand.hpp"
 #include "planner/controller/problem_alone.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -96,7 +96,7 @@ void Controller::report_plan_in_force(Report& report) const {
 }
 
 Traffic Controller::observe(const Observation& observation) {
-  assert(has_plan());
+  HLC_DEMAND(has_plan());
   const StepIndex now = observation.step;
   former_problem_.reset();
   if (!problems().empty()) former_problem_ = std::move(step_.candidate.problems.front());
@@ -109,7 +109,7 @@ Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = check.deviation_m;
   if (check.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
   step_.is_vehicle_lost = check.is_lost;
-  if (check.is_anchored_anew) drivable_area_.depart();
+  if (check.is_reanchored) drivable_area_.depart();
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
 
@@ -124,12 +124,12 @@ Traffic Controller::observe(const Observation& observation) {
   return traffic;
 }
 
-/// On every subgraph that may be planned on, or along the plan in force.
+/// Area reachable on every subgraph that may be planned on, or along the plan in force.
 ConvexPolygon Controller::reachable_area_m() const {
   const Traffic& traffic = step_.traffic;
   std::vector<ConvexPolygon> reach;
   reach.reserve(traffic.running.areas_m.size() + 3);
-  const auto add = [&reach](const ConvexPolygon& area) {  // most lie within the first
+  const auto add = [&reach](const ConvexPolygon& area) {  // most areas lie within the first one
     if (reach.empty() || !contains(reach.front(), area)) reach.push_back(area);
   };
   const auto add_reachable = [&](const ReachableSets* sets) {
@@ -163,7 +163,7 @@ void Controller::couple(std::span<const Traffic> received) {
   step_.report.coupled = graph.neighbours(options_.vehicle);
   step_.report.missing = neighbours_.missing();
   step_.report.level = computation_level(graph, options_.vehicle);
-  // A coupled vehicle that does not receive us may soon drive as if we stood for good
+  // A coupled vehicle that does not receive our messages may soon drive as if we stood for good
   // (missing.hpp).
   const bool is_silent_to_any = std::ranges::any_of(coupled(), [this](VehicleId other) {
     return holds(neighbours_.traffic_of(other).silent, options_.vehicle);
@@ -238,7 +238,7 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
 HorizonProblem Controller::pose_problem() const {
   HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor);
   problem.obstacles_m = obstacles_m();
-  // Driven on, the plan in force is a plan too, as long as it starts where planning starts.
+  // The plan in force, continued, is a plan too, as long as it starts where planning starts.
   if (!in_force_->is_moved()) {
     problem.incumbent =
         options_.strategies.incumbent(plan_in_force(), step_.next(), options_.horizon_steps);
@@ -247,7 +247,7 @@ HorizonProblem Controller::pose_problem() const {
 }
 
 bool Controller::may_plan() const {
-  return !drives_out_ && step_.obstacle == FallbackReason::kNone;
+  return !minimal_risk_stop_ && step_.obstacle == FallbackReason::kNone;
 }
 
 Prediction Controller::plan(std::span<const Prediction> received) {
@@ -274,13 +274,13 @@ void Controller::respect_predecessors(std::span<const Prediction> received) {
   }
 }
 
-/// Whether a plan may start where the vehicle will be.
+/// Whether a plan may start at the vehicle's predicted pose.
 void Controller::check_start() {
   const bool is_any_unknown = std::ranges::any_of(neighbours_.missing(), [this](VehicleId other) {
     return step_.observation.measured(other) == nullptr;  // it may be anywhere
   });
   if (is_any_unknown) step_.obstacle = FallbackReason::kMissing;
-  // A trim that is off may have no way out, or a long one.
+  // A disabled trim may have no way out, or a long one.
   if (step_.obstacle == FallbackReason::kNone &&
       subgraph().distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
     step_.obstacle = FallbackReason::kInfeasible;
@@ -367,8 +367,8 @@ Report Controller::finish(bool accepted, FallbackReason reason) {
                        step_.observation.step);
     report.status = StepStatus::kPlanned;
   } else {
-    report.status = drives_out_ ? StepStatus::kDriveOut : StepStatus::kFallback;
-    report.reason = drives_out_ ? FallbackReason::kNone : reason;
+    report.status = minimal_risk_stop_ ? StepStatus::kMinimalRiskStop : StepStatus::kFallback;
+    report.reason = minimal_risk_stop_ ? FallbackReason::kNone : reason;
   }
   step_.candidate.plan.reset();
   return report;

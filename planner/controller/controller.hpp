@@ -29,77 +29,76 @@ namespace hlc {
 ///
 ///     observe -> couple -> plan -> vote -> commit
 ///
-/// Each phase works with whatever messages have been received. A vehicle that published nothing is
-/// missing and may be anywhere in its reachable set. After `commit` the plan in force holds from
-/// t(k) on.
+/// Each phase works with the messages received so far. A vehicle that published nothing is missing
+/// and may be anywhere in its reachable set. After `commit` the plan in force holds from t(k) on.
 ///
-/// The plan of step k is for what happens from t(k+1) on: the search starts where the plan in force
+/// The plan of step k is for the time from t(k+1) on: the search starts where the plan in force
 /// will be then. If no new plan comes into force, the one in force stays: every plan ends in
-/// standstill. What is done where the vehicle is not on its plan: plan_in_force.hpp.
+/// standstill. For a vehicle that is not on its plan see plan_in_force.hpp.
 ///
-/// The vehicle starts from where it stands. Of the routes that it may take it follows the one that
-/// it fits best, from its place there on (route_tracker.hpp); beside its lanes it drives in an area
-/// that leads into them (drivable_area.hpp). A vehicle that fits none, or cannot get onto its
-/// route, stands and says so in its report.
+/// The vehicle starts from where it stands. Of its permitted routes it follows the best fit, from
+/// its place there on (route_tracker.hpp); beside its lanes it drives in an area that leads into
+/// them (drivable_area.hpp). A vehicle that fits none, or cannot get onto its route, stands and
+/// reports it.
 ///
-/// A value: a copy is a controller in the same state that goes its own way from there, for looking
-/// ahead. Copies share what never changes; each makes its own search engine when it first searches.
+/// A value: a copy is an independent controller in the same state, for looking ahead. Copies share
+/// what never changes; each makes its own search engine when it first searches.
 class Controller {
  public:
-  /// @param routes  those that the vehicle may take, at least one
+  /// @param routes  the permitted ones, at least one
   /// @throws std::invalid_argument as prepare_subgraph and make_search_engine
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              std::vector<DrivableRoute> routes);
   /// With a single route.
-  /// @param path      what the vehicle shall follow
-  /// @param corridor  where it may drive
+  /// @param path      to be followed
+  /// @param corridor  area in which the vehicle may drive
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              ReferencePath path, Corridor corridor);
 
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] const Subgraph& subgraph() const { return *prepared_subgraph().subgraph; }
-  /// The same with its tables, to be kept.
+  /// The same with its tables, shared.
   [[nodiscard]] const PreparedSubgraph& prepared_subgraph() const { return search_.on(); }
   /// Step of the last `observe` or `stand_by`.
   [[nodiscard]] StepIndex last_step() const { return step_.observation.step; }
 
-  /// Of each search from now on. Not in the middle of a step.
+  /// Applies to each search from now on. Not in the middle of a step.
   void set_max_expansions(std::size_t max_expansions);
 
-  /// From the next step on plans on another subgraph, of the same automaton or of one that differs
-  /// from it in its maneuvers alone. Not in the middle of a step. The plan in force stays, whatever
-  /// of it is off now, and is the fallback as ever: see Subgraph for the rule. Where no plan is
-  /// found from where the plan in force leads (the way off what is off now leads into something),
-  /// the former subgraph is planned on, until something is, for a horizon at most. The other
-  /// vehicles need not switch in the same step: where a missing one may be is reckoned with the
-  /// highest speed of the whole automaton that was given at first.
+  /// Plans on another subgraph from the next step on, of the same automaton or of one that differs
+  /// from it in its maneuvers alone. Not in the middle of a step. The plan in force stays, even if
+  /// parts of it are disabled now, and is the fallback as always: see Subgraph for the rule. Where
+  /// no plan is found from the plan in force (the exit edges lead into something), the former
+  /// subgraph is planned on, until a plan is found, for a horizon at most. The other vehicles need
+  /// not switch in the same step: the area of a missing one is bounded with the highest speed of
+  /// the whole automaton that was given at first.
   /// @pre `next` was prepared for this controller's horizon and search; its subgraph is of the same
-  /// vehicle, step and trims, and on it nothing is faster than that
+  /// vehicle, step and trims, and has no maneuver faster than that
   void switch_to(const PreparedSubgraph& next);
-  /// The same, prepared here and now.
+  /// The same, prepared by this call.
   void switch_to(std::shared_ptr<const Subgraph> next);
 
   /// A step before the start: the plan in force is to stand at the measured pose. Without a
   /// measurement of the own vehicle the former plan, if any, stays.
   [[nodiscard]] Report stand_by(const Observation& observation);
 
-  /// From the next step on nothing new is planned, and the plan in force is driven to its end; or
-  /// planning goes on, from what is left of it.
-  void set_drives_out(bool drives_out) { drives_out_ = drives_out; }
+  /// If requested, nothing new is planned from the next step on, and the plan in force is driven to
+  /// its end; otherwise planning continues from the rest of it.
+  void set_minimal_risk_stop(bool is_requested) { minimal_risk_stop_ = is_requested; }
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
   [[nodiscard]] Traffic observe(const Observation& observation);
-  /// Any time between the first phase and the third, by whoever waits for the others' messages
-  /// then: searches what the former step's problem has become, as far as that is known without
-  /// them, and forgets what is found. Changes nothing; but a processor that did other things since
-  /// has in its caches again what a search needs, which takes longer to fetch than most searches.
-  /// Ends after 1024 expansions. Returns how many there were.
+  /// Any time between the first phase and the third, while the owner waits for the others'
+  /// messages: searches the former step's problem, updated as far as that is known without the
+  /// messages, and drops the result. Changes nothing; but it fills the processor's caches with the
+  /// data of a search, which takes longer to fetch than most searches. Ends after 1024 expansions.
+  /// Returns how many there were.
   std::uint64_t warm_up();
   /// Second phase. `received` may hold messages of other steps and senders: they are ignored.
   void couple(std::span<const Traffic> received);
   /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
-  /// the drift, checks what was found, and searches again if the drift leads into something:
-  /// planning time is the time that all this takes.
+  /// the drift, checks the result, and searches again if the drift leads into something: planning
+  /// time is the duration of all this.
   [[nodiscard]] Prediction plan(std::span<const Prediction> received);
   /// Fourth phase, for a commit rule that needs votes: what the others need to know before they
   /// commit.
@@ -108,50 +107,51 @@ class Controller {
   /// rule that needs votes.
   [[nodiscard]] Report commit(std::span<const Prediction> predictions,
                               std::span<const Outcome> outcomes);
-  /// Instead of the phases that are left: a deadline has passed, the plan in force stays.
+  /// Instead of the remaining phases: a deadline has passed, the plan in force stays.
   [[nodiscard]] Report fall_back(FallbackReason reason);
 
-  /// Valid after `couple`: whom the phases need.
+  /// Valid after `couple`: the senders that the phases need.
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
   [[nodiscard]] const std::vector<VehicleId>& coupled() const { return step_.report.coupled; }
   [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
-  /// The problems that `plan` gave to the search (PlanCandidate::problems): none if it did not come
-  /// to that. Valid until the next step.
+  /// The problems that `plan` gave to the search (PlanCandidate::problems): none if it did not get
+  /// that far. Valid until the next step.
   [[nodiscard]] std::span<const HorizonProblem> problems() const {
     return step_.candidate.problems;
   }
-  /// Before them, where the vehicle stands and shall drive off: those by which it was found out
-  /// where it may drive (lane_entry.hpp). Their vertices count nowhere.
+  /// The problems before those, when the vehicle stands and is to drive off: they determine the
+  /// area in which it may drive (lane_entry.hpp). Their vertices are not counted.
   [[nodiscard]] std::span<const HorizonProblem> entry_problems() const {
     return step_.entry_problems;
   }
 
-  /// Those that the vehicle may take.
+  /// The permitted routes.
   [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return tracker_.routes(); }
-  /// The route taken; before the first measurement the first of all.
+  /// The selected route; before the first measurement the first of all.
   [[nodiscard]] const DrivableRoute& route() const { return tracker_.route(); }
-  /// Where the vehicle stood on it in the last `stand_by` that saw it.
+  /// Placement on the route in the last `stand_by` with a measurement.
   [[nodiscard]] const std::optional<Placement>& placement() const { return tracker_.placement(); }
-  /// True if it did, and fits. @see fits
+  /// True if there is a placement and it fits. @see fits
   [[nodiscard]] bool fits_route() const { return tracker_.fits_route(); }
-  /// Arc length on it where planning began in the last step, or where the vehicle was placed.
+  /// Arc length on the route where planning began in the last step, or where the vehicle was
+  /// placed.
   [[nodiscard]] const std::optional<double>& path_s_m() const { return tracker_.s_m(); }
-  /// Arc length of a position that the vehicle may get to within a horizon from there; none if it
-  /// has no place on its path.
+  /// Arc length of a position within the vehicle's reach in a horizon from there; none if the
+  /// vehicle has no place on its path.
   [[nodiscard]] std::optional<double> path_s_m_of(const Point& position_m) const;
-  /// The area in which it comes into its lanes (lane_entry.hpp), while it does.
+  /// The area in which the vehicle enters its lanes (lane_entry.hpp), while it does.
   [[nodiscard]] const std::optional<Corridor>& entry_area() const {
     return drivable_area_.entry_area();
   }
 
-  /// What another vehicle drives from the next step on, as it has announced: its new plan, if this
-  /// one received it and had to wait for it, else the one that it drove before.
+  /// The announced motion of another vehicle from the next step on: its new plan, if this
+  /// controller received it and had to wait for it, otherwise its former one.
   struct AnnouncedPlan {
     VehicleId vehicle;
     OccupiedAreas areas;  ///< from the last step on, or from the next
   };
-  /// Of all that were received in the last step, by vehicle. Valid after `commit` or `fall_back`.
-  /// It does not depend on what else came in time.
+  /// Of all vehicles received in the last step, by vehicle. Valid after `commit` or `fall_back`.
+  /// Independent of which other messages arrived in time.
   [[nodiscard]] std::vector<AnnouncedPlan> announced_plans() const;
 
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
@@ -160,7 +160,7 @@ class Controller {
   [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
 
  private:
-  /// All that one step gathers; reset by `observe`.
+  /// All data of one step; reset by `observe`.
   struct Step {
     Observation observation;
     Report report;
@@ -203,7 +203,7 @@ class Controller {
   DrivableArea drivable_area_;
   Neighbours neighbours_;
   std::optional<PlanInForce> in_force_;
-  bool drives_out_{false};
+  bool minimal_risk_stop_{false};
   Step step_;
   std::optional<HorizonProblem> former_problem_;  ///< for `warm_up`
 };

@@ -14,24 +14,24 @@
 
 namespace hlc {
 
-/// A plan that the search knows before it begins (HorizonProblem::incumbent): n maneuvers from
+/// A plan that is known before the search begins (HorizonProblem::incumbent): n maneuvers from
 /// t(next) on, or nothing. A rule is one function.
-/// @param in_force  planning starts from where it will be at t(next)
+/// @param in_force  planning starts from its pose at t(next)
 using IncumbentRule = std::vector<const Maneuver*> (*)(const Plan& in_force, StepIndex next,
                                                        std::size_t horizon_steps);
 
-/// What is left of the plan in force, then standing.
+/// The rest of the plan in force, then standing.
 [[nodiscard]] std::vector<const Maneuver*> rest_of_plan_in_force(const Plan& in_force,
                                                                  StepIndex next,
                                                                  std::size_t horizon_steps);
 [[nodiscard]] std::vector<const Maneuver*> no_incumbent(const Plan& in_force, StepIndex next,
                                                         std::size_t horizon_steps);
 
-/// By which rules a controller plans and agrees. A rule of one's own is one function. All vehicles
-/// of a run need the same.
+/// The rules by which a controller plans and coordinates. A user's own rule is one function. All
+/// vehicles of a run need the same.
 struct ControllerStrategies {
   CommitRule commit{kStrictCommit};
-  CoupledObstacleRule coupled_obstacles{&old_and_new_plans};  ///< has to go with `commit`
+  CoupledObstacleRule coupled_obstacles{&old_and_new_plans};  ///< must match `commit`
   IncumbentRule incumbent{&rest_of_plan_in_force};
   /// nullptr: never.
   StandstillTimeoutRule standstill_timeout{&once_per_horizon};
@@ -46,7 +46,7 @@ struct ControllerOptions {
   ControllerStrategies strategies{};
   SearchOptions search{};
   DeviationRules deviation{};
-  /// What the vehicle can follow: a plan beyond it does not come into force. Absent: anything.
+  /// Limits of the vehicle: a plan beyond them does not come into force. Absent: none.
   std::optional<LabLimits> lab{};
 };
 

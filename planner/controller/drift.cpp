@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kCorrection_per_s = 5.0;
 constexpr double kStandingSpeed_mps = 1e-3;
-/// Steps after the end of a plan in which the vehicle comes to rest: its error along is gone to
-/// exp(-5).
+/// Steps after the end of a plan in which the vehicle comes to rest: its error along the path has
+/// decayed to exp(-5).
 constexpr std::uint64_t kStepsToRest = 5;
 
 /// Time along a plan, in ticks of the identified model.
@@ -31,7 +31,7 @@ struct Driven {
   double steering{};
 };
 
-/// One tick of a vehicle at `at`, planned to go from `from` to `to` in it.
+/// One tick of a vehicle at `at`, planned to move from `from` to `to` in it.
 Driven driven(const Driven& at, const Point& from, const Point& to,
               const IdentifiedVehicle& identified) {
   const Point chord = (to - from) / kIdentifiedStep_s;
@@ -68,7 +68,7 @@ std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& se
   drive.push_back({at.step, planned, vehicle_at.pose});
   while (at.step < until) {
     const Instant then = at.next(automaton.step_s);
-    const State planned_then =  // standing, it stays what it is
+    const State planned_then =  // standing, it stays as it is
         at.step < plan.end() ? plan.state_at(then.step, then.time_s, vehicle) : planned;
     vehicle_at = driven(vehicle_at, planned.pose.position_m(), planned_then.pose.position_m(),
                         automaton.identified);

@@ -4,7 +4,7 @@
 
 namespace hlc {
 
-/// Where a vehicle is at a time within a plan: t(step) + time_s, 0 <= time_s < one step.
+/// Pose of a vehicle at a time within a plan: t(step) + time_s, 0 <= time_s < one step.
 struct SeenAt {
   StepIndex step;
   double time_s{};
@@ -18,34 +18,34 @@ struct PredictedInstant {
   Pose pose;  ///< of the vehicle, heading_rad is the yaw
 };
 
-/// The drive of a vehicle that follows `plan`, from where it was seen until t(until): tick by tick
+/// The drive of a vehicle that follows `plan`, from its measured pose until t(until): tick by tick
 /// of 20 ms with the identified model (planner/vehicle/identified_motion.hpp), the course aimed at
 /// the next planned position plus a correction of the error across it (5 /s), the steering limited
 /// to [-1, 1], the speed as planned plus a correction of the error along it. Where the plan stands
-/// the steering is kept, and the vehicle still makes up for what it is behind. Instants at which a
-/// step ends are given twice: as the end of that step and as the begin of the next. @pre
-/// plan.first() <= seen.step
+/// the steering is kept, and the vehicle still catches up with its plan. Instants at which a step
+/// ends are given twice: as the end of that step and as the begin of the next. @pre plan.first() <=
+/// seen.step
 [[nodiscard]] std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& seen,
                                                             StepIndex until,
                                                             const UniversalAutomaton& automaton);
 
-/// Areas of `plan` from t(from) on that hold where the vehicle will really drive.
+/// Areas of `plan` from t(from) on that contain the vehicle's real drive.
 ///
-/// A maneuver's swept area holds a vehicle that is beside its plan by no more than the safety
-/// margin. That suffices wherever the vehicle has steering left to correct with. It does not where
+/// A maneuver's swept area contains a vehicle whose deviation from its plan is at most the safety
+/// margin. That suffices wherever the vehicle has steering left for corrections. It does not where
 /// the plan turns faster than the vehicle can: the paper's trim of -0.60 rad needs 4.315 1/m where
 /// the identified vehicle turns with 3.960 1/m at most, and a start from standstill straight into
-/// +-0.60 rad turns the course by 0.41 rad where the vehicle has 0.36 rad. Such an error grows as
-/// long as the steering is at its limit (to some 60 mm) and is left behind afterwards; no follower
-/// can avoid it.
+/// +-0.60 rad turns the course by 0.41 rad where the vehicle can turn 0.36 rad. Such an error grows
+/// as long as the steering is at its limit (to some 60 mm) and vanishes afterwards; no follower can
+/// avoid it.
 ///
 /// So the drive is predicted. In a step in which the predicted footprint deviates from the planned
 /// one (footprint_deviation_m) by more than `tolerated_m`, the area becomes the hull of the swept
 /// area and of all its predicted footprints grown by the safety margin; so does the final one, from
-/// the pose at the end. All other areas stay as they are, to the bit.
+/// the pose at the end. All other areas stay bitwise the same.
 ///
-/// Assumption for the claim that the areas hold the vehicle: prediction and drive differ by no more
-/// than margin - tolerated_m (tests/vehicle_sim/campaign measures it in whole closed loops).
+/// Assumption for the claim that the areas contain the vehicle: prediction and drive differ by no
+/// more than margin - tolerated_m (tests/vehicle_sim/campaign measures it in whole closed loops).
 /// @pre plan.first() <= seen.step <= from
 [[nodiscard]] OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& seen,
                                              const UniversalAutomaton& automaton,

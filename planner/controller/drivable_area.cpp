@@ -15,7 +15,7 @@ void DrivableArea::update_drivable_area(const DrivableAreaInputs& inputs) {
     entry_ = inputs.find_entry();
     is_departing_ = false;
   } else if (has_timed_out && may_need_entry) {
-    // It may as well wait for somebody: only a way out counts.
+    // The vehicle may be waiting for another one: only an existing way out counts.
     if (LaneEntry way_out = inputs.find_entry(); way_out.area) entry_ = std::move(way_out);
   }
   // A vehicle that stands in its lanes may need the area to drive off.

@@ -8,9 +8,9 @@
 
 namespace hlc {
 
-/// What searches on a prepared subgraph. The engine is a cache: what it finds depends on the
-/// problem alone. So a copy shares the subgraph and its tables, which never change, and makes a
-/// search engine of its own when it first searches.
+/// The search on a prepared subgraph. The engine is a cache: its result depends on the problem
+/// alone. So a copy shares the subgraph and its tables, which never change, and makes its own
+/// search engine when it first searches.
 class EngineCache {
  public:
   /// @throws std::invalid_argument as make_search_engine
@@ -29,7 +29,7 @@ class EngineCache {
     engine_.reset();
   }
 
-  /// Until the next change of this object.
+  /// Valid until the next change of this object.
   [[nodiscard]] SearchEngine& engine() {
     if (!engine_) engine_ = make();
     return *engine_;

@@ -4,8 +4,8 @@
 
 namespace hlc {
 
-/// What a state list of that step shows of a vehicle that follows its controller's plan exactly.
-/// Its yaw is not the planner's heading. @pre controller.has_plan()
+/// State in a list of that step of a vehicle that follows its controller's plan exactly. Its yaw is
+/// not the planner's heading. @pre controller.has_plan()
 [[nodiscard]] MeasuredVehicle on_its_plan(const Controller& controller, StepIndex step);
 
 /// The same of a vehicle in that state.

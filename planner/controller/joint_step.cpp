@@ -5,7 +5,7 @@
 namespace hlc {
 namespace {
 
-/// Hands messages over to all but their sender, unless they are lost.
+/// Delivers messages to all but their sender, unless they are lost.
 class Exchange {
  public:
   Exchange(std::span<ControlLoop* const> loops, StepIndex step, const JointStepRules& rules)

@@ -7,11 +7,11 @@ namespace hlc {
 namespace {
 
 constexpr std::array kExtra_m{0.0, 0.025, 0.05, 0.075, 0.1};
-/// The area holds the footprint with this to spare.
+/// The area contains the footprint with this margin.
 constexpr double kReserve_m = 0.001;
-/// A plan that leads less far, of what is wanted and can be driven, ends where nothing leads on.
+/// A plan that leads less far, as a share of the wanted and drivable length, is a dead end.
 constexpr double kDrivesOff = 0.3;
-/// It moves if it leads at least so far.
+/// A plan that leads at least this far moves.
 constexpr double kMoves_m = 0.05;
 
 bool crosses(const Maneuver& maneuver, const Pose& start, std::span<const Segment> boundary_m) {
@@ -37,7 +37,7 @@ bool used_up_budget(const SearchResult& found) {
   return found.status == SearchStatus::kBudget || found.reason == NoPath::kBudget;
 }
 
-/// The plan drives off and its last maneuver lies in the lanes.
+/// True if the plan drives off and its last maneuver lies in the lanes.
 bool leads_in(const SearchResult& found, const Pose& start, double drives_off_m,
               std::span<const Segment> lanes_m, const DrivableRoute& route,
               const Footprint& footprint) {

@@ -58,10 +58,10 @@ std::vector<const Traffic*> Neighbours::received() const {
 
 void Neighbours::update_liveness(const Observation& observation) {
   for (const VehicleId other : observation.active) {
-    const bool lives = is_received(other) ||
-                       std::ranges::find(observation.present, other) != observation.present.end();
+    const bool is_alive = is_received(other) || std::ranges::find(observation.present, other) !=
+                                                    observation.present.end();
     const auto [last, is_first] = last_sign_of_life_.try_emplace(other, now_);
-    if (lives && !is_first) last->second = now_;
+    if (is_alive && !is_first) last->second = now_;
   }
 }
 

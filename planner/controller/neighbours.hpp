@@ -14,7 +14,7 @@ namespace hlc {
 
 bool is_well_formed(const Outcome& outcome);
 
-/// The message of one vehicle in one step, if it has been received and is well-formed; else
+/// The message of one vehicle in one step, if it has been received and is well-formed; otherwise
 /// nullptr.
 template <class Message>
 [[nodiscard]] const Message* find_message(std::span<const Message> messages, VehicleId vehicle,
@@ -27,12 +27,12 @@ template <class Message>
   return nullptr;
 }
 
-/// What a missing vehicle may do: over all maneuvers of the automaton, since another vehicle may
-/// drive on any subgraph.
+/// Motion limits of a missing vehicle: over all maneuvers of the automaton, since another vehicle
+/// may drive on any subgraph.
 [[nodiscard]] MissingVehicleRules rules_for_missing(const UniversalAutomaton& automaton);
 
-/// The other vehicles as one controller knows them: who was received in this step, who lives, who
-/// stands. A value.
+/// One controller's knowledge of the other vehicles: received in this step, alive, standing. A
+/// value.
 class Neighbours {
  public:
   /// @param rules  for missing ones
@@ -40,20 +40,21 @@ class Neighbours {
 
   [[nodiscard]] const MissingVehicleRules& rules() const { return rules_; }
 
-  /// Nobody has been received in it yet.
+  /// Starts a step in which no message has been received.
   void begin_step(StepIndex step) { now_ = step; }
-  /// Of the active vehicles those not received for kSilentSteps (Traffic::silent).
+  /// The active vehicles not received for kSilentSteps (Traffic::silent).
   [[nodiscard]] std::vector<VehicleId> silent(std::span<const VehicleId> active);
 
-  /// Takes this step's traffic; what is of other steps, senders or not well-formed is ignored.
-  /// Updates who lives and who stands.
+  /// Takes this step's traffic; messages of other steps or senders and malformed ones are ignored.
+  /// Updates liveness and standstill.
   void receive(std::span<const Traffic> traffic, const Observation& observation);
 
   /// Received in this step, sorted by vehicle.
   [[nodiscard]] std::vector<const Traffic*> received() const;
   /// @pre it was received in this step
   [[nodiscard]] const Traffic& traffic_of(VehicleId vehicle) const { return traffic_.at(vehicle); }
-  /// Active vehicles that were not, in the order of the observation. Valid after `receive`.
+  /// Active vehicles that were not received, in the order of the observation. Valid after
+  /// `receive`.
   [[nodiscard]] const std::vector<VehicleId>& missing() const { return missing_; }
   /// Whether a missing vehicle is a standing obstacle. @pre it is one of `missing`
   [[nodiscard]] bool stands_for_good(VehicleId vehicle, std::size_t horizon_steps) const;
@@ -66,12 +67,13 @@ class Neighbours {
   VehicleId own_;
   MissingVehicleRules rules_;
   StepIndex now_;
-  std::map<VehicleId, Traffic> traffic_;  ///< the last of each; of this step only if it says so
+  std::map<VehicleId, Traffic>
+      traffic_;  ///< the last of each; of this step only if its step matches
   std::vector<VehicleId> missing_;
   std::map<VehicleId, StepIndex> last_received_;
-  /// Last step in which its controller may have agreed to something: received or present.
+  /// Last step in which the vehicle's controller may have agreed to something: received or present.
   std::map<VehicleId, StepIndex> last_sign_of_life_;
-  /// Last step in which the list did not show it standing.
+  /// Last step in which the list did not show the vehicle standing.
   std::map<VehicleId, StepIndex> last_not_standing_;
 };
 

@@ -8,15 +8,15 @@
 
 namespace hlc {
 
-/// What a state list tells a controller at step k.
+/// The state list of step k, as used by a controller.
 struct Observation {
   StepIndex step;                       ///< k
   std::vector<VehicleId> active;        ///< vehicles that take part, this one included
-  std::vector<MeasuredVehicle> states;  ///< of the vehicles that have a usable one
-  /// Vehicles whose controller's process is still there, received or not (see missing.hpp).
+  std::vector<MeasuredVehicle> states;  ///< of the vehicles with a usable one
+  /// Vehicles whose controller's process is present, received or not (see missing.hpp).
   std::vector<VehicleId> present;
 
-  /// nullptr: it has no usable state.
+  /// nullptr: no usable state.
   [[nodiscard]] const MeasuredVehicle* measured(VehicleId vehicle) const {
     const auto found = std::ranges::find(states, vehicle, &MeasuredVehicle::vehicle);
     return found == states.end() ? nullptr : &*found;

@@ -21,7 +21,7 @@ void predictions_and_standing_successors(const CoupledVehicle& other, StepIndex 
     areas_m.push_back(other.traffic->reachable_area_m);
   }
   const OccupiedAreas& running = other.traffic->running;
-  const bool stands = running.areas_m.size() <= 1;  // nothing but the step under way
+  const bool stands = running.areas_m.size() <= 1;  // only the current step
   if (!other.is_predecessor && stands) areas_m.push_back(running.during(step));
 }
 

@@ -12,35 +12,35 @@ namespace hlc {
 /// What is known of a coupled vehicle when planning begins. Not owned.
 struct CoupledVehicle {
   const Traffic* traffic{};
-  const Prediction* prediction{};  ///< of a predecessor, if it was received; else nullptr
+  const Prediction* prediction{};  ///< of a predecessor, if received; otherwise nullptr
   bool is_predecessor{};           ///< it plans before
 };
 
-/// What planning keeps clear of during one step because of one coupled vehicle: adds its areas. A
-/// rule is one function; it has to keep clear of what the commit rule takes for granted
+/// Areas that planning keeps clear of during one step because of one coupled vehicle. A rule is one
+/// function that adds them; it has to keep clear of everything that the commit rule relies on
 /// (commit.hpp).
 /// @param step  from t(k+1) on
 using CoupledObstacleRule = void (*)(const CoupledVehicle& other, StepIndex step,
                                      std::vector<ConvexPolygon>& areas_m);
 
-/// Goes with the commit rule `strict`: what it drives now, and the new plan of a predecessor; of a
+/// Matches the commit rule `strict`: the running plan, and the new plan of a predecessor; of a
 /// predecessor that was not received everything that it can reach.
 void old_and_new_plans(const CoupledVehicle& other, StepIndex step,
                        std::vector<ConvexPolygon>& areas_m);
-/// Goes with the commit rule `agreed`: of a predecessor what it predicted or, not received,
-/// everything that it can reach; of others what they occupy standing, if they stand.
+/// Matches the commit rule `agreed`: of a predecessor its prediction or, if not received,
+/// everything that it can reach; of others their area at standstill, if they stand.
 void predictions_and_standing_successors(const CoupledVehicle& other, StepIndex step,
                                          std::vector<ConvexPolygon>& areas_m);
 
-/// A vehicle that was not received. Not owned.
+/// A vehicle without received traffic. Not owned.
 struct MissingVehicle {
   const MeasuredVehicle* measured{};
   bool stands_for_good{};  ///< Neighbours::stands_for_good
 };
 
 /// Areas to keep clear of in each of the steps t(k+1) ... t(k+1+horizon):
-/// HorizonProblem::obstacles_m. Depends on nothing but its arguments. Of a missing vehicle they are
-/// its reachable disc, or its footprint if it stands for good.
+/// HorizonProblem::obstacles_m. Depends on its arguments only. For a missing vehicle they are its
+/// reachable disc, or its footprint if it stands for good.
 /// @param now  k
 [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(
     std::span<const CoupledVehicle> coupled, CoupledObstacleRule coupled_rule,

@@ -9,7 +9,7 @@
 namespace hlc {
 namespace {
 
-/// Share of the safety margin that is kept for the error of a prediction of one step.
+/// Share of the safety margin that is reserved for the error of a one-step prediction.
 constexpr double kUnderWayShare = 0.2;
 
 }  // namespace
@@ -35,7 +35,7 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   moved_.reset();
   outside_area_m_ = {};
   deviation_m_ = 0.0;
-  if (own == nullptr) {  // nobody knows where the vehicle is
+  if (own == nullptr) {  // the vehicle's position is unknown: it may stand anywhere on its plan
     moved_ = plan_;
     is_lost_ = true;
     note_outside(seen_.pose, seen_speed_mps_, now);
@@ -45,7 +45,8 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   seen_speed_mps_ = own->speed_mps;
   const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
   seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};
-  if (now.value < plan_.first().value + steps_back) return {};  // just anchored, where it was seen
+  if (now.value < plan_.first().value + steps_back)
+    return {};  // just anchored at its measured pose
   seen_.step.value -= steps_back;
   seen_.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
   if (is_lost_) return_to_driven_plan(now);
@@ -65,7 +66,7 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
     replaced_ = std::move(replaced);
     deviation_m_ = result.deviation_m;
-    return {.deviation_m = deviation_m_, .is_disturbed = false, .is_anchored_anew = true};
+    return {.deviation_m = deviation_m_, .is_disturbed = false, .is_reanchored = true};
   }
   moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
                                                       automaton_->identified));
@@ -99,7 +100,7 @@ void PlanInForce::note_outside(const Pose& pose, double speed_mps, StepIndex now
   replaced_.doubt(now);
 }
 
-/// True if the footprint lies in the area that the others know of that step.
+/// True if the footprint lies in the area announced for that step.
 bool PlanInForce::is_inside_announced(const Pose& measured, StepIndex step,
                                       double reserve_m) const {
   if (step < announced_.first) return false;
@@ -108,7 +109,8 @@ bool PlanInForce::is_inside_announced(const Pose& measured, StepIndex step,
   return contains(announced_.during(step), area);
 }
 
-/// True if a vehicle that follows `plan` from now on keeps to what is known of the step under way.
+/// True if a vehicle that follows `plan` from now on stays in the area announced for the current
+/// step.
 bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const {
   const double reserve_m = kUnderWayShare * automaton_->vehicle.safety_margin_m;
   const std::vector<PredictedInstant> drive =
@@ -118,8 +120,8 @@ bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const 
   });
 }
 
-/// The areas of whatever else may be driven grow from step to step: the vehicle may have stopped
-/// anywhere on the way.
+/// The areas of the other plans that may be driven grow from step to step: the vehicle may have
+/// stopped anywhere on the way.
 OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   const std::vector<const ReplacedPlans::Former*> former = replaced_.doubtful();
   StepIndex end = plan_.end();

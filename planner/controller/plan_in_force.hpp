@@ -11,56 +11,55 @@
 
 namespace hlc {
 
-/// Shares of the safety margin that decide what is done about a deviation from the plan.
+/// Shares of the safety margin that decide on the reaction to a deviation from the plan.
 struct DeviationRules {
-  /// By more than this the measured position may not be off the plan without the next plan starting
-  /// from where the vehicle really is.
+  /// If the measured position deviates from the plan by more than this, the next plan starts from
+  /// the vehicle's real pose.
   double reanchor_share{0.5};
-  /// Up to this a predicted drift (drift.hpp) needs no larger areas; what is left of the margin is
-  /// for the error of the prediction.
+  /// A predicted drift (drift.hpp) up to this needs no larger areas; the rest of the margin is for
+  /// the error of the prediction.
   double tolerated_drift_share{0.5};
 };
 
-/// How far a vehicle is from its plan, and what follows.
+/// The deviation of a vehicle from its plan, and the consequences.
 struct DeviationCheck {
-  double deviation_m{};          ///< footprint_deviation_m, at the time of the measurement
-  bool is_disturbed{false};      ///< rule 4 below: nothing new may be planned
-  bool is_anchored_anew{false};  ///< rule 4: the plan is to stand where the vehicle stands
-  bool is_lost{false};           ///< rule 5: no command may be sent
+  double deviation_m{};       ///< footprint_deviation_m, at the time of the measurement
+  bool is_disturbed{false};   ///< rule 4 below: nothing new may be planned
+  bool is_reanchored{false};  ///< rule 4: the plan is to stand at the vehicle's pose
+  bool is_lost{false};        ///< rule 5: no command may be sent
 };
 
-/// The plan that a vehicle drives, what of it has been announced to the others, and where the
-/// vehicle really is.
+/// The plan that a vehicle drives, the areas of it that have been announced to the others, and the
+/// vehicle's real pose.
 ///
 /// The others rely on the areas that a vehicle announces (traffic, prediction); the commit rule
 /// makes the announced areas free of each other pair by pair, so it is safe if the vehicle is
 /// inside its own at all times. With m the safety margin and "deviation" the footprint_deviation_m
 /// of the measured pose from the plan at the time of the measurement:
 ///
-/// 1. A swept area holds a vehicle that deviates by m at most, in position and heading together
+/// 1. A swept area contains a vehicle that deviates by m at most, in position and heading together
 ///    (planner/automaton/deviation.hpp). Where it has steering to spare it does not deviate more:
 ///    measured 7.7 mm at most, m = 10 mm.
 /// 2. The areas of a plan that may lead it farther (trims near the steering limit, or a vehicle
-///    that is off already) are those of its predicted drive to the end of the plan (drift.hpp). If
-///    they meet anything, a plan without those trims is searched instead. So the old plan also
+///    that deviates already) are those of its predicted drive to the end of the plan (drift.hpp).
+///    If they meet anything, a plan without those trims is searched instead. So the old plan also
 ///    remains safe to its end, however many steps no new one comes into force.
-/// 3. A vehicle that is off by more than `reanchor_share` of m plans on from where it really is:
-///    the plan in force is moved rigidly onto the measured pose, and what is planned continues
-///    that. The step under way has been announced already, so this is done only if the predicted
-///    drive stays inside what was announced of it. The new plan is a plan like any other:
-///    announced, checked, agreed.
+/// 3. A vehicle that deviates by more than `reanchor_share` of m plans on from its real pose: the
+///    plan in force is moved rigidly onto the measured pose, and the new plan continues it. The
+///    current step has been announced already, so this is done only if the predicted drive stays
+///    inside the area announced for it. The new plan is a plan like any other: announced, checked,
+///    agreed.
 /// 4. A vehicle that deviates by more than m and is outside the area announced for that time, or
-///    that is not seen any more, was disturbed: nobody knew. It plans nothing new and drives its
-///    plan to the end; from this step on its traffic announces where it really can be, so that
-///    nobody plans into it. Once it stands, its plan is anchored anew where it stands. What the
-///    others agreed before they received this cannot be taken back; all they do from then on keeps
-///    away.
+///    that is no longer seen, was disturbed, without the others' knowledge. It plans nothing new
+///    and drives its plan to the end; from this step on its traffic announces all areas in which it
+///    can be, so that no other plan enters them. Once it stands, its plan is anchored where it
+///    stands. Agreements that the others made before they received this cannot be revoked;
+///    everything they do from then on keeps clear.
 ///
-/// 5. A vehicle that is not seen is lost until it is seen on a plan, or anchored anew. It is sent
-///    nothing: it drives the last command that it has received to its end (kept alive by that
-///    command's copy), while another one would make it change over to a plan that it is not on, on
-///    a way that nobody has checked. Seen on an older plan it has missed the newer ones: the older
-///    one is in force again.
+/// 5. A vehicle that is not seen is lost until it is seen on a plan, or re-anchored. No command is
+///    sent to it: it drives the last command that it has received to its end (kept alive by that
+///    command's copy), while another one would make it leave that plan on an unchecked path. If it
+///    is seen on an older plan, it has missed the newer ones: the older one is in force again.
 ///
 /// Where a disturbed vehicle can be: commands may have been lost, so it may drive any plan that was
 /// in force while they were and has not run out since (replaced_plans.hpp), and drop its command
@@ -68,7 +67,7 @@ struct DeviationCheck {
 /// plans, in that step and in those that have passed since the vehicle was last seen, with the ways
 /// to brake from there; of where it was measured, and of its plan from where it really is. When the
 /// vehicle is seen on its plan again, it plans on; the older plans remain announced until they
-/// cannot be driven any more, since the sight does not tell plans apart that part later.
+/// can no longer be driven, since states cannot distinguish plans that part later.
 ///
 /// Invariant. Let D(k) be the plans that the vehicle may drive from t(k) on. At the begin of step
 /// k, every other vehicle's plan in force is free of each plan in D(k), as far as nobody was
@@ -91,19 +90,19 @@ struct DeviationCheck {
 /// earliest, and what came into force in step k + 1 stays if there is no way around.
 class PlanInForce {
  public:
-  /// Standing where the vehicle was measured at t(step). `standstill` is the equilibrium trim's own
-  /// step; the automaton owns it.
+  /// Standing at the pose measured at t(step). `standstill` is the equilibrium trim's self-loop;
+  /// the automaton owns it.
   PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton, const Maneuver& standstill,
               DeviationRules rules, const Pose& measured, StepIndex step);
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
 
-  /// Compares what the list of step `now` shows of the vehicle (nullptr: nothing) with the plan.
+  /// Compares the vehicle's state in the list of step `now` (nullptr: none) with the plan.
   /// @pre now does not decrease
   DeviationCheck check_deviation(const MeasuredVehicle* own, StepIndex now);
 
-  /// What a new plan continues: the plan in force, moved to where the vehicle really is if rules 3
-  /// or 4 say so. Valid after `check_deviation`.
+  /// The plan that a new plan continues: the plan in force, moved to the vehicle's real pose under
+  /// rule 3 or 4. Valid after `check_deviation`.
   [[nodiscard]] const Plan& base() const { return moved_ ? *moved_ : plan_; }
   /// True if `base` is not the plan in force itself. Valid after `check_deviation`.
   [[nodiscard]] bool is_moved() const { return moved_.has_value(); }
@@ -112,15 +111,15 @@ class PlanInForce {
   /// is the step of `check_deviation` or the next
   [[nodiscard]] OccupiedAreas announced_areas(StepIndex from) const;
 
-  /// False if a vehicle that drives `candidate`, a plan that continues `base()`, is sure to stay
-  /// within the margin: it is on it, and all trims have steering to spare. Valid after
+  /// False if a vehicle that drives `candidate`, a plan that continues `base()`, certainly stays
+  /// within the margin: it is on the plan, and all trims have steering to spare. Valid after
   /// `check_deviation`.
   [[nodiscard]] bool may_drift(const Plan& candidate) const;
 
   /// Areas of a plan that continues `base()`, from t(next) on, with its drift (rule 2).
   [[nodiscard]] OccupiedAreas areas_of(const Plan& candidate, StepIndex next) const;
 
-  /// From now on `candidate`, of which `areas` from t(now + 1) on have been announced. The plan
+  /// Puts `candidate` in force, of which `areas` from t(now + 1) on have been announced. The plan
   /// before is kept for some steps, and with it the automaton of its maneuvers.
   void replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
 
@@ -138,7 +137,7 @@ class PlanInForce {
   DeviationRules rules_;
   std::vector<bool> is_at_limit_;  ///< of each trim, is_at_steering_limit
   Plan plan_;
-  OccupiedAreas announced_;  ///< areas of the plan as the others know them, and a step before
+  OccupiedAreas announced_;  ///< announced areas of the plan, and one step before
   ReplacedPlans replaced_;
   bool is_lost_{};
 
@@ -146,7 +145,7 @@ class PlanInForce {
   SeenAt seen_;  ///< the last sight
   double seen_speed_mps_{};
   double deviation_m_{};
-  std::optional<Plan> moved_;  ///< the plan from where the vehicle really is
+  std::optional<Plan> moved_;  ///< the plan moved to the vehicle's real pose
   /// Where a vehicle that is disturbed was seen, and may have braked from there, with margin.
   ConvexPolygon outside_area_m_;
 };

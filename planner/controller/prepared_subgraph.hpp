@@ -11,9 +11,9 @@ namespace hlc {
 
 struct SearchTables;
 
-/// A subgraph with all that planning on it needs, so that a switch costs hardly more than a planner
-/// (Controller::switch_to). It never changes: it can be made on any thread, before it is needed,
-/// and shared by controllers.
+/// A subgraph with everything that planning on it needs, so that a switch costs hardly more than a
+/// planner (Controller::switch_to). It never changes: it can be made in advance on any thread, and
+/// shared by controllers.
 struct PreparedSubgraph {
   std::shared_ptr<const Subgraph> subgraph;
   std::shared_ptr<const ReachableSets> reachable;  ///< for one step more than the horizon
@@ -21,7 +21,7 @@ struct PreparedSubgraph {
 };
 
 /// Milliseconds for a dozen trims, more than a second for a hundred.
-/// @param search  what the controller searches with
+/// @param search  options of the controller's search
 /// @throws std::invalid_argument if an edge holds no value of a criterion of the planning cost
 [[nodiscard]] PreparedSubgraph prepare_subgraph(std::shared_ptr<const Subgraph> subgraph,
                                                 std::size_t horizon_steps,

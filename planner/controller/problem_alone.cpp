@@ -6,8 +6,7 @@
 namespace hlc {
 namespace {
 
-/// Boundary pieces this far beyond what the plan can reach are kept, so that no footprint looks
-/// past them.
+/// Boundary pieces this far beyond the reach of the plan are kept, so that none is missed.
 constexpr double kBoundaryReserve_m = 0.4;
 
 }  // namespace

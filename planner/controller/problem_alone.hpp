@@ -8,8 +8,8 @@
 
 namespace hlc {
 
-/// The problem of a vehicle without all others: from where its traffic says it will be, along its
-/// route from where it is on that, within the corridor as far as it may get.
+/// The problem of a vehicle without all others: from the pose announced in its traffic, along its
+/// route from its place there on, within the corridor as far as it may get.
 /// @param reach_m  how far the vehicle can get in a horizon
 /// @pre the tracker has selected a route
 [[nodiscard]] HorizonProblem problem_alone(const Traffic& own, const RouteTracker& tracker,
@@ -17,9 +17,9 @@ namespace hlc {
                                            const UniversalAutomaton& automaton,
                                            const ControllerOptions& options);
 
-/// What a problem becomes a step later, if everybody keeps to what was known: from where the
-/// vehicle will be, every step's reference and obstacles a step earlier, the last ones guessed.
-/// Without its incumbent, whose maneuvers may be gone.
+/// The problem one step later, if all vehicles keep to their plans: from the vehicle's next pose,
+/// every step's reference and obstacles a step earlier, the last ones extrapolated. Without its
+/// incumbent, whose maneuvers may no longer exist.
 [[nodiscard]] HorizonProblem one_step_later(HorizonProblem problem, const Traffic& own);
 
 }  // namespace hlc

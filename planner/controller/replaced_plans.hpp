@@ -9,15 +9,15 @@
 
 namespace hlc {
 
-/// Everything that a vehicle occupies that drives `plan` during the step, or drops its command then
-/// and brakes: the announced area, and, from where it is at the begin and at the end of the step,
-/// where it stands after braking straight on.
+/// Area of a vehicle that drives `plan` during the step, or drops its command then and brakes: the
+/// announced area, and, from its pose at the beginning and at the end of the step, the area of
+/// braking straight on.
 ///
 /// The lab's stop law takes a vehicle of 0.4 ... 1.2 m/s on by 0.20 ... 0.24 s times its speed, up
 /// to 40 mm to the inside of a curve, never to its outside.
 [[nodiscard]] ConvexPolygon driven_or_braked_area(const Plan& plan, const OccupiedAreas& announced,
                                                   StepIndex step, const VehicleParameters& vehicle);
-/// Where a vehicle stands after braking straight on from there, and all before. @param pose  yaw
+/// Area of braking straight on from the pose to standstill. @param pose  yaw
 [[nodiscard]] ConvexPolygon braking_area(const Pose& pose, double speed_mps,
                                          const VehicleParameters& vehicle);
 
@@ -25,9 +25,9 @@ namespace hlc {
 /// the commands of the newer ones may have been lost. A value; copies share the plans.
 class ReplacedPlans {
  public:
-  /// In the step in which a plan is replaced no command is sent for it any more. A command is
-  /// followed for 1.8 s (1 s, and its copy for later), that is 9 steps; then the vehicle brakes.
-  /// One more for a state that is up to a step old.
+  /// From the step in which a plan is replaced, no command is sent for it. A command is followed
+  /// for 1.8 s (1 s, and its copy for the rest), that is 9 steps; then the vehicle brakes. One more
+  /// step for a state that is up to a step old.
   static constexpr std::uint64_t kDrivableSteps = 10;
 
   struct Former {
@@ -38,10 +38,10 @@ class ReplacedPlans {
 
   /// @pre `in` does not decrease
   void add(Plan plan, OccupiedAreas announced, StepIndex in);
-  /// The list of step `now` shows the vehicle: what it cannot drive any more is forgotten. A
+  /// The list of step `now` shows the vehicle: plans that it can no longer drive are removed. A
   /// vehicle that is not seen may stand anywhere on any of them.
   void forget(StepIndex now);
-  /// In step `now` it is not known which of the plans until then the vehicle drives.
+  /// In step `now` it is unknown which of the plans until then the vehicle drives.
   void doubt(StepIndex now) { doubted_until_ = now; }
 
   /// Those that are in doubt, and may still be driven; in the order of time.

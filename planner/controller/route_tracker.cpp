@@ -1,7 +1,8 @@
 #include "planner/controller/route_tracker.hpp"
 
-#include <cassert>
 #include <utility>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -9,14 +10,14 @@ namespace {
 /// The path is searched this far behind the last projection, for a vehicle that was moved a little.
 constexpr double kProjectionBack_m = 0.3;
 
-/// A route that the vehicle fits is better than any that it does not.
+/// A route that the vehicle fits is better than any that it does not fit.
 constexpr double kUnfitCost_m = 1e6;
 
 }  // namespace
 
 RouteTracker::RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes)
     : routes_(std::move(routes)) {
-  assert(!routes_->empty());
+  HLC_DEMAND(!routes_->empty());
 }
 
 void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
@@ -24,7 +25,8 @@ void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
   for (std::size_t i = 0; i < routes_->size(); ++i) {
     const DrivableRoute& route = (*routes_)[i];
     const Placement placement = placement_on(route, pose, footprint);
-    const double cost_m = misfit_m(placement) + (fits(placement, route) ? 0.0 : kUnfitCost_m);
+    const double cost_m =
+        placement_cost_m(placement) + (fits(placement, route) ? 0.0 : kUnfitCost_m);
     if (least_m && cost_m >= *least_m) continue;
     least_m = cost_m;
     route_ = i;

@@ -9,30 +9,30 @@
 
 namespace hlc {
 
-/// Which of its routes a vehicle follows, and where on it it is. A value; the routes are shared.
+/// The route that a vehicle follows, and its place there. A value; the routes are shared.
 class RouteTracker {
  public:
-  /// @param routes  those that the vehicle may take, at least one
+  /// @param routes  the permitted ones, at least one
   explicit RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes);
 
   [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return *routes_; }
-  /// The one followed; before the first `select_route` the first of all.
+  /// The selected route; before the first `select_route` the first of all.
   [[nodiscard]] const DrivableRoute& route() const { return (*routes_)[route_]; }
-  /// In the last `select_route`.
+  /// Of the last `select_route`.
   [[nodiscard]] const std::optional<Placement>& placement() const { return placement_; }
   [[nodiscard]] bool fits_route() const { return placement_ && fits(*placement_, route()); }
   /// Arc length on the route; none before the first `select_route`.
   [[nodiscard]] const std::optional<double>& s_m() const { return s_m_; }
 
-  /// Follows the route that the pose fits best (placement.hpp), from its place there on.
+  /// Selects the route that the pose fits best (placement.hpp), from its place there on.
   /// @param pose  the planner's (heading, not yaw)
   void select_route(const Pose& pose, const Footprint& footprint);
-  /// The place of the pose on the route that is followed, wherever it was before.
+  /// The place of the pose on the selected route, independent of the former place.
   Placement place(const Pose& pose, const Footprint& footprint);
-  /// Moves on to the position. @param reach_m  as for `project`
+  /// Advances to the position. @param reach_m  as for `project`
   void advance(const Point& position_m, double reach_m) { s_m_ = project(position_m, reach_m); }
 
-  /// Arc length of a position that the vehicle may get to from where it is.
+  /// Arc length of a position within the vehicle's reach.
   /// @param reach_m  how far it may get
   [[nodiscard]] double project(const Point& position_m, double reach_m) const;
 

@@ -1,15 +1,16 @@
 #include "planner/controller/trajectory.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 std::vector<TimedPoint> sample_trajectory(const Plan& plan, StepIndex step, double interval_s,
                                           double until_s, double step_s,
                                           const VehicleParameters& vehicle) {
   const auto per_step = static_cast<std::int64_t>(std::llround(step_s / interval_s));
-  assert(per_step > 0);
+  HLC_DEMAND(per_step > 0, step_s, interval_s);
   std::vector<TimedPoint> samples;
   if (step > plan.first()) {
     const StepIndex before{step.value - 1};

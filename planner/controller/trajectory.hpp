@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// Time between the points of a command where no lab says another (LabLimits::point_interval_s).
+/// Time between the points of a command unless a lab sets it (LabLimits::point_interval_s).
 inline constexpr double kPointInterval_s = 0.05;
 
 /// The plan as timed points, strictly increasing in time: one `interval_s` before t(step), then

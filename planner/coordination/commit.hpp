@@ -9,22 +9,24 @@ namespace hlc {
 
 enum class CommitVerdict {
   kInForce,      ///< the new plan comes into force
-  kConflict,     ///< it meets the new plan of another vehicle
-  kNotReceived,  ///< it may meet the new plan of a vehicle that was not received
-  kFallback,     ///< somebody in the component falls back
+  kConflict,     ///< the plan meets the new plan of another vehicle
+  kNotReceived,  ///< the plan may meet the new plan of a vehicle that was not received
+  kFallback,     ///< a vehicle of the component falls back
 };
 
-/// What has been received of a coupled vehicle in this step. Not owned.
+/// Messages received from a coupled vehicle in this step. Not owned.
 struct CoupledAreas {
-  const ConvexPolygon* reachable_area_m{};  ///< of its traffic; without that it was not coupled
-  const OccupiedAreas* predicted{};         ///< of its prediction; nullptr: not received
+  const ConvexPolygon*
+      reachable_area_m{};            ///< of its traffic; without it the vehicle is not coupled
+  const OccupiedAreas* predicted{};  ///< of its prediction; nullptr: not received
 };
 
-/// What a commit rule may go by. Not owned.
+/// Inputs of a commit rule. Not owned.
 struct CommitInputs {
   const OccupiedAreas* planned{};  ///< of the new plan
-  /// @pre the search has kept the plan free of what every coupled vehicle drives now. Who predicted
-  /// before the search, so that this was kept free of its prediction too, may be left out.
+  /// @pre the search has kept the plan free of the areas that every coupled vehicle drives now.
+  /// Vehicles whose prediction arrived before the search, so that the plan is free of it, too, may
+  /// be omitted.
   std::span<const CoupledAreas> coupled{};
   /// Of the others in the component; nullptr: not received. Only for a rule that needs votes.
   std::span<const Outcome* const> votes{};
@@ -50,28 +52,28 @@ struct CommitInputs {
 /// after it, old_i stays a solution of its own problem: without a fault, and within its budget, the
 /// search always finds a plan.
 ///
-/// All this is about the areas that vehicles announce. That each stays inside its own is the
-/// controller's part (planner/controller/plan_in_force.hpp); one that was pushed out of them
-/// announces so with its next traffic.
+/// All this refers to the areas that vehicles announce. The controller ensures that its vehicle
+/// stays inside its announced areas (planner/controller/plan_in_force.hpp); a vehicle that was
+/// pushed out of them announces this with its next traffic.
 ///
-/// `agreed` (the authors', profile `2022`): a new plan respects the new plans of predecessors and
-/// the footprints of standing successors only. Who finds none wants to fall back, and then all of
-/// its weakly connected component do, trusting that everybody receives it. Safe only while every
-/// vehicle of the component receives every vote before its deadline, and while nobody falls back
-/// who has voted for its new plan: a vote that is lost or late leaves two views, and a voter that
-/// is itself too late to command its new plan (FallbackReason::kLate) drives its old one, which the
-/// others have not kept clear of.
+/// `agreed` (the authors', profile `2022`): a new plan respects only the new plans of predecessors
+/// and the footprints of standing successors. A vehicle without a plan votes for a fallback, and
+/// then all vehicles of its weakly connected component fall back, assuming that all receive the
+/// vote. Safe only while every vehicle of the component receives every vote before its deadline,
+/// and while no vehicle falls back that has voted for its new plan: a vote that is lost or late
+/// leaves two views, and a voter that is too late to command its new plan (FallbackReason::kLate)
+/// drives its old one, which the others have not kept clear of.
 ///
-/// Each goes with what planning keeps clear of (planner/controller/obstacles.hpp).
+/// Each rule requires the matching obstacles in planning (planner/controller/obstacles.hpp).
 struct CommitRule {
-  /// False: it goes by the predictions of the coupled vehicles. True: by the outcomes of the
+  /// False: the rule uses the predictions of the coupled vehicles. True: the outcomes of the
   /// component, a third round of messages.
   bool needs_votes{};
   CommitVerdict (*decide)(const CommitInputs& inputs){};
   friend bool operator==(const CommitRule&, const CommitRule&) = default;
 };
 
-/// Rule `strict`. Its verdict names the first of the coupled that is in the way.
+/// Rule `strict`. Its verdict names the first coupled vehicle that blocks the plan.
 [[nodiscard]] CommitVerdict commit_strictly(const CommitInputs& inputs);
 /// Rule `agreed`. A vote that was not received counts as a fallback.
 [[nodiscard]] CommitVerdict commit_by_votes(const CommitInputs& inputs);
@@ -80,8 +82,8 @@ inline constexpr CommitRule kStrictCommit{.needs_votes = false, .decide = &commi
 inline constexpr CommitRule kAgreedCommit{.needs_votes = true, .decide = &commit_by_votes};
 
 /// True if, step by step from t(from) until t(from + steps) and standing at the end, the two share
-/// no point. Plans that end standing within that time stay free for ever after, since the last area
-/// holds the standing footprint. @pre both begin at or before `from`
+/// no point. Plans that end standing within that time stay free forever after, since the last area
+/// contains the standing footprint. @pre both begin at or before `from`
 [[nodiscard]] bool are_free(const OccupiedAreas& a, const OccupiedAreas& b, StepIndex from,
                             std::size_t steps);
 

@@ -1,7 +1,8 @@
 #include "planner/coordination/coupling.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
@@ -22,7 +23,7 @@ CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic) {
 
 std::size_t CouplingGraph::index(VehicleId vehicle) const {
   const auto found = std::ranges::lower_bound(vehicles_, vehicle);
-  assert(found != vehicles_.end() && *found == vehicle);
+  HLC_DEMAND(found != vehicles_.end() && *found == vehicle, vehicle);
   return static_cast<std::size_t>(found - vehicles_.begin());
 }
 

@@ -8,8 +8,8 @@
 
 namespace hlc {
 
-/// Which vehicles may meet within the horizon: i and j are coupled if what they can reach
-/// intersects (undirected). The answer is the same in every controller that received the same
+/// Which vehicles may meet within the horizon: i and j are coupled if their reachable areas
+/// intersect (undirected). The result is the same in every controller that received the same
 /// traffic.
 class CouplingGraph {
  public:
@@ -20,8 +20,7 @@ class CouplingGraph {
   [[nodiscard]] bool are_coupled(VehicleId a, VehicleId b) const;
   /// Coupled vehicles of `vehicle`, sorted.
   [[nodiscard]] std::vector<VehicleId> neighbours(VehicleId vehicle) const;
-  /// All vehicles that hang together with `vehicle` over any number of couplings, itself included,
-  /// sorted.
+  /// All vehicles connected with `vehicle` over any number of couplings, itself included, sorted.
   [[nodiscard]] std::vector<VehicleId> component(VehicleId vehicle) const;
 
  private:

@@ -1,7 +1,8 @@
 #include "planner/coordination/messages.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -22,7 +23,7 @@ bool is_well_formed(const Prediction& prediction) {
 }
 
 const ConvexPolygon& OccupiedAreas::during(StepIndex step) const {
-  assert(step >= first);
+  HLC_DEMAND(step >= first, step, first);
   const std::uint64_t offset = step.value - first.value;
   return offset < areas_m.size() ? areas_m[offset] : final_area_m;
 }

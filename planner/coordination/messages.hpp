@@ -31,28 +31,28 @@ struct StepIndex {
 struct OccupiedAreas {
   StepIndex first;  ///< areas_m[i] holds during [t(first + i), t(first + i + 1)]
   std::vector<ConvexPolygon> areas_m;
-  ConvexPolygon final_area_m;  ///< occupied after the last of them, for ever: plans end standing
+  ConvexPolygon final_area_m;  ///< occupied after the last of them, forever: plans end standing
 
   /// @pre step >= first
   [[nodiscard]] const ConvexPolygon& during(StepIndex step) const;
 };
 
-/// First message of step k: where I am and what I do if nothing new is agreed.
+/// First message of step k: planned pose, and areas of the plan in force.
 struct Traffic {
   VehicleId vehicle;
   StepIndex step;         ///< k
-  Pose next_pose;         ///< planned pose at t(k+1): what is planned now starts there
+  Pose next_pose;         ///< planned pose at t(k+1): the new plan starts there
   TrimId next_trim;       ///< trim then
   OccupiedAreas running;  ///< of the plan in force, first = k
-  /// Contains everything that the vehicle can occupy from t(k) until t(k + 1 + horizon_steps),
-  /// whatever it plans; safety margin included.
+  /// Contains everything that the vehicle can occupy from t(k) until t(k + 1 + horizon_steps), for
+  /// any plan; safety margin included.
   ConvexPolygon reachable_area_m;
-  /// Vehicles that the sender has not received for several steps. Who finds itself here keeps its
-  /// running plan: the sender may soon take it for a standing obstacle (missing.hpp).
+  /// Vehicles from which the sender received nothing for several steps. A vehicle that is listed
+  /// keeps its running plan: the sender may soon consider it a standing obstacle (missing.hpp).
   std::vector<VehicleId> silent;
 };
 
-/// Second message of step k: what I have planned in this step, from t(k+1) on.
+/// Second message of step k: the plan of this step, from t(k+1) on.
 struct Prediction {
   VehicleId vehicle;
   StepIndex step;       ///< k
@@ -60,13 +60,12 @@ struct Prediction {
   OccupiedAreas areas;  ///< first = k + 1
 };
 
-/// False for a message that no controller sends: an empty area (which would mean that the sender is
-/// nowhere), or areas that do not begin at t(k) in traffic, at t(k+1) in a prediction. It counts as
-/// not received.
+/// False for an invalid message: an empty area (the sender would be nowhere), or areas that do not
+/// begin at t(k) in traffic, at t(k+1) in a prediction. Such a message counts as not received.
 [[nodiscard]] bool is_well_formed(const Traffic& traffic);
 [[nodiscard]] bool is_well_formed(const Prediction& prediction);
 
-/// Third message of step k: what came of it, as far as the sender can say by itself.
+/// Third message of step k: its result, as far as the sender alone knows it.
 struct Outcome {
   VehicleId vehicle;
   StepIndex step;         ///< k

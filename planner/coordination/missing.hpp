@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// A vehicle as the state list shows it.
+/// State of a vehicle in the state list.
 struct MeasuredVehicle {
   VehicleId vehicle;
   Pose pose;  ///< heading_rad is the vehicle's yaw, not the planner's heading
@@ -15,10 +15,10 @@ struct MeasuredVehicle {
   double age_s{};  ///< t(k) minus the time at which the state was measured
 };
 
-/// A state older than this shows nothing.
+/// Older states are ignored.
 inline constexpr double kMaxStateAge_s = 0.2;
 
-/// What a silent vehicle may occupy.
+/// Bounds on the motion of a silent vehicle.
 struct MissingVehicleRules {
   double max_speed_mps{};           ///< no vehicle of the lab drives faster under its controller
   double circumradius_m{};          ///< of the footprint with its safety margin
@@ -32,15 +32,15 @@ struct MissingVehicleRules {
 [[nodiscard]] ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                                            const MissingVehicleRules& rules);
 
-/// A vehicle that was not received for this many steps in a row is listed in Traffic::silent. Who
-/// finds itself listed by a vehicle that it is coupled with agrees to nothing new.
+/// A vehicle from which nothing was received for this many steps in a row is listed in
+/// Traffic::silent. A vehicle that is listed by a coupled vehicle commits to nothing new.
 inline constexpr std::uint64_t kSilentSteps = 3;
 
 /// A fresh state shows the vehicle standing.
 [[nodiscard]] bool is_seen_standing(const MeasuredVehicle& measured,
                                     const MissingVehicleRules& rules);
 
-/// What is remembered of a vehicle that publishes nothing.
+/// State of a vehicle that publishes nothing.
 struct Silence {
   StepIndex now;
   StepIndex last_sign_of_life;  ///< last step in which it published or its process was there
@@ -52,13 +52,13 @@ struct Silence {
 /// driving when it was last seen moving: it stood in every list of the last horizon_steps + 1 +
 /// kSilentSteps steps.
 ///
-/// Silence alone does not suffice. A controller that is not received may live, agree to something
-/// with others, and begin to drive at any time; and of two that do not receive each other each
-/// would take the other for an obstacle, and both would drive off at once. So a vehicle whose
-/// process is still there is missing for as long as it is silent, and the others keep out of its
-/// way. Assumption: who neither is received on the controllers' network nor shows any sign of life
-/// on the lab's for this long cannot command its vehicle either, since commands take the lab's
-/// network.
+/// Silence alone does not suffice. A controller whose messages are not received may be alive,
+/// commit to a plan with others, and drive off at any time; and two vehicles that do not receive
+/// each other would both consider the other an obstacle, and drive off at once. So a vehicle whose
+/// process is still present is missing for as long as it is silent, and the others avoid it.
+/// Assumption: a controller that is neither received on the controllers' network nor shows any sign
+/// of life on the lab's for this long cannot command its vehicle either, since commands use the
+/// lab's network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 
 /// The footprint of a standing vehicle with its margin.

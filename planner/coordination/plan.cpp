@@ -1,15 +1,16 @@
 #include "planner/coordination/plan.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
 Plan::Plan(StepIndex first, const Pose& pose, const Maneuver& standstill, const Owner& owner)
-    : Plan(first, pose, Held(owner, &standstill)) {}
+    : Plan(first, pose, Entry(owner, &standstill)) {}
 
-Plan::Plan(StepIndex first, const Pose& pose, Held standstill)
+Plan::Plan(StepIndex first, const Pose& pose, Entry standstill)
     : first_(first), standstill_(std::move(standstill)), poses_{pose} {}
 
 Plan Plan::moved(const Pose& from, const Pose& to) const {
@@ -21,17 +22,17 @@ Plan Plan::moved(const Pose& from, const Pose& to) const {
 StepIndex Plan::end() const { return {first_.value + maneuvers_.size()}; }
 
 const Pose& Plan::pose_at(StepIndex step) const {
-  assert(step >= first_);
+  HLC_DEMAND(step >= first_, step, first_);
   return poses_[std::min<std::size_t>(step.value - first_.value, poses_.size() - 1)];
 }
 
-const Plan::Held& Plan::held_during(StepIndex step) const {
-  assert(step >= first_);
+const Plan::Entry& Plan::entry_during(StepIndex step) const {
+  HLC_DEMAND(step >= first_, step, first_);
   const std::size_t i = step.value - first_.value;
   return i < maneuvers_.size() ? maneuvers_[i] : standstill_;
 }
 
-const Maneuver& Plan::maneuver_during(StepIndex step) const { return *held_during(step); }
+const Maneuver& Plan::maneuver_during(StepIndex step) const { return *entry_during(step); }
 
 TrimId Plan::trim_at(StepIndex step) const { return maneuver_during(step).from; }
 
@@ -53,28 +54,29 @@ OccupiedAreas Plan::areas_from(StepIndex from) const {
 
 Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
                      const Maneuver& standstill, const Owner& owner) const {
-  return continued(step, continuation, Held(owner, &standstill));
+  return continued(step, continuation, Entry(owner, &standstill));
 }
 
 Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
-                     const Held& standstill) const {
+                     const Entry& standstill) const {
   const StepIndex keep_from{
       std::max(first_.value, step.value < 2 ? std::uint64_t{0} : step.value - 2)};
   Plan result(keep_from, pose_at(keep_from), standstill);
   const std::size_t size = step.value - keep_from.value + continuation.size();
   result.maneuvers_.reserve(size);
   result.poses_.reserve(size + 1);
-  const auto append = [&result](const Held& maneuver) {
+  const auto append = [&result](const Entry& maneuver) {
     result.maneuvers_.push_back(maneuver);
     result.poses_.push_back(compose(result.poses_.back(), maneuver->displacement));
   };
-  for (StepIndex kept = keep_from; kept < step; ++kept.value) append(held_during(kept));
+  for (StepIndex kept = keep_from; kept < step; ++kept.value) append(entry_during(kept));
   for (const Maneuver* maneuver : continuation) {
-    assert(maneuver->from ==
-           (result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to));
-    append(Held(standstill, maneuver));
+    const TrimId at = result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to;
+    HLC_DEMAND(maneuver->from == at, maneuver->from.index, at.index);
+    append(Entry(standstill, maneuver));
   }
-  assert(result.maneuvers_.empty() || result.maneuvers_.back()->to == standstill->from);
+  HLC_DEMAND(result.maneuvers_.empty() || result.maneuvers_.back()->to == standstill->from,
+             standstill->from.index);
   return result;
 }
 

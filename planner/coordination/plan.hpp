@@ -8,27 +8,27 @@
 
 namespace hlc {
 
-/// A plan of one vehicle: maneuvers (and trims' own steps) one after the other, step by step from
-/// t(first) on, then standing at the last pose for ever. Because steps are numbered by time, the
-/// same plan one step later is the same object: nothing is shifted, the past is only no longer
-/// asked for.
+/// A plan of one vehicle: maneuvers (and self-loops of trims) one after the other, step by step
+/// from t(first) on, then standing at the last pose forever. Because steps are numbered by time,
+/// the same plan one step later is the same object: nothing is shifted; the past is just no longer
+/// used.
 ///
-/// Its maneuvers may be of several automata, one after the other. Each is kept as long as the plan
-/// has a maneuver of it; of one that was not given the maneuvers must outlive the plan.
+/// Its maneuvers may be from several automata. Each automaton is kept as long as the plan has a
+/// maneuver of it; without an owner the maneuvers must outlive the plan.
 class Plan {
  public:
   using Owner = std::shared_ptr<const UniversalAutomaton>;
 
   /// Standing at `pose` from t(first) on.
-  /// @param standstill  the equilibrium trim's own step
+  /// @param standstill  self-loop of the equilibrium trim
   /// @param owner       of it
   Plan(StepIndex first, const Pose& pose, const Maneuver& standstill, const Owner& owner = {});
 
   /// This plan until t(step), then `continuation`, then `standstill`; what lies before t(step - 2)
   /// is forgotten.
   /// @param owner  of both
-  /// @pre continuation starts with the trim of this plan at t(step) and ends in the trim whose own
-  /// step is `standstill`
+  /// @pre continuation starts with the trim of this plan at t(step) and ends in the trim whose
+  /// self-loop is `standstill`
   [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
                                const Maneuver& standstill, const Owner& owner = {}) const;
   /// The same where the new plan ends in the equilibrium trim in which this one does, and is of the
@@ -58,16 +58,16 @@ class Plan {
 
  private:
   /// Shares its automaton, if that was given.
-  using Held = std::shared_ptr<const Maneuver>;
+  using Entry = std::shared_ptr<const Maneuver>;
 
-  Plan(StepIndex first, const Pose& pose, Held standstill);
+  Plan(StepIndex first, const Pose& pose, Entry standstill);
   [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
-                               const Held& standstill) const;
-  [[nodiscard]] const Held& held_during(StepIndex step) const;
+                               const Entry& standstill) const;
+  [[nodiscard]] const Entry& entry_during(StepIndex step) const;
 
   StepIndex first_;
-  Held standstill_;
-  std::vector<Held> maneuvers_;
+  Entry standstill_;
+  std::vector<Entry> maneuvers_;
   std::vector<Pose> poses_;  ///< at t(first_ + i), one more than maneuvers
 };
 

@@ -1,7 +1,8 @@
 #include "planner/coordination/priority.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 
@@ -16,7 +17,7 @@ std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicl
 }
 
 std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
-  // In the order of planning every predecessor's level is known before it is needed.
+  // In planning order every predecessor's level is known before it is needed.
   std::vector<VehicleId> order = graph.vehicles();
   std::ranges::sort(order, plans_before);
   std::vector<std::uint32_t> levels(order.size(), 0);
@@ -26,7 +27,7 @@ std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
     }
     if (order[i] == vehicle) return levels[i];
   }
-  assert(false);  // no vehicle of the graph
+  HLC_DEMAND(false && "a vehicle of the graph", vehicle);
   return 0;
 }
 

@@ -10,8 +10,8 @@ const char* to_string(StepStatus status) {
       return "planned";
     case StepStatus::kFallback:
       return "fallback";
-    case StepStatus::kDriveOut:
-      return "drive_out";
+    case StepStatus::kMinimalRiskStop:
+      return "minimal_risk_stop";
   }
   return "unknown";
 }

@@ -9,17 +9,17 @@ namespace hlc {
 
 /// What a controller does in a step.
 enum class StepStatus : std::uint8_t {
-  kStandby,   ///< before the start: stands, waits
-  kPlanned,   ///< the new plan is in force
-  kFallback,  ///< the previous plan, shifted by one step, stays in force
-  kDriveOut,  ///< told to end: the running plan is driven to its end, nothing new is planned
+  kStandby,          ///< before the start: stands, waits
+  kPlanned,          ///< the new plan is in force
+  kFallback,         ///< the previous plan, shifted by one step, stays in force
+  kMinimalRiskStop,  ///< the running plan is driven to its end, no new plan
 };
 
 enum class FallbackReason : std::uint8_t {
   kNone,
   kInfeasible,  ///< the search found that no plan exists
-  /// The search used up its expansions before it found a plan; or, of a vehicle that stands, one
-  /// that looked for a way into its lanes (lane_entry.hpp) did so when it departed.
+  /// The search exhausted its expansions before it found a plan; or, for a standing vehicle, the
+  /// search of a way into its lanes (lane_entry.hpp) did so when it departed.
   kBudget,
   kMissing,     ///< a coupled vehicle was silent and its reachable set leaves no room
   kConflict,    ///< the new plan meets another vehicle's new or running plan
@@ -35,9 +35,9 @@ enum class FallbackReason : std::uint8_t {
 /// How good the plan is that the search found in this step, whether it came into force or not.
 enum class PlanQuality : std::uint8_t {
   kNone,     ///< no plan was found or none was searched
-  kOptimal,  ///< none costs less
-  kBudget,   ///< the best within the budget; one that costs up to `gap_m2` less may exist
-  /// Found with the cost-to-go of 2022, which may overestimate: as with kBudget.
+  kOptimal,  ///< no plan costs less
+  kBudget,   ///< the search stopped early; the optimum is at most `gap_m2` cheaper
+  /// The same with the cost-to-go of 2022, which may overestimate.
   kUnproven,
 };
 
@@ -45,7 +45,7 @@ enum class PlanQuality : std::uint8_t {
 [[nodiscard]] const char* to_string(FallbackReason reason);
 [[nodiscard]] const char* to_string(PlanQuality quality);
 
-/// What happened in one step of one vehicle. Nothing in it comes from a clock.
+/// Result of one step of one vehicle. Nothing in it depends on a clock.
 struct Report {
   VehicleId vehicle;
   StepIndex step;  ///< k
@@ -53,10 +53,10 @@ struct Report {
   FallbackReason reason{FallbackReason::kNone};
   Pose planned_pose;  ///< of the plan in force at t(k)
   TrimId planned_trim;
-  /// Label of the same plan's maneuver during [t(k), t(k+1)], whatever is planned in this step;
-  /// empty: there is no plan.
+  /// Label of the same plan's maneuver during [t(k), t(k+1)], independent of the new plan; empty:
+  /// there is no plan.
   std::string maneuver;
-  /// Name of the subgraph that the plan found in this step was found on; if none was, of the one
+  /// Name of the subgraph on which the plan of this step was found; without a plan, of the subgraph
   /// that the controller plans on.
   std::string subgraph;
   double cost_m2{};  ///< of the plan found in this step; 0 if none
@@ -67,8 +67,8 @@ struct Report {
   std::uint32_t level{};           ///< computation level, 0 plans first
   std::vector<VehicleId> coupled;  ///< vehicles coupled with this one
   std::vector<VehicleId> missing;  ///< vehicles that were silent
-  /// footprint_deviation_m, at the time of the measured state; of a vehicle that fits no route, how
-  /// far its footprint reaches beyond the lanes of the nearest.
+  /// footprint_deviation_m, at the time of the measured state; for a vehicle that fits no route,
+  /// how far its footprint reaches beyond the lanes of the nearest.
   double deviation_m{};
 };
 

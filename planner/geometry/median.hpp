@@ -7,8 +7,8 @@
 
 namespace hlc {
 
-/// The value in the middle of the sorted sample; of an even number of values the mean of the two in
-/// the middle. @pre not empty, no NaN
+/// The middle value of the sorted sample; for an even number of values the mean of the two middle
+/// ones. @pre not empty, no NaN
 [[nodiscard]] inline double median(std::vector<double> sample) {
   HLC_DEMAND(!sample.empty());
   const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);

@@ -17,7 +17,7 @@ Point right_of(const Point& direction) { return {direction.y(), -direction.x()};
 std::size_t next(std::size_t i, std::size_t size) { return i + 1 == size ? 0 : i + 1; }
 std::size_t previous(std::size_t i, std::size_t size) { return i == 0 ? size - 1 : i - 1; }
 
-/// True if `b` stands out to the right of the way from `a` to `c` by more than the tolerance. It
+/// True if `b` protrudes to the right of the line from `a` to `c` by more than the tolerance. It
 /// may lie beyond an end where x differs by rounding only.
 bool stands_out(const Point& a, const Point& b, const Point& c) {
   const Point along = c - a;
@@ -42,15 +42,14 @@ void append_half_hull(std::span<const Point> sorted_m, std::vector<Point>& hull_
   hull_m.pop_back();  // the first of the other half
 }
 
-/// True if no point of `b` lies beyond an edge line of `a` towards a's inside: that edge separates
-/// them.
+/// True if an edge of `a` separates the polygons: no point of `b` lies on its inner side.
 template <class Points>
 bool has_separating_edge(const ConvexPolygon& a, const Points& b_m) {
   const auto& vertices = a.vertices_m;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Point& from = vertices[i];
     const Point edge = vertices[next(i, vertices.size())] - from;
-    bool separates = edge != Point::Zero();  // a corner that comes twice hides nothing
+    bool separates = edge != Point::Zero();  // a duplicate corner is no separating edge
     for (const Point& point : b_m) {
       if (cross(edge, point - from) > 0.0) {
         separates = false;
@@ -107,7 +106,7 @@ ConvexPolygon with_edges_moved(const ConvexPolygon& polygon, double distance_m,
   return result;
 }
 
-/// What comes of removing the edge from vertex i to i + 1: its neighbours meet in `corner_m`.
+/// Result of removing the edge from vertex i to i + 1: its neighbours meet in `corner_m`.
 struct EdgeRemoval {
   Point corner_m{Point::Zero()};
   double added_area_m2{std::numeric_limits<double>::infinity()};  ///< infinite: they do not meet
@@ -266,7 +265,7 @@ bool intersects(const ConvexPolygon& polygon, const Segment& segment) {
   }
   const Point direction = segment.to_m - segment.from_m;
   if (direction == Point::Zero()) {
-    return true;  // a single point, which no edge keeps out
+    return true;  // a single point, which no edge excludes
   }
   bool some_left = false;
   bool some_right = false;

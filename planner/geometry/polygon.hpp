@@ -11,8 +11,8 @@ namespace hlc {
 /// A convex polygon: vertices counter-clockwise, no three in a row on a line, not closed (the last
 /// vertex is not repeated). At least 3 vertices, or 0: the empty polygon, which holds no point.
 struct ConvexPolygon {
-  /// As many corners as a swept area has lie in the polygon itself: areas are made, copied and
-  /// thrown away by the hundred in every step, and asking for memory would cost more than the rest.
+  /// The corners of a swept area are stored in the polygon itself: areas are made, copied and
+  /// destroyed by the hundred in every step, and heap allocation would dominate their cost.
   using Vertices = boost::container::small_vector<Point, 8>;
 
   Vertices vertices_m;
@@ -37,23 +37,23 @@ struct Box {
 [[nodiscard]] Box bounding_box(const Segment& segment);
 [[nodiscard]] bool overlap(const Box& a, const Box& b);
 
-/// A hull leaves out vertices that stand out by less than this from the line of their neighbours,
-/// so that no three vertices in a row lie on a line. Far below every length that matters, far above
+/// A hull omits vertices that protrude by less than this from the line of their neighbours, so that
+/// no three consecutive vertices are collinear. Far below every relevant length, far above
 /// rounding.
 inline constexpr double kHullTolerance_m = 1e-12;
 
-/// Added where a polygon must contain another for certain, so that rounding cannot spoil it.
+/// Added where a polygon must certainly contain another, in spite of rounding.
 inline constexpr double kRoundingAllowance_m = 1e-12;
 
-/// The smallest convex polygon that holds all points (monotone chain, O(n log n)), up to
-/// kHullTolerance_m. Duplicate and collinear points are allowed; the empty polygon if all points
-/// lie on one line.
+/// The smallest convex polygon that contains all points (monotone chain, O(n log n)), up to
+/// kHullTolerance_m. Duplicate and collinear points are accepted; the empty polygon if all points
+/// are collinear.
 [[nodiscard]] ConvexPolygon convex_hull(std::vector<Point> points_m);
 
-/// The smallest convex polygon that holds all `areas`.
+/// The smallest convex polygon that contains all `areas`.
 [[nodiscard]] ConvexPolygon convex_hull(std::span<const ConvexPolygon> areas);
 
-/// Vertices of the same hull, counter-clockwise, also where it has no area: both ends of a line, a
+/// Vertices of the same hull, counter-clockwise, also if it has no area: both ends of a line, a
 /// single point, nothing.
 [[nodiscard]] std::vector<Point> hull_vertices(std::vector<Point> points_m);
 
@@ -68,23 +68,23 @@ inline constexpr double kRoundingAllowance_m = 1e-12;
 
 /// A polygon with at most `max_vertices` vertices that contains `polygon`, made by removing edges
 /// and extending their neighbours, the one that adds least area first (greedy). A polygon that is
-/// small enough is returned as it is; every remaining edge of another lies on an edge of `polygon`,
+/// small enough is returned unchanged; otherwise every remaining edge lies on an edge of `polygon`,
 /// up to kRoundingAllowance_m outside. @pre max_vertices >= 4
 [[nodiscard]] ConvexPolygon simplified_outwards(const ConvexPolygon& polygon,
                                                 std::size_t max_vertices);
 
-/// True if the point lies in the polygon or on its border, with `tolerance_m` to spare outside.
+/// True if the point lies in the polygon or at most `tolerance_m` outside of its border.
 [[nodiscard]] bool contains(const ConvexPolygon& polygon, const Point& point_m,
                             double tolerance_m = 0.0);
 /// True if that holds for all corners of `other`, O(m + n): from edge to edge of `polygon` the
-/// corner that is farthest outside only moves on. @pre no two corners in a row are equal
+/// corner farthest outside moves monotonically. @pre no two consecutive corners are equal
 [[nodiscard]] bool contains(const ConvexPolygon& polygon, const ConvexPolygon& other,
                             double tolerance_m = 0.0);
 
 /// Separating axis test: true if the two share a point that is inside at least one of them
-/// (polygons that only touch do not intersect; the empty polygon intersects nothing; a corner may
-/// come twice, if not all are one). Does not allocate; compares no boxes, because a caller that
-/// asks often keeps them and asks `overlap` first.
+/// (polygons that only touch do not intersect; the empty polygon intersects nothing; duplicate
+/// corners are accepted, if not all are equal). Does not allocate; compares no boxes, since
+/// frequent callers keep them and call `overlap` first.
 [[nodiscard]] bool intersects(const ConvexPolygon& a, const ConvexPolygon& b);
 [[nodiscard]] bool intersects(const ConvexPolygon& polygon, const Segment& segment);
 

@@ -4,7 +4,7 @@
 
 namespace hlc {
 
-/// Of any coordinate that comes from outside.
+/// Bound on every coordinate from outside.
 inline constexpr double kLargestCoordinate_m = 1e9;
 
 /// A point or a displacement in the plane [m].
@@ -32,7 +32,7 @@ struct Pose {
 /// The pose of `b` seen from `a`: compose(a, between(a, b)) = b.
 [[nodiscard]] Pose between(const Pose& a, const Pose& b);
 
-/// A point given in the frame `frame`, in the frame that `frame` itself is given in.
+/// A point given in the frame `frame`, in the parent frame of `frame`.
 [[nodiscard]] Point transformed(const Point& point_m, const Pose& frame);
 
 /// The same angle in (-pi, pi].

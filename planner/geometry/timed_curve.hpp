@@ -4,7 +4,7 @@
 
 #include "planner/geometry/pose.hpp"
 
-/// Timed points of a motion and the curve between two of them, as the lab's vehicle reads them
+/// Timed points of a motion and the curve between two of them, as interpreted by the lab's vehicle
 /// (wire contract, 6.3).
 namespace hlc {
 
@@ -30,7 +30,7 @@ struct CurveSample {
 ///     p(u) = (2u^3 - 3u^2 + 1) p0 + (u^3 - 2u^2 + u) T v0 + (3u^2 - 2u^3) p1 + (u^3 - u^2) T v1
 ///
 /// velocity and acceleration are its derivatives in time (the acceleration is linear in u, and
-/// jumps at the points). Times of the points are not looked at. @pre duration_s > 0
+/// jumps at the points). Times of the points are ignored. @pre duration_s > 0
 [[nodiscard]] CurveSample interpolated(const TimedPoint& from, const TimedPoint& to,
                                        double duration_s, double share);
 

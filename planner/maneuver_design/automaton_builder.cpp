@@ -34,7 +34,7 @@ Maneuver self_loop(TrimId id, const AutomatonConfiguration& configuration) {
   Maneuver step;
   step.from = id;
   step.to = id;
-  step.label = kOwnStepLabel;
+  step.label = kSelfLoopLabel;
   step.duration_s = configuration.step_s;
   step.inputs.assign(configuration.intervals, Input{});
   for (std::size_t k = 0; k <= configuration.intervals; ++k) {
@@ -63,7 +63,7 @@ std::vector<CriterionValue> unit_costs(const Trim& trim,
   return costs;
 }
 
-/// The place of the trims of the first subgraph that needs this edge; empty if none does.
+/// The place of the trims of the first subgraph with this edge; empty if none has it.
 std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
   for (std::size_t i = 0; i < c.places.subgraphs.size(); ++i) {
     const SubgraphSpec& subgraph = c.subgraphs[i];
@@ -76,12 +76,12 @@ std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
   return "";
 }
 
-/// Throws: the key that is to blame if the configuration was read from a file, the maneuver, and
-/// what is wrong with it.
+/// Throws: the key at fault if the configuration was read from a file, the maneuver, and the
+/// reason.
 [[noreturn]] void fail(const DesignTask& task, const AutomatonConfiguration& configuration,
                        const std::string& key, const std::string& allowed,
                        const std::string& reason) {
-  throw std::invalid_argument((key.empty() ? configuration.source : key + ", allowed " + allowed) +
+  throw std::invalid_argument((key.empty() ? configuration.source : key + ", must be " + allowed) +
                               (key.empty() ? ": " : "; ") + "maneuver " +
                               std::to_string(task.edge.from.index + 1) + " -> " +
                               std::to_string(task.edge.to.index + 1) + " (" +
@@ -98,8 +98,8 @@ UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration
   return automaton;
 }
 
-/// Is the maneuver designed as the mirror image of its mirror image's problem? Of two mirrored
-/// pairs of trims exactly one is.
+/// Whether the maneuver is designed as the mirror image of its mirror image's problem. Of two
+/// mirrored pairs of trims exactly one is.
 bool leans_right(const ManeuverProblem& problem) {
   const double sum_rad = problem.from.steering_rad + problem.to.steering_rad;
   return sum_rad < 0.0 || (sum_rad == 0.0 && problem.from.steering_rad < 0.0);
@@ -111,7 +111,7 @@ ManeuverProblem mirrored(ManeuverProblem problem) {
   return problem;
 }
 
-/// Seen in a mirror along the direction of travel. (0 - x, since -0 is printed unlike 0.)
+/// Mirrored along the direction of travel. (0 - x, since -0 is printed unlike 0.)
 template <class Motion>
 void mirror_motion(Motion& motion) {
   for (Input& input : motion.inputs) {
@@ -129,7 +129,7 @@ ManeuverSolution mirrored(ManeuverSolution solution) {
   return solution;
 }
 
-/// Its areas are not the mirror image: the identified vehicle leans to one side.
+/// The areas are not mirrored: the identified vehicle is asymmetric.
 Maneuver mirrored(Maneuver maneuver, const TrimPair& edge,
                   const AutomatonConfiguration& configuration) {
   maneuver.from = edge.from;
@@ -139,7 +139,7 @@ Maneuver mirrored(Maneuver maneuver, const TrimPair& edge,
   return maneuver;
 }
 
-/// Of each trim the one that steers as much to the other side; itself if there is none.
+/// For each trim the one that steers as much to the other side; itself if there is none.
 std::vector<TrimId> mirror_trims(const std::vector<Trim>& trims) {
   std::vector<TrimId> images;
   for (std::size_t i = 0; i < trims.size(); ++i) {
@@ -150,8 +150,8 @@ std::vector<TrimId> mirror_trims(const std::vector<Trim>& trims) {
   return images;
 }
 
-/// No criterion, bound or limit tells left from right, so mirrored pairs of trims have mirrored
-/// optima. Where several are equally good it is the design that must not prefer a side: one of the
+/// No criterion, bound or limit distinguishes left from right, so mirrored pairs of trims have
+/// mirrored optima. Where several are equally good, the design must not prefer a side: one of the
 /// two is solved, the other is its image.
 ManeuverSolution solved(const ManeuverProblem& problem, const RunningCost& cost,
                         const DesignTask& task, const AutomatonConfiguration& configuration) {
@@ -301,7 +301,7 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   maneuver.states = std::move(solution.states);
   maneuver.criteria = std::move(solution.criteria);
   complete(maneuver, configuration);
-  if (const std::string fault = fault_of(maneuver, without_maneuvers(configuration));
+  if (const std::string fault = validate(maneuver, without_maneuvers(configuration));
       !fault.empty()) {
     fail(task, configuration, configuration.places.intervals, "more",
          fault + " with " + std::to_string(configuration.intervals) + " intervals");

@@ -11,8 +11,8 @@
 
 namespace hlc {
 
-/// The optimal control problem between two trims of that vehicle, with its limits, friction circle
-/// included.
+/// The optimal control problem between two trims of that vehicle, with its limits, including the
+/// friction circle.
 [[nodiscard]] ManeuverProblem problem_between(const Trim& from, const Trim& to,
                                               const AutomatonConfiguration& configuration);
 
@@ -22,8 +22,8 @@ struct DesignTask {
   std::size_t criterion{};  ///< index into AutomatonConfiguration::criteria
 };
 
-/// All maneuvers between different trims that the configuration asks for: for each criterion every
-/// pair of trims that a subgraph needs, or every pair that the limits allow (EdgeChoice). By
+/// All maneuvers between different trims that the configuration needs: for each criterion every
+/// pair of trims that a subgraph needs, or every pair that the limits permit (EdgeChoice). By
 /// criterion as listed, from, to.
 [[nodiscard]] std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration);
 
@@ -34,17 +34,17 @@ struct DesignTask {
 /// A normalised sum of criteria J_i with weights w_i becomes sum_i w_i J_i / (worst_i - best_i) on
 /// each pair of trims: best_i is the optimum of J_i alone, worst_i the largest J_i among the optima
 /// of the others (for two criteria these are the ends of the Pareto front). A criterion whose range
-/// is less than 1e-6 of its size does not contradict the others there, and is left out; if none
-/// does, the first alone decides.
+/// is less than 1e-6 of its size does not conflict there, and is left out; if none does, only the
+/// first counts.
 ///
 /// @throws std::invalid_argument with one line naming configuration, edge, label and reason if the
 /// maneuver is infeasible or was not found (see ManeuverSolution::reason), or if its intervals are
-/// so long that one Runge-Kutta step does not follow the model (see fault_of)
+/// so long that one Runge-Kutta step does not follow the model (see validate)
 [[nodiscard]] Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task);
 
 /// The same for many, one after the other, in their order. Of two mirrored ones only the first is
 /// solved.
-/// @param before_each  called before each; what it throws ends it
+/// @param before_each  called before each; its exceptions end the design
 [[nodiscard]] std::vector<Maneuver> design(const AutomatonConfiguration& configuration,
                                            const std::vector<DesignTask>& tasks,
                                            const std::function<void()>& before_each = {});
@@ -54,7 +54,7 @@ struct DesignTask {
 [[nodiscard]] UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
                                            std::vector<Maneuver> designed);
 
-/// All three.
+/// All three steps.
 ///
 /// The same configuration gives the same automaton, bit for bit, on one machine.
 [[nodiscard]] UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration);

@@ -22,13 +22,13 @@ std::vector<Trim> listed_trims(const Node& file, const VehicleParameters& vehicl
     const Trim trim = read_trim(entry, vehicle, limits);
     entry.check_no_unknown_keys();
     if (std::find(trims.begin(), trims.end(), trim) != trims.end()) {
-      entry.fail("trims that differ from each other");
+      entry.fail("different from the other trims");
     }
     trims.push_back(trim);
   }
   if (std::none_of(trims.begin(), trims.end(),
                    [](const Trim& trim) { return trim.is_equilibrium(); })) {
-    file.fail("trims", "at least one trim of speed 0");
+    file.fail("trims", "a list with at least one trim of speed 0");
   }
   return trims;
 }
@@ -39,15 +39,15 @@ std::vector<double> increasing_numbers(const Node& map, const std::string& key,
   for (const Node& entry : map.list(key)) {
     numbers.push_back(entry.as<double>(allowed));
     if (numbers.size() > 1 && numbers.back() <= numbers[numbers.size() - 2]) {
-      entry.fail("numbers that increase");
+      entry.fail("larger than the number before");
     }
   }
-  if (numbers.empty()) map.fail(key, "at least one number");
+  if (numbers.empty()) map.fail(key, "a list with at least one number");
   return numbers;
 }
 
-/// Standstill, then every speed with every steering angle that friction circle and limit on the
-/// curvature allow it.
+/// Standstill, then every speed with every steering angle that friction circle and curvature limit
+/// permit.
 std::vector<Trim> grid_trims(const Node& file, const VehicleParameters& vehicle,
                              const VehicleLimits& limits) {
   const Node grid = file.map("trims");
@@ -100,12 +100,12 @@ LabelledCriterion read_criterion(const Node& entry) {
   }
   criterion.label = entry.required<std::string>("name");
   const std::vector<std::string> names = criterion_names();
-  if (criterion.label.empty() || criterion.label == kOwnStepLabel ||
+  if (criterion.label.empty() || criterion.label == kSelfLoopLabel ||
       has_control_characters(criterion.label) ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
-    entry.fail("name", fmt::format("one line of text, a name of its own: neither empty, nor '{}', "
+    entry.fail("name", fmt::format("one line of text and unique: neither empty, nor '{}', "
                                    "nor a criterion's",
-                                   kOwnStepLabel));
+                                   kSelfLoopLabel));
   }
   if (entry.has("minimise")) {
     read_front_point(entry, criterion);
@@ -119,7 +119,7 @@ LabelledCriterion read_criterion(const Node& entry) {
     if (criterion.weights.back().weight > 0.0) ++positive;
   }
   weights.check_no_unknown_keys();
-  if (positive == 0) entry.fail("weights", "at least one weight > 0");
+  if (positive == 0) entry.fail("weights", "a map with at least one weight > 0");
   criterion.normalised = entry.optional("normalised", false);
   if (criterion.normalised && positive < 2) {
     entry.fail("normalised", "false with a single weight > 0");
@@ -135,12 +135,12 @@ std::vector<LabelledCriterion> read_criteria(const Node& file) {
     if (std::any_of(criteria.begin(), criteria.end(), [&](const LabelledCriterion& other) {
           return other.label == criterion.label;
         })) {
-      entry.fail("each criterion once");
+      entry.fail("unique");
     }
     criteria.push_back(std::move(criterion));
   }
   if (criteria.empty()) {
-    file.fail("criteria", "at least one criterion");
+    file.fail("criteria", "a list with at least one criterion");
   }
   return criteria;
 }

@@ -11,15 +11,15 @@ namespace hlc {
 
 /// A point of the Pareto front of two criteria (epsilon-constraint): J_minimised is least among the
 /// maneuvers with J_bounded <= best + share (worst - best), where best is the optimum of J_bounded
-/// and worst its value at the optimum of J_minimised. On each pair of trims it is another bound.
+/// and worst its value at the optimum of J_minimised. The bound differs for each pair of trims.
 struct FrontPoint {
   std::string minimised;
   std::string bounded;
   double share{};  ///< 0: the optimum of J_bounded, 1: that of J_minimised
 };
 
-/// What the maneuvers of one label are optimal for: the criterion whose name is the label, a
-/// weighted sum, or a point of a front.
+/// The objective of the maneuvers of one label: the criterion whose name is the label, a weighted
+/// sum, or a point of a front.
 struct LabelledCriterion {
   std::string label;
   std::vector<CriterionWeight> weights;  ///< of a weighted sum
@@ -29,13 +29,13 @@ struct LabelledCriterion {
   std::optional<FrontPoint> front_point{};
 };
 
-/// Which edges a universal automaton holds, each for every label.
+/// The edges of a universal automaton, each for every label.
 enum class EdgeChoice {
   kSubgraphs,  ///< those that its subgraphs need
-  kAll,        ///< all pairs of trims that the bounds on acceleration and steering rate allow
+  kAll,        ///< all pairs of trims that the bounds on acceleration and steering rate permit
 };
 
-/// Where keys stand, "file:line: key = value", for messages about what only the maneuvers show.
+/// Places of keys, "file:line: key = value", for errors that only the maneuvers reveal.
 struct ConfigurationPlaces {
   struct Subgraph {
     std::string trims;
@@ -45,7 +45,7 @@ struct ConfigurationPlaces {
   std::vector<Subgraph> subgraphs;  ///< as many as the configuration has, or none at all
 };
 
-/// What a universal automaton is built from. File: see launch_scripts/automata/paper.yaml.
+/// Source of a universal automaton. File: see launch_scripts/automata/paper.yaml.
 struct AutomatonConfiguration {
   std::string source;  ///< file it was read from, for messages
   VehicleParameters vehicle;
@@ -59,7 +59,7 @@ struct AutomatonConfiguration {
   EdgeChoice edges{EdgeChoice::kSubgraphs};
   std::vector<LabelledCriterion> criteria;
   std::vector<SubgraphSpec> subgraphs;
-  ConfigurationPlaces places;  ///< empty unless it was read from a file
+  ConfigurationPlaces places;  ///< empty unless read from a file
 };
 
 /// Reads a configuration. Keys:
@@ -84,7 +84,7 @@ struct AutomatonConfiguration {
 ///     subgraphs:  list of subgraphs, see read_subgraphs (planner/automaton/subgraph_yaml.hpp);
 ///                 their labels are names of `criteria`
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ...", for whatever
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ...", for whatever
 /// is missing, unknown, of the wrong type or outside its range: trims must respect the limits and
 /// differ, names must differ, subgraphs must hang together, and standstill must be within the
 /// horizon of each of their trims.
@@ -94,8 +94,8 @@ struct AutomatonConfiguration {
 /// True if an edge of the subgraph may have that label.
 [[nodiscard]] bool uses(const SubgraphSpec& subgraph, const std::string& label);
 
-/// The same configuration with this subgraph alone and the labels that it uses: what a run needs
-/// that stays on one subgraph. Building it takes as long as that label does.
+/// The same configuration with this subgraph alone and the labels that it uses, sufficient for a
+/// run that stays on one subgraph. Building it takes as long as that label does.
 [[nodiscard]] AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
                                                AutomatonConfiguration configuration);
 

@@ -42,7 +42,7 @@ std::string canonical_text(const AutomatonConfiguration& c) {
   return text;
 }
 
-/// None if it is not there, or if a built automaton bears its name.
+/// None if the file does not exist, or if a built automaton has its name.
 std::optional<std::filesystem::path> configuration_beside(const AutomatonFile& file,
                                                           const std::filesystem::path& path) {
   std::filesystem::path beside = path.parent_path() / file.configuration_file;
@@ -76,7 +76,8 @@ void check_is_current(const AutomatonFile& file, const std::filesystem::path& pa
   const AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
   if (configuration_sha256(configuration) == file.configuration_sha256) return;
   throw std::invalid_argument(fmt::format(
-      "{}: stale, built from another state of {}, allowed what it says now; build it anew: {}",
+      "{}: stale, built from another state of {}, must be built from its current state; rebuild "
+      "it: {}",
       path.string(), configuration_path.string(), rebuild_command(file, path, configuration_path)));
 }
 
@@ -92,9 +93,9 @@ AutomatonConfiguration read_configuration_of(const std::filesystem::path& path) 
   const AutomatonFile file = read_automaton_file(path);
   const auto beside = configuration_beside(file, path);
   if (!beside) {
-    throw std::invalid_argument(fmt::format(
-        "{}: its configuration {} is not beside it, without which no maneuvers can be designed",
-        path.string(), file.configuration_file));
+    throw std::invalid_argument(
+        fmt::format("{}: configuration {} not found in its folder, needed to design maneuvers",
+                    path.string(), file.configuration_file));
   }
   check_is_current(file, path, *beside);
   AutomatonConfiguration configuration = read_automaton_configuration(*beside);

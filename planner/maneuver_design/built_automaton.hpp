@@ -10,31 +10,32 @@
 
 namespace hlc {
 
-/// SHA-256 over all that the configuration says, its defaults included: comments, spelling and the
+/// SHA-256 over the configuration's content, its defaults included: comments, spelling and the
 /// file's name make no difference, any value does.
 [[nodiscard]] std::string configuration_sha256(const AutomatonConfiguration& configuration);
 
-/// What is written to a file: the automaton and what it was built from.
-/// @param configuration     as it was read
-/// @param chosen_intervals  of constant input, if the automaton was built with others than it says
+/// The content of an automaton file: the automaton and its origin.
+/// @param configuration     as read
+/// @param chosen_intervals  of constant input, if the automaton was built with others than the
+/// configuration's
 [[nodiscard]] AutomatonFile file_of(const AutomatonConfiguration& configuration,
                                     UniversalAutomaton automaton,
                                     std::optional<std::size_t> chosen_intervals = std::nullopt);
 
 /// Compares a file with the configuration `configuration_path`, read again.
-/// @throws std::invalid_argument with one line that names both files and the command that builds
-/// the file anew, if the configuration says something else; or as read_automaton_configuration
+/// @throws std::invalid_argument with one line that names both files and the command that rebuilds
+/// the file, if the configuration differs; or as read_automaton_configuration
 void check_is_current(const AutomatonFile& file, const std::filesystem::path& path,
                       const std::filesystem::path& configuration_path);
 
-/// Reads an automaton file (read_automaton_file) and refuses it if it is stale: if the
-/// configuration that it was built from lies beside it, under its name, and says something else
-/// now. Without it, or if a built automaton bears that name, the file stands for itself.
+/// Reads an automaton file (read_automaton_file) and refuses it if it is stale: if its
+/// configuration exists in the same folder, under its name, and differs now. Without a
+/// configuration, or if a built automaton has that name, the file is accepted as it is.
 [[nodiscard]] AutomatonFile read_current_automaton_file(const std::filesystem::path& path);
 
-/// The configuration of which an automaton is, for designing more of its maneuvers: `path` itself,
-/// or, if that is a built automaton, what lies beside it under the name of its configuration, with
-/// the intervals with which it was built.
+/// The configuration of an automaton, for designing more of its maneuvers: `path` itself, or, if
+/// that is a built automaton, the file in the same folder with the name of its configuration, with
+/// the intervals of the build.
 /// @throws std::invalid_argument with one line if there is none, if the file is stale, or as
 /// read_automaton_file and read_automaton_configuration
 [[nodiscard]] AutomatonConfiguration read_configuration_of(const std::filesystem::path& path);

@@ -57,7 +57,7 @@ std::unique_ptr<RunningCost> make_criterion(const std::string& name,
     }
     names += std::string(names.empty() ? "" : ", ") + criterion.name;
   }
-  throw std::invalid_argument("criterion = " + name + ", allowed " + names);
+  throw std::invalid_argument("criterion = " + name + ", must be one of " + names);
 }
 
 }  // namespace hlc

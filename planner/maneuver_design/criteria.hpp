@@ -22,7 +22,7 @@ namespace hlc {
 [[nodiscard]] std::vector<std::string> criterion_names();
 
 /// The criterion of that name, for that vehicle.
-/// @throws std::invalid_argument naming the allowed names
+/// @throws std::invalid_argument naming the known names
 [[nodiscard]] std::unique_ptr<RunningCost> make_criterion(const std::string& name,
                                                           const VehicleParameters& vehicle);
 

@@ -4,8 +4,8 @@
 
 namespace hlc {
 
-/// g = (+-course rate / curvature_max - sqrt(v^2 + creep^2)) / (1 m/s), see path_curvature.hpp: the
-/// path that is driven bends to the left (+) or to the right (-) no more than that. One side is one
+/// g = (+-course rate / curvature_max - sqrt(v^2 + creep^2)) / (1 m/s), see path_curvature.hpp:
+/// bounds the curvature of the driven path to the left (+) or to the right (-). One side is one
 /// constraint, because both together would not be smooth in the inputs.
 class CurvatureLimit final : public PathConstraint {
  public:

@@ -5,11 +5,11 @@
 namespace hlc {
 
 /// The paper's J1: l = -(s_x^2 + s_y^2) [m^2], with s measured from the maneuver's start. Least for
-/// the motion that gets far and gets there early.
+/// a motion that gets far early.
 ///
 /// It depends on the position, so a trim has no unit cost in it: the cost of a trim's step is the
 /// integral from the step's own start (`trim_step_cost`). Its optimum is at the bound of u_v nearly
-/// everywhere, and nearly flat in the steering: values repeat much better than end poses.
+/// everywhere, and nearly flat in the steering: values are much more reproducible than end poses.
 class Distance final : public RunningCost {
  public:
   [[nodiscard]] double value(const StateVector& x, const Input& u) const override;

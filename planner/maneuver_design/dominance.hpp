@@ -19,8 +19,8 @@ using Objectives = Eigen::VectorXd;
 [[nodiscard]] bool dominates(const Objectives& a, const Objectives& b,
                              const Objectives& tolerance = {});
 
-/// Indices of the points that no other one dominates, ascending. Of equal points all stay. The set
-/// does not depend on the order of the points.
+/// Indices of the points that no other one dominates, ascending. Of equal points all remain. The
+/// set does not depend on the order of the points.
 [[nodiscard]] std::vector<std::size_t> non_dominated(const std::vector<Objectives>& points,
                                                      const Objectives& tolerance = {});
 

@@ -3,7 +3,7 @@
 namespace hlc {
 namespace {
 
-/// max(a, 0) without its kink, and its slope: between 0 and the band's end the cubic that meets
+/// max(a, 0) without its kink, and its slope: between 0 and the band's end the cubic that joins
 /// both straight parts with their slopes.
 struct PositivePart {
   double value;

@@ -22,7 +22,7 @@ Words words_of(const Channel& channel) {
                             : Words{"steering", " rad", "steering rate", " rad/s"};
 }
 
-/// True if each trim, driven by itself, satisfies every g_i.
+/// True if each trim alone satisfies every g_i.
 bool trims_satisfy_path_constraints(const ManeuverProblem& problem, std::ostream& reason) {
   bool good = true;
   for (const Trim& trim : {problem.from, problem.to}) {
@@ -43,7 +43,7 @@ bool trims_are_within_bounds(const Channel& channel, std::ostream& reason) {
   const Words words = words_of(channel);
   for (const double value : {channel.from, channel.to}) {
     if (value < channel.state_min || value > channel.state_max) {
-      reason << words.state << " of a trim = " << value << words.state_unit << ", allowed "
+      reason << words.state << " of a trim = " << value << words.state_unit << ", must be in "
              << channel.state_min << " ... " << channel.state_max << words.state_unit << "; ";
       good = false;
     }
@@ -67,8 +67,8 @@ Feasibility feasibility_of(const ManeuverProblem& problem) {
     if (shortest_s > longest_s * (1.0 + kFeasibilityTolerance)) {
       reason << words.state << " " << channel.from << " -> " << channel.to << words.state_unit
              << " in " << longest_s << " s needs " << words.input << " "
-             << std::abs(channel.change()) / longest_s << words.input_unit << ", allowed "
-             << channel.input_max << words.input_unit << "; ";
+             << std::abs(channel.change()) / longest_s << words.input_unit
+             << ", must be <= " << channel.input_max << words.input_unit << "; ";
     }
   }
   if (!trims_are_good) {

@@ -7,10 +7,10 @@
 
 namespace hlc {
 
-/// What the bounds on inputs and states say before anything is solved: each input must be able to
-/// make its change in the given time, and the trims must lie within the bounds.
+/// Necessary conditions from the bounds on inputs and states, checked before solving: each input
+/// must be able to make its change in the given time, and the trims must lie within the bounds.
 struct Feasibility {
-  std::string reason;            ///< names every bound that is in the way; empty if none is
+  std::string reason;            ///< names every violated bound; empty if none is
   double shortest_duration_s{};  ///< see ManeuverSolution
 };
 

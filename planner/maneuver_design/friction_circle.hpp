@@ -4,8 +4,8 @@
 
 namespace hlc {
 
-/// g = (u_v^2 + a_lat^2) / a_max^2 - 1, with a_lat = v psi' (see lateral_acceleration): what the
-/// tyres can do, lengthwise and across together.
+/// g = (u_v^2 + a_lat^2) / a_max^2 - 1, with a_lat = v psi' (see lateral_acceleration): the tyres'
+/// limit, longitudinal and lateral together.
 class FrictionCircle final : public PathConstraint {
  public:
   /// @pre acceleration_max_mps2 > 0

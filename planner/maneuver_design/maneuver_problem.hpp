@@ -18,14 +18,14 @@ struct DurationRange {
   double max_s{};
 };
 
-/// Bound on another cost of the same maneuver: integral of its running cost <= max. What the
-/// epsilon-constraint method for Pareto fronts adds.
+/// Bound on another cost of the same maneuver: integral of its running cost <= max. Used by the
+/// epsilon-constraint method for Pareto fronts.
 struct CostBound {
   std::shared_ptr<const RunningCost> cost;
   double max{};
   double size{};  ///< of differences in this cost that count; 0: |max|, or 1 if that is 0 too
 
-  /// What the bound is scaled by.
+  /// Scale of the bound.
   [[nodiscard]] double scale() const {
     if (size > 0.0) return size;
     return max != 0.0 ? std::abs(max) : 1.0;
@@ -44,8 +44,8 @@ struct CostBound {
 ///     J_i <= max_i                                optional, bounds on other costs
 ///
 /// v and delta are integrals of u, so the end conditions and the bounds on states are linear in u,
-/// and bounds that hold at the interval bounds hold everywhere. g is asked for at both ends of each
-/// interval with the interval's input; inside an interval it may exceed 0 by what it bends there,
+/// and bounds that hold at the interval bounds hold everywhere. g is required at both ends of each
+/// interval with the interval's input; inside an interval it may exceed 0 by its curvature there,
 /// O((T / N)^2).
 struct ManeuverProblem {
   Trim from;
@@ -59,7 +59,7 @@ struct ManeuverProblem {
   std::vector<CostBound> cost_bounds{};
 };
 
-/// The state in which every maneuver starts.
+/// The start state of every maneuver.
 [[nodiscard]] State start_state(const ManeuverProblem& problem);
 
 /// One of the two inputs with the state that it drives: u_v and v, or u_delta and delta.
@@ -72,7 +72,7 @@ struct Channel {
   double state_max;
 
   [[nodiscard]] double change() const { return to - from; }
-  /// Of the states, for tolerances.
+  /// Scale of the states, for tolerances.
   [[nodiscard]] double scale() const { return state_max; }
 };
 

@@ -57,7 +57,7 @@ void fill_grid(const ParetoProblem& problem, SingleOptima& optima, const ParetoO
   });
 }
 
-/// All ways to share `left` pieces of 1 / total among the criteria.
+/// All ways to distribute `left` pieces of 1 / total among the criteria.
 void add_weights(std::size_t left, std::size_t total, std::size_t criteria,
                  std::vector<double>& weights, std::vector<std::vector<double>>& all) {
   if (weights.size() + 1 == criteria) {

@@ -22,13 +22,13 @@ struct ParetoPoint {
   bool is_dominated{};        ///< by another point of the front
 };
 
-/// How the points of a front of two criteria lie.
+/// Spacing of the points of a front of two criteria.
 enum class Spacing {
   kAlongFront,       ///< equal distances between neighbours, criteria divided by their ranges
   kSecondCriterion,  ///< equal steps of J_2
 };
 
-/// Told after each solved problem: how many are done, and of how many at most.
+/// Called after each solved problem: how many are done, and the maximum.
 using ParetoProgress = std::function<void(std::size_t done, std::size_t of)>;
 
 struct ParetoOptions {
@@ -38,7 +38,7 @@ struct ParetoOptions {
 };
 
 struct ParetoFront {
-  /// kOptimal if every point is an optimum; else the first other status, with its reason.
+  /// kOptimal if every point is an optimum; otherwise the first other status, with its reason.
   ManeuverStatus status{ManeuverStatus::kOptimal};
   std::string reason;
   /// Two criteria: from the optimum of J_2 to that of J_1. More: no order.
@@ -49,18 +49,18 @@ struct ParetoFront {
 
 /// The front by the epsilon-constraint method: min J_1 subject to J_i <= eps_i, i = 2 ... K, for a
 /// grid of eps between each J_i's best and worst value among the single optima of all criteria.
-/// Reaches points in dents of the front, too, which no weighted sum can.
+/// Also reaches points in dents of the front, which no weighted sum can.
 ///
 /// Two criteria: the ends are the single optima (where several maneuvers are equally good, the one
-/// that is best for the other criterion, if that makes 1 % of its range), and eps is chosen so that
-/// the points are spaced as asked for. Every point is a local optimum; it is started from its
-/// neighbours and from weighted sums, and what is worse than one already known is solved anew from
-/// that. kAlongFront starts from where weighted sums lie and corrects eps by interpolation
-/// until the distances differ from their mean by less than 2 %, at most four times. If the criteria
-/// do not contradict each other (ranges below 1e-6 of their size) the front is one point.
+/// that is best for the other criterion, if the gain is 1 % of its range), and eps is chosen for
+/// the requested spacing of the points. Every point is a local optimum; it is started from its
+/// neighbours and from weighted sums, and a point that is worse than a known one is solved again
+/// from that. kAlongFront starts from the weighted sums and corrects eps by interpolation until the
+/// distances differ from their mean by less than 2 %, at most four times. If the criteria do not
+/// conflict (ranges below 1e-6 of their size) the front is one point.
 ///
-/// More criteria: a full grid of `points` values per bounded criterion, points whose bounds cannot
-/// be met left out.
+/// More criteria: a full grid of `points` values per bounded criterion, without points whose bounds
+/// cannot be met.
 ///
 /// @pre K >= 2, points >= 2
 [[nodiscard]] ParetoFront epsilon_constraint_front(const ParetoProblem& problem,

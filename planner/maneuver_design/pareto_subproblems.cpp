@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kNoRange = 1e-6;  // relative to the size of a criterion
 
-/// The bound J_i <= max, its size that of the criterion's range.
+/// The bound J_i <= max, scaled by the criterion's range.
 CostBound bound_on(const ParetoProblem& problem, const SingleOptima& optima, std::size_t criterion,
                    double max) {
   return {problem.criteria[criterion], max, optima.width(criterion)};
 }
 
-/// Where maneuvers that differ are equally good for a criterion, the one among them that is best
-/// for another criterion, if it is clearly better there: else the ends would not belong to the
+/// Where different maneuvers are equally good for a criterion, the one among them that is best for
+/// another criterion, if it is clearly better there: otherwise the ends would not belong to the
 /// front.
 void choose_among_equals(const ParetoProblem& problem, SingleOptima& optima) {
   for (std::size_t i = 0; i < problem.criteria.size(); ++i) {

@@ -7,29 +7,28 @@
 
 namespace hlc {
 
-/// What the methods of pareto_front.hpp have in common: the problems that they solve for one point
-/// each.
+/// Common to the methods of pareto_front.hpp: the problems solved for one point each.
 
-/// Relative to a criterion's range: less is the solver's noise.
+/// Relative to a criterion's range: smaller differences are the solver's noise.
 inline constexpr double kDominanceTolerance = 1e-6;
 /// Relative to a criterion's range: maneuvers as good as the optimum.
 inline constexpr double kEqualCost = 1e-7;
-/// Of its range, that another criterion must gain by a choice among maneuvers as good.
+/// Share of its range that another criterion must gain from a choice among equally good maneuvers.
 inline constexpr double kWorthIt = 0.01;
 
-/// The optimum of each criterion alone, and what they span.
+/// The optimum of each criterion alone, and their range.
 struct SingleOptima {
   std::vector<ParetoPoint> points;
   ObjectiveRange range;
 
   [[nodiscard]] double width(std::size_t criterion) const;
-  /// True if the criteria contradict each other at all.
+  /// True if the criteria conflict at all.
   [[nodiscard]] bool have_range() const;
 };
 
 /// Solves for the single optima; fewer than there are criteria, and the status of `front`, if one
-/// is not found. Where maneuvers that differ are equally good for a criterion, the one among them
-/// that is best for another criterion, if it is clearly better there: else the ends would not
+/// is not found. Where different maneuvers are equally good for a criterion, the one among them
+/// that is best for another criterion, if it is clearly better there: otherwise the ends would not
 /// belong to the front.
 [[nodiscard]] SingleOptima single_optima(const ParetoProblem& problem, ParetoFront& front);
 
@@ -43,7 +42,7 @@ struct SingleOptima {
 bool is_optimal(const ManeuverSolution& solution, ParetoFront& front);
 
 /// min J_1 subject to J_i <= eps_i; `eps` starts with i = 2.
-/// @param start  inputs to start from; empty: the solver's guess, also where `start` leads nowhere
+/// @param start  inputs to start from; empty: the solver's guess, also if `start` leads nowhere
 [[nodiscard]] ManeuverSolution bounded(const ParetoProblem& problem, const SingleOptima& optima,
                                        const std::vector<double>& eps,
                                        const std::vector<Input>& start);
@@ -52,11 +51,11 @@ bool is_optimal(const ManeuverSolution& solution, ParetoFront& front);
 [[nodiscard]] ManeuverSolution weighted(const ParetoProblem& problem, const SingleOptima& optima,
                                         const std::vector<double>& weights);
 
-/// `points` - 2 values of a criterion between its best and its worst, equally far from each other.
+/// `points` - 2 equidistant values of a criterion between its best and its worst.
 [[nodiscard]] std::vector<double> equal_steps(const SingleOptima& optima, std::size_t criterion,
                                               std::size_t points);
 
-/// Counts solved problems for whoever watches.
+/// Counts solved problems for a progress display.
 class ProgressCounter {
  public:
   ProgressCounter(const ParetoProgress& progress, std::size_t of) : progress_(progress), of_(of) {}

@@ -8,15 +8,15 @@ namespace hlc {
 
 /// Constraint g(x, u) <= 0 along a maneuver (paper, Eq. 2), beyond the bounds on inputs and states.
 ///
-/// g has no unit: it is scaled so that 1 is a violation as large as what is allowed. A further
-/// constraint is one file that implements this, and its test.
+/// g has no unit: it is scaled so that 1 is a violation as large as the bound. A further constraint
+/// is one file that implements this, and its test.
 class PathConstraint {
  public:
   virtual ~PathConstraint() = default;
   [[nodiscard]] virtual double value(const StateVector& x, const Input& u) const = 0;
   /// dg/dx and dg/du.
   [[nodiscard]] virtual CostGradient gradient(const StateVector& x, const Input& u) const = 0;
-  /// What it is called in messages, with the bound.
+  /// Its name in messages, with the bound.
   [[nodiscard]] virtual std::string name() const = 0;
 };
 

@@ -21,7 +21,7 @@ class RunningCost {
   virtual ~RunningCost() = default;
   [[nodiscard]] virtual double value(const StateVector& x, const Input& u) const = 0;
   [[nodiscard]] virtual CostGradient gradient(const StateVector& x, const Input& u) const = 0;
-  /// True if l depends on the pose, so that a shift of the pose changes J. Without it, l(x, 0) is
+  /// True if l depends on the pose, so that a shift of the pose changes J. Otherwise l(x, 0) is
   /// constant along a trim: the trim's unit cost.
   [[nodiscard]] virtual bool depends_on_pose() const { return false; }
   /// True if J usually has several local optima of different value: the solver then tries several

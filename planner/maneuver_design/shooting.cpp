@@ -7,7 +7,7 @@
 namespace hlc {
 namespace {
 
-/// Where a Runge-Kutta step evaluates model and cost, and what it finds there.
+/// One stage of a Runge-Kutta step: where it evaluates model and cost, and the values there.
 struct Stage {
   StateVector x;
   StateVector derivative;
@@ -48,7 +48,7 @@ Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
   const InputJacobian B = input_jacobian();
   const StateVector end = lambda;
   Eigen::Vector2d du = Eigen::Vector2d::Zero();
-  StateVector dk = kWeights[3] * h * end;  // dJ/dk of the stage at hand
+  StateVector dk = kWeights[3] * h * end;  // dJ/dk of the current stage
   for (std::size_t i = 4; i-- > 0;) {
     const Stage& stage = stages[i];
     const CostGradient l = cost.gradient(stage.x, u);

@@ -20,9 +20,8 @@ enum class WithGradient { kNo, kYes };
 
 /// Simulates the model from `start` and adds up the cost: one step of the classical Runge-Kutta
 /// method per interval, for the cost as for the states (J is a sixth state, J' = l).
-///
 /// The gradient is that of exactly this discretised cost, not an approximation: the derivative is
-/// carried backwards through every stage of every step (the discrete adjoint), at about the price
+/// propagated backwards through every stage of every step (the discrete adjoint), at about the cost
 /// of two more simulations.
 ///
 /// @pre inputs is not empty, duration_s > 0

@@ -4,11 +4,11 @@
 
 namespace hlc {
 
-/// l = s_x^2 + s_y^2 [m^2], with s measured from the maneuver's start: least for the motion that
-/// stays near its start. Meant for maneuvers into standstill: the emergency brake of a trim.
+/// l = s_x^2 + s_y^2 [m^2], with s measured from the maneuver's start: least for a motion that
+/// stays near its start. For maneuvers into standstill: the emergency brake of a trim.
 ///
-/// It depends on the position as J1 does (see Distance). Weaving shortens the way, to the left
-/// first or to the right first: there are several local optima.
+/// It depends on the position as J1 does (see Distance). Weaving shortens the way, starting to the
+/// left or to the right: there are several local optima.
 class StoppingDistance final : public RunningCost {
  public:
   [[nodiscard]] double value(const StateVector& x, const Input& u) const override;

@@ -48,13 +48,13 @@ std::vector<Point> scattered(const std::vector<Point>& points, std::size_t count
   return centres;
 }
 
-/// Towards 0, so that a trim at a limit stays within it; what is off by rounding is not.
+/// Towards 0, so that a trim at a limit stays within it; with a tolerance for rounding.
 double rounded(double value) {
   return std::trunc(value * 1000.0 + std::copysign(1e-6, value)) / 1000.0 + 0.0;
 }
 
-/// The motion between two points of a drive; nothing if it turns more than a quarter or tighter
-/// than the vehicle can.
+/// The motion between two points of a drive; nothing if it turns more than a quarter turn or on a
+/// smaller circle than the vehicle can.
 std::optional<DriveSample> sample_between(const DrivePoint& begin, const DrivePoint& end,
                                           const VehicleParameters& vehicle) {
   const double turn_rad = wrap_angle(end.pose.heading_rad - begin.pose.heading_rad);
@@ -73,7 +73,7 @@ std::optional<DriveSample> sample_between(const DrivePoint& begin, const DrivePo
                      steering_for_curvature_rad(sign * turn_rad / arc_m, vehicle)};
 }
 
-/// Speed and steering of the samples that drive forwards, within the limits and divided by `unit`.
+/// Speed and steering of the forward samples, within the limits and divided by `unit`.
 std::vector<Point> forward_points(const std::vector<DriveSample>& drive, const Point& unit,
                                   const VehicleLimits& limits) {
   std::vector<Point> points;
@@ -87,10 +87,10 @@ std::vector<Point> forward_points(const std::vector<DriveSample>& drive, const P
   return points;
 }
 
-/// Each centre to the mean of the points nearest to it, again and again until none moves.
-/// @return how many points are nearest to each centre
-std::vector<std::size_t> settle_centres(const std::vector<Point>& points,
-                                        std::vector<Point>& centres) {
+/// Moves each centre to the mean of the points nearest to it, until none moves.
+/// @return number of points nearest to each centre
+std::vector<std::size_t> converge_centres(const std::vector<Point>& points,
+                                          std::vector<Point>& centres) {
   std::vector<std::size_t> sizes;
   for (int i = 0; i < kMaxIterations; ++i) {
     std::vector<Point> sums(centres.size(), Point::Zero());
@@ -158,7 +158,7 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   }
 
   std::vector<Point> centres = scattered(points, count - 1);
-  const std::vector<std::size_t> sizes = settle_centres(points, centres);
+  const std::vector<std::size_t> sizes = converge_centres(points, centres);
   std::vector<ChosenTrim> moving;
   const std::size_t counted = drive.size() - reversing;
   const auto total = static_cast<double>(counted);

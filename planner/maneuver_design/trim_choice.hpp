@@ -7,13 +7,13 @@
 
 namespace hlc {
 
-/// Where a vehicle was at a time of a drive.
+/// Pose of a vehicle at a time of a drive.
 struct DrivePoint {
   double time_s{};
   Pose pose;
 };
 
-/// How a vehicle drove at a moment.
+/// Motion of a vehicle at a time of a drive.
 struct DriveSample {
   double speed_mps{};  ///< negative in reverse
   double steering_rad{};
@@ -24,23 +24,22 @@ inline constexpr double kSlowestDrive_mps = 0.05;
 
 [[nodiscard]] bool is_reversing(const DriveSample& sample);
 
-/// Speed and steering of a drive that is known by its poses: of each window of `window_s` the
-/// circular arc from its first to its last point, and the steering with which the single-track
-/// model drives that arc; in reverse if the arc leads against the heading. Windows in which the
-/// vehicle turned by more than a quarter turn, or on a smaller circle than the model can drive, say
-/// nothing and are left out.
+/// Speed and steering of a drive given by its poses: of each window of `window_s` the circular arc
+/// from its first to its last point, and the steering with which the single-track model drives that
+/// arc; in reverse if the arc leads against the heading. Windows in which the vehicle turned by
+/// more than a quarter turn, or on a smaller circle than the model can drive, are left out.
 /// @pre times increase, window_s > 0
 [[nodiscard]] std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points,
                                                      double window_s,
                                                      const VehicleParameters& vehicle);
 
-/// A trim and the share of the drive that it stands for, in 0 ... 1.
+/// A trim and the share of the drive that it represents, in 0 ... 1.
 struct ChosenTrim {
   Trim trim;
   double share{};
 };
 
-/// `count` trims that stand for a drive: standstill, and one per cluster of the samples in which
+/// `count` trims that represent a drive: standstill, and one per cluster of the samples in which
 /// the vehicle moved.
 ///
 /// The clusters are a local optimum of k-means (Lloyd's iteration): each trim is the mean of its

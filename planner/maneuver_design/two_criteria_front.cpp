@@ -62,7 +62,7 @@ const ParetoPoint* better_known(const std::vector<ParetoPoint>& known, double bo
 }
 
 /// Two criteria: the point with that bound on J_2, started from the better of two neighbours.
-/// @param gain  share of the range of J_1 that makes it worth while
+/// @param gain  required gain as a share of the range of J_1
 void improve(const ParetoProblem& problem, const SingleOptima& optima, double bound,
              const ParetoPoint& neighbour, double gain, ParetoPoint& point) {
   ParetoPoint other =
@@ -73,10 +73,10 @@ void improve(const ParetoProblem& problem, const SingleOptima& optima, double bo
 }
 
 /// Two criteria: from the optimum of J_2 over the bounds `eps` (ascending) to the optimum of J_1.
-/// Each point starts from the one before, and once more from a known one that is better than what
-/// came of that: then it was a local optimum, and those before may be, too. Then, and whenever
-/// asked to, the way goes back once, each point started from the one after it, the optimum of J_2
-/// too.
+/// Each point starts from the one before, and once more from a known better one if the result is
+/// worse than that: then the result was a local optimum, and those before it may be, too. Then, and
+/// whenever requested, a backward pass follows, each point started from the one after it, including
+/// the optimum of J_2.
 void sweep(const ParetoProblem& problem, SingleOptima& optima, const std::vector<double>& eps,
            const std::vector<ParetoPoint>& known, bool goes_back, ProgressCounter& counter,
            ParetoFront& front) {
@@ -108,7 +108,7 @@ void sweep(const ParetoProblem& problem, SingleOptima& optima, const std::vector
   optima.range = range_over(optima);
 }
 
-/// Two criteria: where weighted sums lie, in order along the front, ends included.
+/// Two criteria: the weighted sums, in order along the front, ends included.
 std::vector<ParetoPoint> rough_front(const ParetoProblem& problem, const SingleOptima& optima,
                                      std::size_t points, ProgressCounter& counter) {
   std::vector<ParetoPoint> rough{optima.points[1]};

@@ -40,13 +40,13 @@ WeightedSum normalised_sum(std::vector<WeightedCost> terms,
                            const std::vector<CriterionRange>& ranges) {
   if (terms.size() != ranges.size()) {
     throw std::invalid_argument("ranges = " + std::to_string(ranges.size()) +
-                                ", allowed one per criterion: " + std::to_string(terms.size()));
+                                ", must be one per criterion: " + std::to_string(terms.size()));
   }
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const double width = ranges[i].worst - ranges[i].best;
     if (!(width > 0.0)) {
       throw std::invalid_argument("range of criterion " + std::to_string(i + 1) + " = " +
-                                  std::to_string(width) + ", allowed above 0");
+                                  std::to_string(width) + ", must be > 0");
     }
     terms[i].weight /= width;
   }

@@ -36,11 +36,11 @@ struct CriterionRange {
 };
 
 /// Weighted sum of criteria that are scaled by their ranges: w_i / (worst_i - best_i) in place of
-/// w_i, so that equal weights are a true compromise. Up to a constant, which moves no optimum, this
-/// is sum_i w_i (J_i - best_i) / (worst_i - best_i).
+/// w_i, so that equal weights are a true compromise. Up to a constant, which does not change the
+/// optimum, this is sum_i w_i (J_i - best_i) / (worst_i - best_i).
 ///
-/// @throws std::invalid_argument if sizes differ, or a range is not positive (criteria that do not
-/// contradict each other have no front to choose from)
+/// @throws std::invalid_argument if sizes differ, or a range is not positive (criteria without
+/// conflict have no front to choose from)
 [[nodiscard]] WeightedSum normalised_sum(std::vector<WeightedCost> terms,
                                          const std::vector<CriterionRange>& ranges);
 

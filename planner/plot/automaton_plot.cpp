@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTrimRadius_px = 9.0;
 constexpr double kBeside_px = 4.0;   ///< between the arrows of two labels
-constexpr double kAround_px = 16.0;  ///< by which an arrow passes a trim on its way
+constexpr double kAround_px = 16.0;  ///< by which an arrow passes a trim
 
 std::vector<std::string> colours_of(const std::vector<std::string>& labels) {
   constexpr std::array<const char*, 5> kOthers{"#8e44ad", "#e67e22", "#16a085", "#7f8c8d",
@@ -55,7 +55,7 @@ std::string automaton_plot(const AutomatonFile& file) {
   for (const Maneuver& m : automaton.maneuvers) {
     if (m.from == m.to) continue;
     const bool has_opposite = automaton.find(m.to, m.from, m.label) != nullptr;
-    if (has_opposite && m.to < m.from) continue;  // drawn with the other one
+    if (has_opposite && m.to < m.from) continue;  // drawn with the opposite one
     const auto label =
         static_cast<std::size_t>(std::ranges::find(file.labels, m.label) - file.labels.begin());
     const double middle = 0.5 * static_cast<double>(file.labels.size() - 1);

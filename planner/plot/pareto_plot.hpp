@@ -8,7 +8,7 @@
 
 namespace hlc {
 
-/// What table and plot say beside the front itself.
+/// Description of the front for table and plot.
 struct ParetoDescription {
   Trim from;
   Trim to;

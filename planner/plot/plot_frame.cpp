@@ -19,7 +19,7 @@ Range contents_of(const PlotPanel& panel) {
   return box;
 }
 
-/// Leaves no width at 0.
+/// Avoids a width of 0.
 Eigen::Vector2d widened(const Range& range) {
   Eigen::Vector2d width = range.sizes();
   for (Eigen::Index i = 0; i < 2; ++i) {
@@ -29,7 +29,7 @@ Eigen::Vector2d widened(const Range& range) {
   return width;
 }
 
-/// A tick's number; what is 0 but for rounding is 0.
+/// A tick's number; rounding errors around 0 become 0.
 std::string tick_text(double value, double step) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", std::abs(value) < 1e-9 * step ? 0.0 : value);
@@ -37,7 +37,7 @@ std::string tick_text(double value, double step) {
 }
 
 struct Tick {
-  double place{};  ///< on the axis: the logarithm where it is logarithmic
+  double place{};  ///< on the axis: the logarithm if it is logarithmic
   std::string text;
 };
 

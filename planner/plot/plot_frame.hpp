@@ -11,10 +11,10 @@ namespace hlc::svg {
 
 using Range = Eigen::AlignedBox2d;
 
-/// A point on axes whose logarithmic ones are already logarithms.
+/// A point on the axes, as logarithms on logarithmic ones.
 [[nodiscard]] Eigen::Vector2d on_axes(const PlotPanel& panel, const Eigen::Vector2d& point);
 
-/// Calls `visit` with every point that the panel shows something at.
+/// Calls `visit` with every point of the panel's content.
 template <class Visit>
 void for_each_point(const PlotPanel& panel, const Visit& visit) {
   for (const auto* areas : {&panel.areas, &panel.front_areas}) {
@@ -29,10 +29,10 @@ void for_each_point(const PlotPanel& panel, const Visit& visit) {
   }
 }
 
-/// Where a panel's axes stand and what they show.
+/// Place and range of a panel's axes.
 struct Frame {
   const PlotPanel& panel;
-  Range range;                ///< of logarithms where an axis is logarithmic
+  Range range;                ///< of logarithms if an axis is logarithmic
   Eigen::Vector2d corner_px;  ///< top left of the axes
   Eigen::Vector2d size_px;
 
@@ -45,7 +45,7 @@ struct Frame {
   }
 };
 
-/// The panel's own range, or that of what it shows with a margin.
+/// The panel's own range, or that of its content with a margin.
 [[nodiscard]] Frame frame_of(const PlotPanel& panel, const Eigen::Vector2d& corner_px,
                              const Eigen::Vector2d& size_px);
 

@@ -32,7 +32,7 @@ Vector2d legend_size_px(const PlotPanel& panel) {
   return {width_px, 8.0 + kLegendLine_px * static_cast<double>(panel.legend.size())};
 }
 
-/// Where the legend stands in a corner of the axes.
+/// Position of the legend in a corner of the axes.
 Range legend_box(const PlotPanel& panel, const Frame& frame, Corner corner) {
   const Vector2d size = legend_size_px(panel);
   const bool is_left = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;
@@ -43,7 +43,7 @@ Range legend_box(const PlotPanel& panel, const Frame& frame, Corner corner) {
   return {place, place + size};
 }
 
-/// How much of what the panel shows is behind a box: points, and pieces of lines a few pixels long.
+/// Amount of the panel's content behind a box: points, and pieces of lines a few pixels long.
 std::size_t hidden_by(const Range& box, const PlotPanel& panel, const Frame& frame) {
   constexpr double kPiece_px = 4.0;
   std::size_t count = 0;

@@ -8,7 +8,7 @@
 
 namespace hlc::svg {
 
-/// The panel's legend, where it says.
+/// The panel's legend, in its corner.
 [[nodiscard]] std::string legend_of(const Frame& frame);
 
 /// The entries in rows that are no wider than the picture.

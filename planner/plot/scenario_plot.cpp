@@ -12,7 +12,7 @@ namespace {
 constexpr double kBetweenArrows_m = 1.0;
 constexpr double kArrow_m = 0.02;
 constexpr double kThinnest_px = 1.6;
-constexpr double kThicker_px = 1.8;  ///< a path that is drawn before another
+constexpr double kThicker_px = 1.8;  ///< a path drawn before another
 
 /// Arrow heads along the path, the first at `from_m`.
 void add_direction(const ReferencePath& path, double from_m, PlotPanel& panel) {
@@ -62,7 +62,7 @@ std::string scenario_plot(const Scenario& scenario, const std::optional<LaneletM
     PlotLine line = path_line(vehicle.path);
     line.colour = car_colour(scenario, i);
     line.width_px = kThinnest_px;
-    // The first are the widest and lie below; many need no more than a few widths.
+    // The first paths are the widest and lie below; a few widths suffice.
     line.width_px += kThicker_px * static_cast<double>(std::min<std::size_t>(count - 1 - i, 3));
     panel.legend.push_back(
         {.text = "vehicle " + std::to_string(vehicle.id.value) + ": " + vehicle.name,

@@ -18,7 +18,7 @@ void add_lanes(const LaneletMap& map, PlotPanel& panel);
 /// A path as one line, back to its first point if it is closed.
 [[nodiscard]] PlotLine path_line(const ReferencePath& path);
 
-/// A vehicle of a name such as "red" has that colour, others one by their place in the scenario.
+/// A vehicle with a name such as "red" has that colour, others one by their index in the scenario.
 [[nodiscard]] std::string car_colour(const Scenario& scenario, std::size_t vehicle);
 
 /// The paper's Fig. 3, as SVG: lanes, the vehicles' reference paths with their direction,

@@ -5,13 +5,13 @@
 
 #include "planner/plot/svg_plot.hpp"
 
-/// The elements of SVG that plots are made of, at places in pixels (x to the right, y down).
+/// The SVG elements of plots, at places in pixels (x to the right, y down).
 namespace hlc::svg {
 
 /// With two decimals: a hundredth of a pixel.
 [[nodiscard]] std::string number(double value);
 
-/// @param anchor  start, middle or end: what of the text stands at the place
+/// @param anchor  start, middle or end: the part of the text at the place
 /// @param more    further attributes, beginning with a blank
 [[nodiscard]] std::string text_at(const Eigen::Vector2d& at, const std::string& text,
                                   const std::string& anchor, const std::string& more = "");

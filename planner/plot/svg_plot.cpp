@@ -81,7 +81,7 @@ std::string contents_as_svg(const PlotPanel& panel, const Frame& frame) {
   return out;
 }
 
-/// @param number_of  this panel among those of the picture, for a name of its own
+/// @param number_of  index of this panel in the picture, for a unique name
 std::string panel_at(const PlotPanel& panel, const Vector2d& corner_px, const PlotSize& size,
                      std::size_t number_of) {
   const Frame frame = frame_of(

@@ -36,8 +36,8 @@ struct PlotMark {
   double radius_px{3.5};
 };
 
-/// A straight arrow that stops `gap_px` short of both points, for marks that stand there; shifted
-/// by `shift_px` to its left, so that several fit side by side.
+/// A straight arrow that ends `gap_px` before both points, to leave room for marks; shifted by
+/// `shift_px` to its left, so that several fit side by side.
 struct PlotArrow {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
@@ -49,7 +49,7 @@ struct PlotArrow {
 
 struct PlotText {
   Eigen::Vector2d at;
-  std::string text;  ///< its middle stands there
+  std::string text;  ///< position of its middle
   std::string colour{"#000000"};
 };
 
@@ -62,13 +62,13 @@ struct PlotLegend {
   Stroke stroke{Stroke::kSolid};
 };
 
-/// Where in a panel the legend stands. kEmptiest: where it hides least.
+/// Corner of the legend in a panel. kEmptiest: the one with the least content.
 enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight, kEmptiest };
 
 enum class Scale { kLinear, kLog };
 
-/// One pair of axes. Its ranges are those of what it shows, with a margin, or `range`; what lies
-/// outside that is cut off.
+/// One pair of axes. Its ranges are those of its content, with a margin, or `range`; content
+/// outside is cut off.
 /// @pre numbers on a logarithmic axis are above 0
 struct PlotPanel {
   std::string title;
@@ -102,7 +102,7 @@ struct PlotSize {
 /// From red (0) over violet to blue (1), as "#rrggbb".
 [[nodiscard]] std::string red_to_blue(double share);
 
-/// Ten colours to tell series apart, from the first on; after the last the first again.
+/// Ten colours for series; repeated after the last.
 [[nodiscard]] std::string series_colour(std::size_t series);
 
 }  // namespace hlc

@@ -11,7 +11,7 @@ namespace hlc {
 
 LookAhead::LookAhead(LookAheadSettings settings) : settings_(std::move(settings)) {}
 
-std::optional<SubgraphRequest> LookAhead::wish(const PolicyView& /*view*/) {
+std::optional<SubgraphRequest> LookAhead::propose(const PolicyView& /*view*/) {
   if (!chosen_) return std::nullopt;
   return settings_.candidates[*chosen_];
 }

@@ -9,18 +9,18 @@
 
 namespace hlc {
 
-/// Asks for the candidate with which a rollout of the next steps (look_ahead_rollout.hpp) costs
-/// least.
+/// Proposes the candidate whose look-ahead rollout over the next steps (look_ahead_rollout.hpp)
+/// costs least.
 ///
-/// The rollouts are made after a step, when its command has been sent, so their time is none of
-/// the step's; what they say holds from the next step on. The last choice is kept unless another
-/// one costs less by the settings' least_gain, of its amount. A candidate whose rollout would
-/// exceed its expansions is not chosen.
+/// The rollouts are made after a step, when its command has been sent, so they do not delay the
+/// step; their result holds from the next step on. The last choice is kept unless another one costs
+/// less by least_gain of its amount. A candidate whose rollout would exceed its expansions is not
+/// chosen.
 class LookAhead final : public Policy {
  public:
   explicit LookAhead(LookAheadSettings settings);
 
-  std::optional<SubgraphRequest> wish(const PolicyView& view) override;
+  std::optional<SubgraphRequest> propose(const PolicyView& view) override;
   std::vector<SubgraphRequest> choices() const override { return settings_.candidates; }
   bool looks_ahead() const override { return true; }
   void look_ahead(const Controller& controller, const PreparedFor& prepared) override;

@@ -9,10 +9,10 @@
 namespace hlc {
 namespace {
 
-/// Where a vehicle is looked for on its path, around where it may have got in a step.
+/// Range of the path searched for a vehicle, around its reach in a step.
 constexpr double kProjection_m = 0.5;
 
-/// What is left of it from t(step) on. @pre step >= areas.first
+/// The areas from t(step) on. @pre step >= areas.first
 OccupiedAreas rest_of(const OccupiedAreas& areas, StepIndex step) {
   const std::size_t past = std::min(step.value - areas.first.value, areas.areas_m.size());
   OccupiedAreas rest{.first = step, .areas_m = {}, .final_area_m = areas.final_area_m};
@@ -36,7 +36,7 @@ Traffic traffic_of(const Controller::AnnouncedPlan& plan, StepIndex step) {
   return traffic;
 }
 
-/// What the others publish in that step.
+/// Messages of the others in that step.
 ExternalMessages published_by(const std::vector<Controller::AnnouncedPlan>& others,
                               StepIndex step) {
   ExternalMessages published;

@@ -11,32 +11,33 @@
 
 namespace hlc {
 
-/// What a policy goes by before step k.
+/// Inputs of a policy before step k.
 struct PolicyView {
   double time_s{};                    ///< since the experiment's first step
   const Report* last{};               ///< of step k - 1; none in the first step
-  std::optional<double> battery_v{};  ///< none if it is not known
+  std::optional<double> battery_v{};  ///< none if unknown
 };
 
-/// What a request means for a controller where it is now: with the speed limits that hold there.
+/// The subgraph of a request for a controller at its current place: with the speed limits that hold
+/// there.
 using PreparedFor =
     std::function<const PreparedSubgraph&(const SubgraphRequest& request, const Controller&)>;
 
-/// Has an opinion on which subgraph to plan on. One object per vehicle; it may remember.
+/// Proposes the subgraph to plan on. One object per vehicle; may have a state.
 class Policy {
  public:
   virtual ~Policy() = default;
 
-  /// What it would ask for from this step on; none: it has no opinion. Called once per step.
-  [[nodiscard]] virtual std::optional<SubgraphRequest> wish(const PolicyView& view) = 0;
+  /// The proposal from this step on; none: no opinion. Called once per step.
+  [[nodiscard]] virtual std::optional<SubgraphRequest> propose(const PolicyView& view) = 0;
 
-  /// All that it may ever ask for: that is prepared before the first step.
+  /// All possible proposals: they are prepared before the first step.
   [[nodiscard]] virtual std::vector<SubgraphRequest> choices() const = 0;
 
-  /// True if it has to look ahead after a step.
+  /// True if the policy has to look ahead after a step.
   [[nodiscard]] virtual bool looks_ahead() const { return false; }
-  /// Called after a step in which its opinion may be asked for in the next one, when nobody waits
-  /// for the vehicle any more. @pre the controller is not in the middle of a step
+  /// Called after a step if a proposal may be needed in the next one, when the step's messages and
+  /// command are published. @pre the controller is not in the middle of a step
   virtual void look_ahead(const Controller& /*controller*/, const PreparedFor& /*prepared*/) {}
 };
 

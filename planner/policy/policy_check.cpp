@@ -18,7 +18,7 @@ namespace {
 
 void check(const Subgraph& subgraph, const ReconfigurationSettings& settings,
            const std::optional<LabLimits>& lab) {
-  if (const std::string fault = lab ? lab_fault_of(subgraph, *lab) : ""; !fault.empty()) {
+  if (const std::string fault = lab ? validate_for_lab(subgraph, *lab) : ""; !fault.empty()) {
     throw std::invalid_argument("subgraph " + subgraph.spec().name + ": " + fault);
   }
   for (const PolicySettings& one : settings.policies) {

@@ -10,15 +10,15 @@
 
 namespace hlc {
 
-/// All that may be asked for, each once; the first asks for nothing.
+/// All possible requests, each once; the first one is the empty request.
 [[nodiscard]] std::vector<SubgraphRequest> requests_of(const ReconfigurationSettings& settings);
 
-/// Tries everything that zones and policies may ask for: milliseconds, since no tables are made.
+/// Tries every request that zones and policies may make: milliseconds, since no tables are made.
 /// @param base  the scenario's subgraph
-/// @param lab   what its vehicles can follow; absent: anything
-/// @throws std::invalid_argument saying in one line what cannot be and why: a request
-/// (requested_subgraph), a limit (limited_subgraph), what the lab's vehicles cannot follow, a
-/// criterion of a look-ahead that a maneuver holds no value of
+/// @param lab   limits of its vehicles; absent: none
+/// @throws std::invalid_argument with the fault and its reason in one line: a request
+/// (requested_subgraph), a limit (limited_subgraph), a maneuver that the lab's vehicles cannot
+/// follow, a criterion of a look-ahead without a value for a maneuver
 void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& settings,
                            std::size_t horizon_steps, const std::optional<LabLimits>& lab);
 

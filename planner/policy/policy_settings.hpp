@@ -9,7 +9,7 @@
 
 namespace hlc {
 
-/// A part of the map in which nobody drives faster: a rectangle in the map's frame.
+/// A part of the map with a speed limit: a rectangle in the map's frame.
 struct SpeedZone {
   double min_x_m{};
   double max_x_m{};
@@ -19,7 +19,7 @@ struct SpeedZone {
   friend bool operator==(const SpeedZone&, const SpeedZone&) = default;
 };
 
-/// Asks for something else from given times on.
+/// Proposes requests from given times on.
 struct TimePolicySettings {
   struct Change {
     double from_s{};  ///< since the experiment's first step
@@ -30,16 +30,16 @@ struct TimePolicySettings {
   friend bool operator==(const TimePolicySettings&, const TimePolicySettings&) = default;
 };
 
-/// Asks for one thing on open road, and for another where vehicles may meet or no new plan came
-/// into force.
+/// Proposes one request on open road, and another where vehicles may meet or no new plan came into
+/// force.
 struct SituationPolicySettings {
   SubgraphRequest open_road;
   SubgraphRequest conflict;
-  double after_conflict_s{1.0};  ///< so much longer it takes for a conflict; >= 0
+  double after_conflict_s{1.0};  ///< a situation counts as conflict this long after it ends; >= 0
   friend bool operator==(const SituationPolicySettings&, const SituationPolicySettings&) = default;
 };
 
-/// Asks for something while the battery is weak; no opinion otherwise.
+/// Proposes a request while the battery is weak; no opinion otherwise.
 struct BatteryPolicySettings {
   double below_v{};
   double back_above_v{};  ///< >= below_v
@@ -47,34 +47,34 @@ struct BatteryPolicySettings {
   friend bool operator==(const BatteryPolicySettings&, const BatteryPolicySettings&) = default;
 };
 
-/// Asks for what a rollout of the next steps cost least with (look_ahead.hpp).
+/// Proposes the candidate whose look-ahead rollout costs least (look_ahead.hpp).
 struct LookAheadSettings {
   std::vector<SubgraphRequest> candidates;  ///< at least two
   std::size_t steps{8};
   std::vector<PlanningWeight> criterion_weights;
-  /// Something else is asked for only if it costs less than this share less; in [0, 1).
+  /// Another candidate is proposed only if it costs less by at least this share; in [0, 1).
   double least_gain{0.05};
   std::size_t max_expansions{};  ///< of each search in a rollout (LookAheadRolloutSettings)
   friend bool operator==(const LookAheadSettings&, const LookAheadSettings&) = default;
 };
 
-/// All candidates, steps and expansions of one look-ahead multiplied: it is done after a step's
-/// command, in what is left of the step. The slowest searches measured (`propose_budget`, every
-/// maneuver of 16 trims, a busy core) take a tenth of a second for so many.
+/// Product of candidates, steps and expansions of one look-ahead: it runs after a step's command,
+/// in the rest of the step. The slowest searches measured (`propose_budget`, every maneuver of 16
+/// trims, a busy core) take a tenth of a second for this many.
 inline constexpr std::size_t kMostLookAheadExpansions = 40'000;
 
 using PolicySettings = std::variant<TimePolicySettings, SituationPolicySettings,
                                     BatteryPolicySettings, LookAheadSettings>;
 
-/// Stands for no zones and no policies where a name is asked for.
+/// Name for no zones and no policies.
 inline constexpr const char* kNoPolicy = "none";
 
-/// Which subgraph a vehicle's controller plans on, if nobody asks it from outside.
+/// How a vehicle's controller chooses its subgraph without external requests.
 struct ReconfigurationSettings {
   std::vector<SpeedZone> zones;
   std::vector<PolicySettings> policies;  ///< of several with an opinion the first one counts
-  /// What a policy has asked for stays at least so long, so that it does not flicker, unless a
-  /// policy before it in the list has an opinion: at most two changes in that time; >= 0.
+  /// A proposal stays at least this long, so that the subgraph does not flicker, unless a policy
+  /// before it in the list has an opinion: at most two changes in that time; >= 0.
   double min_stay_s{1.0};
   friend bool operator==(const ReconfigurationSettings&, const ReconfigurationSettings&) = default;
 };

@@ -6,17 +6,17 @@
 namespace hlc {
 namespace {
 
-/// Most edges from a trim that planning may start from to one that is on. Every exit edge leads one
+/// Most edges from a trim that planning may start from to an enabled one. Every exit edge leads one
 /// nearer, so any way is a shortest one.
 std::size_t most_exit_steps(const Subgraph& subgraph) {
   std::size_t most = 0;
-  for (const TrimId start : subgraph.starts()) {
+  for (const TrimId start : subgraph.start_trims()) {
     std::size_t steps = 0;
-    for (TrimId at = start; !subgraph.is_on(at); ++steps) {
+    for (TrimId at = start; !subgraph.is_enabled(at); ++steps) {
       const auto edges = subgraph.successors(at);
       const auto exit =
           std::ranges::find_if(edges, [at](const Edge& edge) { return edge.to != at; });
-      if (exit == edges.end()) break;  // standing, for ever
+      if (exit == edges.end()) break;  // standing, forever
       at = exit->to;
     }
     most = std::max(most, steps);

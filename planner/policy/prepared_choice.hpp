@@ -11,22 +11,22 @@
 
 namespace hlc {
 
-/// What a request is under a speed limit: the lower of the limit and its own holds. Where the
-/// request cannot be under the limit (maneuvers of J1 outrun both their trims) it is the base
-/// itself under it: a limit is safety, and goes before what is asked for.
+/// A request under a speed limit: the lower of the limit and its own holds. Where the request is
+/// infeasible under the limit (maneuvers of J1 outrun both their trims) the base itself is used
+/// under it: a limit is for safety, and has precedence over requests.
 /// @param automaton  as requested_subgraph
-/// @throws std::invalid_argument if not even that can be
+/// @throws std::invalid_argument if the base is infeasible under the limit, too
 [[nodiscard]] std::shared_ptr<const Subgraph> limited_subgraph(
     const Subgraph& base, const SubgraphRequest& request, double limit_mps,
     std::size_t horizon_steps,
     const std::shared_ptr<const UniversalAutomaton>& automaton = nullptr);
 
-/// A subgraph that may be asked for, under every speed limit that may be laid upon it, ready to be
-/// planned on. It never changes: it can be made on any thread.
+/// A subgraph that may be requested, under every possible speed limit, ready to be planned on. It
+/// never changes: it can be made on any thread.
 class PreparedChoice {
  public:
-  /// @param base        the scenario's; asked for without a limit it is `base` itself
-  /// @param limits_mps  those that may hold
+  /// @param base        the scenario's; the empty request without a limit is `base` itself
+  /// @param limits_mps  the possible limits
   /// @param automaton   as requested_subgraph
   /// @throws std::invalid_argument as requested_subgraph, limited_subgraph and prepare_subgraph
   PreparedChoice(const PreparedSubgraph& base, const SubgraphRequest& request,
@@ -34,7 +34,7 @@ class PreparedChoice {
                  const SearchOptions& search,
                  const std::shared_ptr<const UniversalAutomaton>& automaton = nullptr);
 
-  /// @pre `limit_mps` is none or one of those it was made for
+  /// @pre `limit_mps` is none or one of `limits_mps`
   [[nodiscard]] const PreparedSubgraph& under(std::optional<double> limit_mps) const {
     return by_limit_.at(limit_mps);
   }
@@ -43,7 +43,7 @@ class PreparedChoice {
   /// Of the maneuvers that may be planned without a limit.
   [[nodiscard]] double top_speed_mps() const { return top_speed_mps_; }
 
-  /// All of them, once for every limit.
+  /// All prepared subgraphs, one for every limit.
   [[nodiscard]] const std::map<std::optional<double>, PreparedSubgraph>& by_limit() const {
     return by_limit_;
   }

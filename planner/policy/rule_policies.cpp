@@ -6,19 +6,19 @@
 namespace hlc {
 namespace {
 
-/// Times are multiples of a step, which a double does not hold.
+/// Times are multiples of a step, which a double does not represent exactly.
 constexpr double kRounding_s = 1e-6;
 
 class TimePolicy final : public Policy {
  public:
   explicit TimePolicy(TimePolicySettings settings) : settings_(std::move(settings)) {}
 
-  std::optional<SubgraphRequest> wish(const PolicyView& view) override {
-    std::optional<SubgraphRequest> wished;
+  std::optional<SubgraphRequest> propose(const PolicyView& view) override {
+    std::optional<SubgraphRequest> proposed;
     for (const TimePolicySettings::Change& change : settings_.changes) {
-      if (change.from_s <= view.time_s + kRounding_s) wished = change.request;
+      if (change.from_s <= view.time_s + kRounding_s) proposed = change.request;
     }
-    return wished;
+    return proposed;
   }
 
   std::vector<SubgraphRequest> choices() const override {
@@ -35,7 +35,7 @@ class SituationPolicy final : public Policy {
  public:
   explicit SituationPolicy(SituationPolicySettings settings) : settings_(std::move(settings)) {}
 
-  std::optional<SubgraphRequest> wish(const PolicyView& view) override {
+  std::optional<SubgraphRequest> propose(const PolicyView& view) override {
     const Report* last = view.last;
     if (last != nullptr && (!last->coupled.empty() || last->status == StepStatus::kFallback)) {
       last_conflict_s_ = view.time_s;
@@ -57,7 +57,7 @@ class BatteryPolicy final : public Policy {
  public:
   explicit BatteryPolicy(BatteryPolicySettings settings) : settings_(std::move(settings)) {}
 
-  std::optional<SubgraphRequest> wish(const PolicyView& view) override {
+  std::optional<SubgraphRequest> propose(const PolicyView& view) override {
     if (view.battery_v && *view.battery_v < settings_.below_v) is_weak_ = true;
     if (view.battery_v && *view.battery_v > settings_.back_above_v) is_weak_ = false;
     return is_weak_ ? std::optional(settings_.request) : std::nullopt;

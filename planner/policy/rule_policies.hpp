@@ -6,10 +6,10 @@
 
 namespace hlc {
 
-/// Policies that need nothing but the view; what they do is said at their settings.
+/// Policies that need nothing but the view; they are specified at their settings.
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const TimePolicySettings& settings);
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const SituationPolicySettings& settings);
-/// A battery that is not known is as it was.
+/// An unknown battery voltage counts as unchanged.
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const BatteryPolicySettings& settings);
 
 }  // namespace hlc

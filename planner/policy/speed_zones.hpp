@@ -12,12 +12,12 @@ namespace hlc {
 /// The limits of all zones, each once, from the lowest.
 [[nodiscard]] std::vector<double> limits_mps(std::span<const SpeedZone> zones);
 
-/// The least limit of the zones that hold the position; none if none does.
+/// The least limit of the zones that contain the position; none if none does.
 [[nodiscard]] std::optional<double> limit_at(std::span<const SpeedZone> zones,
                                              const Point& position_m);
 
-/// The least limit of the zones that the path comes through between s and s + ahead_m; none if it
-/// comes through none. The path is looked at every centimetre.
+/// The least limit of the zones that the path passes between s and s + ahead_m; none if it passes
+/// none. The path is checked every centimetre.
 /// @pre ahead_m >= 0
 [[nodiscard]] std::optional<double> limit_on(std::span<const SpeedZone> zones,
                                              const ReferencePath& path, double s_m, double ahead_m);

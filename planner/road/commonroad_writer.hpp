@@ -8,7 +8,7 @@
 
 namespace hlc {
 
-/// What a CommonRoad file says of itself.
+/// Metadata of a CommonRoad file.
 struct CommonRoadHead {
   std::string benchmark_id;
   std::string author;
@@ -16,8 +16,8 @@ struct CommonRoadHead {
   std::string time_step;  ///< [s]
 };
 
-/// Writes a CommonRoad 2020a file element by element: `open` ... `close` for elements on lines of
-/// their own, `open_inline` ... `close_inline` for those within a line. Numbers have 9 decimals.
+/// Writes a CommonRoad 2020a file element by element: `open` ... `close` for elements on separate
+/// lines, `open_inline` ... `close_inline` for those within a line. Numbers have 9 decimals.
 class CommonRoadWriter : private tinyxml2::XMLPrinter {
  public:
   /// Writes the begin of the file, up to its first lanelet. The date is always the same.
@@ -30,7 +30,7 @@ class CommonRoadWriter : private tinyxml2::XMLPrinter {
   void close() { CloseElement(); }
   void open_inline(const char* name) { OpenElement(name, true); }
   void close_inline() { CloseElement(true); }
-  /// Of the element that was opened last.
+  /// Of the last opened element.
   using tinyxml2::XMLPrinter::PushAttribute;
   void text(const char* name, const std::string& text, bool is_inline = true);
   void number(const char* name, double value);

@@ -8,11 +8,11 @@
 namespace hlc {
 namespace {
 
-/// Points closer than this are one point [m]; far below what a footprint could slip through.
+/// Points closer than this coincide [m]; far smaller than any gap for a footprint.
 constexpr double kShortestSegment_m = 1e-6;
 /// A boundary piece also counts this far before and after the arc length that it projects to [m].
 constexpr double kPieceOverlap_m = 0.05;
-/// About as many lie along a horizon.
+/// Typical number of pieces along a horizon.
 constexpr std::size_t kUsualPieces = 128;
 
 void append_pieces(std::vector<Corridor::Piece>& pieces, const Corridor::Bound& bound) {
@@ -57,8 +57,8 @@ std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const 
   std::vector<Segment> boundary;
   boundary.reserve(kUsualPieces);
   // On a closed route a window lies at [from, to] + k * length for every integer k. The smallest k
-  // for which it does not end before what is asked for is the one that can meet it: 0 or 1, with
-  // the begin of what is asked for in [0, length), too.
+  // for which it does not end before the requested range is the only one that can meet the range: 0
+  // or 1, with the begin of the range in [0, length), too.
   const bool is_closed = route_length_m_ > 0.0;
   const double turns_m = is_closed ? std::floor(from_s_m / route_length_m_) * route_length_m_ : 0.0;
   const double from = from_s_m - turns_m;

@@ -63,7 +63,7 @@ Pose shifted(const Pose& pose, double left_m) {
           .heading_rad = pose.heading_rad};
 }
 
-/// Turned by pi about the middle of the map.
+/// Turned by pi about the centre of the map.
 Pose turned(const Pose& pose) {
   return {.x_m = 4.5 - pose.x_m,
           .y_m = 4.0 - pose.y_m,
@@ -81,7 +81,7 @@ Line sampled(const CurvatureCurve& curve, double from_s_m, double to_s_m) {
 }
 
 /// The line, bent so that it begins at pose `begin` and ends at pose `end`: a cubic Hermite
-/// polynomial takes up what position and direction lack there. @pre points evenly spaced
+/// polynomial adds the missing position and direction. @pre points evenly spaced
 Line bent(Line line, const Pose& begin, const Pose& end) {
   const double intervals = static_cast<double>(line.size() - 1);
   const double length = intervals * (line[1].position_m() - line[0].position_m()).norm();
@@ -114,8 +114,8 @@ Line stretch(const CurvatureCurve& curve, double from_s_m, double to_s_m, const 
   return bent(sampled(curve, from_s_m, to_s_m), begin, end);
 }
 
-/// The mirror image about the vertical (`x`) or horizontal (`y`) middle line of the map, driven the
-/// other way round, so that driving stays clockwise.
+/// The mirror image about the vertical (`x`) or horizontal (`y`) centre line of the map, driven in
+/// the opposite direction, so that driving stays clockwise.
 Line mirrored_x(Line line) {
   std::reverse(line.begin(), line.end());
   for (Pose& pose : line) {
@@ -164,6 +164,29 @@ void link(LaneletMap& map) {
   }
 }
 
+/// Red is cut where another circuit joins or leaves its lane or the lane beside it.
+struct RedCircuit {
+  std::array<Pose, 6> cut;
+  std::array<Line, 10> line;
+  std::array<LaneletId, 10> lane{};
+};
+
+RedCircuit add_red_circuit(LaneletMap& map) {
+  RedCircuit circuit;
+  const CurvatureCurve red(kRedStart, kRedHalf);
+  const std::array<double, 6> s_m = {0.0, 1.469, 2.904, 4.630, 5.433, red.length_m()};
+  auto& [cut, line, lane] = circuit;
+  std::transform(s_m.begin(), s_m.end(), cut.begin(), [&](double at_m) { return red.at(at_m); });
+  cut.back() = turned(cut.front());
+  for (std::size_t i = 0; i < 5; ++i) {
+    line[i] = stretch(red, s_m[i], s_m[i + 1], cut[i], cut[i + 1]);
+    std::transform(line[i].begin(), line[i].end(), std::back_inserter(line[i + 5]), turned);
+  }
+  std::transform(line.begin(), line.end(), lane.begin(),
+                 [&](const Line& one) { return add_lane(map, one); });
+  return circuit;
+}
+
 }  // namespace
 
 RoadNetwork lab_like_map() {
@@ -171,23 +194,7 @@ RoadNetwork lab_like_map() {
   LaneletMap& map = network.map;
   map.benchmark_id = "ZAM_LabLike-1_1_T-1";
 
-  // Red is cut where another circuit joins or leaves its lane or the lane beside it.
-  const CurvatureCurve red(kRedStart, kRedHalf);
-  const std::array<double, 6> red_s_m = {0.0, 1.469, 2.904, 4.630, 5.433, red.length_m()};
-  std::array<Pose, 6> red_cut;
-  std::transform(red_s_m.begin(), red_s_m.end(), red_cut.begin(),
-                 [&](double s_m) { return red.at(s_m); });
-  red_cut.back() = turned(red_cut.front());
-  std::array<Line, 10> red_line;
-  for (std::size_t i = 0; i < 5; ++i) {
-    red_line[i] = stretch(red, red_s_m[i], red_s_m[i + 1], red_cut[i], red_cut[i + 1]);
-    std::transform(red_line[i].begin(), red_line[i].end(), std::back_inserter(red_line[i + 5]),
-                   turned);
-  }
-  std::array<LaneletId, 10> red_lane{};
-  std::transform(red_line.begin(), red_line.end(), red_lane.begin(),
-                 [&](const Line& line) { return add_lane(map, line); });
-
+  const auto [red_cut, red_line, red_lane] = add_red_circuit(map);
   const CurvatureCurve blue(kBlueStart, mirrored_circuit(kBlueHalf));
   const Line blue_merge = stretch(blue, 2.266, 3.032, shifted(red_cut[3], kRight_m), red_cut[4]);
   const Line blue_ring = stretch(blue, 3.713, 6.193, red_cut[5], blue.at(6.193));
@@ -223,7 +230,7 @@ RoadNetwork lab_like_map() {
     add_lane(map, line, kLeft_m);
   }
   // Where blue leaves and green joins the ring, the lane between that ring and the second lanes:
-  // what red drives at the mirrored place.
+  // red's lane at the mirrored place.
   const Line beside_blue =
       bent(mirrored_x(red_line[3]), blue_leave.front(), shifted(blue_leave.back(), kLeft_m));
   const Line beside_green =

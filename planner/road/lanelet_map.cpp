@@ -18,7 +18,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Reads one document; knows the name that its error messages begin with.
+/// Reads one document; its error messages begin with the document's name.
 class Reader {
  public:
   explicit Reader(const std::string& name) : name_(name) {}
@@ -58,7 +58,7 @@ class Reader {
     throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
   }
 
-  /// The value in quotes, without line breaks and cut short, so that an error stays one line.
+  /// The value in quotes, without line breaks and cut, so that an error stays one line.
   static std::string quoted(std::string_view value) {
     constexpr std::size_t kMaxLength = 40;
     std::string text(value.substr(0, kMaxLength));

@@ -36,9 +36,9 @@ struct Lanelet {
 /// Points midway between the i-th points of both bounds.
 [[nodiscard]] std::vector<Point> centre_line_m(const Lanelet& lanelet);
 
-/// The lanelets of a map; every id that one refers to is there.
+/// The lanelets of a map; every referenced id is in it.
 struct LaneletMap {
-  std::string benchmark_id;  ///< the map's name for itself (attribute benchmarkID)
+  std::string benchmark_id;  ///< the map's own name (attribute benchmarkID)
   std::map<LaneletId, Lanelet> lanelets;
 
   friend bool operator==(const LaneletMap&, const LaneletMap&) = default;
@@ -49,20 +49,19 @@ struct LaneletMap {
 [[nodiscard]] Box ground_m(const LaneletMap& map);
 
 /// Reads the lanelets of a CommonRoad 2020a file. Everything else in it (intersections, signs,
-/// obstacles, ...) is skipped, so an id that a lanelet shares with another kind of element does no
-/// harm.
-/// @throws std::runtime_error one line, `file:line: what is wrong and what is allowed`: file that
-/// cannot be read, not XML, other root or version, no benchmarkID, no lanelet; a lanelet with
-/// missing, repeated or unknown id, a bound missing, with fewer than 2 points or not as long as the
-/// other, a number that is broken or not finite
+/// obstacles, ...) is skipped, so a lanelet may share its id with another kind of element.
+/// @throws std::runtime_error one line, `file:line: fault and bound`: file that cannot be read, not
+/// XML, other root or version, no benchmarkID, no lanelet; a lanelet with missing, repeated or
+/// unknown id, a bound missing, with fewer than 2 points or not as long as the other, a number that
+/// is broken or not finite
 [[nodiscard]] LaneletMap read_lanelet_map(const std::filesystem::path& file);
 
 /// The same from a text; `name` stands for the file in error messages.
 [[nodiscard]] LaneletMap parse_lanelet_map(std::string_view xml, const std::string& name);
 
 /// The map as CommonRoad 2020a, elements in the order of the schema, coordinates with 9 decimals,
-/// lanelets by ascending id: equal maps give equal bytes. A planning problem, which the schema asks
-/// of a whole benchmark, is left out.
+/// lanelets by ascending id: equal maps give equal bytes. A planning problem, which the schema
+/// requires of a whole benchmark, is left out.
 [[nodiscard]] std::string to_commonroad_xml(const LaneletMap& map);
 
 /// @throws std::runtime_error if the file cannot be written

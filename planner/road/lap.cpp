@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kSlack_m = 0.1;
 
-/// The difference of two arc lengths on a closed path that is smallest in size.
+/// The difference of two arc lengths on a closed path with the smallest absolute value.
 double shortest(double difference_m, double length_m) {
   return difference_m - length_m * std::round(difference_m / length_m);
 }

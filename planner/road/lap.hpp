@@ -9,7 +9,7 @@
 
 namespace hlc {
 
-/// A sequence of positions seen from a path.
+/// A sequence of positions relative to a path.
 struct Progress {
   std::vector<double> s_m;  ///< arc length, unwrapped: on a closed path it grows beyond the length
   std::vector<double> distance_m;  ///< to the path
@@ -31,8 +31,8 @@ struct Progress {
 [[nodiscard]] std::optional<double> lap_s(const ReferencePath& path, const Progress& progress,
                                           std::span<const double> times_s, std::size_t first = 0);
 
-/// Where a lap that starts with a run begins: in step 0 every vehicle stands, whatever it plans;
-/// its first plan is driven from step 1 on.
+/// Step in which a lap at the start of a run begins: in step 0 every vehicle stands, whatever it
+/// plans; its first plan is driven from step 1 on.
 inline constexpr std::size_t kFirstStepDriven = 1;
 
 }  // namespace hlc

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A pose is compared with the path this far around its place.
 constexpr double kAround_m = 0.4;
-/// The distance of two points at which a footprint's outline is compared with the bounds.
+/// Distance of two points at which a footprint's outline is compared with the bounds.
 constexpr double kOutline_m = 0.01;
 constexpr double kFront_m = 0.1;
 
@@ -25,14 +25,14 @@ Point outwards(const Point& direction, Side side) {
   return side == Side::kLeft ? left : Point(-left);
 }
 
-/// True if s + k * length lies in [from, to] for a whole number k (k = 0 on an open route).
+/// True if s + k * length lies in [from, to] for an integer k (k = 0 on an open route).
 bool is_in_window(double s_m, double from_s_m, double to_s_m, double length_m) {
   if (length_m <= 0.0) return s_m >= from_s_m && s_m <= to_s_m;
   const double turns = std::ceil((from_s_m - s_m) / length_m);
   return s_m + turns * length_m <= to_s_m;
 }
 
-/// A piece of a bound that belongs to s in [middle - reach, middle + reach].
+/// A piece of a bound with s in [middle - reach, middle + reach].
 struct BoundPiece {
   Point from_m;
   Point to_m;
@@ -40,7 +40,7 @@ struct BoundPiece {
   double reach_m;
 };
 
-/// The side's pieces that belong to some s in [from, to].
+/// The side's pieces with some s in [from, to].
 std::vector<BoundPiece> pieces_between(const Corridor& corridor, Side side, double from_s_m,
                                        double to_s_m) {
   std::vector<BoundPiece> pieces;
@@ -120,21 +120,21 @@ void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m
   }
 }
 
-/// Of every segment of the path the nearest point; the best of them all.
+/// The best of the nearest points of all segments of the path.
 Placement best_place(const ReferencePath& path, const Pose& pose) {
   Placement best{.distance_m = kInfinity};
   const std::vector<double>& joints = path.joints_s_m();
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
-    // Most are too far away, wherever they lead: none of their points is nearer than the first by
-    // more than the length.
+    // Most segments are too far away, in any direction: none of their points is nearer than the
+    // first by more than the length.
     const double from_first_m = (pose.position_m() - path.points_m()[i]).norm();
-    if (from_first_m - (joints[i + 1] - joints[i]) > misfit_m(best)) continue;
+    if (from_first_m - (joints[i + 1] - joints[i]) > placement_cost_m(best)) continue;
     const auto projection = path.project_within(pose.position_m(), joints[i], joints[i + 1]);
     const double heading_rad = path.heading_rad_at((joints[i] + joints[i + 1]) / 2.0);
     const Placement one{.s_m = projection.s_m,
                         .distance_m = projection.distance_m,
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
-    if (misfit_m(one) < misfit_m(best)) best = one;
+    if (placement_cost_m(one) < placement_cost_m(best)) best = one;
   }
   return best;
 }
@@ -143,7 +143,7 @@ Placement best_place(const ReferencePath& path, const Pose& pose) {
 
 double Placement::beyond_m() const { return std::max(beyond_left_m, beyond_right_m); }
 
-double misfit_m(const Placement& placement) {
+double placement_cost_m(const Placement& placement) {
   return placement.distance_m + kFront_m * std::abs(placement.turned_rad);
 }
 

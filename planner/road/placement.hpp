@@ -8,20 +8,20 @@
 
 namespace hlc {
 
-/// A route that a vehicle may take: what it follows and where it may drive.
+/// A route that a vehicle may take: its path and drivable area.
 struct DrivableRoute {
   std::string name;
   ReferencePath path;
   Corridor corridor;
 };
 
-/// Where and how a vehicle stands on a route.
+/// Placement of a vehicle on a route.
 struct Placement {
   double s_m{};         ///< arc length of its place on the path
   double distance_m{};  ///< of its position to the path
   double turned_rad{};  ///< its heading minus the path's there, in (-pi, pi]
-  /// How far its footprint reaches beyond the corridor on each side; negative: so much room is
-  /// left. Minus infinity where the corridor has no bounds.
+  /// How far its footprint reaches beyond the corridor on each side; negative: room left. Minus
+  /// infinity where the corridor has no bounds.
   double beyond_left_m{};
   double beyond_right_m{};
   bool is_on_ground{true};  ///< the whole footprint lies on the map
@@ -34,24 +34,24 @@ struct Placement {
 /// on the map, and the heading differs from the lane's by at most kFitsTurned_rad. On open ground,
 /// which has no lanes, every pose fits.
 ///
-/// 0.15 m is a lane's width, so that a car that stands between two routes fits the nearer one;
-/// 0.6 rad is what a car can correct within a lane's width or two.
+/// 0.15 m is a lane's width, so that a car that stands between two routes fits the nearer one; 0.6
+/// rad is an error that a car can correct within a lane's width or two.
 inline constexpr double kFitsBeyond_m = 0.15;
 inline constexpr double kFitsTurned_rad = 0.6;
 [[nodiscard]] bool fits(const Placement& placement, const DrivableRoute& route);
 
-/// The place on the route that suits the pose best: the one with the smallest
+/// The best place of the pose on the route: the one with the smallest
 ///
 ///     distance + 0.1 m * |turned|,
 ///
-/// the mean of what position and front are off. Where two strands cross or run side by side in
-/// opposite directions it is the one that the vehicle points along.
+/// the mean of the errors of position and front. Where two strands cross or run side by side in
+/// opposite directions it is the one in the vehicle's direction.
 /// @param pose  the planner's (heading, not yaw)
 [[nodiscard]] Placement placement_on(const DrivableRoute& route, const Pose& pose,
                                      const Footprint& footprint);
 
-/// The measure by which places are compared, above [m].
-[[nodiscard]] double misfit_m(const Placement& placement);
+/// The measure above for comparing places [m].
+[[nodiscard]] double placement_cost_m(const Placement& placement);
 
 /// By how much the drivable area is widened on each side, and where.
 struct Widening {
@@ -61,9 +61,9 @@ struct Widening {
   double right_m{};
 };
 
-/// The route's corridor with every point of its bounds that belongs to s in [from, to] moved
-/// outwards, across the path's direction at its s, by the side's width, but not beyond the ground:
-/// an area that holds the corridor, is closed like it and lies on the map where that does.
+/// The route's corridor with every point of its bounds with s in [from, to] moved outwards, across
+/// the path's direction at its s, by the side's width, but not beyond the ground: an area that
+/// contains the corridor, is closed like it and lies on the map where the corridor does.
 [[nodiscard]] Corridor widened(const DrivableRoute& route, const Widening& widening);
 
 }  // namespace hlc

@@ -69,7 +69,7 @@ double ReferencePath::heading_rad_at(double s_m) const {
 void ReferencePath::improve(Projection& best, const Point& point_m, double from_s_m,
                             double to_s_m) const {
   const std::size_t first = segment_at(from_s_m);
-  // The nearest joint tells which segments are worth a closer look.
+  // The nearest joint determines which segments need to be checked.
   double squared_m2 = best.distance_m * best.distance_m;
   for (std::size_t i = first; i < points_m_.size() && s_m_[i] <= to_s_m; ++i) {
     if (s_m_[i] < from_s_m) continue;

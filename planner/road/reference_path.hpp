@@ -11,15 +11,14 @@ namespace hlc {
 class ReferencePath {
  public:
   /// @param points_m  at least 2, no two neighbours equal, all finite; a closed path does not
-  /// repeat
-  ///                  its first point
+  /// repeat its first point
   /// @throws std::invalid_argument otherwise
   ReferencePath(std::vector<Point> points_m, bool closed);
 
   [[nodiscard]] double length_m() const;
   [[nodiscard]] bool is_closed() const { return closed_; }
   [[nodiscard]] const std::vector<Point>& points_m() const { return points_m_; }
-  /// Arc length of each point; on a closed path one more: the length, where the first point comes
+  /// Arc length of each point; on a closed path one more: the length, where the first point follows
   /// again.
   [[nodiscard]] const std::vector<double>& joints_s_m() const { return s_m_; }
 

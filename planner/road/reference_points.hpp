@@ -7,13 +7,13 @@
 
 namespace hlc {
 
-/// How the reference points of a plan are spaced: the speed of each of the `horizon_steps` steps
-/// [m/s]. A rule is one function; the profile chooses it.
+/// Spacing of a plan's reference points: the speed of each of the `horizon_steps` steps [m/s]. A
+/// rule is one function; the profile chooses it.
 /// @pre horizon_steps >= 1
 using ReferenceRule = std::vector<double> (*)(double current_speed_mps, double reference_speed_mps,
                                               std::size_t horizon_steps);
 
-/// The reference speed, and half of it in the last step, whatever the current speed is. The rule
+/// The reference speed, and half of it in the last step, independent of the current speed. The rule
 /// that produced the paper's numbers.
 [[nodiscard]] std::vector<double> half_speed_last(double current_speed_mps,
                                                   double reference_speed_mps,
@@ -24,7 +24,7 @@ using ReferenceRule = std::vector<double> (*)(double current_speed_mps, double r
                                                    double reference_speed_mps,
                                                    std::size_t horizon_steps);
 
-/// Reference of one plan: r_1 ... r_n and the speed that belongs to each step.
+/// Reference of one plan: r_1 ... r_n and the speed of each step.
 struct Reference {
   std::vector<Point> points_m;
   std::vector<double> speeds_mps;

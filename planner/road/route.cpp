@@ -8,7 +8,7 @@
 namespace hlc {
 namespace {
 
-/// Points closer than this are one point [m]; far below what a footprint could slip through.
+/// Points closer than this coincide [m]; far smaller than any gap for a footprint.
 constexpr double kSamePoint_m = 1e-6;
 
 std::string in_millimetres(double distance_m) {
@@ -28,14 +28,14 @@ const Lanelet& find_lanelet(const LaneletMap& map, LaneletId id) {
 void check_joint(const Lanelet& from, const Lanelet& to, const Point& end_m, const Point& begin_m) {
   const double gap_m = (end_m - begin_m).norm();
   if (gap_m > kMaxJointGap_m) {
-    throw std::runtime_error("route: lanelet " + std::to_string(to.id) + " begins " +
-                             in_millimetres(gap_m) + " from the end of lanelet " +
-                             std::to_string(from.id) + ", at most " +
-                             in_millimetres(kMaxJointGap_m) + " is allowed");
+    throw std::runtime_error("route: gap from the end of lanelet " + std::to_string(from.id) +
+                             " to the begin of lanelet " + std::to_string(to.id) + " = " +
+                             in_millimetres(gap_m) +
+                             ", must be <= " + in_millimetres(kMaxJointGap_m));
   }
 }
 
-/// Centre line of a lanelet without points that repeat the one before.
+/// Centre line of a lanelet without consecutive duplicate points.
 std::vector<Point> clean_centre_line(const Lanelet& lanelet) {
   std::vector<Point> points;
   for (const Point& point : centre_line_m(lanelet)) {
@@ -52,7 +52,7 @@ std::vector<Point> clean_centre_line(const Lanelet& lanelet) {
 
 bool same_place(const Point& a, const Point& b) { return (a - b).norm() <= kMaxJointGap_m; }
 
-/// Neighbour of the same direction as the map names it, or nullptr.
+/// Neighbour of the same direction according to the map, or nullptr.
 const Lanelet* neighbour(const LaneletMap& map, const Lanelet& lanelet, Side side) {
   const auto& adjacent = side == Side::kLeft ? lanelet.adjacent_left : lanelet.adjacent_right;
   return adjacent && adjacent->same_direction ? &find_lanelet(map, adjacent->id) : nullptr;
@@ -85,7 +85,7 @@ const std::vector<Point>& outer_bound(const LaneletMap& map, const Lanelet& lane
       outermost = beside;
     }
   }
-  // A map in which lanes are neighbours in a circle must not hold us for ever.
+  // Maps in which lanes are neighbours in a circle must not cause an endless loop.
   for (std::size_t i = 0; i < map.lanelets.size(); ++i) {
     const Lanelet* next = neighbour(map, *outermost, side);
     if (next == nullptr) {

@@ -9,7 +9,7 @@
 namespace hlc {
 namespace {
 
-constexpr StepIndex kFirstStep{1};  // they stand in step 0
+constexpr StepIndex kFirstStep{1};  // all stand in step 0
 
 VehicleId id(const std::unique_ptr<Controller>& controller) {
   return controller->options().vehicle;

@@ -6,28 +6,28 @@
 
 #include "planner/controller/controller.hpp"
 #include "planner/controller/joint_step.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace hlc {
 
-/// Controllers stepped together, each driven by a vehicle that follows its plan perfectly: planning
-/// and coordination alone, for look-ahead, campaigns and tests.
+/// Controllers stepped together, each with a vehicle that follows its plan perfectly: planning and
+/// coordination only, for look-ahead, campaigns and tests.
 class Rollout {
  public:
   /// @param controllers  one per vehicle, any order
   /// @param starts       planned pose of each at the start, standing
   Rollout(std::vector<std::unique_ptr<Controller>> controllers, const std::vector<Pose>& starts);
 
-  /// From the next step on every controller follows these zones and policies, and nobody else may
-  /// switch it. No battery is measured. @pre all are on the subgraphs of their scenario
+  /// From the next step on every controller follows these zones and policies, and must not be
+  /// switched otherwise. No battery is measured. @pre all are on the subgraphs of their scenario
   void choose_by(const ReconfigurationSettings& settings);
 
-  /// The same vehicles in the same state, going their own way from here; loses nothing, and stays
-  /// on the subgraphs that are planned on now.
+  /// An independent copy of the vehicles in the same state; loses no messages, and stays on the
+  /// current subgraphs.
   [[nodiscard]] Rollout clone() const;
 
-  /// Messages for which this says true do not arrive. None by default.
+  /// Messages for which this is true are lost. None by default.
   void lose(std::function<bool(const Delivery&)> is_lost) { rules_.is_lost = std::move(is_lost); }
 
   /// One control step of all vehicles; reports in the order of priorities.
@@ -43,7 +43,7 @@ class Rollout {
   [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
 
   std::vector<std::unique_ptr<Controller>> controllers_;
-  std::vector<SubgraphChoice> choices_;  ///< in the order of the controllers, or none
+  std::vector<SubgraphSelector> choices_;  ///< in the order of the controllers, or none
   JointStepRules rules_;
   StepIndex next_step_{0};
 };

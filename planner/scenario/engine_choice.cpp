@@ -18,7 +18,7 @@ void choose_engine(const std::string& name, SearchOptions& search) {
   try {
     search.engine = engine_from_name(is_through_ompl ? name.substr(kThroughOmpl.size()) : name);
   } catch (const std::invalid_argument&) {
-    throw std::invalid_argument("engine = " + name + ", allowed " + kEngineChoices);
+    throw std::invalid_argument("engine = " + name + ", must be one of " + kEngineChoices);
   }
   search.factory = is_through_ompl ? make_ompl_engine : nullptr;
 }

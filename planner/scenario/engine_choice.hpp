@@ -6,7 +6,7 @@
 
 namespace hlc {
 
-/// The engines as scenarios, problem files and command lines name them.
+/// The names of the engines in scenarios, problem files and command lines.
 ///
 /// | name                    | what plans                                                     |
 /// |-------------------------|----------------------------------------------------------------|
@@ -18,11 +18,11 @@ inline constexpr char kEngineChoices[] =
     "branch_and_bound, best_first, ompl_branch_and_bound, ompl_best_first";
 
 /// Sets `engine` and `factory`.
-/// @throws std::invalid_argument, "engine = NAME, allowed ...", for any other name
+/// @throws std::invalid_argument, "engine = NAME, must be ...", for any other name
 void choose_engine(const std::string& name, SearchOptions& search);
 
-/// The name that `choose_engine` takes for these options; with a factory of somebody else the name
-/// of `engine`.
+/// The name for which `choose_engine` gives these options; with another factory the name of
+/// `engine`.
 [[nodiscard]] std::string engine_name(const SearchOptions& search);
 
 }  // namespace hlc

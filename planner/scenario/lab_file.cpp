@@ -19,7 +19,7 @@ LabLimits read_lab(const std::filesystem::path& file, double step_s) {
   const double intervals = step_s / lab.point_interval_s;
   if (std::abs(intervals - std::round(intervals)) > 1e-9 || std::round(intervals) < 1.0) {
     node.fail("point_interval_s",
-              "what divides the automaton's step of " + shortest_text(step_s) + " s");
+              "a divisor of the automaton's step of " + shortest_text(step_s) + " s");
   }
   const Node area = node.map("area");
   lab.x_min_m = area.required<double>("x_min_m");

@@ -10,24 +10,24 @@
 
 namespace hlc {
 
-/// "A, B": the names of all.
+/// The names of all, "A, B".
 [[nodiscard]] std::string names_of(const std::vector<SubgraphSpec>& subgraphs);
 
 /// nullptr if none has that name.
 [[nodiscard]] const SubgraphSpec* find_subgraph(const std::vector<SubgraphSpec>& subgraphs,
                                                 const std::string& name);
 
-/// One of the subgraphs that a file offers; throws if it offers no fitting one.
+/// Chooses one of the subgraphs in a file; throws if none fits.
 using ChooseSubgraph = std::function<const SubgraphSpec&(const std::vector<SubgraphSpec>& offered)>;
 
-/// How much of a configuration is built.
+/// Part of a configuration to build.
 enum class BuildScope {
-  kSubgraph,  ///< what the subgraph needs
-  kWhole,     ///< all of it: other subgraphs may be asked for later
+  kSubgraph,  ///< the part that the subgraph needs
+  kWhole,     ///< all of it: other subgraphs may be requested later
 };
 
-/// A subgraph with its automaton: from a file that build_automaton has written, or from a
-/// configuration, of which it builds what is needed (maneuvers are solved).
+/// A subgraph with its automaton: from a file of build_automaton, or from a configuration, of which
+/// the needed part is built (maneuvers are solved).
 /// @throws std::invalid_argument with one line that names the file, or as `choose`
 [[nodiscard]] std::shared_ptr<const Subgraph> read_subgraph(
     const std::filesystem::path& automaton_file, const ChooseSubgraph& choose,

@@ -33,7 +33,8 @@ SubgraphRequest read_request(const Node& node) {
   for (const Node& label : node.optional_list("labels")) {
     request.labels.push_back(label.as<std::string>());
   }
-  if (node.has("labels") && request.labels.empty()) node.fail("labels", "at least one");
+  if (node.has("labels") && request.labels.empty())
+    node.fail("labels", "a list with at least one label");
   const double max_speed_mps = node.optional<double>("max_speed_mps", 0.0, above(0.0));
   if (node.has("max_speed_mps")) request.max_speed_mps = max_speed_mps;
   request.trims_on = read_trims(node, "trims_on");
@@ -70,7 +71,7 @@ TimePolicySettings read_time(const Node& rule) {
     node.check_no_unknown_keys();
     last_s = from_s;
   }
-  if (settings.changes.empty()) rule.fail("time", "at least one entry");
+  if (settings.changes.empty()) rule.fail("time", "a list with at least one entry");
   return settings;
 }
 
@@ -103,7 +104,7 @@ LookAheadSettings read_look_ahead(const Node& rule) {
   }
   const std::size_t candidates = settings.candidates.size();
   if (candidates < 2 || candidates > kMostCandidates) {
-    node.fail("candidates", fmt::format("2 ... {} requests", kMostCandidates));
+    node.fail("candidates", fmt::format("a list of 2 ... {} requests", kMostCandidates));
   }
   settings.steps = node.optional<std::size_t>("steps", settings.steps, between(1.0, 64.0));
   settings.criterion_weights = read_criterion_weights(node);
@@ -113,8 +114,8 @@ LookAheadSettings read_look_ahead(const Node& rule) {
   settings.max_expansions = node.required<std::size_t>("max_expansions", at_least(1.0));
   if (settings.max_expansions > most) {
     node.fail("max_expansions",
-              fmt::format("1 ... {}: with {} candidates over {} steps {} in all", most, candidates,
-                          settings.steps, kMostLookAheadExpansions));
+              fmt::format("in 1 ... {}: with {} candidates over {} steps {} in all", most,
+                          candidates, settings.steps, kMostLookAheadExpansions));
   }
   node.check_no_unknown_keys();
   return settings;
@@ -144,7 +145,7 @@ ReconfigurationSettings read_policy(const Node& node) {
       node.optional<double>("min_stay_s", settings.min_stay_s, between(0.0, kLongest_s));
   node.check_no_unknown_keys();
   if (settings.zones.empty() && settings.policies.empty()) {
-    node.fail("rules", "at least one, or at least one of `zones`");
+    node.fail("rules", "a list with at least one rule, unless there are `zones`");
   }
   return settings;
 }
@@ -157,7 +158,7 @@ std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenari
   for (const std::string& name : node.keys()) {
     if (name == kNoPolicy) {
       throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
-                                  "', allowed any other name: it stands for no policy");
+                                  "', must be another name: it means no policy");
     }
     policies.emplace(name, read_policy(node.map(name)));
   }

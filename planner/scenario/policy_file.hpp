@@ -12,7 +12,7 @@
 
 namespace hlc {
 
-/// Reads the map `policies` of a scenario, by name. Each entry (planner/policy says what they do):
+/// Reads the map `policies` of a scenario, by name. Each entry (specified in planner/policy):
 ///
 ///     zones        list of {x_m: [from, to], y_m: [from, to], max_speed_mps}, may be absent
 ///     rules        list, may be absent; each entry one of
@@ -24,18 +24,18 @@ namespace hlc {
 ///                     least_gain (default 0.05), max_expansions}
 ///     min_stay_s   default 1
 ///
-/// A request is a map; what it does not name is the scenario's:
+/// A request is a map; keys that are absent keep the scenario's value:
 ///
 ///     labels         list
 ///     max_speed_mps
 ///     trims_on, trims_off   lists of numbers from 1
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
 [[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenario);
 
 /// Tries every request of the policy, and the limit of every zone (check_reconfiguration).
 /// @throws std::invalid_argument with one line: the place of the policies, its name and why one of
-/// its requests cannot be
+/// its requests is infeasible
 void check_policy(const Node& scenario, const std::string& name,
                   const ReconfigurationSettings& settings, const Subgraph& base,
                   std::size_t horizon_steps, const std::optional<LabLimits>& lab);

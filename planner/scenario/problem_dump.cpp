@@ -22,7 +22,7 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
   std::filesystem::create_directories(folder_, error);
   if (error || access(folder_.c_str(), W_OK | X_OK) != 0) {
     throw std::invalid_argument("--dump-problems = " + folder_.string() +
-                                ", allowed a folder that can be made and written to");
+                                ", must be a folder that can be created and written to");
   }
 }
 
@@ -30,7 +30,7 @@ void ProblemDump::write(const Controller& controller) const {
   const ControllerOptions& options = controller.options();
   if (controller.subgraph().spec() != declared_) {
     throw std::runtime_error(
-        fmt::format("problems on subgraph '{}' cannot be written, which {} does not declare",
+        fmt::format("problems on subgraph '{}' cannot be written: {} does not declare it",
                     controller.subgraph().spec().name, automaton_file_.string()));
   }
   const auto write_all = [&](std::span<const HorizonProblem> problems, const char* what) {
@@ -46,7 +46,7 @@ void ProblemDump::write(const Controller& controller) const {
                          folder_ / name);
     }
   };
-  write_all(controller.entry_problems(), "joining");
+  write_all(controller.entry_problems(), "lane_entry");
   write_all(controller.problems(), "search");
 }
 

@@ -141,7 +141,7 @@ void read_start(const Node& node, const Subgraph& subgraph, HorizonProblem& prob
   problem.start_trim = read_trim(node, subgraph);
 }
 
-/// A maneuver of the whole automaton: a plan in force may hold what is off by now.
+/// A maneuver of the whole automaton: a plan in force may hold disabled ones.
 std::vector<const Maneuver*> read_incumbent(const Node& root, const Subgraph& subgraph,
                                             const HorizonProblem& problem) {
   std::vector<const Maneuver*> incumbent;
@@ -292,7 +292,7 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
   const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
     const SubgraphSpec* spec = find_subgraph(offered, wanted);
     is_unknown = spec == nullptr;
-    if (is_unknown) root.fail("subgraph", names_of(offered));
+    if (is_unknown) root.fail("subgraph", "one of " + names_of(offered));
     return *spec;
   };
   const auto read = [&] {
@@ -322,7 +322,7 @@ void check_can_be_searched(const ProblemFile& file) {
   check_search_options(file.search);
   if (needs_reference_speeds(file.search.cost_to_go) && file.problem.reference_speed_mps.empty()) {
     throw std::invalid_argument(
-        std::string("reference_speed is missing, allowed one per step: the cost-to-go ") +
+        std::string("reference_speed is missing, must be one per step: the cost-to-go ") +
         to_string(file.search.cost_to_go) + " needs them");
   }
 }

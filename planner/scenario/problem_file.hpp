@@ -11,7 +11,7 @@
 
 namespace hlc {
 
-/// One decision of a controller as it lies in a file: the problem, what it is solved on and how.
+/// A single planning problem as in a file: the problem, its subgraph and search options.
 struct ProblemFile {
   std::filesystem::path automaton_file;
   std::shared_ptr<const Subgraph> subgraph;
@@ -39,36 +39,37 @@ inline constexpr std::size_t kMaxProblemSteps = 64;
 ///     corridor         [[[x1, y1], [x2, y2]], ...]: segments of the boundary; may be absent
 ///     avoids_steering_limit  true or false (default): see HorizonProblem
 ///     incumbent        [{trim, label}, ...], n maneuvers by the trim that they lead to and their
-///                      label ("trim": a trim's own step), the first from start.trim; may be absent
+///                      label ("trim": a trim's self-loop), the first from start.trim; may be
+///                      absent
 ///     search           {engine, cost_to_go, max_expansions, criterion_weights}, each may be
-///     absent:
-///                      SearchOptions; criterion_weights: {criterion: weight in m^2 per unit}
+///                      absent: SearchOptions; criterion_weights: {criterion: weight in m^2 per
+///                      unit}
 ///
 /// Numbers are written so that they read back to the same bits; the order of a clockwise polygon's
-/// vertices is reversed when it is read, everything else stays as it is. Empty polygons, which
-/// hold no point, are not written.
-/// @throws std::invalid_argument if a number is not finite: JSON has no way to say so
+/// vertices is reversed on reading, everything else is unchanged. Empty polygons, which contain no
+/// point, are not written.
+/// @throws std::invalid_argument if a number is not finite: JSON cannot represent it
 [[nodiscard]] std::string to_text(const ProblemFile& file);
 
-/// Writes the text beside `path` and renames it, so that there is never a half-written file.
+/// Writes the text to a temporary file and renames it, so that there is never a half-written file.
 /// @throws std::runtime_error naming the file if it cannot be written, or as to_text
 void write_problem_file(const ProblemFile& file, const std::filesystem::path& path);
 
 /// Reads a file, its automaton (see read_subgraph) and checks it.
 /// @param automaton_file  instead of the one that the file names
-/// @throws std::invalid_argument with one line: file, place in the JSON, value, what is allowed.
-/// Unknown and repeated keys are refused.
+/// @throws std::invalid_argument with one line: file, place in the JSON, value, bound. Unknown and
+/// repeated keys are refused.
 [[nodiscard]] ProblemFile read_problem_file(
     const std::filesystem::path& path,
     const std::optional<std::filesystem::path>& automaton_file = std::nullopt);
 
-/// The same with the automaton's subgraph at hand: for programs that read many files. The file's
+/// The same with a given subgraph of the automaton: for programs that read many files. The file's
 /// own `automaton` is not read, its `subgraph` must be this one.
 [[nodiscard]] ProblemFile read_problem_file(const std::filesystem::path& path,
                                             std::shared_ptr<const Subgraph> subgraph);
 
-/// @throws std::invalid_argument as check_search_options, or if that search needs what the problem
-/// does not say (reference speeds)
+/// @throws std::invalid_argument as check_search_options, or if that search needs data that the
+/// problem lacks (reference speeds)
 void check_can_be_searched(const ProblemFile& file);
 
 }  // namespace hlc

@@ -22,7 +22,7 @@ Profile profile_from_name(const std::string& name) {
                            .incumbent = &no_incumbent,
                            .standstill_timeout = nullptr}};
   }
-  throw std::invalid_argument("--profile = " + name + ", allowed default, 2022");
+  throw std::invalid_argument("--profile = " + name + ", must be one of default, 2022");
 }
 
 }  // namespace hlc

@@ -8,7 +8,8 @@
 
 namespace hlc {
 
-/// A named set of rules for planning and agreeing. A profile is data: no code asks for its name.
+/// A named set of rules for planning and coordination. A profile is data: no code depends on its
+/// name.
 struct Profile {
   std::string name;
   ReferenceRule reference_rule{half_speed_last};

@@ -38,8 +38,9 @@ const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
   if (found != scenario.vehicles.end()) return *found;
   std::vector<unsigned> known;
   for (const ScenarioVehicle& vehicle : scenario.vehicles) known.push_back(vehicle.id.value);
-  throw std::invalid_argument(fmt::format("{}: vehicle id = {}, allowed {}", scenario.file.string(),
-                                          id.value, fmt::join(known, ", ")));
+  throw std::invalid_argument(fmt::format("{}: vehicle id = {}, must be one of {}",
+                                          scenario.file.string(), id.value,
+                                          fmt::join(known, ", ")));
 }
 
 std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id) {

@@ -21,7 +21,7 @@
 namespace hlc {
 namespace {
 
-/// The command line's engine, else the file's, else the profile's.
+/// The command line's engine, otherwise the file's, otherwise the profile's.
 SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices& choices,
                             const Profile& profile) {
   SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
@@ -38,7 +38,7 @@ SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices&
   } catch (const std::invalid_argument& error) {
     if (choices.engine) {
       throw std::invalid_argument(fmt::format(
-          "--engine = {} with profile {}, allowed best_first or ompl_best_first: the profile's "
+          "--engine = {} with profile {}, must be best_first or ompl_best_first: the profile's "
           "cost-to-go is {}",
           *choices.engine, profile.name, to_string(search.cost_to_go)));
     }
@@ -52,24 +52,22 @@ void check_standstill_is_near(const Node& node, const Scenario& scenario) {
   for (const TrimId trim : scenario.subgraph->trims()) {
     const std::size_t steps = scenario.subgraph->distance_to_standstill(trim);
     if (steps <= scenario.horizon_steps) continue;
-    node.fail(
-        node.has("horizon_steps") ? "horizon_steps" : "subgraph",
-        fmt::format(
-            "a horizon of at least {} steps: so many takes trim {} of subgraph {} to standstill",
-            steps, trim.index + 1, scenario.subgraph->spec().name));
+    node.fail(node.has("horizon_steps") ? "horizon_steps" : "subgraph",
+              fmt::format(">= {}: trim {} of subgraph {} needs that many steps to standstill",
+                          steps, trim.index + 1, scenario.subgraph->spec().name));
   }
 }
 
 void check_lab(const Scenario& scenario) {
   if (!scenario.lab) return;
-  const std::string fault = lab_fault_of(*scenario.subgraph, *scenario.lab);
+  const std::string fault = validate_for_lab(*scenario.subgraph, *scenario.lab);
   if (fault.empty()) return;
   throw std::invalid_argument(
       fmt::format("{}: subgraph {}, {} by {}", scenario.automaton_file.string(),
                   scenario.subgraph->spec().name, fault, scenario.lab_file->string()));
 }
 
-/// The command line's policy, else the file's.
+/// The command line's policy, otherwise the file's.
 void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
                    Scenario& scenario) {
   scenario.policies = values.policies;
@@ -78,11 +76,11 @@ void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
   const auto is_known = [&](const std::string& name) {
     return name == kNoPolicy || values.policies.contains(name);
   };
-  if (!is_known(values.policy)) values.node.fail("policy", known);
+  if (!is_known(values.policy)) values.node.fail("policy", "one of " + known);
   scenario.policy = choices.policy.value_or(values.policy);
   if (!is_known(scenario.policy)) {
     throw std::invalid_argument(
-        fmt::format("--policy = {}, allowed {}", one_line(scenario.policy), known));
+        fmt::format("--policy = {}, must be one of {}", one_line(scenario.policy), known));
   }
   // Policies are made for the file's own subgraph; another one may be too narrow for some of them.
   const bool is_own_subgraph = scenario.subgraph->spec().name == values.subgraph;
@@ -114,7 +112,7 @@ Route build_route_of(const RouteValues& values, const LaneletMap& map) {
 }
 
 ScenarioVehicle place_vehicle(const VehicleValues& values, const Route& route) {
-  // Its arc length has no other bounds than its route's.
+  // A range that bounds every arc length: only the route's own bounds hold.
   static_cast<void>(values.node.required<double>("start_m", between(0.0, route.path.length_m())));
   const double heading_rad = route.path.heading_rad_at(values.start_m);
   const Point position = route.path.at(values.start_m) +
@@ -145,7 +143,7 @@ void add_vehicles_on_routes(const ScenarioValues& values, const LaneletMap& map,
 void add_cars_on_circle(const CircleValues& circle, std::size_t cars, Scenario& scenario) {
   if (cars < 1 || cars > kMaxCarsOnCircle) {
     throw std::invalid_argument(
-        fmt::format("--cars = {}, allowed 1 ... {}", cars, kMaxCarsOnCircle));
+        fmt::format("--cars = {}, must be in 1 ... {}", cars, kMaxCarsOnCircle));
   }
   for (std::size_t i = 0; i < cars; ++i) {
     const double angle =
@@ -171,9 +169,8 @@ void add_vehicles(const ScenarioValues& values, const ScenarioInputs& inputs,
     return;
   }
   if (choices.cars) {
-    throw std::invalid_argument(
-        fmt::format("--cars: {} has named vehicles; allowed for scenarios with `circle`",
-                    choices.file.string()));
+    throw std::invalid_argument(fmt::format(
+        "--cars: {} has named vehicles; must be a scenario with `circle`", choices.file.string()));
   }
   add_vehicles_on_routes(values, inputs.map.value(), scenario);
 }
@@ -189,7 +186,7 @@ void check_starts(const ScenarioValues& values, const Scenario& scenario) {
   values.vehicles[second].node.fail("start_m", allowed);
 }
 
-/// A zone that nobody comes through is a mistake: where it should be, nobody would slow down.
+/// A zone that no route passes is a mistake: its limit would never hold.
 void check_zones(const Node& node, const Scenario& scenario) {
   for (const auto& [name, settings] : scenario.policies) {
     for (std::size_t i = 0; i < settings.zones.size(); ++i) {
@@ -199,10 +196,7 @@ void check_zones(const Node& node, const Scenario& scenario) {
             return limit_on(zone, route.path, 0.0, route.path.length_m()).has_value();
           });
       if (is_driven_through) continue;
-      node.map("policies")
-          .map(name)
-          .list("zones")[i]
-          .fail("x_m", "a zone that a route comes through");
+      node.map("policies").map(name).list("zones")[i].fail("x_m", "a zone that a route passes");
     }
   }
 }

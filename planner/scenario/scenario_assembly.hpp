@@ -6,8 +6,8 @@
 
 namespace hlc {
 
-/// Puts a scenario together and checks that it can be driven (see read_scenario).
-/// @throws std::invalid_argument with one line: place in the file or flag, value, what is allowed
+/// Assembles a scenario and checks that it can be driven (see read_scenario).
+/// @throws std::invalid_argument with one line: place in the file or flag, value, bound
 [[nodiscard]] Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
                                          const ScenarioChoices& choices);
 

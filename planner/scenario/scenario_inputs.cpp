@@ -11,24 +11,25 @@
 namespace hlc {
 namespace {
 
-/// The command line's, else the file's.
+/// The command line's, otherwise the file's.
 const SubgraphSpec& chosen_subgraph(const ScenarioValues& values, const ScenarioChoices& choices,
                                     const std::vector<SubgraphSpec>& subgraphs) {
   const std::string name = choices.subgraph.value_or(values.subgraph);
   if (const SubgraphSpec* spec = find_subgraph(subgraphs, name)) return *spec;
   if (choices.subgraph) {
-    throw std::invalid_argument(fmt::format("subgraph {}, allowed {}", name, names_of(subgraphs)));
+    throw std::invalid_argument(
+        fmt::format("subgraph {}, must be one of {}", name, names_of(subgraphs)));
   }
-  values.node.fail("subgraph", names_of(subgraphs));
+  values.node.fail("subgraph", "one of " + names_of(subgraphs));
 }
 
-/// What does not depend on the automaton.
+/// The inputs that do not depend on the automaton.
 ScenarioInputs load_map(const ScenarioValues& values, const ScenarioChoices& choices) {
   ScenarioInputs inputs;
   if (values.circle) {
     if (!choices.map_file) return inputs;
     throw std::invalid_argument(
-        fmt::format("--map: {} is a scenario without lanes; allowed for scenarios with `map`",
+        fmt::format("--map: {} is a scenario without lanes; must be a scenario with `map`",
                     choices.file.string()));
   }
   inputs.map_file = choices.map_file ? choices.map_file : values.map_file;

@@ -13,7 +13,7 @@
 
 namespace hlc {
 
-/// What a scenario is driven on: the contents of the files that it names.
+/// The files that a scenario names, read.
 struct ScenarioInputs {
   std::optional<std::filesystem::path> map_file;  ///< none: a scenario without lanes
   std::optional<LaneletMap> map;
@@ -21,14 +21,14 @@ struct ScenarioInputs {
   std::optional<LabLimits> lab;
 };
 
-/// Reads map and lab, and loads the automaton or builds what the scenario needs of it
+/// Reads map and lab, and loads the automaton or builds the part that the scenario needs
 /// (read_subgraph; maneuvers are solved).
 /// @throws std::invalid_argument, std::runtime_error with one line that names the file, or the flag
-/// of the command line that does not fit
+/// that does not fit
 [[nodiscard]] ScenarioInputs load_inputs(const ScenarioValues& values,
                                          const ScenarioChoices& choices);
 
-/// The same with the automaton and the subgraphs that it offers at hand.
+/// The same with a given automaton and its subgraphs.
 [[nodiscard]] ScenarioInputs load_inputs(const ScenarioValues& values,
                                          const ScenarioChoices& choices,
                                          std::shared_ptr<const UniversalAutomaton> automaton,

@@ -13,7 +13,7 @@
 namespace hlc {
 namespace {
 
-/// A car may be started so far off its place, to see what becomes of it.
+/// A car may be started this far off its place, to test its behaviour there.
 constexpr double kMostBeside_m = 10.0;
 constexpr double kMostTurned_rad = std::numbers::pi;
 
@@ -47,7 +47,7 @@ std::vector<VehicleValues> parse_vehicles(const Node& scenario) {
     const VehicleId id{
         static_cast<std::uint8_t>(node.required<std::size_t>("id", between(1.0, kMaxVehicleId)))};
     if (std::ranges::find(vehicles, id, &VehicleValues::id) != vehicles.end()) {
-      node.fail("id", "every id once");
+      node.fail("id", "unique");
     }
     vehicles.push_back(
         {.id = id,
@@ -61,7 +61,7 @@ std::vector<VehicleValues> parse_vehicles(const Node& scenario) {
          .node = node});
     node.check_no_unknown_keys();
   }
-  if (vehicles.empty()) scenario.fail("vehicles", "at least one");
+  if (vehicles.empty()) scenario.fail("vehicles", "a list with at least one vehicle");
   return vehicles;
 }
 

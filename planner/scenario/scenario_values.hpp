@@ -20,7 +20,7 @@ struct RouteValues {
   std::string name;
   bool is_closed{true};
   std::map<std::string, std::vector<LaneletId>> lanelets;  ///< by the benchmarkID of the map
-  Node node;                                               ///< where it stands, for messages
+  Node node;                                               ///< its place in the file, for messages
 };
 
 /// An entry of `vehicles`.
@@ -41,7 +41,7 @@ struct CircleValues {
   Point centre_m{0.0, 0.0};
 };
 
-/// What a scenario file says, by itself: before anything that it names is read.
+/// The values of a scenario file, before the files that it names are read.
 struct ScenarioValues {
   std::string name;
   std::filesystem::path automaton_file;
@@ -63,8 +63,8 @@ struct ScenarioValues {
   Node node;  ///< the whole file, for messages
 };
 
-/// Reads the values of a scenario file. Paths in it start beside `path`, where it was read from.
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
+/// Reads the values of a scenario file. Relative paths in it start at the folder of `path`.
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
 [[nodiscard]] ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& path);
 
 }  // namespace hlc

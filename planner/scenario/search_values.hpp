@@ -12,9 +12,9 @@
 
 namespace hlc {
 
-/// The value that a name stands for.
-/// @param from_name  throws std::invalid_argument for a name that it does not know
-/// @param allowed    the names that it knows
+/// The value of a name.
+/// @param from_name  throws std::invalid_argument for an unknown name
+/// @param allowed    the known names
 template <class FromName>
 [[nodiscard]] auto read_named(const Node& node, const std::string& key, FromName from_name,
                               const std::string& allowed) {
@@ -26,14 +26,14 @@ template <class FromName>
   }
 }
 
-/// Key `engine`, a name that choose_engine takes; may be absent.
+/// Key `engine`, a name for choose_engine; may be absent.
 [[nodiscard]] std::optional<std::string> read_engine(const Node& node);
 
 /// Key `max_expansions`, which may be absent.
 [[nodiscard]] std::size_t read_max_expansions(const Node& node);
 
-/// Key `criterion_weights` of a file, {criterion: m^2 per unit}; may be absent. Which criteria
-/// there are is for check_criterion_weights to say.
+/// Key `criterion_weights` of a file, {criterion: m^2 per unit}; may be absent.
+/// check_criterion_weights checks the criteria.
 [[nodiscard]] std::vector<PlanningWeight> read_criterion_weights(const Node& node);
 
 /// @throws std::invalid_argument naming the place if the automaton does not have a criterion

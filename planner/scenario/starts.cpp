@@ -14,7 +14,7 @@
 namespace hlc {
 namespace {
 
-/// Uniform in [0, 1); the standard leaves its own distribution to the library.
+/// Uniform in [0, 1), independent of the library: the standard does not fix its own distribution.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
 
 }  // namespace
@@ -50,7 +50,7 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
       scenario.vehicles, [](const ScenarioVehicle& vehicle) { return vehicle.path.is_closed(); });
   if (!are_closed) {
     throw std::invalid_argument(scenario.file.string() +
-                                ": paths that are not closed, allowed for random starts: closed "
+                                ": open paths; random starts need closed "
                                 "routes");
   }
   std::mt19937_64 random(seed);
@@ -63,7 +63,7 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
     if (!overlapping_starts(candidate)) return candidate;
   }
   throw std::invalid_argument(
-      fmt::format("{}: {} vehicles, allowed so many that random starts do not overlap",
+      fmt::format("{}: {} vehicles, too many for random starts without overlap",
                   scenario.file.string(), scenario.vehicles.size()));
 }
 

@@ -10,18 +10,18 @@
 
 namespace hlc {
 
-/// Indices i < j of two vehicles whose footprints with margin overlap at the start; nothing if all
-/// are clear of each other.
+/// Indices i < j of two vehicles whose footprints with margin overlap at the start; nothing if
+/// there are none.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(
     const Scenario& scenario);
 
 /// The scenario with vehicle i standing at arc length starts_s_m[i] of its path, heading along it.
-/// Overlaps are the caller's matter.
+/// Does not check for overlaps.
 /// @pre one arc length per vehicle
 [[nodiscard]] Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m);
 
-/// The scenario with every vehicle somewhere on its path, uniform in arc length, all clear of each
-/// other. The same seed gives the same starts.
+/// The scenario with every vehicle at a random place on its path, uniform in arc length, without
+/// overlaps. The same seed gives the same starts.
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
 

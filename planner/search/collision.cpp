@@ -1,7 +1,8 @@
 #include "planner/search/collision.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "planner/common/demand.hpp"
 
 namespace hlc {
 namespace {
@@ -32,7 +33,7 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
     : reachable_(reachable) {
   std::size_t max_vertices = 0;
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       for (const ConvexPolygon* area_m :
            {&edge.maneuver->swept_area_m, &edge.maneuver->lane_area_m}) {
@@ -46,9 +47,10 @@ CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& re
 
 void CollisionCheck::prepare(const HorizonProblem& problem) {
   const std::size_t horizon_steps = problem.horizon_steps();
-  assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps);
+  HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps,
+             problem.obstacles_m.size(), horizon_steps);
 
-  // Rounding must not leave out what only just touches.
+  // Rounding must not drop an area that only just touches.
   constexpr double kSlackM = 1e-6;
   const Point start_m = problem.start.position_m();
   double farthest_m = 0.0;

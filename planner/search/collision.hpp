@@ -18,15 +18,15 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 /// Collision check of the edges of one search: a maneuver is free in step j if its swept area meets
 /// no obstacle of that step and its lane area crosses no boundary segment.
 ///
-/// `prepare` is called once per plan: it computes the obstacles' boxes and leaves out what no edge
-/// of the plan can meet. Left out are, per step, the obstacles whose box lies farther from the
-/// start than
+/// `prepare` is called once per plan: it computes the obstacles' boxes and drops what no edge of
+/// the plan can meet. Dropped are, per step, the obstacles whose box lies farther from the start
+/// than
 ///
 ///     D + R,   D = ReachableSets::max_distance_m up to the begin of that step,
-///              R = farthest point of any switched-on maneuver's area from the maneuver's start,
+///              R = farthest point of any enabled maneuver's area from the maneuver's start,
 ///
-/// and the boundary segments farther than the largest of these; so leaving out changes no answer
-/// for an edge that a plan can hold. A check allocates nothing. Not safe for two threads at once.
+/// and the boundary segments farther than the largest of these; so this changes no result for an
+/// edge that a plan can hold. A check allocates nothing. Not safe for two threads at once.
 class CollisionCheck {
  public:
   /// @param reachable  belongs to `subgraph` and must outlive this object

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
@@ -9,7 +10,7 @@ namespace {
 
 double longest_displacement_m(const Subgraph& subgraph) {
   double longest_m = 0.0;
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       longest_m = std::max(longest_m, edge.maneuver->displacement.position_m().norm());
     }
@@ -30,7 +31,7 @@ double distance_beyond_m(const Point& q_m, const Reach& reach) {
 
 double straight_line_cost_to_go(const Point& position_m, std::span<const Point> reference_m,
                                 std::span<const double> reach_m) {
-  assert(reference_m.size() == reach_m.size());
+  assert(reference_m.size() == reach_m.size());  // per vertex
   double h = 0.0;
   for (std::size_t i = 0; i < reach_m.size(); ++i) {
     const double excess_m = std::max(0.0, (position_m - reference_m[i]).norm() - reach_m[i]);
@@ -41,7 +42,7 @@ double straight_line_cost_to_go(const Point& position_m, std::span<const Point> 
 
 double reference_speed_cost_to_go(const Point& position_m, std::span<const Point> reference_m,
                                   std::span<const double> reach_m) {
-  assert(reference_m.size() == reach_m.size());
+  assert(reference_m.size() == reach_m.size());  // per vertex
   double h = 0.0;
   for (std::size_t i = 0; i < reach_m.size(); ++i) {
     const double difference_m = (position_m - reference_m[i]).norm() - reach_m[i];
@@ -54,8 +55,9 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
                                    const HorizonProblem& problem, CostToGo kind)
     : reachable_(reachable), reference_m_(problem.reference_m), kind_(kind) {
   const std::size_t n = problem.horizon_steps();
-  assert(n <= reachable.max_steps());
-  assert(!needs_reference_speeds(kind) || problem.reference_speed_mps.size() == n);
+  HLC_DEMAND(n <= reachable.max_steps(), n, reachable.max_steps());
+  HLC_DEMAND(!needs_reference_speeds(kind) || problem.reference_speed_mps.size() == n, kind,
+             problem.reference_speed_mps.size(), n);
 
   if (kind == CostToGo::kStraightLine) {
     const double longest_m = longest_displacement_m(subgraph);

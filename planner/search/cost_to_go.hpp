@@ -28,9 +28,9 @@ namespace hlc {
 ///
 ///     h = sum_{i=1}^{m} max(0, || p - r_i || - d_i)^2   [m^2]
 ///
-/// After i steps the vehicle is at most d_i away from p, so the triangle inequality gives
-/// || p_i - r_i || >= || p - r_i || - d_i. Each term bounds its own term of the cost. It may exceed
-/// the cost as soon as one d_i is smaller than what can be reached.
+/// After i steps the vehicle is at most d_i away from p, so the triangle inequality gives || p_i -
+/// r_i || >= || p - r_i || - d_i. Each term bounds its own term of the cost. It may exceed the cost
+/// as soon as one d_i is smaller than the vehicle's reach.
 ///
 /// @param reference_m  r_1 ... r_m of the remaining steps, same size as `reach_m`
 /// @param reach_m      d_1 ... d_m, the largest distance from p after exactly i steps
@@ -61,9 +61,9 @@ namespace hlc {
 /// position of every path that a plan can hold lies in S_i, so e_i is at most its distance to the
 /// reference point: each term bounds its own term of the cost, and h never exceeds the true
 /// cost-to-go, with or without obstacles. The only assumption is that `reachable` was computed for
-/// the very subgraph that is searched, from its edges as they are: the sets hold maneuvers that
-/// outrun both their trims, several labels, speed limits and exit edges of trims that are off, and
-/// reference points and speeds do not enter them.
+/// the same subgraph that is searched, from its edges: the sets include maneuvers that outrun both
+/// their trims, several labels, speed limits and exit edges of disabled trims, and do not depend on
+/// reference points and speeds.
 ///
 /// `kStraightLine` takes d_i = i times the longest displacement of any edge of the subgraph (exit
 /// edges too): admissible for the same automata, and much less tight.
@@ -79,20 +79,21 @@ class CostToGoFunction {
                    const HorizonProblem& problem, CostToGo kind);
 
   /// @param depth  steps already done, 0 ... n
-  /// @pre `trim` is one of the subgraph's `starts` and can stand within the n - depth steps left
+  /// @pre `trim` is one of the subgraph's `start_trims` and can stand within the n - depth steps
+  /// left
   [[nodiscard]] double operator()(TrimId trim, std::size_t depth, const Frame& frame) const;
 
  private:
   const ReachableSets& reachable_;
   std::span<const Point> reference_m_;
   CostToGo kind_;
-  /// With kStraightLine d_1 ... d_n; with kReferenceSpeed one row of n per depth, n - depth of it
-  /// in use.
+  /// With kStraightLine d_1 ... d_n; with kReferenceSpeed one row of n per depth, of which n -
+  /// depth are used.
   std::vector<double> reach_m_;
 };
 
-/// Lower bound on what every plan of a problem costs [m^2], whatever orders the search:
-/// `kReachable` at the start and the least that the maneuvers themselves cost.
+/// Lower bound on the cost of every plan of a problem [m^2], whatever orders the search:
+/// `kReachable` at the start and the least cost of the maneuvers themselves.
 /// @param reachable  for at least the problem's steps
 [[nodiscard]] double least_cost_of_problem(const Subgraph& subgraph, const ReachableSets& reachable,
                                            const EdgeCosts& costs, const HorizonProblem& problem);

@@ -25,11 +25,12 @@ void check_weights(const std::vector<PlanningWeight>& weights,
                    const std::vector<std::string>& known) {
   for (const auto& [criterion, weight_m2] : weights) {
     if (std::ranges::find(known, criterion) == known.end()) {
-      throw std::invalid_argument("criterion_weights: " + criterion + ", allowed " + joined(known));
+      throw std::invalid_argument("criterion_weights: " + criterion + ", must be one of " +
+                                  joined(known));
     }
     if (!(weight_m2 >= 0.0 && weight_m2 <= SearchOptions::kMostWeight_m2)) {
       throw std::invalid_argument("criterion_weights: " + criterion + " = " +
-                                  std::to_string(weight_m2) + ", allowed numbers from 0 to 1e9");
+                                  std::to_string(weight_m2) + ", must be in 0 ... 1e9");
     }
   }
 }
@@ -37,10 +38,10 @@ void check_weights(const std::vector<PlanningWeight>& weights,
 }  // namespace
 
 std::vector<std::string> criteria_of(const Subgraph& subgraph) {
-  const Edge& first = subgraph.successors(subgraph.starts().front()).front();
+  const Edge& first = subgraph.successors(subgraph.start_trims().front()).front();
   std::vector<std::string> names;
   for (const CriterionValue& value : first.maneuver->criteria) names.push_back(value.name);
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       std::erase_if(names, [&edge](const std::string& name) {
         return find_value(*edge.maneuver, name) == nullptr;
@@ -56,7 +57,7 @@ EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>
   if (weights_.empty()) return;
   check_weights(weights_, criteria_of(subgraph));
   least_ = std::numeric_limits<double>::infinity();
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       least_ = std::min(least_, weighted(*edge.maneuver));
     }
@@ -64,7 +65,7 @@ EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>
   const std::size_t num_trims = subgraph.automaton().trims.size();
   to_go_.assign(max_steps + 1, std::vector<double>(num_trims, 0.0));
   for (std::size_t steps = 1; steps <= max_steps; ++steps) {
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       to_go_[steps][trim.index] = least_to_go(subgraph.successors(trim, steps), to_go_[steps - 1]);
     }
   }
@@ -94,7 +95,7 @@ double EdgeCosts::reduced_cost(const Maneuver& maneuver) const {
 
 double EdgeCosts::to_go(TrimId trim, std::size_t steps) const {
   if (is_zero()) return 0.0;
-  assert(steps < to_go_.size());
+  assert(steps < to_go_.size());  // per vertex
   return to_go_[steps][trim.index];
 }
 

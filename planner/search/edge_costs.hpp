@@ -10,10 +10,10 @@
 
 namespace hlc {
 
-/// The criteria that every edge of the subgraph holds a value of, in the order of the first edge.
+/// The criteria with a value for every edge of the subgraph, in the order of the first edge.
 [[nodiscard]] std::vector<std::string> criteria_of(const Subgraph& subgraph);
 
-/// What a plan costs by its maneuvers' own criteria, beside the distance from the reference: of the
+/// A plan's costs by its maneuvers' own criteria, beside the distance from the reference: of the
 /// maneuver e, with the weights w_c >= 0 and its criterion values c(e),
 ///
 ///     w(e) = sum_c w_c c(e)   [m^2]
@@ -24,8 +24,7 @@ namespace hlc {
 class EdgeCosts {
  public:
   /// @throws std::invalid_argument for a weight that is not a number from 0 to 1e9
-  /// (SearchOptions::kMostWeight_m2), or a criterion that an
-  /// edge of the subgraph holds no value of
+  /// (SearchOptions::kMostWeight_m2), or a criterion without a value for an edge of the subgraph
   EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>& weights,
             std::size_t max_steps);
 
@@ -36,8 +35,8 @@ class EdgeCosts {
   [[nodiscard]] double reduced_cost(const Maneuver& maneuver) const;
 
   /// The least sum of `reduced_cost` over the `steps` edges of any path from `trim` that ends in an
-  /// equilibrium, made smaller by more than the rounding of such a sum. A lower bound, exact but
-  /// for obstacles, for every automaton: it is computed from the edges that are searched.
+  /// equilibrium, reduced by more than the rounding of such a sum. A lower bound, exact except for
+  /// obstacles, for every automaton: it is computed from the edges that are searched.
   /// @pre distance_to_standstill(trim) <= steps <= max_steps
   [[nodiscard]] double to_go(TrimId trim, std::size_t steps) const;
 

@@ -6,7 +6,7 @@
 
 namespace hlc {
 
-/// A pose whose heading is kept as a direction, so that composing poses needs no trigonometry.
+/// A pose whose heading is stored as a direction, so that composing poses needs no trigonometry.
 struct Frame {
   Point origin_m{Point::Zero()};
   double cos_heading{1.0};
@@ -17,7 +17,7 @@ struct Frame {
   return {pose.position_m(), std::cos(pose.heading_rad), std::sin(pose.heading_rad)};
 }
 
-/// A point given in `frame`, in the frame that `frame` itself is given in.
+/// A point given in `frame`, in the parent frame of `frame`.
 [[nodiscard]] inline Point transformed(const Point& point_m, const Frame& frame) {
   return {frame.origin_m.x() + frame.cos_heading * point_m.x() - frame.sin_heading * point_m.y(),
           frame.origin_m.y() + frame.sin_heading * point_m.x() + frame.cos_heading * point_m.y()};

@@ -27,7 +27,7 @@ struct HorizonProblem {
   Pose start;
   TrimId start_trim;
   std::vector<Point> reference_m;  ///< r_1 ... r_n; its size is the horizon n
-  /// Of each step; only the cost-to-go `kReferenceSpeed` needs it, else it may be empty.
+  /// Of each step; needed only by the cost-to-go `kReferenceSpeed`, otherwise it may be empty.
   std::vector<double> reference_speed_mps;
   /// Areas that are occupied during step j (index j - 1), any number per step; empty: none at all.
   std::vector<std::vector<ConvexPolygon>> obstacles_m;
@@ -35,16 +35,16 @@ struct HorizonProblem {
   /// No step may end in a trim near the steering limit (is_at_steering_limit), where a vehicle may
   /// drift from its plan.
   bool avoids_steering_limit{false};
-  /// A plan that is known, n maneuvers from the start: the plan in force, shifted by one step and
-  /// ended in standstill. Empty if there is none. An engine checks it like any other path and
-  /// leaves it out unless it is one; the best path is then never worse, and is found sooner.
+  /// A known plan, n maneuvers from the start: the plan in force, shifted by one step and ended in
+  /// standstill. Empty if there is none. An engine checks it like any other path and ignores it if
+  /// it is invalid; the best path is then never worse, and is found sooner.
   std::vector<const Maneuver*> incumbent;
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
 };
 
 enum class CostToGo {
-  /// Admissible and tight: what the automaton can reach at most from each trim (ReachableSets).
+  /// Admissible and tight: the reachable sets of each trim (ReachableSets).
   kReachable,
   /// Admissible and textbook: every step leads at most as far as the longest maneuver.
   kStraightLine,
@@ -58,7 +58,7 @@ enum class Engine {
   kBestFirst,       ///< plain: A* (BestFirstSearch), as reference and for study
 };
 
-/// How much one unit of a criterion is worth against squared distance from the reference.
+/// Worth of one unit of a criterion against squared distance from the reference.
 struct PlanningWeight {
   std::string criterion;  ///< as in Maneuver::criteria
   double weight_m2{};     ///< from 0 [m^2 per unit of the criterion]
@@ -76,27 +76,27 @@ using EngineFactory = std::unique_ptr<SearchEngine> (*)(const Subgraph& subgraph
                                                         std::shared_ptr<const SearchTables> tables);
 
 struct SearchOptions {
-  /// Beyond, costs would come near what no path costs.
+  /// Larger weights would bring costs near kNoPath.
   static constexpr double kMostWeight_m2 = 1e9;
   static constexpr std::size_t kMostExpansions = 1'000'000'000'000;
 
   Engine engine{Engine::kBranchAndBound};
   /// kStraightLine and kReferenceSpeed: with kBestFirst only.
   CostToGo cost_to_go{CostToGo::kReachable};
-  /// Expansions after which the search gives up; a number, never a time, so that two runs agree.
-  /// The default holds every tree of the paper's automaton at horizon 8 (at most 309 029).
+  /// Expansions after which the search stops; a number, never a time, so that two runs agree. The
+  /// default exceeds every tree of the paper's automaton at horizon 8 (at most 309 029).
   std::size_t max_expansions{1'000'000};
-  /// The planning cost follows the maneuvers' criteria, too: see edge_costs.hpp. The paper keeps it
-  /// fixed to the distance from the reference, as no weights do.
+  /// Adds the maneuvers' criteria to the planning cost: see edge_costs.hpp. In the paper, and
+  /// without weights, it is the distance from the reference only.
   std::vector<PlanningWeight> criterion_weights{};
-  /// Puts `engine` behind another interface, such as OMPL's (make_ompl_engine), or is a user's own
+  /// Wraps `engine` in another interface, such as OMPL's (make_ompl_engine), or is a user's own
   /// engine. nullptr: `engine` itself.
   EngineFactory factory{nullptr};
 };
 
 enum class SearchStatus {
   kOptimal,   ///< a path of least cost
-  kBudget,    ///< gave up (max_expansions reached, or told to stop) with the best path so far
+  kBudget,    ///< stopped early (max_expansions reached, or by request) with the best path so far
   kFallback,  ///< no path, see `reason`: the plan in force is to be driven on
   kUnproven,  ///< a path found with CostToGo::kReferenceSpeed, which is inadmissible: a better one
               ///< may exist
@@ -106,7 +106,7 @@ enum class SearchStatus {
 enum class NoPath {
   kNone,        ///< there is one
   kInfeasible,  ///< none exists
-  kBudget,      ///< gave up before one was found
+  kBudget,      ///< stopped before one was found
 };
 
 struct SearchResult {

@@ -20,7 +20,7 @@ void reset(SearchResult& result) {
   result.expanded = 0;
 }
 
-void give_up(bool has_path, double lower_bound, SearchResult& result) {
+void stop_early(bool has_path, double lower_bound, SearchResult& result) {
   if (!has_path) {
     result.status = SearchStatus::kFallback;
     result.reason = NoPath::kBudget;

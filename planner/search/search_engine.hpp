@@ -14,15 +14,15 @@ struct SearchTables;
 /// For `SearchEngine::search`: only the problem and the engine's own budget end the search.
 [[nodiscard]] inline bool never_stop() { return false; }
 
-/// What a controller plans with: one call per problem. Not safe for two threads at once.
+/// The search of a controller: one call per problem. Not safe for two threads at once.
 class SearchEngine {
  public:
   virtual ~SearchEngine() = default;
 
-  /// @param stop    asked now and then, the first time before the first expansion; once it says
-  ///                true the search gives up as if its budget were used up
-  /// @param result  overwritten; its vectors keep their capacity, so that an engine which needs no
-  ///                other memory allocates nothing from the second call on
+  /// @param stop    called regularly, the first time before the first expansion; once it returns
+  /// true the search stops as if its budget were used up
+  /// @param result  overwritten; its vectors keep their capacity, so that an engine that needs no
+  /// other memory allocates nothing from the second call on
   virtual void search(const HorizonProblem& problem, const std::function<bool()>& stop,
                       SearchResult& result) = 0;
   [[nodiscard]] SearchResult search(const HorizonProblem& problem,
@@ -39,16 +39,16 @@ class SearchEngine {
 /// Empties a result, its vectors keep their capacity: no path, infeasible, nothing counted.
 void reset(SearchResult& result);
 
-/// Ends a search that gives up: with its best path so far, whose maneuvers, poses and cost are
+/// Ends a search that stops early: with its best path so far, whose maneuvers, poses and cost are
 /// already in `result`, or without one. A path that costs no more than the bound is optimal.
-/// @param lower_bound  no path that is still open costs less [m^2]
-void give_up(bool has_path, double lower_bound, SearchResult& result);
+/// @param lower_bound  of the cost of every open path [m^2]
+void stop_early(bool has_path, double lower_bound, SearchResult& result);
 
 /// The engine that `options` name, from `options.factory` if that is given.
 /// @param subgraph, reachable  must outlive the engine; `reachable` belongs to `subgraph`
-/// @param tables  of make_search_tables for all three; none: the engine makes what it needs
-/// @throws std::invalid_argument if the engine cannot search with that cost-to-go: kBranchAndBound
-/// has the bound kReachable alone
+/// @param tables  of make_search_tables for all three; none: the engine makes its own
+/// @throws std::invalid_argument if the engine does not support that cost-to-go: kBranchAndBound
+/// has the bound kReachable only
 [[nodiscard]] std::unique_ptr<SearchEngine> make_search_engine(
     const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
     std::shared_ptr<const SearchTables> tables = nullptr);

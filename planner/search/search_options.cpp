@@ -12,7 +12,7 @@ Enum from_name(const std::string& name, const std::array<Enum, n>& all, const ch
   for (const Enum value : all) {
     if (name == to_string(value)) return value;
   }
-  throw std::invalid_argument(std::string(what) + " = " + name + ", allowed " + allowed);
+  throw std::invalid_argument(std::string(what) + " = " + name + ", must be one of " + allowed);
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ void check_search_options(const SearchOptions& options) {
   if (options.engine == Engine::kBranchAndBound && options.cost_to_go != CostToGo::kReachable) {
     throw std::invalid_argument(std::string("engine = ") + to_string(options.engine) +
                                 " with cost-to-go " + to_string(options.cost_to_go) +
-                                ", allowed with cost-to-go reachable; for any other, best_first");
+                                ", requires cost-to-go reachable; any other requires best_first");
   }
   if (options.max_expansions == 0) {
-    throw std::invalid_argument("max_expansions = 0, allowed at least 1");
+    throw std::invalid_argument("max_expansions = 0, must be >= 1");
   }
 }
 

@@ -10,9 +10,9 @@
 
 namespace hlc {
 
-/// What the fast engine computes of a subgraph before its first search: a tenth of a second for a
-/// hundred trims. It never changes, so planners on the same subgraph share it, and it can be made
-/// on another thread before it is needed.
+/// Tables that the fast engine computes of a subgraph before its first search: a tenth of a second
+/// for a hundred trims. They never change, so planners on the same subgraph share them, and they
+/// can be made in advance on another thread.
 struct SearchTables {
   /// @param subgraph  owns the maneuvers that the tables name: must outlive them
   SearchTables(const Subgraph& subgraph, const ReachableSets& reachable,

@@ -8,8 +8,8 @@
 #include "planner/vehicle/identified_vehicle.hpp"
 
 /// Motion of the lab's identified vehicle: one explicit Euler step of the model, its inverse, and
-/// the law by which it stops. The simulated vehicle moves by it and the on-board follower predicts
-/// with it, as in the lab, where both carry the same model.
+/// its stop law. The simulated vehicle moves by it and the on-board follower predicts with it, as
+/// in the lab, where both have the same model.
 namespace hlc {
 
 /// Length of one Euler step [s]: the vehicle's tick. The parameters were identified together with
@@ -20,7 +20,7 @@ inline constexpr std::size_t kInputDelayTicks = 4;
 /// Battery voltage of the simulation [V].
 inline constexpr double kBatteryVoltage_v = 7.8;
 
-/// What the vehicle is told: throttle f and steering s, both in [-1, 1]; steering positive to the
+/// Command to the vehicle: throttle f and steering s, both in [-1, 1]; steering positive to the
 /// left.
 struct ActuatorInput {
   double throttle{};

@@ -5,8 +5,8 @@
 
 namespace hlc {
 
-// curvature p1 p2 delta^2 - p4 delta + curvature p1 = 0. The root nearest to 0 is written so that
-// nothing cancels (and curvature 0 needs no case of its own).
+// curvature p1 p2 delta^2 - p4 delta + curvature p1 = 0. The root nearest to 0 is written without
+// cancellation (and without a special case for curvature 0).
 double steady_steering(double curvature_per_m, const IdentifiedVehicle& vehicle) {
   const double c = curvature_per_m * vehicle.path_speed_gain;
   const double b = vehicle.yaw_rate_gain_per_m;

@@ -4,16 +4,16 @@
 
 namespace hlc {
 
-/// Parameters p1 ... p10 of the lab's identified vehicle model and what follows from them. State:
-/// px, py, yaw, speed v; inputs throttle f and steering s in [-1, 1], battery voltage V. With delta
-/// = s + p9:
+/// Parameters p1 ... p10 of the lab's identified vehicle model and derived quantities. State: px,
+/// py, yaw, speed v; inputs throttle f and steering s in [-1, 1], battery voltage V. With delta = s
+/// + p9:
 ///
 ///     px'  = p1 v (1 + p2 delta^2) cos(yaw + p3 delta + p10)      (py' the same with sin)
 ///     yaw' = p4 v delta
 ///     v'   = p5 v + (p6 + p7 V) sign(f) |f|^p8
 ///
 /// `vehicle_sim/plant` integrates it; the planner needs only the slip, because the lab's vehicle
-/// points in another direction than the single-track model when it drives the same path.
+/// has another heading than the single-track model on the same path.
 struct IdentifiedVehicle {
   double path_speed_gain{1.004582};       ///< p1
   double path_speed_steering{-0.142938};  ///< p2 [1/steering^2]
@@ -27,9 +27,9 @@ struct IdentifiedVehicle {
   double slip_offset_rad{-0.012863};      ///< p10
 };
 
-/// A vehicle of which nothing is identified: the single-track model in the form of the identified
-/// one, curvature proportional to steering and slip proportional to curvature, both exact straight
-/// ahead and at full steering, |s| = 1 at `steering_max_rad`. Between them the slip is off by some
+/// A vehicle without identification: the single-track model in the form of the identified one,
+/// curvature proportional to steering and slip proportional to curvature, both exact straight ahead
+/// and at full steering, |s| = 1 at `steering_max_rad`. Between them the error of the slip is some
 /// milliradians.
 /// @pre 0 < steering_max_rad < pi / 2
 [[nodiscard]] IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle,

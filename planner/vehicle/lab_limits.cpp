@@ -114,22 +114,22 @@ std::string to_text(const FoundFault& found, const LabLimits& limits) {
       text << "times of the points do not increase strictly";
       break;
     case TrajectoryFault::kNotStanding:
-      text << "speed at the end = " << found.value << " m/s, allowed 0";
+      text << "speed at the end = " << found.value << " m/s, must be 0";
       break;
     case TrajectoryFault::kOutside:
-      text << "coordinate = " << found.value << " m, allowed " << limits.x_min_m << " ... "
+      text << "coordinate = " << found.value << " m, must be in " << limits.x_min_m << " ... "
            << limits.x_max_m << " in x, " << limits.y_min_m << " ... " << limits.y_max_m << " in y";
       break;
     case TrajectoryFault::kMismatch:
       text << "velocity by positions and by velocities differ by " << found.value
-           << " m/s, allowed " << limits.velocity_mismatch_max_mps;
+           << " m/s, must be <= " << limits.velocity_mismatch_max_mps;
       break;
     case TrajectoryFault::kAcceleration:
-      text << "acceleration = " << found.value << " m/s^2, allowed "
-           << limits.acceleration_max_mps2;
+      text << "acceleration = " << found.value
+           << " m/s^2, must be <= " << limits.acceleration_max_mps2;
       break;
     case TrajectoryFault::kCurvature:
-      text << "curvature = " << found.value << " 1/m, allowed " << limits.curvature_min_per_m
+      text << "curvature = " << found.value << " 1/m, must be in " << limits.curvature_min_per_m
            << " ... " << limits.curvature_max_per_m;
       break;
   }

@@ -9,18 +9,18 @@
 
 namespace hlc {
 
-/// What the vehicles of a lab can follow, and where. All bounds are on the curve that the vehicle
-/// makes of the points it is sent (interpolated in timed_curve.hpp), at any time.
+/// Limits and area of a lab's vehicles. All bounds are on the curve that the vehicle interpolates
+/// from its points (interpolated in timed_curve.hpp), at any time.
 struct LabLimits {
-  /// Of the path, above kMinSpeedForCurvature_mps. What the vehicle's steering gives in steady
-  /// state: to the right (< 0) and to the left (> 0), which need not be alike.
+  /// Of the path, above kMinSpeedForCurvature_mps: the steady-state limits of the vehicle's
+  /// steering, to the right (< 0) and to the left (> 0), which may differ.
   double curvature_min_per_m{};
   double curvature_max_per_m{};
   /// In any direction. The lab's follower refuses more along an axis of the map.
   double acceleration_max_mps2{};
   /// Between two points: mean velocity by the positions against the mean of both velocities.
   double velocity_mismatch_max_mps{};
-  /// Where the reference point may be.
+  /// Range of the reference point.
   double x_min_m{};
   double x_max_m{};
   double y_min_m{};
@@ -29,10 +29,10 @@ struct LabLimits {
   double point_interval_s{};
 };
 
-/// The lab's follower asks for no curvature below this speed; at standstill a path has none.
+/// The lab's follower bounds no curvature below this speed; at standstill a path has none.
 inline constexpr double kMinSpeedForCurvature_mps = 0.1;
 
-/// What may be wrong with timed points.
+/// Possible faults of timed points.
 enum class TrajectoryFault : std::uint8_t {
   kNotFinite,           ///< a coordinate, velocity or time is not a finite number
   kTimesNotIncreasing,  ///< the times do not increase strictly
@@ -43,7 +43,8 @@ enum class TrajectoryFault : std::uint8_t {
   kCurvature,
 };
 
-/// A fault, when, and how much: x or y [m], mismatch [m/s], acceleration [m/s^2], curvature [1/m].
+/// A fault with its time and value: x or y [m], mismatch [m/s], acceleration [m/s^2], curvature
+/// [1/m].
 struct FoundFault {
   TrajectoryFault fault{};
   double time_s{};
@@ -52,18 +53,18 @@ struct FoundFault {
 
 /// The first of acceleration, mismatch and curvature that exceeds the limits, if any. Mismatch and
 /// acceleration are exact (the latter is linear between two points, hence largest at one of them);
-/// the curvature is looked at in ten parts of each interval. Turning and moving all points changes
-/// nothing.
+/// the curvature is checked in ten parts of each interval. Invariant under rotation and translation
+/// of all points.
 /// @pre the points are finite and their times increase strictly
 [[nodiscard]] std::optional<FoundFault> curve_fault(std::span<const TimedPoint> points,
                                                     const LabLimits& limits);
 
-/// What is wrong with points that a vehicle shall follow to a standing end, if anything. Without
-/// limits: the first three faults only. @pre not empty
+/// The fault of points that a vehicle is to follow to a standing end, if any. Without limits: the
+/// first three faults only. @pre not empty
 [[nodiscard]] std::optional<FoundFault> trajectory_fault(std::span<const TimedPoint> points,
                                                          const std::optional<LabLimits>& limits);
 
-/// "curvature = 5.2 1/m, allowed -3.96 ... 4.316", without the time.
+/// "curvature = 5.2 1/m, must be in -3.96 ... 4.316", without the time.
 [[nodiscard]] std::string to_text(const FoundFault& found, const LabLimits& limits);
 
 }  // namespace hlc

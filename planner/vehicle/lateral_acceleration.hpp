@@ -19,7 +19,7 @@ struct LateralAcceleration {
 [[nodiscard]] LateralAcceleration lateral_acceleration(const StateVector& x,
                                                        const VehicleParameters& vehicle);
 
-/// True if the friction circle of the limits, if they have one, allows that state with that input
+/// True if the friction circle of the limits, if there is one, permits that state with that input
 /// (1e-6 relative).
 [[nodiscard]] bool is_within_friction(const State& state, const Input& input,
                                       const VehicleParameters& vehicle,

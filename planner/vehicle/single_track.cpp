@@ -9,7 +9,7 @@ namespace {
 
 /// sin(x) / x.
 double sinc(double x) {
-  // The series is exact to the last bit below this bound: the next term is x^4 / 120 < 1e-18.
+  // The series is exact in double precision below this bound: the next term is x^4 / 120 < 1e-18.
   return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
 }
 

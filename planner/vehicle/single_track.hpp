@@ -31,8 +31,8 @@ struct VehicleParameters {
   double wheelbase_m{0.150};        ///< L
   double rear_axle_to_cg_m{0.075};  ///< l_r
   Footprint footprint{0.220, 0.107};
-  /// Added to the footprint on every side, vehicle to vehicle: the bound on how far a vehicle may
-  /// be off its plan (planner/automaton/deviation.hpp).
+  /// Added to the footprint on every side, vehicle to vehicle: the bound on the deviation of a
+  /// vehicle from its plan (planner/automaton/deviation.hpp).
   double safety_margin_m{0.010};
 };
 
@@ -45,8 +45,8 @@ struct VehicleLimits {
   double steering_max_rad{0.62};
   /// Friction circle: u_v^2 + a_lat^2 <= friction^2 (lateral_acceleration.hpp); absent: none.
   std::optional<double> friction_mps2{};
-  /// Largest curvature of the path that is driven, to either side (path_curvature.hpp); absent:
-  /// what the steering gives.
+  /// Largest curvature of the driven path, to either side (path_curvature.hpp); absent: limited by
+  /// the steering only.
   std::optional<double> curvature_max_per_m{};
 };
 

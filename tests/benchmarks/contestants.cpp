@@ -26,11 +26,12 @@ const std::vector<std::pair<std::string, SearchOptions>>& engines() {
 }
 
 Solved solved_by(const SearchResult& result) {
-  return {.has_plan = result.status == SearchStatus::kOptimal,
-          .gave_up = result.status == SearchStatus::kBudget || result.reason == NoPath::kBudget,
-          .cost = result.cost,
-          .generated = result.generated,
-          .expanded = result.expanded};
+  return {
+      .has_plan = result.status == SearchStatus::kOptimal,
+      .stopped_early = result.status == SearchStatus::kBudget || result.reason == NoPath::kBudget,
+      .cost = result.cost,
+      .generated = result.generated,
+      .expanded = result.expanded};
 }
 
 class PlainContestant final : public Contestant {

@@ -49,8 +49,7 @@ Row measured(const hlc::AutomatonConfiguration& c, const std::set<hlc::TrimPair>
   return row;
 }
 
-/// What a controller does when it is asked for weights that nobody solved before, on the largest
-/// subgraph.
+/// Reaction of a controller to a request for new weights, on the largest subgraph.
 void print_new_weights(hlc::AutomatonConfiguration configuration, double first, double second) {
   const auto size = [](const hlc::SubgraphSpec& spec) { return spec.trims.size(); };
   hlc::SubgraphSpec largest = *std::ranges::max_element(configuration.subgraphs, {}, size);

@@ -237,7 +237,7 @@ PlainSearch::PlainSearch(const Subgraph& subgraph)
     : steps_(subgraph.automaton().trims.size()),
       distance_to_standstill_(steps_.size(), Subgraph::kNever) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     distance_to_standstill_[trim.index] = subgraph.distance_to_standstill(trim);
     for (const Edge& edge : subgraph.successors(trim)) {
       const Pose& displacement = edge.maneuver->displacement;

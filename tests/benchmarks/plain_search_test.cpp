@@ -11,8 +11,8 @@
 namespace hlc::test::plain_search_test {
 namespace {
 
-/// The plan as an engine would tell it, for `fault_of`.
-SearchResult told(const PlainResult& plan, const HorizonProblem& problem) {
+/// The plan in the format of an engine, for `validate`.
+SearchResult as_engine_result(const PlainResult& plan, const HorizonProblem& problem) {
   SearchResult result{.status = SearchStatus::kOptimal, .cost = plan.cost};
   Pose pose = problem.start;
   for (const Maneuver* maneuver : plan.maneuvers) {
@@ -42,7 +42,7 @@ void expect_agreement_with_trying_every_path(double surge_mps2, std::size_t hori
       continue;
     }
     ASSERT_NEAR(plan.cost, truth.cost, 1e-9);
-    ASSERT_EQ(fault_of(told(plan, problem), subgraph, problem), "");
+    ASSERT_EQ(validate(as_engine_result(plan, problem), subgraph, problem), "");
   }
   EXPECT_GE(infeasible, 1U);
 }

@@ -62,7 +62,7 @@ const Recipe& recipe(const std::string& name) {
   }
   std::string allowed;
   for (const Recipe& one : recipes()) allowed += (allowed.empty() ? "" : ", ") + one.info.name;
-  throw std::invalid_argument("problem set " + name + ", allowed " + allowed);
+  throw std::invalid_argument("problem set " + name + ", must be one of " + allowed);
 }
 
 std::shared_ptr<const Subgraph> built(const std::string& name,

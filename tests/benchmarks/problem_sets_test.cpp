@@ -107,7 +107,8 @@ TEST(ProblemSets, AnUnknownNameIsRefusedWithTheAllowedOnes) {
     static_cast<void>(make("four_cars"));
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("four_cars, allowed three_cars,"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("four_cars, must be one of three_cars,"),
+              std::string::npos);
   }
 }
 

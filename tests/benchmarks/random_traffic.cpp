@@ -128,9 +128,9 @@ HorizonProblem random_traffic_problem(const Subgraph& subgraph,
 HorizonProblem blocked_end_problem(const Subgraph& subgraph, std::span<const ReferencePath> routes,
                                    std::size_t horizon_steps, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const RandomTraffic nobody{.horizon_steps = horizon_steps};
+  const RandomTraffic no_traffic{.horizon_steps = horizon_steps};
   HorizonProblem problem =
-      problem_without_obstacles(subgraph, subgraph.standstill(), routes, nobody, random);
+      problem_without_obstacles(subgraph, subgraph.standstill(), routes, no_traffic, random);
   constexpr double kFar_m = 100.0;
   problem.obstacles_m.back().push_back(
       convex_hull({{-kFar_m, -kFar_m}, {kFar_m, -kFar_m}, {kFar_m, kFar_m}, {-kFar_m, kFar_m}}));

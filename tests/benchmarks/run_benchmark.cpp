@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", repeats, "how often")
       ->check(hlc::whole(1, 10000))
       ->capture_default_str();
-  app.footer("Exit codes: 0 good, 2 bad input or an output that cannot be written.");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::exit_code_of(
       "run_benchmark", [&] { run(choices, repeats); }, kExitFailed);

@@ -46,10 +46,10 @@ hlc::test::SetReport measure(const hlc::test::ProblemSet& set, const std::string
   }
   for (std::size_t i = 0; i < set.problems.size(); ++i) {
     for (std::size_t turn = 0; turn < runs.size(); ++turn) {
-      // Another one begins each time: nobody always finds the caches as the same other leaves them.
+      // The first engine changes, so that no engine always runs with the caches of the same other
+      // one.
       const std::size_t next = (i + turn) % runs.size();
-      // A controller has just posed what it solves: nobody finds a problem that was not touched for
-      // seconds.
+      // As in a controller, the problem was created immediately before.
       const hlc::HorizonProblem posed = set.problems[i];
       runs[next].solved.push_back(timed(*contestants[next], posed));
     }
@@ -113,7 +113,8 @@ int main(int argc, char** argv) {
       ->check(hlc::among(hlc::test::contestant_names()));
   app.add_flag("--list", choices.lists, "name the sets and end");
   app.footer(
-      "Exit codes: 0 good, 1 an engine's plan is not optimal or something failed, 2 bad input.");
+      "Exit codes: 0 success, 1 an engine's plan is not optimal or something failed, 2 invalid "
+      "input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   return hlc::exit_code_of("search_benchmark", [&choices] {
     if (!choices.lists) return run(choices) ? 0 : 1;

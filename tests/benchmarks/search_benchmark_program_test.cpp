@@ -22,18 +22,18 @@ TEST(SearchBenchmark, ASetIsMeasuredOnceAndColumnsAreExplained) {
 TEST(SearchBenchmark, BadSetsAreRefusedInOneLine) {
   struct Case {
     const char* flags;
-    const char* said;
+    const char* message;
   };
-  for (const auto& [flags, said] :
-       {Case{"--sets three_cars,three_cars", "--sets = three_cars twice, allowed each once"},
+  for (const auto& [flags, message] :
+       {Case{"--sets three_cars,three_cars", "--sets = three_cars twice, must be unique"},
         Case{"--sets three_cars,four_cars",
-             "--sets: four_cars, allowed three_cars, three_cars_corr"},
-        Case{"--sets=", "--sets: "}, Case{"--sets ''", ", allowed "},
-        Case{"--only fast", "--only: fast, allowed plain, "}}) {
+             "--sets: four_cars, must be one of three_cars, three_cars_corr"},
+        Case{"--sets=", "--sets: "}, Case{"--sets ''", ", must be "},
+        Case{"--only fast", "--only: fast, must be one of plain, "}}) {
     const Outcome outcome = run_program(std::string("search_benchmark --problems 1 ") + flags);
     EXPECT_EQ(outcome.exit_code, 2) << flags;
-    EXPECT_THAT(outcome.output, HasSubstr(said));
-    EXPECT_THAT(outcome.output, HasSubstr(", allowed "));
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_THAT(outcome.output, HasSubstr(", must be "));
     EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
   }
 }

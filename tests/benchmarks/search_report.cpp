@@ -66,7 +66,8 @@ double percentile(std::vector<double> values, double share) {
 }
 
 bool agrees_with(const Solved& reference, const Solved& solved) {
-  if (reference.gave_up || solved.gave_up || reference.has_plan != solved.has_plan) return false;
+  if (reference.stopped_early || solved.stopped_early || reference.has_plan != solved.has_plan)
+    return false;
   return !reference.has_plan ||
          std::abs(solved.cost - reference.cost) <= 1e-9 * (1.0 + std::abs(reference.cost));
 }

@@ -13,8 +13,8 @@ namespace hlc::test {
 struct Solved {
   double time_us{};
   bool has_plan{};
-  bool gave_up{};  ///< neither a best plan nor a proof that there is none
-  double cost{};   ///< [m^2]; only with a plan
+  bool stopped_early{};  ///< neither a best plan nor a proof that there is none
+  double cost{};         ///< [m^2]; only with a plan
   std::size_t generated{};
   std::size_t expanded{};
 };
@@ -25,7 +25,7 @@ struct EngineRun {
   std::vector<Solved> solved;
 };
 
-/// What is told of one engine on one set. Ratios say how many times faster it is than the
+/// Results of one engine on one set. Ratios are its speed-up over the
 /// reference: reference's value / this engine's.
 struct EngineReport {
   std::string name;
@@ -53,7 +53,7 @@ struct SetReport {
 /// rank). @pre values is not empty, 0 < share <= 1
 [[nodiscard]] double percentile(std::vector<double> values, double share);
 
-/// True if neither gave up and both have no plan, or both one and
+/// True if neither stopped early and both have no plan, or both one and
 /// | cost - cost' | <= 1e-9 (1 + | cost' |).
 [[nodiscard]] bool agrees_with(const Solved& reference, const Solved& solved);
 

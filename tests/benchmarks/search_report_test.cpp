@@ -22,7 +22,7 @@ TEST(AgreesWith, AllowsForRoundingOnly) {
   EXPECT_FALSE(agrees_with(reference, {.has_plan = true, .cost = 2.0 + 3.1e-9}));
   EXPECT_FALSE(agrees_with(reference, {.has_plan = true, .cost = 2.0 - 3.1e-9}));
   EXPECT_FALSE(agrees_with(reference, {.has_plan = false}));
-  EXPECT_FALSE(agrees_with(reference, {.has_plan = true, .gave_up = true, .cost = 2.0}));
+  EXPECT_FALSE(agrees_with(reference, {.has_plan = true, .stopped_early = true, .cost = 2.0}));
   EXPECT_TRUE(agrees_with({.has_plan = false}, {.has_plan = false}));
   EXPECT_FALSE(agrees_with({.has_plan = false}, {.has_plan = true}));
 }

@@ -30,7 +30,7 @@ void move_to(ScenarioVehicle& vehicle, VehicleId id, double start_s_m) {
 std::unique_ptr<Controller> controller_of(const ScenarioVehicle& vehicle, const Scenario& scenario,
                                           const std::shared_ptr<const Subgraph>& subgraph,
                                           Lanes lanes) {
-  // Best-first whatever the scenario says: a measured engine must not choose its own problems.
+  // Best-first independent of the scenario: a measured engine must not choose its own problems.
   return std::make_unique<Controller>(
       ControllerOptions{
           .vehicle = vehicle.id,

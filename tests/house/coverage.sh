@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# After the tests of the preset coverage: which share of the lines of every folder they ran. Called by
-# run_tests.sh --coverage. Lines of programs that were killed are not counted: they write nothing at their end.
+# Line coverage of every folder after the tests of the preset coverage. Called by
+# run_tests.sh --coverage. Lines of programs that were killed are not counted: they do not write their counters.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build/coverage

@@ -6,8 +6,8 @@
 #   labels, timeout_s, runs_alone, is_real_time  properties of its tests
 # Every test is a process, called as GoogleTest calls it. With HLC_TESTS_BY_SUITE in the environment every suite of unit
 # tests is one: three of four starts are saved (under asan one takes 0.1 s), and the output names the test that failed.
-# Tests that drive in real time run alone; with HLC_REAL_TIME_TOGETHER in the environment among their like, for who
-# chooses these only: a run of three cars needs an eighth of a processor.
+# Tests that drive in real time run alone; with HLC_REAL_TIME_TOGETHER in the environment in parallel with each other, if
+# only these are selected: a run of three cars needs an eighth of a processor.
 if(NOT EXISTS ${program})
   add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
   return()

@@ -1,5 +1,6 @@
-// Holds every #include against the arrows of the house. Debian puts the headers of Fast DDS, OMPL
+// Checks every #include against the allowed dependencies. Debian puts the headers of Fast DDS, OMPL
 // and all other libraries into the compiler's default path, so the build alone would not notice.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,92 +8,16 @@
 #include <map>
 #include <optional>
 #include <regex>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "tests/house/arrows.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Names = std::set<std::string>;
-
-/// Folder of the house -> folders that its files may include, beside itself. A folder stands for
-/// those below it.
-const std::map<std::string, Names> kArrows{
-    {"planner/common", {}},
-    {"planner/geometry", {"planner/common"}},
-    {"planner/vehicle", {"planner/common", "planner/geometry"}},
-    {"planner/automaton", {"planner/common", "planner/vehicle", "planner/geometry"}},
-    {"planner/maneuver_design",
-     {"planner/automaton", "planner/common", "planner/vehicle", "planner/geometry"}},
-    {"planner/road", {"planner/common", "planner/vehicle", "planner/geometry"}},
-    {"planner/search",
-     {"planner/automaton", "planner/common", "planner/road", "planner/vehicle",
-      "planner/geometry"}},
-    {"planner/coordination",
-     {"planner/search", "planner/automaton", "planner/common", "planner/road", "planner/vehicle",
-      "planner/geometry"}},
-    {"planner/controller",
-     {"planner/coordination", "planner/search", "planner/automaton", "planner/common",
-      "planner/road", "planner/vehicle", "planner/geometry"}},
-    {"planner/policy",
-     {"planner/controller", "planner/coordination", "planner/search", "planner/automaton",
-      "planner/common", "planner/road", "planner/vehicle", "planner/geometry"}},
-    {"planner/scenario",
-     {"planner/policy", "planner/controller", "planner/coordination", "planner/search",
-      "planner/automaton", "planner/maneuver_design", "planner/common", "planner/road",
-      "planner/vehicle", "planner/geometry"}},
-    {"planner/rollout",
-     {"planner/policy", "planner/scenario", "planner/controller", "planner/coordination",
-      "planner/search", "planner/automaton", "planner/common", "planner/road", "planner/vehicle",
-      "planner/geometry"}},
-    {"planner/plot",
-     {"planner/scenario", "planner/maneuver_design", "planner/search", "planner/automaton",
-      "planner/common", "planner/road", "planner/vehicle", "planner/geometry"}},
-    {"planner/apps", {"planner"}},
-    // Who carries messages needs nothing of the planner but what they are made of.
-    {"hlc_bridge/messages",
-     {"planner/geometry", "planner/coordination/messages.hpp", "planner/coordination/report.hpp",
-      "planner/automaton/trim_id.hpp", "planner/automaton/criterion.hpp",
-      "planner/automaton/subgraph_request.hpp"}},
-    {"hlc_bridge/machine", {"hlc_bridge/messages"}},
-    {"hlc_bridge/time", {"hlc_bridge/messages"}},
-    {"hlc_bridge/dds",
-     {"hlc_bridge/messages", "planner/geometry", "planner/coordination/messages.hpp",
-      "planner/coordination/report.hpp"}},
-    {"hlc_bridge/hlc", {"hlc_bridge/machine", "hlc_bridge/messages", "planner"}},
-    {"hlc_bridge/middleware", {"hlc_bridge/machine", "hlc_bridge/messages"}},
-    {"hlc_bridge/lab_control", {"hlc_bridge/machine", "hlc_bridge/messages"}},
-    {"hlc_bridge/result", {"hlc_bridge/messages", "planner"}},
-    {"hlc_bridge/record", {"hlc_bridge/result", "hlc_bridge/messages", "planner"}},
-    {"hlc_bridge/view", {"hlc_bridge/messages", "planner"}},
-    {"hlc_bridge/process",
-     {"hlc_bridge/hlc", "hlc_bridge/middleware", "hlc_bridge/lab_control", "hlc_bridge/machine",
-      "hlc_bridge/messages", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/view",
-      "hlc_bridge/record", "hlc_bridge/result", "planner"}},
-    {"hlc_bridge/doctor", {"hlc_bridge/messages", "hlc_bridge/dds", "hlc_bridge/time"}},
-    {"hlc_bridge/apps", {"hlc_bridge", "planner"}},
-    {"vehicle_sim/plant", {"planner/geometry", "planner/vehicle"}},
-    // The follower sees commands on the wire, never a plan.
-    {"vehicle_sim/tracking", {"hlc_bridge/messages", "planner/geometry", "planner/vehicle"}},
-    {"vehicle_sim/vehicle",
-     {"hlc_bridge/machine", "hlc_bridge/messages", "hlc_bridge/result/run_record.hpp",
-      "vehicle_sim/plant", "vehicle_sim/tracking", "planner/geometry", "planner/vehicle"}},
-    {"vehicle_sim/closed_loop",
-     {"hlc_bridge/machine", "hlc_bridge/messages", "hlc_bridge/hlc", "hlc_bridge/middleware",
-      "hlc_bridge/lab_control", "hlc_bridge/result", "vehicle_sim/vehicle", "vehicle_sim/tracking",
-      "planner"}},
-    {"vehicle_sim/campaign",
-     {"hlc_bridge/messages", "hlc_bridge/result", "vehicle_sim/closed_loop", "vehicle_sim/vehicle",
-      "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
-    {"vehicle_sim/apps",
-     {"vehicle_sim", "hlc_bridge/process/shell.hpp", "hlc_bridge/process/log.hpp", "hlc_bridge/dds",
-      "hlc_bridge/machine", "hlc_bridge/time", "hlc_bridge/messages", "hlc_bridge/result",
-      "hlc_bridge/record", "hlc_bridge/apps", "planner"}},
-};
 
 /// Headers, most of them from outside, that only some places may name: pattern of the header,
 /// pattern of the files.
@@ -127,21 +52,8 @@ const std::vector<Outside> kOutside{
      "planner, machines, results and the simulated vehicle know no clock, thread or console"},
 };
 
-/// Of a folder everything in it, of a file that one.
-bool is_below(const std::string& path, const std::string& folder) {
-  return path == folder || path.starts_with(folder + "/");
-}
-
-/// The folder of the house that a path from the root lies in; nothing for foreign paths.
-std::optional<std::string> room_of(const std::string& path) {
-  for (const auto& [room, allowed] : kArrows) {
-    if (is_below(path, room)) return room;
-  }
-  return std::nullopt;
-}
-
 /// What is wrong with one include, or nothing.
-std::optional<std::string> fault_of(const std::string& file, const std::string& header) {
+std::optional<std::string> violation(const std::string& file, const std::string& header) {
   for (const Outside& rule : kOutside) {
     if (std::regex_match(header, std::regex(rule.header)) &&
         !std::regex_match(file, std::regex(rule.files))) {
@@ -151,10 +63,7 @@ std::optional<std::string> fault_of(const std::string& file, const std::string& 
   static const std::regex kOwn("^(planner|hlc_bridge|vehicle_sim|tests)/.*");
   if (!std::regex_match(header, kOwn)) return std::nullopt;
   const std::string room = room_of(file).value();
-  if (is_below(header, room)) return std::nullopt;
-  for (const std::string& allowed : kArrows.at(room)) {
-    if (is_below(header, allowed)) return std::nullopt;
-  }
+  if (may_use(room, header)) return std::nullopt;
   return file + " includes " + header + ": no arrow from " + room;
 }
 
@@ -169,50 +78,98 @@ std::vector<std::string> includes_of(const fs::path& file) {
   return headers;
 }
 
-TEST(House, EveryIncludeFollowsAnArrow) {
-  const fs::path root = test::source_folder();
-  std::size_t num_files = 0;
+/// Paths of all sources, from the root and whole.
+std::map<std::string, fs::path> sources() {
+  const fs::path root = source_folder();
+  std::map<std::string, fs::path> files;
   for (const char* top : {"planner", "hlc_bridge", "vehicle_sim"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".hpp" && extension != ".cpp") continue;
-      const std::string file = entry.path().lexically_relative(root).generic_string();
-      ++num_files;
-      ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
-      for (const std::string& header : includes_of(entry.path())) {
-        const std::optional<std::string> fault = fault_of(file, header);
-        EXPECT_FALSE(fault) << *fault;
-      }
+      files.emplace(entry.path().lexically_relative(root).generic_string(), entry.path());
     }
   }
-  EXPECT_GT(num_files, 50U);
+  EXPECT_GT(files.size(), 50U);
+  return files;
 }
 
+TEST(House, EveryIncludeFollowsAnArrow) {
+  for (const auto& [file, path] : sources()) {
+    ASSERT_TRUE(room_of(file)) << file << " lies in no folder of the house";
+    for (const std::string& header : includes_of(path)) {
+      const std::optional<std::string> fault = violation(file, header);
+      EXPECT_FALSE(fault) << *fault;
+    }
+  }
+}
+
+/// Whether this line of code reads which kind of time a run has.
+bool asks_for_logical_time(const std::string& line) {
+  static const std::regex kQuestion(
+      R"((?!\s*//).*\b(is_logical|logical_time|simulated_time)\b(?!\s*=[^=]).*)");
+  return std::regex_match(line, kQuestion);
+}
+
+// Processes and machines are given what follows from it. Exempt are
+// simulations of a lab and summaries of runs.
+TEST(House, OnlyFlagsAndPacingAskForLogicalTime) {
+  static const std::regex kMayAsk(
+      "(hlc_bridge/(apps|result|record)/|vehicle_sim/(apps|closed_loop)/|"
+      "hlc_bridge/machine/pacing\\.hpp).*");
+  for (const auto& [file, path] : sources()) {
+    if (std::regex_match(file, kMayAsk)) continue;
+    std::ifstream stream(path);
+    for (std::string line; std::getline(stream, line);) {
+      EXPECT_FALSE(asks_for_logical_time(line)) << file << ": " << line;
+    }
+  }
+}
+
+TEST(House, AQuestionForLogicalTimeIsNoticed) {
+  EXPECT_TRUE(asks_for_logical_time("  if (options_.logical_time) return;"));
+  EXPECT_TRUE(asks_for_logical_time("  return is_logical == true ? a : b;"));
+  EXPECT_FALSE(asks_for_logical_time("  facts.simulated_time = true;"));
+  EXPECT_FALSE(asks_for_logical_time("  /// Only if simulated_time is set."));
+  EXPECT_FALSE(asks_for_logical_time("  rules_in_logical_time(true);"));
+}
+
+TEST(House, ArrowsMakeNoCircle) { EXPECT_EQ(circle_of(arrows()), ""); }
+
 TEST(House, AnArrowThatRunsUpIsNoticed) {
-  EXPECT_TRUE(fault_of("planner/geometry/pose.cpp", "planner/search/search_engine.hpp"));
-  EXPECT_TRUE(fault_of("hlc_bridge/process/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
-  EXPECT_TRUE(fault_of("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
-  EXPECT_FALSE(fault_of("planner/search/search_engine.hpp", "planner/geometry/pose.hpp"));
+  EXPECT_TRUE(violation("planner/geometry/pose.cpp", "planner/search/search_engine.hpp"));
+  EXPECT_TRUE(violation("hlc_bridge/process/hlc_process.cpp", "vehicle_sim/plant/plant.hpp"));
+  EXPECT_TRUE(violation("vehicle_sim/tracking/follower.cpp", "planner/coordination/plan.hpp"));
+  EXPECT_FALSE(violation("planner/search/search_engine.hpp", "planner/geometry/pose.hpp"));
+}
+
+TEST(House, ACircleIsNoticed) {
+  Arrows all = arrows();
+  all.at("planner/geometry").insert("planner/search");
+  const std::string circle = circle_of(all);
+  EXPECT_THAT(circle, testing::HasSubstr("planner/geometry"));
+  EXPECT_THAT(circle, testing::HasSubstr("planner/search"));
 }
 
 TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
-  EXPECT_TRUE(fault_of("planner/search/collision.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
   EXPECT_TRUE(
-      fault_of("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
-  EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "chrono"));
-  EXPECT_TRUE(fault_of("planner/controller/controller.cpp", "spdlog/spdlog.h"));
-  EXPECT_TRUE(fault_of("planner/search/collision.cpp", "ompl/base/Planner.h"));
-  EXPECT_TRUE(fault_of("planner/search/best_first/best_first_search.cpp", "ompl/base/Planner.h"));
-  EXPECT_TRUE(fault_of("planner/search/search_engine.cpp", "planner/search/ompl/ompl_engine.hpp"));
-  EXPECT_FALSE(fault_of("planner/search/best_first/best_first_search.cpp",
-                        "ompl/datastructures/BinaryHeap.h"));
-  EXPECT_TRUE(fault_of("planner/maneuver_design/pareto_front.cpp",
-                       "planner/maneuver_design/solver/attempt.hpp"));
-  EXPECT_TRUE(fault_of("planner/maneuver_design/solver/attempt.cpp",
-                       "planner/maneuver_design/pareto_front.hpp"));
-  EXPECT_TRUE(fault_of("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
-  EXPECT_FALSE(fault_of("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+      violation("planner/search/collision.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_TRUE(
+      violation("hlc_bridge/dds/participant.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
+  EXPECT_TRUE(violation("planner/controller/controller.cpp", "chrono"));
+  EXPECT_TRUE(violation("planner/controller/controller.cpp", "spdlog/spdlog.h"));
+  EXPECT_TRUE(violation("planner/search/collision.cpp", "ompl/base/Planner.h"));
+  EXPECT_TRUE(violation("planner/search/best_first/best_first_search.cpp", "ompl/base/Planner.h"));
+  EXPECT_TRUE(violation("planner/search/search_engine.cpp", "planner/search/ompl/ompl_engine.hpp"));
+  EXPECT_FALSE(violation("planner/search/best_first/best_first_search.cpp",
+                         "ompl/datastructures/BinaryHeap.h"));
+  EXPECT_TRUE(violation("planner/maneuver_design/pareto_front.cpp",
+                        "planner/maneuver_design/solver/attempt.hpp"));
+  EXPECT_TRUE(violation("planner/maneuver_design/solver/attempt.cpp",
+                        "planner/maneuver_design/pareto_front.hpp"));
+  EXPECT_TRUE(violation("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
+  EXPECT_FALSE(
+      violation("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::test

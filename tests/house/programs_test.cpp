@@ -1,4 +1,4 @@
-// What documents tell the reader to run is there after the first run of run_lab.sh, which builds by
+// The programs in the documents exist after the first run of run_lab.sh, which builds by
 // `build.sh --programs`.
 #include <gtest/gtest.h>
 

@@ -69,7 +69,8 @@ TEST(RunTests, RefusesAFolderWithoutTestsAndNamesThoseThatHaveThem) {
                             .string() +
                         " planner/no_such_folder");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.output.find("run_tests.sh: FOLDER = planner/no_such_folder, allowed "), 0U);
+  EXPECT_EQ(outcome.output.find("run_tests.sh: FOLDER = planner/no_such_folder, must be one of "),
+            0U);
   EXPECT_NE(outcome.output.find(" planner/search,"), std::string::npos) << outcome.output;
 }
 

@@ -1,4 +1,4 @@
-// Listens to what the middlewares tell the vehicles to drive: every command is a plan that was
+// Records the commands of the middlewares to the vehicles: every command is a plan that was
 // agreed, and tests hold what was driven against it.
 #include <algorithm>
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "tests/integration/recorded_commands.hpp"
@@ -33,7 +34,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::vehicle_id_range());
   app.add_option("--out", flags.out, "file for the commands")->required();
   app.footer(
-      "Ends with the lab control or the last of the middlewares. Exit codes: 0 good, 2 bad input, "
+      "Ends with the lab control or the last of the middlewares. Exit codes: 0 success, 2 invalid "
+      "input, "
       "4 the file cannot be written.");
 }
 
@@ -45,7 +47,7 @@ class Recorder {
               .domain_id = flags.network.dds_domain,
               .role = hlc::DomainRole::kLab,
               .transport = hlc::transport_from_name(flags.network.transport),
-              .logical_time = flags.network.simulated_time,
+              .lease = hlc::run_time(flags.network.simulated_time).lease,
               .discovery_server = flags.network.discovery_server()},
              [this] { signal_.notify(); }) {
     if (!file_) throw std::invalid_argument("--out = " + flags.out + ", cannot be written");
@@ -76,7 +78,7 @@ class Recorder {
   }
 
  private:
-  /// A discovery server tells only of those whose topics one shares: not of the lab control.
+  /// A discovery server announces only participants with a common topic: not the lab control.
   [[nodiscard]] bool is_over() const {
     return lab_.is_lost(hlc::kLabControlName) ||
            std::ranges::all_of(readers_, [this](const auto& reader) {

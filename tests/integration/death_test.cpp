@@ -1,4 +1,4 @@
-// A process that dies, or never appears: it is named, the others drive out their plans and stand,
+// A process that dies, or never appears: it is named, the others make a minimal-risk stop,
 // nothing hangs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,12 +26,12 @@ void expect_stood_before_the_stop(const Drive& drive, const std::string& id) {
   EXPECT_LT(std::abs(at_stop.speed_mps), 0.05) << "vehicle " << id;
 }
 
-/// Rows of reports.csv in which the vehicle drove out its plan. Columns: step, id, status, ...
-std::size_t count_drive_out_rows(const std::filesystem::path& file, const std::string& id) {
+/// Rows of reports.csv of a minimal-risk stop. Columns: step, id, status, ...
+std::size_t count_minimal_risk_rows(const std::filesystem::path& file, const std::string& id) {
   std::size_t rows = 0;
   std::istringstream text(read_text(file));
   for (std::string line; std::getline(text, line);) {
-    const std::string wanted = "," + id + ",drive_out,";
+    const std::string wanted = "," + id + ",minimal_risk_stop,";
     const std::size_t first_comma = line.find(',');
     if (first_comma != std::string::npos && line.compare(first_comma, wanted.size(), wanted) == 0) {
       ++rows;
@@ -82,7 +82,7 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
     if (death.victim != "vehicle_" + id) expect_stood_before_the_stop(drive, id);
   }
   for (const char* survivor : {"1", "3"}) {
-    EXPECT_GT(count_drive_out_rows(lab.folder() / "reports.csv", survivor), 0U)
+    EXPECT_GT(count_minimal_risk_rows(lab.folder() / "reports.csv", survivor), 0U)
         << "vehicle " << survivor;
   }
   const bool is_vehicle = death.victim == "vehicle_2";

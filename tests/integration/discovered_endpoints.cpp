@@ -14,7 +14,7 @@ namespace hlc::test {
 class DiscoveredEndpoints::Listener : public fdds::DomainParticipantListener {
  public:
   explicit Listener(const ParticipantOptions& options) {
-    set_up_library();  // the lab's types: whoever does not know them dies of their announcements
+    set_up_library();  // the lab's types: without them their announcements crash the process
     participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<fdds::DomainId_t>(options.domain_id), participant_qos(options), this,
         fdds::StatusMask::none());

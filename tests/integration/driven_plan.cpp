@@ -53,7 +53,7 @@ Encounters driven_encounters(const std::vector<VehicleDescription>& vehicles, co
   const auto end_of = [&](const VehicleDescription& vehicle) {
     const auto drive = drives.find(vehicle.id.value);
     const bool ends = ended.contains(vehicle.id.value) && drive != drives.end();
-    return ends && !drive->second.empty() ? drive->second.back().t : kForEver;
+    return ends && !drive->second.empty() ? drive->second.back().t : kForever;
   };
   Encounters all;
   for (std::size_t i = 0; i < vehicles.size(); ++i) {

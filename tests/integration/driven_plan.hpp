@@ -8,15 +8,15 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "tests/integration/recorded_commands.hpp"
 
-/// What the vehicles' own records say of a fault.
+/// Evaluation of a fault by the vehicles' records.
 namespace hlc::test {
 
-inline constexpr Nanoseconds kForEver = ~Nanoseconds{0};
+inline constexpr Nanoseconds kForever = ~Nanoseconds{0};
 
 /// Largest distance of the driven positions in [from, to] from the one plan that the vehicle
 /// followed at `from`: the command that its record names there, read as the lab's vehicle reads it
-/// (vehicle_sim/tracking/trajectory.hpp), and its last point after its end. Whoever drives anything
-/// else from then on shows here, also if it is told to by newer commands; commands that go on with
+/// (vehicle_sim/tracking/trajectory.hpp), and its last point after its end. Any deviation from
+/// then on is included, also if newer commands demand it; commands that go on with
 /// the same plan do not.
 /// @return nothing if the vehicle followed no command at `from`, or one that was not recorded, or
 /// has no record of [from, to]
@@ -31,7 +31,7 @@ inline constexpr Nanoseconds kForEver = ~Nanoseconds{0};
 
 /// How close all driven footprints came to each other. A vehicle whose record has ended stands
 /// where it was seen last and can still be hit: but not those of `ended`, whose own processes died,
-/// so that the simulated cars stopped within no time, which is on nobody's plan. They count as long
+/// so that the simulated cars stopped instantly, which no plan predicts. They count as long
 /// as their records last.
 [[nodiscard]] Encounters driven_encounters(const std::vector<VehicleDescription>& vehicles,
                                            const Drives& drives,

@@ -26,7 +26,7 @@ TrajectoryCommand straight(double seconds, Nanoseconds create_stamp) {
   return command;
 }
 
-/// Drives as straight(seconds) says, and follows that command.
+/// Drives straight(seconds), and follows that command.
 Drive drive(double seconds, Nanoseconds create_stamp, Nanoseconds end = 3 * kSecond) {
   Drive samples;
   for (Nanoseconds t = 0; t <= end; t += kTick) {
@@ -49,7 +49,7 @@ Commands commands_of(const std::vector<TrajectoryCommand>& list) {
 
 TEST(DrivenPlan, WhoFollowsItsPlanIsNowhereFarFromIt) {
   const auto farthest_m =
-      farthest_from_plan_m(drive(1.5, 7), commands_of({straight(1.5, 7)}), 1, 0, kForEver);
+      farthest_from_plan_m(drive(1.5, 7), commands_of({straight(1.5, 7)}), 1, 0, kForever);
   ASSERT_TRUE(farthest_m);
   EXPECT_LT(*farthest_m, 0.02);  // it brakes within a point's interval, not at once
 }
@@ -60,24 +60,24 @@ TEST(DrivenPlan, WhoDrivesANewerPlanShowsAgainstTheOneItFollowedAtTheBegin) {
     if (sample.t > kSecond) sample.command_create = 8;
   }
   const Commands commands = commands_of({straight(1.5, 7), straight(2.0, 8)});
-  EXPECT_NEAR(farthest_from_plan_m(driven, commands, 1, kSecond / 2, kForEver).value(), 0.5, 0.02);
+  EXPECT_NEAR(farthest_from_plan_m(driven, commands, 1, kSecond / 2, kForever).value(), 0.5, 0.02);
   EXPECT_LT(farthest_from_plan_m(driven, commands, 1, kSecond / 2, kSecond).value(), 0.02);
-  EXPECT_LT(farthest_from_plan_m(driven, commands, 1, kSecond + kTick, kForEver).value(), 0.02);
+  EXPECT_LT(farthest_from_plan_m(driven, commands, 1, kSecond + kTick, kForever).value(), 0.02);
 }
 
 TEST(DrivenPlan, NothingIsSaidOfAPlanThatWasNotRecordedOrOfNoTime) {
   const Commands commands = commands_of({straight(1.5, 7)});
-  EXPECT_FALSE(farthest_from_plan_m(drive(1.5, 0), commands, 1, 0, kForEver));
-  EXPECT_FALSE(farthest_from_plan_m(drive(1.5, 7), commands, 2, 0, kForEver));
-  EXPECT_FALSE(farthest_from_plan_m(drive(1.5, 7), commands, 1, 9 * kSecond, kForEver));
+  EXPECT_FALSE(farthest_from_plan_m(drive(1.5, 0), commands, 1, 0, kForever));
+  EXPECT_FALSE(farthest_from_plan_m(drive(1.5, 7), commands, 2, 0, kForever));
+  EXPECT_FALSE(farthest_from_plan_m(drive(1.5, 7), commands, 1, 9 * kSecond, kForever));
 }
 
 TEST(DrivenPlan, StandingCountsFromTheLastTimeThatTheVehicleMoved) {
   Drive driven = drive(1.0, 7);
-  EXPECT_EQ(standing_since(driven, kForEver), kSecond);
+  EXPECT_EQ(standing_since(driven, kForever), kSecond);
   EXPECT_EQ(standing_since(driven, kSecond / 2), std::nullopt);
   driven[100].speed_mps = -0.3;  // at 2 s
-  EXPECT_EQ(standing_since(driven, kForEver), 2 * kSecond + kTick);
+  EXPECT_EQ(standing_since(driven, kForever), 2 * kSecond + kTick);
 }
 
 TEST(DrivenPlan, AVehicleWhoseProcessDiedIsNoObstacleAfterwardsAndAnyOtherIs) {

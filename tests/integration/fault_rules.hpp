@@ -17,7 +17,7 @@ inline constexpr Nanoseconds kReactionTime = 500'000'000;
 /// And until then it stands: after the plan of at most 1.6 s, agreed until kReactionTime.
 inline constexpr Nanoseconds kStandingTime = 2'500'000'000;
 /// The safety margin: the areas that the others keep free hold every car that is not farther from
-/// its plan. (Without noise cars that nobody disturbs keep to it within 1 mm.)
+/// its plan. (Without noise undisturbed cars keep to it within 1 mm.)
 inline constexpr double kTrackingTolerance_m = 0.010;
 
 inline void expect_only_the_last_plan(const Drive& drive, const Commands& commands,

@@ -40,7 +40,7 @@ class FaultyRun {
  public:
   explicit FaultyRun(const Setting& setting = kPaper)
       : lab({.scenario = setting.scenario,
-             .steps = 1000,  // longer than anybody waits for the cars to meet
+             .steps = 1000,  // longer than the cars take to meet
              .simulated_time = false,
              .transport = setting.transport,
              .records_commands = true}) {
@@ -61,7 +61,7 @@ class FaultyRun {
     });
   }
 
-  /// Not between a command and its copy: who dies there leaves a car that cannot know the rest.
+  /// Not between a command and its copy: a death there leaves a car without the rest of the plan.
   void strike(VehicleId victim, const std::string& process, int signal) {
     victim_ = victim;
     EXPECT_TRUE(
@@ -70,8 +70,8 @@ class FaultyRun {
     fault = real_time_now();
   }
 
-  /// To be called when the run has ended, before anything is asked of the records. In no run was
-  /// anybody touched.
+  /// To be called when the run has ended, before anything is asked of the records. No run has a
+  /// collision.
   void read() {
     drives = lab.drives();
     commands = lab.commands();
@@ -80,7 +80,7 @@ class FaultyRun {
     expect_nobody_was_touched(lab);
   }
 
-  /// The car whose own process is struck has nobody who could plan anything new.
+  /// The car whose own process is hit cannot get a new plan.
   void expect_victim_drives_only_its_last_plan(Nanoseconds to) const {
     expect_only_the_last_plan(drives.at(victim_.value), commands, victim_.value, fault, to);
   }
@@ -90,7 +90,7 @@ class FaultyRun {
 
   /// The others are affected as long as everything that they could plan may meet the silent car:
   /// they drive only their last plans, and stand in time unless they get out of its reach. What
-  /// they plan anew keeps clear of all that the silent car could do.
+  /// they plan again keeps clear of all that the silent car could do.
   void expect_others_keep_clear(Nanoseconds to) const {
     std::size_t judged = 0;
     for (const auto& [id, drive] : drives) {
@@ -101,20 +101,20 @@ class FaultyRun {
       if (!fell_back) continue;
       const std::optional<StepIndex> planned_again = first_step(id, true, *fell_back);
       // What is planned in a step is driven from the next one on.
-      const Nanoseconds free = planned_again ? (planned_again->value + 1) * kPeriod : kForEver;
+      const Nanoseconds free = planned_again ? (planned_again->value + 1) * kPeriod : kForever;
       const Nanoseconds until = std::min(free, to);
       if (fell_back->value * kPeriod > fault + kReactionTime) continue;  // came near later
       if (until > fault + kReactionTime) {
         expect_only_the_last_plan(drive, commands, id, fault, until);
         ++judged;
       }
-      if (until > fault + kStandingTime && to == kForEver) {
+      if (until > fault + kStandingTime && to == kForever) {
         const auto since = standing_since(drive, fault + kStandingTime + kVehiclePeriod);
         EXPECT_TRUE(since && *since <= fault + kStandingTime);
       }
     }
     judged += expect_new_plans_keep_clear();
-    EXPECT_GT(judged, 0U) << "nobody drove out its plan, and nobody planned anew";
+    EXPECT_GT(judged, 0U) << "neither a minimal-risk stop nor a new plan";
   }
 
   LabProcesses lab;
@@ -168,7 +168,7 @@ class FaultyRun {
       for (std::uint64_t j = 1; j <= lab.scenario().horizon_steps; ++j) {
         const auto planned = sample(command->second.points, now + j * kPeriod);
         if (!planned) {
-          ADD_FAILURE() << "the command of step " << report.step.value << " ends before its plan";
+          ADD_FAILURE() << "command of step " << report.step.value << " ends before its plan";
           break;
         }
         const double reach_m = top_speed_mps * 1e-9 * static_cast<double>(j * kPeriod);
@@ -215,9 +215,9 @@ TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) 
   if (!is_newest_sent_whole(run.commands, fault.victim.value)) {
     GTEST_SKIP() << "on a busy machine the fault came between a command and its copy";
   }
-  run.expect_victim_drives_only_its_last_plan(kForEver);
+  run.expect_victim_drives_only_its_last_plan(kForever);
   run.expect_victim_stands();
-  run.expect_others_keep_clear(kForEver);
+  run.expect_others_keep_clear(kForever);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -232,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"middleware_killed", kLab, {2}, "middleware_2", SIGKILL}),
     testing::PrintToStringParamName());
 
-// Short enough for nobody to take it for dead: planning goes on when it is heard again.
+// Too short to count as dead: planning continues when its messages arrive again.
 TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   constexpr VehicleId kVictim{2};
   constexpr Nanoseconds kNotYetDead = 1'500'000'000;  // the others' patience is 2 s
@@ -261,13 +261,13 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   run.expect_others_keep_clear(goes_on);
   if (goes_on >= run.fault + kNotYetDead) {
     GTEST_SKIP() << "a busy machine made the stop last " << goes_on - run.fault
-                 << " ns: too long to be heard again";
+                 << " ns: too long for its messages to count";
   }
   EXPECT_TRUE(drives_on);
   EXPECT_GE(planned_steps(run.records, kVictim, after), 5U) << run.lab.log("lab_control");
 }
 
-// Everybody has taken it for dead and drives out; it wakes up with messages of long ago.
+// All consider it dead and make a minimal-risk stop; it wakes up with old messages.
 TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn) {
   constexpr VehicleId kVictim{2};
   FaultyRun run;
@@ -275,7 +275,7 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
   run.strike(kVictim, "high_level_controller_2", SIGSTOP);
   const bool was_dead = eventually(60s, [&] {
     const std::optional<Report> last = last_report(run.lab.reports(), {1});
-    return last && last->status == StepStatus::kDriveOut &&
+    return last && last->status == StepStatus::kMinimalRiskStop &&
            real_time_now() > run.fault + kStandingTime;
   });
   const Nanoseconds goes_on = real_time_now();

@@ -47,7 +47,7 @@ class Network {
 class LabOverNetwork : public RunProcesses {
  public:
   /// @param discovery    further flags of all processes
-  /// @param names_peers  whether controllers are told the others' addresses
+  /// @param names_peers  whether controllers get the others' addresses
   LabOverNetwork(const Network& network, int steps, const std::string& discovery = "",
                  bool names_peers = false);
 };

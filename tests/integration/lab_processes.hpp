@@ -35,7 +35,7 @@ class LabProcesses : private DomainReservation, public RunProcesses {
   explicit LabProcesses(const LabOptions& options);
 
   [[nodiscard]] std::vector<std::string> names() const;
-  /// Also once more, after its end. Its log begins anew.
+  /// May be repeated after the end of the process, with a new log.
   void start(const std::string& name) { RunProcesses::start(name, commands_.at(name)); }
   void start_all();
   /// Exit code of summarize.

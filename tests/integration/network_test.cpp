@@ -41,7 +41,8 @@ void expect_only_the_last_plans(const LabOverNetwork& lab, Nanoseconds fault, Na
   }
 }
 
-// A car that is cut off hears nobody, and nobody sees it: all three are affected.
+// A car that is cut off receives nothing, and the others receive nothing from it: all three are
+// affected.
 TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThenItIsTakenBack) {
   const Network network(true);
   if (!network.is_made()) GTEST_SKIP() << "network namespaces need root and iproute2";
@@ -61,14 +62,15 @@ TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThe
   EXPECT_THAT(lab.still_running_after(180s), testing::IsEmpty());
   expect_only_the_last_plans(lab, fault, joined);
   expect_nobody_was_touched(lab);
-  // Whoever is silent for 2 s is taken for dead, and may have spoken 0.5 s before the cut.
+  // A process that is silent for 2 s is considered dead, and its last message may be 0.5 s older
+  // than the cut.
   if (after > before + 1'400'000'000) {
     GTEST_SKIP() << "a busy machine made the cut last " << after - before << " ns: too long to be "
                  << "taken back";
   }
   expect_good_end(lab);
 
-  // Everybody noticed, and everybody hears everybody again. (In the last step some have left.)
+  // All noticed, and all receive each other's messages again. (In the last step some have left.)
   constexpr std::uint64_t kStepsOfTheFault = 5;
   std::map<std::uint8_t, StepIndex> missed_first;
   std::map<std::uint8_t, StepIndex> complete_last;

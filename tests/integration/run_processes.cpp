@@ -16,7 +16,7 @@ constexpr const char* kCommandsFiles = ".commands";
 
 std::filesystem::path new_run_folder() {
   std::string name = (std::filesystem::temp_directory_path() / "hlc_run_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be created");
   std::filesystem::create_directory(name + "/logs");
   return name;
 }

@@ -14,8 +14,8 @@
 
 namespace hlc::test {
 
-/// The programs of one run, each known by its name, and the folder that they write to. Whoever
-/// still runs ends with this object.
+/// The programs of one run, each known by its name, and the folder that they write to. Running
+/// ones end with this object.
 class RunProcesses {
  public:
   RunProcesses(const RunProcesses&) = delete;

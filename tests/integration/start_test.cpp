@@ -76,7 +76,7 @@ TEST_F(Start, ACarBesideItsLaneDrivesOntoItsReference) {
     last_error_m = std::max(last_error_m, error_m(drive[i]));
   }
   EXPECT_LT(last_error_m, 0.07) << "as on every lap";
-  EXPECT_NE(lab.log("high_level_controller_1").find("takes route"), std::string::npos);
+  EXPECT_NE(lab.log("high_level_controller_1").find("selects route"), std::string::npos);
 }
 
 TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
@@ -91,7 +91,7 @@ TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
       << lab.log("lab_control");
   const std::string log = lab.log("high_level_controller_1");
   EXPECT_NE(log.find("fits no route: nearest is"), std::string::npos) << log;
-  EXPECT_NE(log.find("mm beyond the lanes (allowed 150 mm)"), std::string::npos) << log;
+  EXPECT_NE(log.find("mm beyond the lanes (must be <= 150 mm)"), std::string::npos) << log;
   EXPECT_LT(way_m(read_drive(drive_file(lab.folder(), 1))), 1e-6);
 }
 
@@ -115,7 +115,7 @@ class ReturningRun {
   }
 
   /// Kills the vehicle's process of that name when the car has driven for a while, waits until the
-  /// car has stopped and everybody has noticed, starts the process again, and waits until the car
+  /// car has stopped and all have noticed, restarts the process, and waits until the car
   /// has driven on.
   /// @param noticed  lines in processes' logs by which these have noticed, beside lab control's
   void kill_and_start_again(const std::string& process, VehicleId id,
@@ -131,15 +131,15 @@ class ReturningRun {
       return now.t > killed + kNanosecondsPerSecond && std::abs(now.speed_mps) <= kStanding_mps;
     }));
     noticed["lab_control"] = name + " died";
-    for (const auto& [who, line] : noticed) {
-      ASSERT_TRUE(
-          eventually(kPatience, [&] { return lab.log(who).find(line) != std::string::npos; }))
-          << who << ": " << lab.log(who);
+    for (const auto& [process_name, line] : noticed) {
+      ASSERT_TRUE(eventually(kPatience,
+                             [&] { return lab.log(process_name).find(line) != std::string::npos; }))
+          << process_name << ": " << lab.log(process_name);
     }
     lab.start(name);
     const Nanoseconds again = real_time_now();
     EXPECT_TRUE(eventually(kPatience, [&] {
-      return way_m(between(lab.drives().at(id.value), again, kForEver)) > 1.0;
+      return way_m(between(lab.drives().at(id.value), again, kForever)) > 1.0;
     })) << lab.log(name);
     driven_on = real_time_now();
   }
@@ -194,12 +194,12 @@ TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
   EXPECT_LE(run.steps_until_it_plans(kVictim), 2 * kNanosecondsPerSecond / kPeriod);
 }
 
-// Its controller lives on without it, and answers it again.
+// Its controller keeps running without it, and answers it again.
 TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
   ReturningRun run(GetParam().scenario, GetParam().transport);
   const std::string controller = "high_level_controller_2";
   ASSERT_NO_FATAL_FAILURE(
-      run.kill_and_start_again("middleware", {2}, {{controller, "middleware_2 is gone"}}));
+      run.kill_and_start_again("middleware", {2}, {{controller, "middleware_2 lost"}}));
   run.expect_good_end();
   EXPECT_NE(run.lab.log(controller).find("middleware_2 is back"), std::string::npos)
       << run.lab.log(controller);
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(All, Return,
                                          Setting{"lab", "lab_three_cars", "lab"}),
                          [](const auto& one) { return one.param.name; });
 
-// Far from each other, so that nobody is coupled with anybody.
+// Far from each other, so that no cars are coupled.
 TEST(ReturnAlone, OfAControllerStopsNobodyWhoIsNotCoupled) {
   const TemporaryFolder folder;
   std::string text = read_text(kScripts + "scenarios/circle.yaml");

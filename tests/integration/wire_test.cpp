@@ -169,7 +169,7 @@ TEST(Wire, EveryEndpointIsAnnouncedAsTheLabsContractSays) {
     return topics;
   };
   // When a report is there, the car drives: whatever the processes make has been made. That we have
-  // been told of it is another matter.
+  // been notified is a separate question.
   const bool are_there = eventually(60s, [&] {
     return hold_all(on_lab.so_far(), kLabParts) && hold_all(on_local.so_far(), kLocalParts) &&
            std::ranges::includes(own_topics(), kOwnTopics) &&

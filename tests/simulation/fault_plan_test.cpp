@@ -71,7 +71,7 @@ TEST(FaultPlan, AFaultIsALine) {
                   .begin = 2'150'000'000,
                   .end = 3'200'000'000,
                   .process = "middleware_1"};
-  EXPECT_EQ(to_string(cut), "2.150 s ... 3.200 s: cut middleware_1 -> anybody");
+  EXPECT_EQ(to_string(cut), "2.150 s ... 3.200 s: cut middleware_1 -> any");
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ void end_row(const SoakResult& result, Total& total) {
   total.late += result.deadline_misses;
 }
 
-void look_at_faults(const Flags& flags, bool with_network, Total& total) {
+void check_faults(const Flags& flags, bool with_network, Total& total) {
   std::printf("%6s %6s %6s %9s  %s\n", "seed", "faults", "exit", "min [mm]", "what was struck");
   for (std::uint64_t seed = flags.seed; seed < flags.seed + flags.runs; ++seed) {
     const hlc::test::FaultPlan plan =
@@ -77,7 +77,7 @@ void look_at_faults(const Flags& flags, bool with_network, Total& total) {
               total.collisions, total.failed);
 }
 
-void look_at_cycles(const Flags& flags, Total& total) {
+void check_cycles(const Flags& flags, Total& total) {
   std::printf("%6s %6s\n", "cycle", "exit");
   for (std::size_t i = 0; i < flags.runs; ++i) {
     const SoakResult result = hlc::test::run_cycle(i, flags.keep);
@@ -87,7 +87,7 @@ void look_at_cycles(const Flags& flags, Total& total) {
   std::printf("%zu cycles, %zu failed\n", total.runs, total.failed);
 }
 
-void look_at_undisturbed_runs(const Flags& flags, Total& total) {
+void check_undisturbed_runs(const Flags& flags, Total& total) {
   std::printf("%6s %6s %9s %6s %9s %14s\n", "run", "exit", "min [mm]", "late", "fallbacks",
               "planning [ms]");
   for (std::size_t i = 0; i < flags.runs; ++i) {
@@ -139,17 +139,17 @@ int main(int argc, char** argv) {
   app.footer(
       "Real processes on this machine. As root with an empty /dev/shm of its own, in which nothing "
       "may be left, and with a network per car in some runs. "
-      "Exit codes: 0 every run was good, 1 not so, 2 bad input.");
+      "Exit codes: 0 every run passed, 1 a run failed, 2 invalid input.");
   if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
   const bool is_root = hlc::test::use_own_shared_memory();
   if (!is_root) std::printf("without root: leftovers in /dev/shm and the network are left out\n");
   Total total;
   if (faults->parsed()) {
-    look_at_faults(flags, is_root, total);
+    check_faults(flags, is_root, total);
   } else if (cycles->parsed()) {
-    look_at_cycles(flags, total);
+    check_cycles(flags, total);
   } else {
-    look_at_undisturbed_runs(flags, total);
+    check_undisturbed_runs(flags, total);
   }
   return total.failed == 0 ? 0 : 1;
 }

@@ -64,8 +64,8 @@ const char* scenario_on(const std::string& transport) {
   return transport == "lab" ? "lab_three_cars" : "paper_three_cars";
 }
 
-void look_at_driving(const Scenario& scenario, const Drives& drives,
-                     const std::set<std::uint8_t>& dead, SoakResult& result) {
+void check_driving(const Scenario& scenario, const Drives& drives,
+                   const std::set<std::uint8_t>& dead, SoakResult& result) {
   const Encounters close =
       driven_encounters(describe(scenario, std::nullopt).vehicles, drives, dead);
   result.collisions = close.collisions;
@@ -77,7 +77,7 @@ void look_at_driving(const Scenario& scenario, const Drives& drives,
 }
 
 template <class Lab>
-void look_at_the_end(Lab& lab, SoakResult& result) {
+void check_end(Lab& lab, SoakResult& result) {
   for (const std::string& name : lab.still_running_after(kEndTime)) {
     result.problems.push_back(name + " hangs");
   }
@@ -181,15 +181,15 @@ void run_on_one_machine(const FaultPlan& plan, const std::string& transport, boo
   } else {
     result.problems.emplace_back("the cars do not start");
   }
-  look_at_the_end(lab, result);
+  check_end(lab, result);
   if (!striker.has_killed("lab_control")) result.lab_control = lab["lab_control"].wait_for(0ms);
-  look_at_driving(lab.scenario(), lab.drives(), striker.dead(), result);
+  check_driving(lab.scenario(), lab.drives(), striker.dead(), result);
   if (keep && !result.problems.empty()) lab.keep_folder();
 }
 
 void run_over_network(const FaultPlan& plan, bool keep, SoakResult& result) {
   const Network network(true);
-  if (!network.is_made()) throw std::runtime_error("the network cannot be made");
+  if (!network.is_made()) throw std::runtime_error("the network cannot be created");
   LabOverNetwork lab(network, kStepsOfAFaultyRun);
   if (eventually(kStartTime, [&] { return all_drive(lab.folder()); })) {
     std::map<int, int> cuts;  // of a machine, that have not ended
@@ -207,9 +207,9 @@ void run_over_network(const FaultPlan& plan, bool keep, SoakResult& result) {
   } else {
     result.problems.emplace_back("the cars do not start");
   }
-  look_at_the_end(lab, result);
+  check_end(lab, result);
   result.lab_control = lab["lab_control"].wait_for(0ms);
-  look_at_driving(lab.scenario(), lab.drives(), {}, result);
+  check_driving(lab.scenario(), lab.drives(), {}, result);
   if (keep && !result.problems.empty()) lab.keep_folder();
 }
 
@@ -258,13 +258,13 @@ SoakResult run_undisturbed(int steps, const std::string& transport, bool keep) {
     lab.start_all();
     const auto run_time = std::chrono::seconds(steps / 5);
     result.lab_control = lab["lab_control"].wait_for(kStartTime + run_time);
-    look_at_the_end(lab, result);
+    check_end(lab, result);
     if (result.lab_control != 0) {
       result.problems.push_back("lab_control ended with " +
                                 std::to_string(result.lab_control.value_or(-1)));
     }
     const Drives drives = lab.drives();
-    look_at_driving(lab.scenario(), drives, {}, result);
+    check_driving(lab.scenario(), drives, {}, result);
     const RunFacts facts = read_facts(lab.folder() / "run.json");
     const std::vector<ReportRecord> reports = read_reports(lab.folder() / "reports.csv");
     const RunSummary summary = summarize(describe(lab.scenario(), std::nullopt), facts,

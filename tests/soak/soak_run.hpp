@@ -16,8 +16,8 @@ struct SoakResult {
   std::size_t collisions{};                ///< of driven footprints
   std::optional<double> min_distance_m{};  ///< of them, over the whole run
   std::vector<std::string> problems;       ///< one line each; empty: good
-  bool may_leave_files{};                  ///< who is killed on the lab's transport cannot clean up
-  double standstill_s{};  ///< for how long the machine did not run, the longest time
+  bool may_leave_files{};  ///< a process killed on the lab's transport cannot clean up
+  double standstill_s{};   ///< for how long the machine did not run, the longest time
   // of runs without faults:
   std::size_t deadline_misses{};  ///< of all cars
   std::size_t fallback_steps{};
@@ -34,12 +34,12 @@ struct SoakResult {
                                          bool keep);
 
 /// Three cars that start and stop: in logical time and in real time in turn, by the end of three
-/// steps and by an interruption in turn. Good if every process ends with the exit code that says
+/// steps and by an interruption in turn. Good if every process ends with the exit code for
 /// so.
 [[nodiscard]] SoakResult run_cycle(std::size_t number, bool keep);
 
-/// Three cars in real time for so many steps. Good if the run is complete and nobody touches
-/// anybody. Late steps are counted: they are the machine's as much as ours.
+/// Three cars in real time for so many steps. Good if the run is complete and without
+/// collision. Late steps are counted: they are the machine's as much as ours.
 [[nodiscard]] SoakResult run_undisturbed(int steps, const std::string& transport, bool keep);
 
 }  // namespace hlc::test

@@ -24,7 +24,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
   // In the child: only calls that are safe after fork.
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // not even a stopped one outlives a killed test
-  for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);  // whoever started the test
+  for (const int signal : {SIGINT, SIGTERM})
+    ::signal(signal, SIG_DFL);  // independent of the test's parent
   const int out = ::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   const int in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(in, STDIN_FILENO);

@@ -43,7 +43,7 @@ class ChildProcess {
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
 /// True as soon as `condition` holds; asked again and again until the deadline, but seldom enough
-/// for a condition that reads whole files to leave the machine to those whom it waits for.
+/// for a condition that reads whole files to leave the processor to the awaited processes.
 template <class Condition>
 [[nodiscard]] bool eventually(std::chrono::milliseconds time, Condition condition) {
   const auto deadline = std::chrono::steady_clock::now() + time;

@@ -14,10 +14,10 @@
 
 namespace hlc {
 
-/// Consecutive DDS domains that no other test on this machine uses as long as this object lives:
-/// lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count - 1, all in
-/// 1 ... 50, and with each the one 50 above it (the default controller domain), so that none is
-/// above 100.
+/// Consecutive DDS domains that no other test on this machine uses during the lifetime of this
+/// object: lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count -
+/// 1, all in 1 ... 50, and with each the one 50 above it (the default controller domain), so that
+/// none is above 100.
 class DomainReservation {
  public:
   /// Waits up to a minute for room; throws std::runtime_error after that.
@@ -54,7 +54,7 @@ class DomainReservation {
   bool lock_all(int count) {
     for (int domain = first_; domain < first_ + count; ++domain) {
       const std::string file = "/tmp/hlc_dds_domain_" + std::to_string(domain) + ".lock";
-      const int fd = open_for_everybody(file);
+      const int fd = open_shared(file);
       if (fd < 0) {
         release();
         return false;
@@ -68,16 +68,16 @@ class DomainReservation {
     return true;
   }
 
-  /// Other users lock the same files: everybody may open them, and they are opened for reading
+  /// Other users lock the same files: they are world-readable, and opened for reading
   /// only, since Linux refuses to open another user's file in /tmp with O_CREAT.
-  static int open_for_everybody(const std::string& file) {
+  static int open_shared(const std::string& file) {
     const int present = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (present >= 0 || errno != ENOENT) {
       return present;
     }
     const int made = open(file.c_str(), O_RDONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (made < 0) {
-      return open(file.c_str(), O_RDONLY | O_CLOEXEC);  // somebody else was quicker
+      return open(file.c_str(), O_RDONLY | O_CLOEXEC);  // another process was faster
     }
     fchmod(made, 0666);  // whatever the umask
     return made;

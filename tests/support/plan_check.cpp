@@ -50,7 +50,7 @@ double weighted_criteria(const Maneuver& maneuver, const std::vector<PlanningWei
   return cost;
 }
 
-std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
+std::string validate(const SearchResult& result, const Subgraph& subgraph,
                      const HorizonProblem& problem, const std::vector<PlanningWeight>& weights) {
   const std::size_t n = problem.horizon_steps();
   if (result.status != SearchStatus::kOptimal && result.status != SearchStatus::kUnproven) {

@@ -14,9 +14,9 @@ namespace hlc::test {
 
 /// Checks a plan against the problem, step by step: status, sizes, edges that are switched on and
 /// follow each other, poses composed from the displacements (1e-9), no collision, standstill at the
-/// end, cost (1e-9). Says what is wrong; empty if nothing is.
+/// end, cost (1e-9). Returns the error; empty if none.
 /// @param weights  of the maneuvers' own criteria in the cost
-[[nodiscard]] std::string fault_of(const SearchResult& result, const Subgraph& subgraph,
+[[nodiscard]] std::string validate(const SearchResult& result, const Subgraph& subgraph,
                                    const HorizonProblem& problem,
                                    const std::vector<PlanningWeight>& weights = {});
 

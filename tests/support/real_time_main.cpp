@@ -1,6 +1,6 @@
 // The main of tests that drive in real time. A virtual machine may stand still for seconds when its
 // host takes the processors away: then all processes have fallen silent to each other at once, and
-// what a test saw says nothing about them. A test that failed while the machine stood still is
+// a test's observations are meaningless. A test that failed while the machine stood still is
 // therefore run again; one that failed while it ran has failed.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 
 namespace hlc::test {
 
-/// Expects two results to agree in everything, to the last bit.
+/// Expects two results to be bitwise identical.
 inline void expect_same(const SearchResult& a, const SearchResult& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.reason, b.reason);

@@ -8,7 +8,7 @@
 
 namespace hlc::test {
 
-/// A quarter of the lease: nobody's silence of such a length has consequences yet, and a busy
+/// A quarter of the lease: a silence of this length has no consequences yet, and a busy
 /// machine lets a thread that sleeps most of the time wait far less.
 inline constexpr std::chrono::milliseconds kStandstill{500};
 

@@ -15,7 +15,7 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "hlc_test_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error(name + ": cannot be made");
+      throw std::runtime_error(name + ": cannot be created");
     }
     path_ = name;
   }

@@ -13,19 +13,19 @@ Maneuver make_maneuver(const UniversalAutomaton& automaton, TrimId from, TrimId 
   const Trim& begin = automaton.trims[from.index];
   const Trim& end = automaton.trims[to.index];
   const double interval_s = automaton.step_s / kIntervals;
-  const bool own_step = from == to;
+  const bool self_loop = from == to;
 
   Maneuver maneuver;
   maneuver.from = from;
   maneuver.to = to;
-  maneuver.label = own_step ? kOwnStepLabel : label.label;
+  maneuver.label = self_loop ? kSelfLoopLabel : label.label;
   maneuver.duration_s = automaton.step_s;
   State state{{}, begin.speed_mps, begin.steering_rad};
   maneuver.states.push_back(state);
   for (std::size_t i = 0; i < kIntervals; ++i) {
     Input input{(end.speed_mps - begin.speed_mps) / automaton.step_s,
                 (end.steering_rad - begin.steering_rad) / automaton.step_s};
-    if (!own_step) {
+    if (!self_loop) {
       input.acceleration_mps2 += i < kIntervals / 2 ? surge_mps2 : -surge_mps2;
     }
     state = integrated(state, input, interval_s, automaton.vehicle);

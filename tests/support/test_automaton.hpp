@@ -14,7 +14,7 @@ namespace hlc::test {
 inline constexpr char kTestLabel[] = "test";
 
 /// An automaton for tests, made without an optimiser: the twelve trims of the paper's Table 1, a
-/// maneuver between every two of them, each trim's own step.
+/// maneuver between every two of them, and each trim's self-loop.
 ///
 /// The steering of a maneuver ramps linearly. The speed too, if `surge_mps2` is 0 (the optimum of
 /// J2). Otherwise that acceleration is added in the first half and taken away in the second, so

@@ -52,8 +52,8 @@ def jump(root: Element, length_m: float, sample: int) -> None:
     shift(states, length_m * math.cos(heading), length_m * math.sin(heading))
 
 
-class SetAnew(NamedTuple):
-    """A plan set down anew."""
+class Reanchored(NamedTuple):
+    """A re-anchored plan."""
 
     vehicle: int
     sample: int  # just after
@@ -61,20 +61,20 @@ class SetAnew(NamedTuple):
     time_s: float
 
 
-def first_set_anew(run: Run) -> SetAnew | None:
+def first_reanchored(run: Run) -> Reanchored | None:
     for vehicle in sorted(run.planned):
-        for sample in check_vehicle(run, vehicle).set_anew:
+        for sample in check_vehicle(run, vehicle).reanchored:
             h = run.scenario.dt
-            return SetAnew(vehicle, sample, measured_before(sample, h), sample * h)
+            return Reanchored(vehicle, sample, measured_before(sample, h), sample * h)
     return None
 
 
-def turn_about_car(root: Element, anew: SetAnew, angle_rad: float) -> None:
+def turn_about_car(root: Element, plan: Reanchored, angle_rad: float) -> None:
     """The plan still meets the car, but points elsewhere."""
-    car = motion(root, DRIVEN_IDS, anew.vehicle)[anew.measured]
+    car = motion(root, DRIVEN_IDS, plan.vehicle)[plan.measured]
     x_m, y_m = get(car, X), get(car, Y)
     cos, sin = math.cos(angle_rad), math.sin(angle_rad)
-    for state in motion(root, PLANNED_IDS, anew.vehicle)[anew.sample :]:
+    for state in motion(root, PLANNED_IDS, plan.vehicle)[plan.sample :]:
         dx, dy = get(state, X) - x_m, get(state, Y) - y_m
         put(state, X, x_m + cos * dx - sin * dy)
         put(state, Y, y_m + sin * dx + cos * dy)
@@ -151,7 +151,7 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
     def planned(root: Element) -> list[Element]:
         return motion(root, PLANNED_IDS, 1)
 
-    # 1301 is just after the begin of a control step, where a plan may be set down anew.
+    # 1301 is just after the begin of a control step, where a plan may be re-anchored.
     def with_planned(path: str, factor: float) -> Callable[[Element], None]:
         return lambda root: scale(planned(root), path, factor)
 
@@ -198,7 +198,7 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
         Control(
             "one driven sample 50 mm aside",
             "driving",
-            ("its speed says",),
+            ("expected from its speed",),
             lambda r: shift(motion(r, DRIVEN_IDS, 2)[777:778], 0.05, 0.0),
         ),
         Control(
@@ -219,25 +219,25 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
     ]
 
 
-def controls_of_plans_set_anew(anew: SetAnew) -> list[Control]:
-    """The allowance for such plans must not hide what the car does not say."""
+def controls_of_reanchored_plans(plan: Reanchored) -> list[Control]:
+    """The allowance for such plans must not hide an error that the driven motion does not show."""
 
     def states(root: Element) -> list[Element]:
-        return motion(root, PLANNED_IDS, anew.vehicle)[anew.sample :]
+        return motion(root, PLANNED_IDS, plan.vehicle)[plan.sample :]
 
-    place = (f"vehicle {anew.vehicle}, step of 0.01 s to {anew.time_s:.2f} s",)
+    place = (f"vehicle {plan.vehicle}, step of 0.01 s to {plan.time_s:.2f} s",)
     return [
         Control(
-            "a plan set down anew, 3 mm beside the car",
+            "a re-anchored plan, 3 mm beside the car",
             "dynamics",
             place,
             lambda r: shift(states(r), 0.003, 0.0),
         ),
         Control(
-            "a plan set down anew, turned by 5 mrad against the car",
+            "a re-anchored plan, turned by 5 mrad against the car",
             "dynamics",
             place,
-            lambda r: turn_about_car(r, anew, 0.005),
+            lambda r: turn_about_car(r, plan, 0.005),
         ),
     ]
 
@@ -252,19 +252,19 @@ def run_controls(
     xml: Path,
     folder: Path,
     check_file: Callable[[Path, Path], tuple[list[Finding], list[str]]],
-    needs_set_anew: bool,
+    needs_reanchored: bool,
 ) -> bool:
     """Prints each control with the reasons for which it was rejected. True if all were, rightly.
 
-    Raises BadInput if the run has no plan that is set down anew, but needs one.
+    Raises BadInput if the run has no re-anchored plan, but needs one.
     """
     good = etree.parse(xml).getroot()
     run = read_run(xml, folder)
     all_controls = controls(run.configuration.vehicle.b)
-    if anew := first_set_anew(run):
-        all_controls += controls_of_plans_set_anew(anew)
-    elif needs_set_anew:
-        raise BadInput(f"{folder}: no plan is set down anew, allowed a run with such plans")
+    if plan := first_reanchored(run):
+        all_controls += controls_of_reanchored_plans(plan)
+    elif needs_reanchored:
+        raise BadInput(f"{folder}: no re-anchored plan, must be a run with such plans")
     all_hold = True
     for control in all_controls:
         root = copy.deepcopy(good)

@@ -6,9 +6,9 @@ beyond them does not fit either. What the integration gives must be the next sta
 which holds for a control step of 0.2 s and is scaled with the length of the step: once from each
 10 ms to the next, once over whole control steps.
 
-A controller may set its plan down anew where the car is (planner/controller/plan_in_force.hpp).
-Such a jump is none of the vehicle; it is accepted only if the car, seen independently, says the
-same (`is_set_anew`).
+A controller may re-anchor its plan to the pose of the car (planner/controller/plan_in_force.hpp).
+Such a jump is not driven; it is accepted only if the car, evaluated independently, shows the
+same (`is_reanchored`).
 """
 
 import math
@@ -23,7 +23,7 @@ SPEED_MPS = 5e-3
 HEADING_RAD = 1e-3
 STEERING_RAD = 1e-3
 TOLERANCE_STEP_S = 0.2
-# Share of the safety margin beyond which a controller sets its plan down anew.
+# Share of the safety margin beyond which a controller re-anchors its plan.
 REANCHOR_SHARE = 0.5
 # The lab's identified model of its vehicles (mid_level_controller/src/VehicleModel.cxx): the course
 # is yaw + SLIP_GAIN delta + SLIP_OFFSET, and in steady state
@@ -58,8 +58,8 @@ class Error:
         """What exceeds the tolerance of a step of that length."""
         scale = duration_s / TOLERANCE_STEP_S
         return [
-            f"{name} {1e3 * value:.3g} {unit}, allowed {1e3 * scale * allowed:.3g}"
-            for name, value, unit, allowed in (
+            f"{name} {1e3 * value:.3g} {unit}, must be <= {1e3 * scale * allowed:.3g}"
+            for name, value, unit, must be in (
                 ("position", self.position_m, "mm", POSITION_M),
                 ("speed", self.speed_mps, "mm/s", SPEED_MPS),
                 ("heading", self.heading_rad, "mrad", HEADING_RAD),
@@ -123,11 +123,11 @@ def yaw_minus_heading(steering_rad: float, p: VehicleParameters) -> float:
 
 
 def measured_before(i: int, time_step_s: float) -> int:
-    """The sample at which a car was seen whose plan is set down anew just before sample i."""
+    """The sample at which a car was seen whose plan is re-anchored just before sample i."""
     return i - 1 - round(MEASUREMENT_AGE_S / time_step_s)
 
 
-def is_set_anew(
+def is_reanchored(
     planned: list[State],
     driven: list[State],
     i: int,
@@ -135,7 +135,7 @@ def is_set_anew(
     time_step_s: float,
     configuration: Configuration,
 ) -> bool:
-    """Is sample i, where the plan before leads to `old`, the begin of a plan set down anew?
+    """Is sample i, where the plan before leads to `old`, the begin of a re-anchored plan?
 
     So it is just after the begin of a control step, if the car was off the old plan by more than a
     controller suffers when it was measured, and if the motion of the plan takes the planned
@@ -176,8 +176,8 @@ class Course:
     """What the motion of one vehicle came to."""
 
     findings: list[Finding]
-    largest: Error  # of the steps that are not set anew
-    set_anew: list[int] = field(default_factory=list)  # samples just after
+    largest: Error  # of the steps that are not re-anchored
+    reanchored: list[int] = field(default_factory=list)  # samples just after
 
 
 def check_vehicle(run: Run, vehicle: int) -> Course:
@@ -204,8 +204,8 @@ def check_vehicle(run: Run, vehicle: int) -> Course:
         error = error_of(model, planned[i])
         if not error.beyond(h):
             course.largest.add(error)
-        elif is_set_anew(planned, driven, i, model, h, run.configuration):
-            course.set_anew.append(i)
+        elif is_reanchored(planned, driven, i, model, h, run.configuration):
+            course.reanchored.append(i)
             window = planned[i]
         else:
             reject(1, i, error)
@@ -224,13 +224,13 @@ def check_vehicle(run: Run, vehicle: int) -> Course:
 def check_dynamics(run: Run) -> tuple[list[Finding], str]:
     findings: list[Finding] = []
     largest = Error()
-    set_anew = 0
+    reanchored = 0
     for vehicle in sorted(run.planned):
         course = check_vehicle(run, vehicle)
         findings += course.findings
         largest.add(course.largest)
-        set_anew += len(course.set_anew)
+        reanchored += len(course.reanchored)
     text = f"largest error of a step of 10 ms {largest}"
-    if set_anew > 0:
-        text += f"; plans set down anew where the car was: {set_anew}"
+    if reanchored > 0:
+        text += f"; plans re-anchored to the car: {reanchored}"
     return findings, text

@@ -1,8 +1,9 @@
 """Does the planned footprint stay on the lanes where the vehicle may drive?
 
-These are, as planner/road/route.hpp says: the lanes of the vehicle's route and their neighbours of
+These are, by planner/road/route.hpp: the lanes of the vehicle's route and their neighbours of
 the same direction; for a lane without such neighbours the one that merges with it or forks off it,
-with that lane's neighbours. Found anew here, from what CommonRoad's reader made of the map.
+with that lane's neighbours. Derived independently here, from the map of
+CommonRoad's reader.
 """
 
 import numpy as np

@@ -13,7 +13,7 @@ from run import BadInput, Finding, Run, State, states
 # A car follows its plan within a few millimetres; where that asks for more than the car gives (A),
 # within some 5 cm. A car's width beside it, it is on another way.
 OFF_PLAN_M = 0.1
-# Between two samples of 10 ms a car comes as far as its speed says. Its motion is linear between two
+# Between two samples of 10 ms a car moves by its speed. Its motion is linear between two
 # ticks of 20 ms, in which A changes its speed by up to 0.5 m/s.
 STEP_M = 5e-3
 
@@ -25,7 +25,7 @@ def read_facts(folder: Path) -> tuple[list[int], float]:
         facts = json.loads(file.read_text(encoding="utf-8"))
         return list(facts["vehicle_ids"]), 1e-9 * (facts["steps"] - 1) * facts["period_ns"]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise BadInput(f"{file}: {error!r}, allowed a run folder's file") from error
+        raise BadInput(f"{file}: {error!r}, must be a run folder's file") from error
 
 
 def check_whole(run: Run, folder: Path) -> tuple[list[Finding], str]:
@@ -74,7 +74,7 @@ def check_driving(run: Run) -> tuple[list[Finding], str]:
             if abs(distance(was, now) - way_m) > STEP_M:
                 text = (
                     f"vehicle {vehicle}, {i * h:.2f} s: {1e3 * distance(was, now):.1f} mm driven in "
-                    f"{h:.2f} s, its speed says {1e3 * way_m:.1f}"
+                    f"{h:.2f} s, expected from its speed: {1e3 * way_m:.1f}"
                 )
                 findings.append(Finding("driving", text))
                 break
@@ -84,7 +84,7 @@ def check_driving(run: Run) -> tuple[list[Finding], str]:
             i = off_m.index(max(off_m))
             text = (
                 f"vehicle {vehicle}, {i * h:.2f} s: {1e3 * off_m[i]:.1f} mm off its plan, "
-                f"allowed {1e3 * OFF_PLAN_M:.0f}"
+                f"must be <= {1e3 * OFF_PLAN_M:.0f}"
             )
             findings.append(Finding("driving", text))
     return findings, f"at most {1e3 * farthest_m:.1f} mm off the plan"

@@ -1,4 +1,4 @@
-"""A run as CommonRoad's reader sees it, and what its configuration says of vehicle and routes."""
+"""A run as CommonRoad's reader sees it, and vehicle and routes of its configuration."""
 
 import math
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ DRIVEN_IDS = 3_000_000
 
 
 class BadInput(Exception):
-    """One line: what is wrong with a file and what is allowed."""
+    """One line: the fault of a file and the bound."""
 
 
 class Finding(NamedTuple):
@@ -60,9 +60,9 @@ def load_yaml(file: Path) -> Any:
     try:
         return yaml.safe_load(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{file}: cannot be read, allowed a run folder's file") from error
+        raise BadInput(f"{file}: cannot be read, must be a run folder's file") from error
     except yaml.YAMLError as error:
-        raise BadInput(f"{file}: no YAML, allowed a run folder's file") from error
+        raise BadInput(f"{file}: no YAML, must be a run folder's file") from error
 
 
 def vehicle_parameters(vehicle: dict[str, float], limits: dict[str, float]) -> VehicleParameters:
@@ -93,7 +93,7 @@ def read_configuration(folder: Path, time_step_s: float) -> Configuration:
     files = sorted((folder / "configuration").rglob("*.yaml"))
     scenarios = [f for f in files if "automaton" in (load_yaml(f) or {})]
     if len(scenarios) != 1:
-        raise BadInput(f"{folder}: {len(scenarios)} scenarios in configuration/, allowed one")
+        raise BadInput(f"{folder}: {len(scenarios)} scenarios in configuration/, must be one")
     scenario = load_yaml(scenarios[0])
     automaton_file = scenarios[0].parent / scenario["automaton"]
     automaton = load_yaml(automaton_file)
@@ -107,7 +107,7 @@ def read_configuration(folder: Path, time_step_s: float) -> Configuration:
             samples_per_step=round(automaton["step_s"] / time_step_s),
         )
     except (KeyError, TypeError) as error:
-        raise BadInput(f"{automaton_file}: {error} is missing, allowed an automaton") from error
+        raise BadInput(f"{automaton_file}: {error} is missing, must be an automaton") from error
 
 
 def read_run(xml: Path, folder: Path) -> Run:

@@ -19,7 +19,7 @@ def check_schema(xml: Path) -> tuple[list[Finding], str]:
     try:
         document = etree.parse(xml)
     except OSError as error:
-        raise BadInput(f"{xml}: cannot be read, allowed a CommonRoad file") from error
+        raise BadInput(f"{xml}: cannot be read, must be a CommonRoad file") from error
     except etree.XMLSyntaxError as error:
         return [Finding("schema", f"no XML: {error.msg}")], ""
     schema = load_schema()
@@ -29,7 +29,7 @@ def check_schema(xml: Path) -> tuple[list[Finding], str]:
     for number in document.iterfind(".//dynamicObstacle//*"):
         if number.tag in ("x", "y") or number.tag == "exact" and number.getparent().tag != "time":
             if len(number.text.partition(".")[2]) < MIN_DECIMALS:
-                text = f"line {number.sourceline}: {number.text}, allowed {MIN_DECIMALS} decimals"
+                text = f"line {number.sourceline}: {number.text}, must have >= {MIN_DECIMALS} decimals"
                 return [Finding("decimals", text)], ""
     elements = document.xpath("count(/commonRoad/*[@id])")
     return [], f"valid, {elements:.0f} elements with ids of their own"

@@ -19,7 +19,7 @@ EXPORT_TIMEOUT_S = 60
 
 
 def export(program: Path, folder: Path, xml: Path) -> None:
-    """Writes the run as CommonRoad file. Raises BadInput with what the program says."""
+    """Writes the run as CommonRoad file. Raises BadInput with the program's message."""
     done = subprocess.run(
         [program, "--run", folder, "--out", xml],
         capture_output=True,
@@ -45,7 +45,7 @@ def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
         return [Finding("reader", f"CommonRoad's reader: {error!r}")], lines
     findings, text = check_whole(run, folder)
     if findings:
-        return findings, lines  # of what is not there nothing can be said
+        return findings, lines  # missing parts cannot be checked
     lines.append(f"record      {text}")
     findings += check_size(run)
     for name, check in (
@@ -64,7 +64,7 @@ def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
 
 
 def name_of(folder: Path) -> str:
-    """Scenario and choices, as far as the run folder says."""
+    """Scenario and choices, as far as the run folder contains them."""
     flags = folder / "configuration" / "flags.yaml"
     wanted = {}
     for line in flags.read_text(encoding="utf-8").splitlines() if flags.exists() else []:
@@ -92,18 +92,19 @@ def verify(program: Path, folder: Path, xml: Path | None) -> bool:
     return not findings
 
 
-def verify_controls(program: Path, folder: Path, needs_set_anew: bool) -> bool:
+def verify_controls(program: Path, folder: Path, needs_reanchored: bool) -> bool:
     print(f"negative controls, from {name_of(folder)}", flush=True)
     with tempfile.TemporaryDirectory() as place:
         xml = Path(place) / "run.xml"
         export(program, folder, xml)
-        return run_controls(xml, folder, check_file, needs_set_anew)
+        return run_controls(xml, folder, check_file, needs_reanchored)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__,
-        epilog="Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input.",
+        epilog="Exit codes: 0 all accepted, 1 a run rejected or a negative control accepted, "
+        "2 invalid input.",
     )
     parser.add_argument("--export", type=Path, required=True, help="the program export_commonroad")
     parser.add_argument(
@@ -113,10 +114,10 @@ def main() -> int:
         help="a run of paper_three_cars that is accepted: must be rejected when it is spoilt",
     )
     parser.add_argument(
-        "--controls_anew",
+        "--controls_reanchored",
         type=Path,
         metavar="RUN",
-        help="the same for a run in which plans are set down anew",
+        help="the same for a run in which plans are re-anchored",
     )
     parser.add_argument(
         "--xml", type=Path, help="a CommonRoad file of the one run, instead of its export"
@@ -124,13 +125,13 @@ def main() -> int:
     parser.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="run folder")
     arguments = parser.parse_args()
     if arguments.xml and len(arguments.runs) != 1:
-        parser.error(f"--xml {arguments.xml}: {len(arguments.runs)} run folders, allowed one")
+        parser.error(f"--xml {arguments.xml}: {len(arguments.runs)} run folders, must be one")
     try:
         accepted = [verify(arguments.export, folder, arguments.xml) for folder in arguments.runs]
         if arguments.controls:
             accepted.append(verify_controls(arguments.export, arguments.controls, False))
-        if arguments.controls_anew:
-            accepted.append(verify_controls(arguments.export, arguments.controls_anew, True))
+        if arguments.controls_reanchored:
+            accepted.append(verify_controls(arguments.export, arguments.controls_reanchored, True))
     except (BadInput, subprocess.TimeoutExpired, OSError) as error:
         print(f"verify: {error}", file=sys.stderr)
         return 2

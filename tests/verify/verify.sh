@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks runs with CommonRoad's packages, in a virtual environment of its own.
+# Checks runs with CommonRoad's packages, in a virtual environment.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -11,10 +11,10 @@ Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Witho
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
 with real processes over DDS, checks all of them, and the negative controls of two.
   --bin DIR           the programs (default build/release/bin)
-  --environment DIR   where the packages are, or are installed (default build/release/verify_environment)
-  --xml FILE          a CommonRoad file of the one run folder, as export_commonroad writes it; default: its export
-Exit codes: 0 all accepted, 1 a run rejected or a control not, 2 bad input,
-            3 skipped: the packages are not there and PyPI is out of reach, 4 installation or a drive failed
+  --environment DIR   folder of the virtual environment, created if missing (default build/release/verify_environment)
+  --xml FILE          a CommonRoad file of the one run folder, as written by export_commonroad; default: its export
+Exit codes: 0 all accepted, 1 a run rejected or a negative control accepted, 2 invalid input,
+            3 skipped: packages missing and PyPI not reachable, 4 installation or a drive failed
 TEXT
 }
 
@@ -41,14 +41,14 @@ while (($#)); do
       shift ;;
     -*) fail "unknown flag $1 (see --help)" ;;
     *)
-      [[ -d $1 ]] || fail "$1 is no folder, allowed run folders"
+      [[ -d $1 ]] || fail "$1 is not a folder, must be run folders"
       runs+=("$1") ;;
   esac
   shift
 done
 if ((${#xml[@]} > 0)); then
   [[ -f ${xml[1]} ]] || fail "--xml ${xml[1]} is no file"
-  ((${#runs[@]} == 1)) || fail "--xml with ${#runs[@]} run folders, allowed one"
+  ((${#runs[@]} == 1)) || fail "--xml with ${#runs[@]} run folders, must be one"
 fi
 [[ -x $bin/export_commonroad ]] || fail "no export_commonroad in $bin; build first, or give --bin"
 
@@ -76,5 +76,5 @@ drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle 
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
-# Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, sets plans down anew.
-"${verify[@]}" --controls "$out/campaign/runs/1" --controls_anew "$out/campaign/runs/4" "${runs[@]}" "$out/processes"
+# Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, re-anchors plans.
+"${verify[@]}" --controls "$out/campaign/runs/1" --controls_reanchored "$out/campaign/runs/4" "${runs[@]}" "$out/processes"

@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// The machine's: wall time, and processor time of the thread that asks.
+/// The machine's clocks: wall time, and processor time of the calling thread.
 [[nodiscard]] inline Clocks machine_clocks() {
   const auto wall_now = [] {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();

@@ -32,7 +32,7 @@ std::size_t drive_campaign(const Campaign& campaign, std::size_t jobs, bool keep
     } catch (const std::exception& error) {
       failure = error.what();
     }
-    // Outside: a folder or a record that cannot be written is no failure of the run.
+    // Outside the try block: a folder or record that cannot be written is no failure of the run.
     if (keep_runs && driven) {
       write_run_folder(folder_of_run(files, run), driven->scenario, driven->experiment);
     }

@@ -6,10 +6,10 @@
 
 namespace hlc {
 
-/// Drives the runs that are missing, `jobs` at a time, with a progress line on stderr. Runs that
-/// cannot be driven are recorded with their reason and stop nobody.
+/// Drives the missing runs, `jobs` at a time, with a progress line on stderr. Runs that cannot be
+/// driven are recorded with their reason and do not stop the others.
 /// @param keep_runs  also writes each run's folder, runs/<number>; a run without one is missing
-/// @return the number of runs that do not count, those that were there already included
+/// @return the number of runs that do not count, including those driven before
 /// @throws std::runtime_error if a record cannot be written
 std::size_t drive_campaign(const Campaign& campaign, std::size_t jobs, bool keep_runs,
                            EvaluationFiles& files);

@@ -12,11 +12,11 @@ namespace hlc {
 
 namespace {
 
-/// Its heading and whole rows stay. False: there are none.
+/// Keeps the heading and complete rows. False: there are none.
 bool ends_with_a_row(const std::string& file) {
   if (!std::filesystem::exists(file)) return false;
   const std::string text = read_file(file);
-  const std::size_t end = text.rfind('\n') + 1;  // 0 without a whole line
+  const std::size_t end = text.rfind('\n') + 1;  // 0 without a complete line
   if (end < text.size()) std::filesystem::resize_file(file, end);
   return end > 0;
 }

@@ -7,16 +7,16 @@
 
 namespace hlc {
 
-/// Writes what a vehicle truly drives as CSV with the heading `kDriveHeading`, one row per tick:
-/// where it is, and the inputs given then (they act 80 ms later).
-/// `hlc_bridge/record/drive_file.hpp` reads it.
+/// Writes a vehicle's true motion as CSV with the heading `kDriveHeading`, one row per tick: the
+/// pose, and the inputs given then (they act 80 ms later). `hlc_bridge/record/drive_file.hpp` reads
+/// it.
 ///
 /// Numbers have 17 significant digits, so reading them back gives the same bits. Every row is
 /// flushed: the record survives a crash.
 class DriveRecorder {
  public:
-  /// @param append  behind the rows that are there, of a process that ended before; a row that it
-  ///                did not finish goes
+  /// @param append  continue after the rows of a process that ended before, dropping an incomplete
+  /// row
   /// @throws std::runtime_error if the file cannot be written
   explicit DriveRecorder(const std::string& file, bool append = false);
 

@@ -6,9 +6,9 @@
 
 namespace hlc {
 
-/// Designs the automata and drives the runs that are missing, `jobs` at a time, with progress lines
-/// on stderr. Runs that cannot be driven are recorded with their reason and stop nobody.
-/// @return the number of runs that do not count, those that were there already included
+/// Designs the automata and drives the missing runs, `jobs` at a time, with progress lines on
+/// stderr. Runs that cannot be driven are recorded with their reason and do not stop the others.
+/// @return the number of runs that do not count, including those driven before
 std::size_t drive_sweep(Sweep& sweep, std::size_t jobs, SweepFiles& files);
 
 }  // namespace hlc

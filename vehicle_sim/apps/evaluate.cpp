@@ -30,7 +30,7 @@ struct Choices {
   bool keep_runs{false};
   std::filesystem::path out;
   hlc::FigureChoices figures;
-  bool is_sweep{false};  ///< else a campaign
+  bool is_sweep{false};  ///< otherwise a campaign
   std::filesystem::path sweep;
 };
 
@@ -43,7 +43,7 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
   if (std::filesystem::exists(name) && std::filesystem::is_regular_file(name)) return name;
   const std::filesystem::path file = choices.scenario_folder / (name + ".yaml");
   if (std::filesystem::exists(file)) return file;
-  throw std::invalid_argument("--scenario = " + name + ", allowed a file or the name of one in " +
+  throw std::invalid_argument("--scenario = " + name + ", must be a file or the name of one in " +
                               choices.scenario_folder.string());
 }
 
@@ -55,12 +55,12 @@ std::string command_line(int argc, char** argv) {
 
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
-/// Everything that the campaign reads. What cannot be read is bad input.
+/// All input of the campaign. A file that cannot be read is invalid input.
 hlc::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
   }
-  // Tables and figures tell scenarios by their names.
+  // Tables and figures identify scenarios by their names.
   std::vector<std::string> names;
   for (const auto& file : choices.plan.scenarios) names.push_back(file.stem().string());
   hlc::check_each_once("--scenario", names);
@@ -68,7 +68,7 @@ hlc::Campaign read(Choices& choices) {
   hlc::check_each_once("--subgraphs", choices.plan.subgraphs);
   hlc::check_each_once("--policies", choices.plan.policies);
   if (std::ranges::find(choices.plan.policies, "") != choices.plan.policies.end()) {
-    throw std::invalid_argument("--policies: an empty name, allowed those of the scenario");
+    throw std::invalid_argument("--policies: an empty name, must be a policy of the scenario");
   }
   hlc::FigureChoices& figures = choices.figures;
   const auto is_asked_for = [&](const char* name) {
@@ -79,7 +79,7 @@ hlc::Campaign read(Choices& choices) {
   if (!figures.pareto_configuration.empty() && !is_asked_for("pareto_set")) {
     throw std::invalid_argument(
         "--pareto_configuration = " + figures.pareto_configuration.string() +
-        ", allowed with --figures=pareto_set");
+        " requires --figures=pareto_set");
   }
   if (figures.pareto_configuration.empty()) {
     figures.pareto_configuration =
@@ -90,7 +90,7 @@ hlc::Campaign read(Choices& choices) {
   if (!figures.names.empty() && std::filesystem::exists(folder) &&
       !std::filesystem::is_directory(folder)) {
     throw std::invalid_argument("--out = " + choices.out.string() +
-                                ": figures is no folder, allowed a folder or nothing there");
+                                ": figures must be a folder or absent");
   }
   try {
     hlc::check_figures(figures);
@@ -99,7 +99,7 @@ hlc::Campaign read(Choices& choices) {
       return campaign.scenario_of(run).vehicles.size() == 1;
     };
     if (!draws_all && is_asked_for("distance") && std::ranges::all_of(campaign.runs(), is_alone)) {
-      throw std::invalid_argument("--figures = distance, allowed with a scenario of several cars");
+      throw std::invalid_argument("--figures = distance requires a scenario of several cars");
     }
     return campaign;
   } catch (const std::runtime_error& error) {
@@ -109,8 +109,8 @@ hlc::Campaign read(Choices& choices) {
 
 void draw(const hlc::Campaign& campaign, Choices& choices) {
   if (choices.figures.names.empty()) return;
-  choices.figures.say = [](const std::string& what) {
-    std::cerr << "evaluate: draws " << what << '\n';
+  choices.figures.log = [](const std::string& what) {
+    std::cerr << "evaluate: drawing " << what << '\n';
   };
   const auto files = hlc::draw_figures(campaign, choices.figures, figure_folder(choices));
   for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());
@@ -160,13 +160,7 @@ int run(Choices choices, const std::string& command) {
   return failed == 0 ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app{
-      "Drives many whole runs within this process and compares them with the paper's Table 2.",
-      "evaluate"};
-  Choices choices;
+void declare_campaign(CLI::App& app, Choices& choices) {
   choices.plan.profiles = {"default"};
   choices.scenario_folder = "launch_scripts/scenarios";
   choices.jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -188,7 +182,7 @@ int main(int argc, char** argv) {
                  "scenario's own")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
-                 "how many starts: the scenario's own, then random ones on the routes")
+                 "number of starts: the scenario's own, then random ones on the routes")
       ->check(hlc::whole(1, 100'000))
       ->capture_default_str();
   app.add_option("--seed", choices.plan.seed, "of the random starts")
@@ -209,6 +203,9 @@ int main(int argc, char** argv) {
                  "folder for results.json, table.md, table.csv, with --policies also tradeoff.md, "
                  "tradeoff.csv, tradeoff_fronts.csv; an interrupted campaign goes on")
       ->required();
+}
+
+void declare_figures(CLI::App& app, Choices& choices) {
   std::vector<std::string> figures{kAllFigures};
   figures.insert(figures.end(), hlc::figure_names().begin(), hlc::figure_names().end());
   app.add_option("--figures", choices.figures.names,
@@ -218,9 +215,15 @@ int main(int argc, char** argv) {
   app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
                  "automaton configuration for the figure pareto_set; default: "
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
+}
+
+/// The option that replaces all the others that select the runs.
+CLI::Option* declare(CLI::App& app, Choices& choices) {
+  declare_campaign(app, choices);
+  declare_figures(app, choices);
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
-      "a file that says which settings take which values (launch_scripts/sweeps/README.md): drives "
+      "a file with the settings and their values (launch_scripts/sweeps/README.md): drives "
       "every combination instead of a campaign, writes sweep.csv and sweep.md");
   for (CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
@@ -229,12 +232,21 @@ int main(int argc, char** argv) {
     }
   }
   app.footer(
-      "Exit codes: 0 all runs driven, 1 some failed (results.json, sweep.csv say why), 2 bad "
-      "input, 3 a record, table, figure or what is printed cannot be written; what is there "
+      "Exit codes: 0 all runs driven, 1 some failed (reasons in results.json, sweep.csv), 2 bad "
+      "input, 3 a record, table, figure or the printed output cannot be written; existing "
       "stays.");
+  return sweep;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Simulates many runs and compares them with the paper's Table 2.", "evaluate"};
+  Choices choices;
+  CLI::Option* sweep = declare(app, choices);
   if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
-  // A run that fails is recorded: what else goes wrong is an output.
+  // A failed run is recorded; any other error concerns an output.
   return hlc::exit_code_of(
       "evaluate", [&] { return run(choices, command_line(argc, argv)); }, kExitNotWritten);
 }

@@ -43,7 +43,7 @@ std::string pareto_set(const fs::path& configuration) {
   return pareto_plot(front, weighted_sum_front(problem, options), description);
 }
 
-/// The whole automaton; a scenario holds only what its subgraph needs.
+/// The whole automaton; a scenario holds only the part that its subgraph needs.
 std::string automaton(const fs::path& file) {
   if (is_automaton_file(file)) return automaton_plot(read_current_automaton_file(file));
   const AutomatonConfiguration configuration = read_automaton_configuration(file);
@@ -73,10 +73,11 @@ class Drawing {
 
   std::vector<fs::path> draw() {
     if (is_wanted("pareto_set")) {
-      choices_.say("the Pareto set of Fig. 1");
+      choices_.log("the Pareto set of Fig. 1");
       write("pareto_set", pareto_set(choices_.pareto_configuration));
     }
-    std::map<std::string, fs::path> automata;  // by name: two of one name are told by the scenario
+    std::map<std::string, fs::path>
+        automata;  // by name; automata of one name are distinguished by the scenario
     std::set<std::string> drawn;
     std::set<fs::path> scenarios;
     for (const CampaignRun& run : campaign_.runs()) {
@@ -86,7 +87,7 @@ class Drawing {
       const fs::path& first = automata.try_emplace(stem, scenario.automaton_file).first->second;
       const std::string figure = first == scenario.automaton_file ? stem : stem + "_of_" + name;
       if (is_wanted("automaton") && drawn.insert(figure).second) {
-        choices_.say("the automaton of " + name);
+        choices_.log("the automaton of " + name);
         write("automaton_" + figure, automaton(scenario.automaton_file));
       }
       if (is_wanted("scenario") && scenarios.insert(run.scenario).second) {
@@ -124,15 +125,15 @@ class Drawing {
   void draw_runs() {
     for (const auto& [group, numbers] : groups()) {
       const std::string name = group.first.stem().string() + "_" + group.second;
-      choices_.say("the runs of " + name);
+      choices_.log("the runs of " + name);
       std::vector<DrivenRun> runs;
       for (const std::size_t i : numbers) {
-        // A run that fails is recorded with its reason among the campaign's.
+        // A failed run is recorded with its reason among the campaign's.
         try {
           DrivenRun run = campaign_.drive(i, choices_.clocks);
           if (run.experiment.facts.exit_code != 0) continue;
           if (const std::string fault = campaign_.result_of(run).fault; !fault.empty()) {
-            choices_.say("among them " + run_name(run) + ", which does not count: " + fault);
+            choices_.log("among them " + run_name(run) + ", which does not count: " + fault);
           }
           runs.push_back(std::move(run));
         } catch (const std::exception&) {

@@ -24,25 +24,25 @@ namespace hlc {
 /// * `distance`: distances between vehicles over time, if there are any
 /// * `subgraphs`: which subgraph each vehicle planned on over time, and its speed
 ///
-/// The last six are of the first start (where the scenario has the cars) and have a line or a
-/// panel for every subgraph and policy.
+/// The last six are of the first start (the scenario's own poses) and have a line or a panel for
+/// every subgraph and policy.
 [[nodiscard]] const std::vector<std::string>& figure_names();
 
 struct FigureChoices {
   std::vector<std::string> names;               ///< of figure_names()
   std::filesystem::path pareto_configuration;   ///< automaton configuration for `pareto_set`
   Clocks clocks;                                ///< for `planning_time`
-  std::function<void(const std::string&)> say;  ///< called with a line on what is being drawn
+  std::function<void(const std::string&)> log;  ///< called with a line on what is being drawn
 };
 
-/// To be called before anything is driven.
+/// To be called before the first run.
 /// @throws std::invalid_argument or std::runtime_error with one line if a file that the figures
 /// need cannot be read
 void check_figures(const FigureChoices& choices);
 
-/// Draws into `folder`, which is made: NAME.svg, NAME_SCENARIO.svg, NAME_SCENARIO_PROFILE.svg.
-/// Runs are driven again for their series, one at a time, so planning times are measured
-/// undisturbed by other runs. A run that fails is left out.
+/// Draws into `folder`, which is created: NAME.svg, NAME_SCENARIO.svg, NAME_SCENARIO_PROFILE.svg.
+/// Runs are driven again for their series, one at a time, so that planning times are measured
+/// without interference. A failed run is left out.
 /// @throws std::runtime_error if a file cannot be written
 /// @return the files
 std::vector<std::filesystem::path> draw_figures(const Campaign& campaign,

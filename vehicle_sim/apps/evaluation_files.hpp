@@ -23,14 +23,14 @@ namespace hlc {
 /// A run's record has the keys of summary.json and "run" (its number), "start", "policy" (`none`
 /// for a fixed subgraph), "failure" (null, or why the run does not count) and "figures"
 /// (figures_record.hpp). Planning times are processor time of the thread, all others wall time. If
-/// it could not be driven to its end, the other keys are absent but for scenario, profile, subgraph
-/// and policy; if it was driven, but does not count (CampaignResult::fault), they are there.
+/// the run could not be driven to its end, only scenario, profile, subgraph and policy are there of
+/// the other keys; if it was driven, but does not count (CampaignResult::fault), all are.
 ///
-/// A campaign that was interrupted goes on with the runs that are missing in runs.jsonl.
+/// An interrupted campaign continues with the runs that are missing in runs.jsonl.
 class EvaluationFiles {
  public:
   /// Makes the folder, or opens that of the same campaign.
-  /// @throws std::invalid_argument naming the folder if it holds anything else, or the campaign of
+  /// @throws std::invalid_argument naming the folder if it holds anything else, or a campaign of
   /// other choices or another program
   EvaluationFiles(std::filesystem::path folder, const Campaign& campaign);
 

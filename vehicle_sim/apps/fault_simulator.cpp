@@ -1,5 +1,5 @@
-// Drives whole runs in memory while processes die and stand still, messages are lost and clocks go
-// wrong, and judges what must hold whatever happens.
+// Drives whole runs in memory under faults (dead and frozen processes, lost messages, clock errors)
+// and checks the invariants that must hold under any fault.
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ std::string duration_text(double seconds) {
   return text;
 }
 
-/// On a terminal one line written over itself, with the time that is left.
+/// On a terminal a single updated line, with the remaining time.
 class Progress {
  public:
   explicit Progress(std::uint64_t runs) : runs_(runs) {}
@@ -151,7 +151,7 @@ int campaign(const Choices& choices, const std::string& flags) {
         [&](std::size_t i) {
           const std::uint64_t seed = choices.seed + i;
           FaultRunResult result = campaign.run(campaign.draw(seed));
-          // Now and then twice: the same seed must give the same hash.
+          // Some seeds run twice: the same seed must give the same hash.
           if (i % kTwice == 0 && campaign.run(campaign.draw(seed)).hash != result.hash) {
             result.violations.push_back({.check = "hash", .text = "another hash in another run"});
           }
@@ -186,7 +186,7 @@ int campaign(const Choices& choices, const std::string& flags) {
   return failed.empty() ? 0 : 1;
 }
 
-/// What to write before --replay to get the same runs.
+/// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
   std::string flags = " --cars " + std::to_string(choices.campaign.cars);
   if (!choices.faults.empty()) {
@@ -232,7 +232,7 @@ int main(int argc, char** argv) {
   return hlc::exit_code_of("fault_simulator", [&] {
     hlc::check_each_once("--faults", choices.faults);
     if (!choices.replay && (!keep.empty() || !choices.trace.empty())) {
-      throw std::invalid_argument("--keep and --trace: allowed with --replay");
+      throw std::invalid_argument("--keep and --trace require --replay");
     }
     if (choices.campaign.cars == 1 || choices.campaign.cars == 2) {
       throw std::invalid_argument("--cars = " + std::to_string(choices.campaign.cars) +

@@ -38,7 +38,7 @@ constexpr Column<std::size_t> kCounts[] = {{"fallback_steps", &RunFigures::fallb
 constexpr Column<double> kTimes[] = {{"planning_mean_ms", &RunFigures::planning_mean_ms},
                                      {"planning_std_ms", &RunFigures::planning_std_ms},
                                      {"planning_max_ms", &RunFigures::planning_max_ms},
-                                     {"overlong_share", &RunFigures::overlong_share},
+                                     {"exceeding_step_share", &RunFigures::exceeding_step_share},
                                      {"wall_s", &RunFigures::wall_s},
                                      {"wall_planning_s", &RunFigures::wall_planning_s},
                                      {"wall_coordination_s", &RunFigures::wall_coordination_s},

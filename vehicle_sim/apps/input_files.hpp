@@ -7,12 +7,12 @@
 
 namespace hlc {
 
-/// Name and SHA-256 of each file, as a list in the order of the paths: a campaign goes on only
-/// where all that it reads is what it was.
+/// Name and SHA-256 of each file, as a list in the order of the paths: a campaign continues only if
+/// all its input files are unchanged.
 /// @throws std::runtime_error naming a file that cannot be read
 [[nodiscard]] nlohmann::ordered_json input_files(const std::set<std::filesystem::path>& files);
 
-/// Of the program that runs: another build is another program, whatever its revision says.
+/// Of the running program: another build is another program, whatever its revision.
 [[nodiscard]] std::string this_program_sha256();
 
 }  // namespace hlc

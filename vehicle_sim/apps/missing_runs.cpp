@@ -16,7 +16,7 @@ std::vector<std::size_t> missing_runs(std::size_t runs,
   }
   if (missing.size() < runs) {
     std::cerr << "evaluate: " << runs - missing.size() << " of " << runs
-              << " runs are there already\n";
+              << " runs already driven\n";
   }
   return missing;
 }

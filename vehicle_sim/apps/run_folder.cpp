@@ -38,7 +38,7 @@ void write_run_folder(const std::filesystem::path& folder, const Scenario& scena
                       const Experiment& experiment) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": cannot be made");
+  if (error) throw std::runtime_error(folder.string() + ": cannot be created");
   write_configuration(folder, scenario);
   for (const auto& [id, drive] : experiment.drives) {
     DriveRecorder file(drive_file(folder, id).string());

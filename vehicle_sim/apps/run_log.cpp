@@ -20,13 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Short values as they are, of long ones nothing.
-std::string told(const Json& value) {
+/// Short values as they are; empty for long ones.
+std::string text_of(const Json& value) {
   const std::string text = value.dump();
   return value.is_array() && text.size() > 40 ? "" : " " + text;
 }
 
-/// Which of the files that a campaign reads are others.
+/// Which of the campaign's input files have changed.
 std::string differing_files(const Json& before, const Json& now) {
   std::string names;
   for (const Json& file : now) {
@@ -36,7 +36,7 @@ std::string differing_files(const Json& before, const Json& now) {
   return names;
 }
 
-/// In what two headings differ, and what is there.
+/// The difference of two headings, with the existing values.
 std::string differences(const std::string& there, const std::string& wanted) {
   const Json before = Json::parse(there, nullptr, false);
   const Json now = Json::parse(wanted);
@@ -49,7 +49,7 @@ std::string differences(const std::string& there, const std::string& wanted) {
     if (key == "files") {
       keys += differing_files(before[key], value);
     } else if (key != "program") {
-      keys += told(before[key]);
+      keys += text_of(before[key]);
     }
   }
   return keys.empty() ? "first line" : keys;
@@ -64,11 +64,11 @@ RunLog::RunLog(std::filesystem::path folder, std::string heading)
     std::filesystem::create_directories(folder_, error);
     if (error) {
       throw std::invalid_argument(
-          fmt::format("--out = {}: cannot be made, {}, allowed a folder that can be written to",
+          fmt::format("--out = {}: cannot be created, {}, must be a writable folder",
                       folder_.string(), error.message()));
     }
   }
-  if (!std::filesystem::is_directory(folder_)) refuse("is no folder");
+  if (!std::filesystem::is_directory(folder_)) refuse("is not a folder");
   lock();
   try {
     open();
@@ -82,7 +82,7 @@ RunLog::~RunLog() { ::close(lock_); }
 
 void RunLog::refuse(const std::string& what) const {
   throw std::invalid_argument(fmt::format(
-      "--out = {}: {}, allowed a new folder or that of the same campaign", folder_.string(), what));
+      "--out = {}: {}, must be a new folder or that of the same campaign", folder_.string(), what));
 }
 
 void RunLog::lock() {
@@ -92,10 +92,10 @@ void RunLog::lock() {
   if (lock_ >= 0) ::close(lock_);
   const std::string out = "--out = " + folder_.string() + ": ";
   if (reason == EWOULDBLOCK) {
-    throw std::invalid_argument(out + "another evaluate writes to it, allowed one at a time");
+    throw std::invalid_argument(out + "another evaluate is running there, must be one at a time");
   }
   throw std::invalid_argument(out + "cannot be locked, " + std::generic_category().message(reason) +
-                              ", allowed a folder that can be read and written");
+                              ", must be a readable and writable folder");
 }
 
 void RunLog::open() {
@@ -108,18 +108,18 @@ void RunLog::open() {
     }
   };
   if (!std::filesystem::exists(file)) {
-    if (!std::filesystem::is_empty(folder_)) refuse("holds something else");
+    if (!std::filesystem::is_empty(folder_)) refuse("contains other files");
     write(heading_ + "\n");
     return;
   }
-  if (!std::filesystem::is_regular_file(file)) refuse("holds something else");
+  if (!std::filesystem::is_regular_file(file)) refuse("contains other files");
   const std::string text = read_file(file);
   std::vector<std::string> lines = split(text, '\n');
   if (lines.front() != heading_) {
-    refuse("holds the campaign of other choices, other files or another program (there: " +
+    refuse("contains another campaign: other choices, files or program (there: " +
            differences(lines.front(), heading_) + ")");
   }
-  lines.pop_back();  // behind the last line break: empty, or a line that was not finished
+  lines.pop_back();  // behind the last line break: empty, or an incomplete line
   std::string kept = heading_ + "\n";
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Json record = Json::parse(lines[i], nullptr, false);
@@ -161,7 +161,7 @@ void RunLog::append(std::size_t run, const std::string& line) {
   std::ofstream stream(file, std::ios::app);
   stream << line << '\n' << std::flush;
   if (!stream) {
-    // What is half written must not become the begin of the next line.
+    // An incomplete line must not become the begin of the next one.
     stream.close();
     std::filesystem::resize_file(file, size);
     throw std::runtime_error(file.string() + ": cannot be written");

@@ -11,29 +11,29 @@
 
 namespace hlc {
 
-/// The file runs.jsonl in the folder of a campaign or sweep: a first line that says what is driven,
-/// then a line per run, written once it is driven. What was interrupted goes on with the runs that
-/// are missing.
+/// The file runs.jsonl in the folder of a campaign or sweep: a first line that identifies the
+/// campaign, then a line per run, written once it is driven. An interrupted campaign continues with
+/// the missing runs.
 class RunLog {
  public:
-  /// Makes the folder, or opens that of the same campaign, for itself alone as long as it lives. A
-  /// last line that was not finished is dropped.
+  /// Makes the folder, or opens that of the same campaign, locked for this object's lifetime. An
+  /// incomplete last line is dropped.
   /// @param heading  one line of JSON
   /// @throws std::invalid_argument naming the folder if it holds anything else, or a campaign with
-  /// another heading, and in what that differs, if another program has it, or if it cannot be
-  /// written to
+  /// another heading (with the difference), if another program has it locked, or if it is not
+  /// writable
   RunLog(std::filesystem::path folder, std::string heading);
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  /// Looks at every record.
-  /// @param num_runs  their numbers are below
-  /// @param read      throws what it likes if the record is none
+  /// Checks every record.
+  /// @param num_runs  upper bound (excluded) of the runs' numbers
+  /// @param read      throws any exception if the record is invalid
   /// @throws std::invalid_argument naming the file and the run
   void check(std::size_t num_runs,
              const std::function<void(std::size_t run, const nlohmann::ordered_json&)>& read) const;
-  /// @throws std::invalid_argument if something that is no file bears one of these names
+  /// @throws std::invalid_argument if one of these names exists and is not a file
   void check_outputs(const std::vector<std::string>& names) const;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
@@ -45,7 +45,7 @@ class RunLog {
 
   /// From any thread.
   /// @param line  of JSON, with "run" as a key
-  /// @throws std::runtime_error if it cannot be written; then nothing of it stays in the file
+  /// @throws std::runtime_error if it cannot be written; the file is then unchanged
   void append(std::size_t run, const std::string& line);
 
  private:

@@ -23,7 +23,7 @@ Pose start_pose(std::uint8_t vehicle_id, const std::vector<double>& given) {
   if (given.empty()) {
     if (vehicle_id > kLastDefaultStart) {
       throw std::invalid_argument("--pose: vehicle " + std::to_string(vehicle_id) +
-                                  " has no start pose of its own; give x,y,yaw (only ids 1 ... " +
+                                  " has no default start pose; give x,y,yaw (only ids 1 ... " +
                                   std::to_string(kLastDefaultStart) + " can do without)");
     }
     return grid_pose(vehicle_id);

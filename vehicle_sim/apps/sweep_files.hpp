@@ -21,7 +21,7 @@ namespace hlc {
 /// A run's record: "run" (its number), "failure" (null, or why it does not count), and, if it was
 /// driven, "figures" (figures_record.hpp) and "trace_sha256".
 ///
-/// A sweep that was interrupted goes on with the runs that are missing in runs.jsonl.
+/// An interrupted sweep continues with the runs that are missing in runs.jsonl.
 class SweepFiles {
  public:
   /// @throws std::invalid_argument as RunLog

@@ -10,14 +10,9 @@
 namespace hlc {
 namespace {
 
-Nanoseconds nanoseconds(std::chrono::nanoseconds time) {
-  return static_cast<Nanoseconds>(time.count());
-}
-
 VehicleMachineOptions machine_options(const VehicleProcessOptions& options) {
-  const Nanoseconds grace = options.keep_running ? machine::kForEver : kVehicleStays;
   return {.vehicle = options.vehicle,
-          .rules = options.logical_time ? machine::logical_rules() : machine::real_rules(grace),
+          .rules = options.rules,
           .is_among_lab_programs = options.transport == Transport::kLab,
           .keep_running = options.keep_running,
           .startup_timeout = nanoseconds(options.startup_timeout)};
@@ -54,13 +49,12 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
                     : std::optional<DriveRecorder>(std::in_place, options_.record_file,
                                                    options_.append_record)),
       shell_(name_, VehicleMachine(machine_options(options_)),
-             make_pacing(options_.logical_time, nanoseconds(options_.startup_timeout),
-                         wall_time_now())),
+             options_.time.make_pacing(nanoseconds(options_.startup_timeout), wall_time_now())),
       lab_({.name = name_,
             .domain_id = options_.lab_domain,
             .role = DomainRole::kLab,
             .transport = options_.transport,
-            .logical_time = options_.logical_time,
+            .lease = options_.time.lease,
             .discovery_server = options_.discovery_server,
             .version = options_.version,
             .on_loss = [this](const std::string& line) { log(name_, machine::warning(line)); }},

@@ -8,6 +8,7 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
+#include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/shell.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
@@ -21,7 +22,8 @@ struct VehicleProcessOptions {
   Transport transport{Transport::kLab};
   int lab_domain{};
   std::optional<DiscoveryServer> discovery_server;
-  bool logical_time{};
+  RunTime time{kRealTime};
+  machine::PacingRules rules{machine::real_rules(kVehicleStays)};
   bool keep_running{};  ///< VehicleMachineOptions
   std::chrono::seconds startup_timeout{30};
   std::string record_file;  ///< empty: no record
@@ -29,15 +31,16 @@ struct VehicleProcessOptions {
 };
 
 /// One simulated vehicle on the lab domain: the endpoints and the record of a VehicleMachine. In
-/// real time it publishes its states whoever is there, in logical time it waits for everybody.
+/// real time it publishes its states without waiting, in logical time it waits for all
+/// participants.
 class VehicleProcess {
  public:
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit VehicleProcess(VehicleProcessOptions options);
   ~VehicleProcess();
 
-  /// Until the stop symbol has come and the vehicle has braked, or `stop` is called. The exit code:
-  /// also 3 if somebody needed did not appear, and 4 if the lab control dies.
+  /// Until the stop symbol was received and the vehicle has braked, or `stop` is called. The exit
+  /// code: also 3 if a required participant did not appear, and 4 if the lab control dies.
   [[nodiscard]] int run();
 
   /// Ends the run soon. From any thread.
@@ -45,7 +48,7 @@ class VehicleProcess {
 
  private:
   friend class Shell<VehicleMachine>;
-  /// What only the lab's programs send and receive: on its transport.
+  /// Endpoints for messages that only the lab's programs send and receive: on the lab's transport.
   struct LabEndpoints;
 
   [[nodiscard]] VehiclePresence presence() const;
@@ -61,7 +64,7 @@ class VehicleProcess {
   std::optional<DriveRecorder> recorder_;
   Shell<VehicleMachine> shell_;
 
-  // Readers last: they are destroyed first, and no callback comes after that.
+  // Readers last: they are destroyed first, and no callback is called after that.
   Participant lab_;
   Writer<VehicleState> state_writer_;
   Writer<ReadyStatus> ready_writer_;

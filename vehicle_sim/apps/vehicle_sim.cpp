@@ -41,17 +41,17 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
       ->capture_default_str();
-  CLI::Option* const record = app.add_option("--record", flags.record,
-                                             "CSV file for what is truly driven, one row per tick");
+  CLI::Option* const record =
+      app.add_option("--record", flags.record, "CSV file for the true motion, one row per tick");
   app.add_flag("--append_record", flags.append_record,
-               "behind what a process that ended before has recorded there")
+               "append to the record of a process that ended before")
       ->needs(record);
   app.add_flag("--keep_running", flags.keep_running,
                "listen again after a stop, as the lab's vehicle does");
   app.footer(
-      "In real time the car waits for commands for as long as it takes, as the lab's does "
+      "In real time the car waits for commands without a time limit, as the lab's does "
       "(--startup_timeout_s counts in logical time).\n"
-      "Exit codes: 0 good, 2 bad input, 3 somebody did not appear, 4 the lab control died.");
+      "Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
 hlc::VehicleProcessOptions process_options(const Flags& flags) {
@@ -59,8 +59,9 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
   hlc::check_domain_id("--dds_domain", flags.network.dds_domain);
   if (!(flags.gains_scale >= 0.0 && flags.gains_scale <= kMaxGainsScale)) {
     throw std::invalid_argument("--gains_scale: " + std::to_string(flags.gains_scale) +
-                                " is not allowed, 0 to 10");
+                                ", must be in 0 ... 10");
   }
+  const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForever : hlc::kVehicleStays;
   return {.vehicle = {.vehicle_id = id,
                       .start = hlc::start_pose(id, flags.pose),
                       .noise_seed = flags.noise_seed,
@@ -69,7 +70,9 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
           .transport = hlc::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
           .discovery_server = flags.network.discovery_server(),
-          .logical_time = flags.network.simulated_time,
+          .time = hlc::run_time(flags.network.simulated_time),
+          .rules = flags.network.simulated_time ? hlc::machine::logical_rules()
+                                                : hlc::machine::real_rules(grace),
           .keep_running = flags.keep_running,
           .startup_timeout = flags.network.startup_timeout(),
           .record_file = flags.record,
@@ -80,7 +83,7 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::StopSignals signals;
-  CLI::App app{"A simulated µCar: drives what it is commanded and tells its state, every 20 ms.",
+  CLI::App app{"A simulated µCar: follows commands and publishes its state, every 20 ms.",
                "vehicle_sim"};
   Flags flags;
   declare(app, flags);

@@ -17,7 +17,7 @@ std::string key_of(const CampaignRun& run) {
          run.policy.value_or("");
 }
 
-/// As it is driven without a policy.
+/// The scenario as driven without a policy.
 CampaignRun fixed(CampaignRun run) {
   run.policy.reset();
   return run;
@@ -32,7 +32,7 @@ Scenario with_policy(Scenario scenario, const std::string& policy) {
       known += (known.empty() ? "" : ", ") + one_line(name);
     }
     throw std::invalid_argument(
-        "--policies = " + one_line(policy) + ", allowed those of " + scenario.file.string() + ": " +
+        "--policies = " + one_line(policy) + ", must be one of " + scenario.file.string() + ": " +
         (known.empty() ? "it has none" : known) +
         (policy == kNoPolicy ? " (fixed subgraphs, --subgraphs, are driven without one)" : ""));
   }
@@ -75,7 +75,7 @@ Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(pl
     const auto [same, is_new] = by_name.emplace(name, run.scenario);
     if (same->second != run.scenario) {
       throw std::invalid_argument(run.scenario.string() + ": name = " + name + " as in " +
-                                  same->second.string() + ", allowed scenarios of different names");
+                                  same->second.string() + ", scenario names must be unique");
     }
     if (run.start > 0) {
       static_cast<void>(with_random_starts(scenario_of(run), plan_.seed + run.start));
@@ -145,7 +145,7 @@ CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> nois
   if (facts.exit_code != 0) throw std::runtime_error(facts.reason);
   std::vector<StepRecord> rows = step_records(experiment.reports, experiment.drives, facts);
   std::erase_if(rows, [first_step](const StepRecord& row) { return row.step < first_step; });
-  // Encounters are looked for from the first step of the facts on.
+  // Encounters are searched from the first step of the facts on.
   facts.first_step = facts.first_step.value() + first_step;
   facts.steps -= std::min(facts.steps, first_step);
   CampaignResult result{

@@ -21,8 +21,8 @@
 
 namespace hlc {
 
-/// What a campaign drives: every combination of scenario, profile, start, and of what is planned
-/// on: a fixed subgraph, or the scenario's own with a policy that switches it.
+/// The runs of a campaign: every combination of scenario, profile, start, and either a fixed
+/// subgraph or the scenario's own with a policy that switches it.
 struct CampaignPlan {
   std::vector<std::filesystem::path> scenarios;  ///< files
   std::vector<std::string> profiles;
@@ -40,35 +40,35 @@ struct CampaignRun {
   std::string profile;
   std::optional<std::string> subgraph;  ///< none: the scenario's own
   std::optional<std::string> policy;    ///< none: the subgraph is fixed
-  std::size_t start{};  ///< 0: where the scenario has the cars; else random, seed + start
+  std::size_t start{};  ///< 0: the scenario's own poses; otherwise random, seed + start
 };
 
 /// All runs of the plan: by scenario, then profile, then fixed subgraph and policy, then start.
 [[nodiscard]] std::vector<CampaignRun> runs_of(const CampaignPlan& plan);
 
-/// What a run of a campaign gives.
+/// The result of a run of a campaign.
 struct CampaignResult {
   RunSummary summary;  ///< without revision and host
   std::string fault;   ///< danger_of(summary): why the run does not count; empty if it does
   WallTimes wall;
   DrivenCosts costs;
-  std::optional<ZoneExcess> excess;  ///< none without zones, or if nobody came into one
+  std::optional<ZoneExcess> excess;  ///< none without zones, or if no car entered one
   SubgraphUse use;
 };
 
-/// A run with all that was recorded.
+/// A run with all its records.
 struct DrivenRun {
   Scenario scenario;
   Experiment experiment;
 };
 
-/// Drives the scenario for the steps that it asks for (not for those of `options`).
+/// Drives the scenario for its own number of steps (not for that of `options`).
 [[nodiscard]] DrivenRun drive_run(Scenario scenario, ExperimentOptions options);
 
-/// A run in the terms of summary.json.
-/// @param noise_seed  of the measurement noise that it was driven with
-/// @param first_step  what lies before is left out: of laps, errors, vertices, faults, costs, hash
-/// @param zones       in which speeds are looked at
+/// A run as in summary.json.
+/// @param noise_seed  of the run's measurement noise
+/// @param first_step  earlier steps are excluded: from laps, errors, vertices, faults, costs, hash
+/// @param zones       in which speeds are checked
 /// @throws std::runtime_error with the reason if the run was not driven to its end
 [[nodiscard]] CampaignResult result_of(const DrivenRun& run,
                                        std::optional<std::uint64_t> noise_seed,
@@ -79,8 +79,8 @@ struct DrivenRun {
 /// several threads.
 class Campaign {
  public:
-  /// Reads every scenario with every profile, subgraph and policy, so that bad input is found
-  /// before anything is driven.
+  /// Reads every scenario with every profile, subgraph and policy, so that invalid input is found
+  /// before the first run.
   /// @throws std::invalid_argument as read_scenario; for random starts of open paths; for different
   /// scenarios of the same name; for a policy that a scenario does not have, naming `--policies`
   explicit Campaign(CampaignPlan plan);
@@ -88,19 +88,19 @@ class Campaign {
   [[nodiscard]] const CampaignPlan& plan() const { return plan_; }
   [[nodiscard]] const std::vector<CampaignRun>& runs() const { return runs_; }
 
-  /// The run number i with its series, for figures: a tenth of a second gives the same again, so
-  /// nobody needs to store it.
+  /// Run number i with its series, for figures: the series are not stored, since driving again
+  /// takes a tenth of a second and gives the same.
   [[nodiscard]] DrivenRun drive(std::size_t i, const Clocks& clocks) const;
 
-  /// The same in the terms of summary.json. All runs of a scenario are judged by the same zones:
-  /// those of all policies of the campaign.
+  /// The same as in summary.json. All runs of a scenario are evaluated with the same zones: those
+  /// of all policies of the campaign.
   /// @throws std::runtime_error with the reason if the run was not driven to its end
   [[nodiscard]] CampaignResult result_of(const DrivenRun& run) const;
 
-  /// The scenario of a run as it was read, with the cars where the scenario has them.
+  /// The scenario of a run as read, with the scenario's own start poses.
   [[nodiscard]] const Scenario& scenario_of(const CampaignRun& run) const;
 
-  /// All that is read: scenarios, automata, maps, labs.
+  /// All files read: scenarios, automata, maps, labs.
   [[nodiscard]] std::set<std::filesystem::path> files() const;
 
   /// Figures of a run without results: scenario, profile, subgraph, policy, start.

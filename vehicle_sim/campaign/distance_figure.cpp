@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kShown_m = 0.6;
 
-/// None of those that vehicles have.
+/// A colour that no vehicle has.
 std::string pair_colour(std::size_t pair) { return series_colour(pair + 3); }
 
 PlotPanel distance_panel(const DrivenRun& run) {

@@ -4,7 +4,7 @@
 
 #include "vehicle_sim/campaign/figure_parts.hpp"
 
-/// How a sample is distributed, as lines to draw on a logarithmic axis.
+/// Distributions of samples, as lines for a logarithmic axis.
 namespace hlc {
 
 /// The outline of a histogram with ten bins a decade, [10^(k/10), 10^((k+1)/10)): from 0 up, along

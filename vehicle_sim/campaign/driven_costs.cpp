@@ -12,7 +12,7 @@ namespace {
 
 using RowsOfVehicle = std::vector<const StepRecord*>;
 
-/// A sum of which a part is not known is not known.
+/// A sum with an unknown term is unknown.
 struct CostSum {
   std::string criterion;
   double sum{};

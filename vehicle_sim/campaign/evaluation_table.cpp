@@ -44,7 +44,7 @@ struct Column {
   std::vector<const RunFigures*> runs;
 
   [[nodiscard]] const RunFigures& first() const { return *runs.front(); }
-  /// None for a policy: the paper has none.
+  /// None for a policy: the paper has no policies.
   [[nodiscard]] std::optional<double> papers(const TableQuantity& quantity) const {
     if (has_policy(first())) return std::nullopt;
     return papers_value(quantity, first().scenario, first().subgraph);

@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// Where the figures come from.
+/// Origin of the figures.
 struct EvaluationOrigin {
   std::string command;
   std::string revision;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kReasonsShown = 20;
 
-/// A reason with its numbers taken out: "vehicle # was out of its areas in # steps".
+/// A reason without its numbers: "vehicle # was out of its areas in # steps".
 struct Reason {
   std::string text;
   std::vector<std::string> numbers;

@@ -7,8 +7,8 @@
 
 namespace hlc {
 
-/// Markdown: how many runs do not count, and why. Reasons that differ in numbers only are one, with
-/// the range of these numbers. Empty if all count.
+/// Markdown: how many runs do not count, and why. Reasons that differ in numbers only are merged,
+/// with the range of these numbers. Empty if all count.
 [[nodiscard]] std::string failure_list(const std::vector<RunFigures>& runs);
 
 }  // namespace hlc

@@ -8,12 +8,12 @@
 #include "planner/plot/svg_plot.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
-/// What the figures of runs have in common.
+/// Common parts of the figures of runs.
 namespace hlc {
 
 using PlotPoints = std::vector<Eigen::Vector2d>;
 
-/// Of lines that are no series: bounds, marks.
+/// Colour of lines that are no series: bounds, marks.
 inline constexpr char kMarkColour[] = "#444444";
 
 /// One of several panels.
@@ -38,14 +38,14 @@ inline constexpr PlotSize kSmallPanel{.width_px = 620.0, .height_px = 340.0};
 /// False before the start and after the end.
 [[nodiscard]] bool has_searched(const Report& report);
 
-/// A line with its entry in the legend. Every second series is dashed, so that two that lie on each
-/// other both show (see bring_dashed_to_front).
+/// A line with its entry in the legend. Every second series is dashed, so that two coinciding
+/// series are both visible (see bring_dashed_to_front).
 void add_series(std::size_t series, const std::string& name, PlotPoints points, PlotPanel& panel);
 
-/// What lies below dashed lines still shows.
+/// Lines below dashed lines remain visible.
 void bring_dashed_to_front(PlotPanel& panel);
 
-/// One legend for all panels, which then stands above them: each text once; takes it from them.
+/// Moves the panels' legends into one for all, each text once.
 [[nodiscard]] std::vector<PlotLegend> taken_legend(std::vector<PlotPanel>& panels);
 
 /// The same ranges for all panels, from x = 0, so that they can be compared.

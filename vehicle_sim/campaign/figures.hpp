@@ -13,8 +13,8 @@
 namespace hlc {
 
 /// The paper's Fig. 4: driven paths of the first vehicle, one line per subgraph, with its lane's
-/// centre; beside it the place where they differ most, enlarged. How much they differ is measured
-/// at equal arc lengths of the first lap.
+/// centre; beside it, enlarged, the place of their largest difference, measured at equal arc
+/// lengths of the first lap.
 /// @param map  absent: open ground
 /// @pre at least one run; so below
 [[nodiscard]] std::string paths_figure(std::span<const DrivenRun> runs,
@@ -28,8 +28,8 @@ namespace hlc {
 /// a logarithmic scale. Steps in which a vehicle did not search are gaps.
 [[nodiscard]] std::string vertices_figure(std::span<const DrivenRun> runs);
 
-/// Planning times of all vehicles on a logarithmic scale: how they are distributed, and the share
-/// that took at least so long. Planning times of 0 are left out.
+/// Planning times of all vehicles on a logarithmic scale: their distribution, and the share that
+/// took at least as long. Planning times of 0 are left out.
 [[nodiscard]] std::string planning_time_figure(std::span<const DrivenRun> runs);
 
 /// Distance of the driven footprints, pair by pair, over time, one panel per subgraph, with
@@ -38,10 +38,10 @@ namespace hlc {
 /// @pre at least two vehicles
 [[nodiscard]] std::string distance_figure(std::span<const DrivenRun> runs);
 
-/// Which subgraph every vehicle planned on over time: a band, its colour says which, below the
-/// vehicle's true speed; the time that the vehicle is in a zone of the run's policy is shaded, with
-/// the zone's limit. One panel per vehicle, of the runs with policies; if there are none, of all.
-/// Ten subgraphs have different colours.
+/// The subgraph of every vehicle's plans over time as a coloured band below the vehicle's true
+/// speed; the time that the vehicle is in a zone of the run's policy is shaded, with the zone's
+/// limit. One panel per vehicle, of the runs with policies; if there are none, of all. Up to ten
+/// subgraphs have different colours.
 [[nodiscard]] std::string subgraphs_figure(std::span<const DrivenRun> runs);
 
 }  // namespace hlc

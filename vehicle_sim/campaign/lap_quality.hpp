@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// How well laps were driven: means over runs.
+/// Quality of driven laps: means over runs.
 struct LapQuality {
   double error_mean_mm{};
   double lap_s{};

@@ -5,7 +5,7 @@
 
 namespace hlc {
 
-/// A number of a table with so many decimals; |value| < 1e40.
+/// A number of a table with this many decimals; |value| < 1e40.
 [[nodiscard]] inline std::string number(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof(text), "%.*f", decimals, value);

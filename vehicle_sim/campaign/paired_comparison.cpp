@@ -33,7 +33,7 @@ struct PairedRuns {
   }
 };
 
-/// The interval of a mean of logarithms, as the ratio that it stands for.
+/// The interval of a mean of logarithms, as the corresponding ratio.
 std::string ratio_in_words(const std::optional<Interval>& logs) {
   if (!logs) return "-";
   const std::string mean = number(std::exp(logs->mean), 3);
@@ -62,7 +62,7 @@ class Pairs {
       SweepCombination partner = sweep_.combinations()[second];
       partner[axis] = 0;
       const auto first = by_values_.find(partner);
-      if (first == by_values_.end()) continue;  // the sample does not hold it
+      if (first == by_values_.end()) continue;  // not in the sample
       add(first->second, second, by_subgraph, logs);
     }
     const SweepAxis& of_axis = plan.axes[axis];

@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// Markdown: what each value of a setting does, against the setting's first one. A pair are two
+/// Markdown: the effect of each value of a setting, against the setting's first one. A pair are two
 /// runs of the same scenario, subgraph and start (hence seed), with all other settings equal: of
 /// every grouping (groupings_of) the last setting's values, for each combination of the others'. Of
 /// the pairs in which both drove a lap the differences of error, lap and largest number of

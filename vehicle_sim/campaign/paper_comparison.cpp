@@ -156,9 +156,10 @@ std::string paper_comparison(const Sweep& sweep, const std::vector<RunFigures>& 
          "much a typical cell is off. The nearest of " +
          std::to_string(nearest.size()) + " combinations is chosen by the starts 0 to " +
          std::to_string(choosing - 1) +
-         (held_out ? "; how near it is the starts " + std::to_string(choosing) + " to " +
-                         std::to_string(starts - 1) + " say, which had no part in that.\n\n"
-                   : "; with a single start nothing is held out to say how near it is.\n\n") +
+         (held_out
+              ? "; its distance is measured on the starts " + std::to_string(choosing) + " to " +
+                    std::to_string(starts - 1) + ", which had no part in the choice.\n\n"
+              : "; with a single start nothing is held out to measure its distance.\n\n") +
          "**The chosen combination is off by a factor of " + factor_text(held_out) +
          " over the held-out starts** (" + factor_text(chosen) + " over those that chose it).\n\n" +
          best_table(sweep, nearest) +

@@ -8,35 +8,35 @@
 
 namespace hlc {
 
-/// One of the paper's cells beside ours.
+/// One of the paper's cells and ours.
 struct ComparedCell {
   PapersCell paper;
   std::optional<double> ours;  ///< mean over the starts; none if one of them has none, or failed
   double log_ratio{};          ///< l, see paper_distance
 };
 
-/// How far runs are from the machine-independent cells of the paper's Table 2.
+/// Distance of runs to the machine-independent cells of the paper's Table 2.
 struct PaperDistance {
   std::vector<ComparedCell> cells;
   double mean_square{};  ///< D
 
-  /// exp(sqrt(D)): the factor by which a typical cell is off.
+  /// exp(sqrt(D)): the typical factor between our cells and the paper's.
   [[nodiscard]] double factor() const;
 };
 
-/// All that a cell can count: a factor of 10.
+/// The most that a cell can count: a factor of 10.
 inline constexpr double kMaxCellFactor = 10.0;
 
 /// Compares the runs, over all their starts, with the cells of their scenarios and subgraphs:
 ///
 ///     D = 1/n sum_i l_i^2,   l_i = ln(ours_i / paper_i), at most ln 10 in size
 ///
-/// so that twice as much and half as much count the same, whatever the unit. A cell that we cannot
-/// fill (no lap, a run that failed) counts ln 10. Cells: mean and standard deviation of the
-/// reference error, lap, largest number of generated vertices ("expanded" in the paper) in a step:
-/// of the car alone, or summed over three cars.
+/// so that twice as much and half as much count the same, whatever the unit. A cell without a value
+/// of ours (no lap, a failed run) counts ln 10. Cells: mean and standard deviation of the reference
+/// error, lap, largest number of generated vertices ("expanded" in the paper) in a step: of the car
+/// alone, or summed over three cars.
 ///
-/// The paper has subgraph A with three cars only. Of these its error and lap stand also beside a
+/// The paper has subgraph A with three cars only. Its error and lap there are also compared with a
 /// red car alone, which is of highest priority: the others do not slow it down.
 ///
 /// @return nothing if the paper has no cell for any of the runs

@@ -8,10 +8,9 @@ std::optional<double> share_of_wall(const RunFigures& run, double part_s) {
   return run.wall_s > 0.0 ? std::optional(100.0 * part_s / run.wall_s) : std::nullopt;
 }
 
-}  // namespace
-
-const std::vector<TableQuantity>& table_quantities() {
-  static const std::vector<TableQuantity> all{
+/// Of the vehicle of highest priority.
+std::vector<TableQuantity> accuracy_and_lap() {
+  return {
       {"Reference error of planned positions, mean [mm]",
        "error_mean_mm",
        1,
@@ -45,6 +44,11 @@ const std::vector<TableQuantity>& table_quantities() {
        0,
        [](const RunFigures& run) { return std::optional(run.lap_s ? 100.0 : 0.0); },
        {}},
+  };
+}
+
+std::vector<TableQuantity> search_effort() {
+  return {
       {"Max. generated vertices, one car",
        "generated_max",
        0,
@@ -87,10 +91,15 @@ const std::vector<TableQuantity>& table_quantities() {
         {kPaperLab, {{"B", 32.3}, {"C", 24.5}, {"D", 32.8}}}},
        true},
       {"Plans that took longer than a step [%]",
-       "overlong_percent",
+       "exceeding_step_percent",
        2,
-       [](const RunFigures& run) { return std::optional(100.0 * run.overlong_share); },
+       [](const RunFigures& run) { return std::optional(100.0 * run.exceeding_step_share); },
        {}},
+  };
+}
+
+std::vector<TableQuantity> whole_run() {
+  return {
       {"Fallback steps",
        "fallback_steps",
        0,
@@ -137,6 +146,18 @@ const std::vector<TableQuantity>& table_quantities() {
        [](const RunFigures& run) { return share_of_wall(run, run.wall_vehicles_s); },
        {}},
   };
+}
+
+}  // namespace
+
+const std::vector<TableQuantity>& table_quantities() {
+  static const std::vector<TableQuantity> all = [] {
+    std::vector<TableQuantity> rows = accuracy_and_lap();
+    for (const auto& more : {search_effort(), whole_run()}) {
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
+    return rows;
+  }();
   return all;
 }
 

@@ -7,8 +7,7 @@
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
-/// What the paper's Table 2 holds, and how a run of ours fills the same cells. Source: paper, Table
-/// 2.
+/// The paper's Table 2 and the corresponding figures of our runs. Source: paper, Table 2.
 namespace hlc {
 
 inline constexpr char kPaperSimulation[] = "paper_three_cars";  ///< scenario of its simulation
@@ -24,7 +23,7 @@ struct TableQuantity {
   bool depends_on_machine{};
 };
 
-/// In the order of the table; the paper's and more of our own.
+/// In the order of the table; the paper's and additional ones.
 [[nodiscard]] const std::vector<TableQuantity>& table_quantities();
 
 /// None where the paper has none.

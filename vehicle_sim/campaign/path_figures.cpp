@@ -35,7 +35,7 @@ std::vector<Point> planned_positions(const DrivenRun& run) {
   return positions_m;
 }
 
-/// Where the positions were at arc lengths 0, `step_m`, ... from the start, for at most `length_m`.
+/// Positions at arc lengths 0, `step_m`, ... from the start, for at most `length_m`.
 std::vector<Point> at_arc_lengths(const ReferencePath& path, const std::vector<Point>& positions_m,
                                   double step_m, double length_m) {
   const Progress progress = progress_along(path, positions_m);
@@ -49,7 +49,7 @@ std::vector<Point> at_arc_lengths(const ReferencePath& path, const std::vector<P
   return result;
 }
 
-/// Where the runs' paths are farthest from each other; the start if there is one run.
+/// Place of the largest distance between the runs' paths; the start if there is one run.
 Point where_they_differ(std::span<const DrivenRun> runs) {
   constexpr double kStep_m = 0.02;
   const ReferencePath& path = first_vehicle(runs.front()).path;

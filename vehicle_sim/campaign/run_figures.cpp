@@ -17,18 +17,18 @@ std::optional<double> in_mm(const std::optional<Statistics>& error_m, double Sta
 void add_planning(std::span<const VehicleSummary> vehicles, RunFigures& figures) {
   double count = 0.0;
   double sum_ms = 0.0;
-  double overlong = 0.0;
+  double exceeding = 0.0;
   for (const VehicleSummary& vehicle : vehicles) {
     if (!vehicle.planning_s) continue;
     const auto plans = static_cast<double>(vehicle.planning_s->count);
     count += plans;
     sum_ms += 1e3 * plans * vehicle.planning_s->mean;
-    overlong += static_cast<double>(vehicle.overlong_plans);
+    exceeding += static_cast<double>(vehicle.plans_exceeding_step);
     figures.planning_max_ms = std::max(figures.planning_max_ms, 1e3 * vehicle.planning_s->max);
   }
   if (count == 0.0) return;
   figures.planning_mean_ms = sum_ms / count;
-  figures.overlong_share = overlong / count;
+  figures.exceeding_step_share = exceeding / count;
   double squares = 0.0;  // of the deviations from the common mean
   for (const VehicleSummary& vehicle : vehicles) {
     if (!vehicle.planning_s) continue;

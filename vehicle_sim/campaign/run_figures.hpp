@@ -11,7 +11,7 @@ namespace hlc {
 
 struct CampaignResult;
 
-/// What tables and reports need of one run.
+/// The figures of one run for tables and reports.
 struct RunFigures {
   std::string scenario;
   std::string profile;
@@ -33,9 +33,9 @@ struct RunFigures {
   double planning_mean_ms{};  ///< processor time (Clocks::cpu)
   double planning_std_ms{};
   double planning_max_ms{};
-  double overlong_share{};    ///< of the plans, those that took longer than a step
-  double deviation_max_mm{};  ///< footprint to plan, any tick; without drift near full lock
-  double wall_s{};            ///< of the whole run; its parts as in WallTimes
+  double exceeding_step_share{};  ///< of the plans, those that took longer than a step
+  double deviation_max_mm{};      ///< footprint to plan, any tick; without drift near full lock
+  double wall_s{};                ///< of the whole run; its parts as in WallTimes
   double wall_planning_s{};
   double wall_coordination_s{};
   double wall_vehicles_s{};
@@ -50,10 +50,10 @@ struct RunFigures {
   std::map<std::string, double> subgraph_shares;  ///< by name
 };
 
-/// True if a policy chose what was planned on.
+/// True if a policy chose the subgraph.
 [[nodiscard]] inline bool has_policy(const RunFigures& run) { return run.policy != kNoPolicy; }
 
-/// What was planned on, as tables and figures name it: "B", "policy zones".
+/// The subgraph or policy, as tables and figures name it: "B", "policy zones".
 [[nodiscard]] std::string planned_on(const std::string& subgraph, const std::string& policy);
 [[nodiscard]] inline std::string planned_on(const RunFigures& run) {
   return planned_on(run.subgraph, run.policy);

@@ -14,7 +14,7 @@ namespace {
 
 using Range = Eigen::AlignedBox2d;
 
-/// One panel of vertices_figure; the smallest and largest number are noted in `range`.
+/// One panel of vertices_figure; `range` is extended to its smallest and largest number.
 PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
   PlotPanel panel{.title = run_name(run), .x_label = "time [s]", .y_label = "vertices"};
   panel.y_scale = Scale::kLog;
@@ -53,7 +53,7 @@ PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
   return panel;
 }
 
-/// Sorted, in ms; without those that nobody measured.
+/// Sorted, in ms; without those not measured.
 std::vector<double> planning_times_ms(const DrivenRun& run) {
   std::vector<double> times_ms;
   for (const StepRecord& row : steps_of(run)) {

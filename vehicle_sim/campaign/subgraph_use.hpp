@@ -9,7 +9,7 @@
 
 namespace hlc {
 
-/// Which subgraphs the vehicles of a run planned on, by the names in their reports.
+/// The subgraphs of a run's plans, by the names in the vehicles' reports.
 struct SubgraphUse {
   std::size_t switches{};  ///< steps with another one than the step before, all vehicles
   std::map<std::string, double> shares;  ///< of the steps of all vehicles, by name; their sum is 1

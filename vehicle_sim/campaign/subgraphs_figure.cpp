@@ -12,7 +12,7 @@ namespace hlc {
 namespace {
 
 constexpr char kZoneColour[] = "#e4e4e4";
-/// Of the largest speed: the band below the axis, and what is left free above it.
+/// As shares of the largest speed: the band below the axis, and the free space above.
 constexpr double kBandTop = -0.03;
 constexpr double kBandBottom = -0.13;
 constexpr double kRangeBottom = -0.15;
@@ -50,7 +50,7 @@ double largest_speed_mps(std::span<const DrivenRun> runs) {
   return largest_mps;
 }
 
-/// Of one vehicle of a run.
+/// Panel of one vehicle of a run.
 class SubgraphsPanel {
  public:
   SubgraphsPanel(const DrivenRun& run, const ScenarioVehicle& vehicle, double top_mps,
@@ -69,7 +69,7 @@ class SubgraphsPanel {
  private:
   [[nodiscard]] const Drive& drive() const { return run_.experiment.drives.at(vehicle_.id.value); }
 
-  /// Shaded from its first to its last tick in a zone of one limit, which is a line.
+  /// Shaded from its first to its last tick in a zone of one limit, which is drawn as a line.
   void add_zone(double from_s, double to_s, double limit_mps) {
     panel_.areas.push_back(box(from_s, to_s, 0.0, kRangeTop * top_mps_, kZoneColour));
     panel_.lines.push_back({.points = {{from_s, limit_mps}, {to_s, limit_mps}},

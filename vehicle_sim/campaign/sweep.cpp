@@ -13,9 +13,9 @@
 namespace hlc {
 namespace {
 
-/// Only the subgraphs that are driven, and what they need of the automaton.
+/// Only the driven subgraphs, and the part of the automaton that they need.
 AutomatonConfiguration narrowed(const SweepPlan& plan, AutomatonConfiguration configuration) {
-  // Places in the file say nothing about values that a sweep has put in.
+  // Places in the file are meaningless for values of the sweep.
   configuration.places = {};
   std::erase_if(configuration.subgraphs, [&](const SubgraphSpec& spec) {
     return std::ranges::find(plan.subgraphs, spec.name) == plan.subgraphs.end();
@@ -28,7 +28,7 @@ AutomatonConfiguration narrowed(const SweepPlan& plan, AutomatonConfiguration co
   return configuration;
 }
 
-/// Changes the configuration; returns the values that did, one text for each different automaton.
+/// Changes the configuration; returns the changed values, one text for each different automaton.
 std::string apply_to_automaton(const SweepPlan& plan, const SweepCombination& combination,
                                AutomatonConfiguration& configuration) {
   std::string key;
@@ -83,7 +83,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combination
     if (same->second == key.first) continue;
     throw std::invalid_argument(scenario.file.string() + ": name = " + scenario.name + " as in " +
                                 plan_.scenarios[same->second].string() +
-                                ", allowed scenarios of different names");
+                                ", scenario names must be unique");
   }
   if (plan_.starts == 1) return;
   for (const auto& [key, scenario] : scenarios_) {

@@ -21,21 +21,21 @@ struct SweepRun {
   std::size_t start{};        ///< as CampaignRun::start
 };
 
-/// What a run of a sweep gives. Wall and planning times are 0: they are no matter of a sweep.
+/// The result of a run of a sweep. Wall and planning times are 0: a sweep does not measure them.
 struct SweepResult {
   RunFigures figures;  ///< `failure`: why the run does not count
-  /// Of the steps that are judged; that of the same run in a campaign with a standing lap.
+  /// Of the evaluated steps; that of the same run in a campaign with a standing lap.
   std::string trace_sha256;
 };
 
 /// Drives the runs of a sweep. Automata are designed once for each combination of the settings that
-/// they depend on.
+/// affect them.
 ///
 /// To drive run i: first build(automaton_of(i)), once for all runs on that automaton. Different
 /// automata may be built, and different runs driven, by several threads.
 class Sweep {
  public:
-  /// Reads every scenario with every profile, so that bad input is found before anything is driven.
+  /// Reads every scenario with every profile, so that invalid input is found before the first run.
   /// @throws std::invalid_argument as read_scenario; for random starts of open paths
   explicit Sweep(SweepPlan plan);
 
@@ -50,20 +50,21 @@ class Sweep {
 
   [[nodiscard]] std::size_t num_automata() const { return automata_.size(); }
   [[nodiscard]] std::size_t automaton_of(std::size_t run) const;
-  /// A design that fails is no error here: the runs on it fail with its reason.
+  /// A failed design is no error here: the runs on it fail with its reason.
   void build(std::size_t automaton);
 
-  /// All that is read: the sweep's own file, scenarios, automaton, maps, labs.
+  /// All files read: the sweep's own file, scenarios, automaton, maps, labs.
   [[nodiscard]] std::set<std::filesystem::path> files() const;
 
   /// Figures of a run without results: scenario, profile, subgraph, start.
   [[nodiscard]] RunFigures heading_of(std::size_t run) const;
 
-  /// What the settings make of the run's scenario.
+  /// The run's scenario with the settings applied.
   /// @throws std::invalid_argument, std::runtime_error with the reason if it cannot be driven
   [[nodiscard]] Scenario scenario_of(std::size_t run) const;
 
-  /// Never throws for what settings lead to: what cannot be driven fails with its reason.
+  /// Never throws for a consequence of the settings: a run that cannot be driven fails with its
+  /// reason.
   /// @pre its automaton is built
   [[nodiscard]] SweepResult drive(std::size_t run) const;
 

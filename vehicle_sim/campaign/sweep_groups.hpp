@@ -11,11 +11,11 @@ namespace hlc {
 /// Indices into SweepPlan::axes.
 using Axes = std::vector<std::size_t>;
 
-/// Axes with more values than that are no matter of tables by value.
+/// Axes with more values have no table by value.
 inline constexpr std::size_t kMaxTableValues = 32;
 
-/// What the tables of a sweep are grouped by: all combinations together (no axis), every axis of 2
-/// ... kMaxTableValues values alone, then the file's own `tables`.
+/// The groupings of a sweep's tables: all combinations together (no axis), every axis of 2 ...
+/// kMaxTableValues values alone, then the file's own `tables`.
 [[nodiscard]] std::vector<Axes> groupings_of(const SweepPlan& plan);
 
 /// The combinations with the same values on some axes.
@@ -25,7 +25,7 @@ struct SweepGroup {
   std::vector<std::size_t> combinations;
 };
 
-/// Those that hold any combination, in the order of the values.
+/// The groups with any combination, in the order of the values.
 [[nodiscard]] std::vector<SweepGroup> groups_of(const Sweep& sweep, const Axes& axes);
 
 /// "drivable, search", "lanes, 2022": of a group without axes "all" and nothing.

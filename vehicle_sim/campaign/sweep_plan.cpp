@@ -56,11 +56,11 @@ SweepValue read_trims(const Node& entry, const std::vector<Trim>& trims) {
   std::set<TrimId> chosen;
   for (const Node& one : entry.entries()) {
     const TrimId trim{one.as<std::size_t>(between(1.0, static_cast<double>(trims.size()))) - 1};
-    if (!chosen.insert(trim).second) one.fail("each trim once");
+    if (!chosen.insert(trim).second) one.fail("unique");
   }
   SweepValue value = trims_value(chosen, trims);
   if (std::ranges::all_of(chosen, [&](TrimId id) { return trims[id.index].is_equilibrium(); })) {
-    entry.fail("at least one trim of speed > 0");
+    entry.fail("a list with a trim of speed > 0");
   }
   return value;
 }
@@ -85,10 +85,10 @@ std::vector<SweepAxis> read_axes(const Node& settings, const std::vector<Trim>& 
       for (const Node& entry : settings.list(setting.name)) {
         SweepValue value = read_value(entry, setting, trims);
         const auto is_same = [&](const SweepValue& one) { return one.text == value.text; };
-        if (std::ranges::any_of(axis.values, is_same)) entry.fail("each value once");
+        if (std::ranges::any_of(axis.values, is_same)) entry.fail("unique");
         axis.values.push_back(std::move(value));
       }
-      if (axis.values.empty()) settings.fail(setting.name, "at least one value");
+      if (axis.values.empty()) settings.fail(setting.name, "a list with at least one value");
     }
     axes.push_back(std::move(axis));
   }
@@ -101,16 +101,16 @@ void read_scenarios(const Node& node, SweepPlan& plan) {
   for (const Node& entry : node.list("scenarios")) {
     const std::filesystem::path scenario = beside(plan.file, entry.as<std::string>());
     if (!std::filesystem::is_regular_file(scenario)) entry.fail("a scenario's file");
-    // Reports tell scenarios by their names.
+    // Reports identify scenarios by their names.
     if (std::ranges::any_of(plan.scenarios, [&](const std::filesystem::path& one) {
           return one.stem() == scenario.stem();
         })) {
-      entry.fail("each scenario once, by its name");
+      entry.fail("unique by name");
     }
     const Node in_scenario = Node::read_yaml(scenario);
     const auto automaton = beside(scenario, in_scenario.required<std::string>("automaton"));
     if (!plan.scenarios.empty() && automaton != plan.automaton) {
-      entry.fail("scenarios on the same automaton, " + plan.automaton.string());
+      entry.fail("a scenario on the same automaton, " + plan.automaton.string());
     }
     if (is_automaton_file(automaton)) {
       entry.fail("a scenario on a configuration of an automaton: " + automaton.string() +
@@ -119,7 +119,7 @@ void read_scenarios(const Node& node, SweepPlan& plan) {
     plan.automaton = automaton;
     plan.scenarios.push_back(scenario);
   }
-  if (plan.scenarios.empty()) node.fail("scenarios", "at least one scenario's file");
+  if (plan.scenarios.empty()) node.fail("scenarios", "a list with at least one scenario's file");
 }
 
 void read_subgraph_names(const Node& node, const std::vector<SubgraphSpec>& offered,
@@ -128,11 +128,11 @@ void read_subgraph_names(const Node& node, const std::vector<SubgraphSpec>& offe
     const auto name = entry.as<std::string>();
     if (find_subgraph(offered, name) == nullptr) entry.fail(names_of(offered));
     if (std::ranges::find(plan.subgraphs, name) != plan.subgraphs.end()) {
-      entry.fail("each subgraph once");
+      entry.fail("unique");
     }
     plan.subgraphs.push_back(name);
   }
-  if (plan.subgraphs.empty()) node.fail("subgraphs", names_of(offered));
+  if (plan.subgraphs.empty()) node.fail("subgraphs", "a list of " + names_of(offered));
 }
 
 std::vector<std::vector<std::size_t>> read_tables(const Node& node, const SweepPlan& plan) {
@@ -147,10 +147,11 @@ std::vector<std::vector<std::size_t>> read_tables(const Node& node, const SweepP
       const auto name = one.as<std::string>(one_of(settings));
       const auto axis =
           static_cast<std::size_t>(std::ranges::find(settings, name) - settings.begin());
-      if (std::ranges::find(axes, axis) != axes.end()) one.fail("each setting once");
+      if (std::ranges::find(axes, axis) != axes.end()) one.fail("unique");
       axes.push_back(axis);
     }
-    if (axes.size() < 2) entry.fail("at least two settings; each alone has a table anyway");
+    if (axes.size() < 2)
+      entry.fail("a list of at least two settings; each alone has a table anyway");
     tables.push_back(std::move(axes));
   }
   return tables;
@@ -166,10 +167,10 @@ void check_size(const Node& node, const SweepPlan& plan) {
   double size = static_cast<double>(plan.runs_each());
   for (const SweepAxis& axis : plan.axes) size *= static_cast<double>(axis.values.size());
   if (!plan.runs && size > kMaxRuns) {
-    node.fail("settings", "at most " + shortest_text(kMaxRuns) + " runs, this grid has " +
+    node.fail("settings", "a grid of <= " + shortest_text(kMaxRuns) + " runs, this one has " +
                               shortest_text(size) + "; `runs` drives a sample of it");
   }
-  if (size > 1e15) node.fail("settings", "at most 1e15 runs in the grid");
+  if (size > 1e15) node.fail("settings", "a grid of <= 1e15 runs");
 }
 
 }  // namespace
@@ -183,13 +184,13 @@ SweepPlan read_sweep(const std::filesystem::path& file) {
   plan.starts = node.optional<std::size_t>("starts", 1, between(1.0, 100000.0));
   plan.seed = node.optional<std::size_t>("seed", 1);
   if (node.has("steps")) {
-    // More than the flying lap's first step: something must be left to judge.
+    // More than the flying lap's first step: some steps must remain for the evaluation.
     plan.steps = node.required<std::size_t>(
         "steps", between(static_cast<double>(kFlyingStep) + 1.0, 100000.0));
   }
   if (node.has("runs")) plan.runs = node.required<std::size_t>("runs", between(1.0, kMaxRuns));
   plan.axes = read_axes(node.map("settings"), automaton.trims);
-  if (plan.axes.empty()) node.fail("settings", "at least one setting");
+  if (plan.axes.empty()) node.fail("settings", "a map with at least one setting");
   plan.tables = read_tables(node, plan);
   check_size(node, plan);
   node.check_no_unknown_keys();

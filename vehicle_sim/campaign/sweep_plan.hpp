@@ -16,7 +16,7 @@ struct SweepAxis {
   std::vector<SweepValue> values;
 };
 
-/// Which settings take which values, and what is driven with each combination.
+/// The settings with their values, and the runs of each combination.
 struct SweepPlan {
   std::filesystem::path file;
   std::vector<std::filesystem::path> scenarios;  ///< all on the same automaton
@@ -27,7 +27,7 @@ struct SweepPlan {
   std::optional<std::size_t> steps;  ///< instead of the scenarios'
   std::optional<std::size_t> runs;   ///< none: the whole grid
   std::vector<SweepAxis> axes;       ///< in the order of sweep_settings()
-  /// Axes by which results are grouped together; each axis alone needs none.
+  /// Axes by which results are grouped together; single axes need no entry.
   std::vector<std::vector<std::size_t>> tables;
 
   /// Runs per combination: scenarios x subgraphs x starts.
@@ -51,14 +51,14 @@ struct SweepPlan {
 ///
 /// Every combination is driven in every scenario, with every subgraph, from every start.
 ///
-/// @throws std::invalid_argument with one line, "file:line: key = value, allowed ..."
+/// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
 [[nodiscard]] SweepPlan read_sweep(const std::filesystem::path& file);
 
 /// For each axis of the plan the index of its value.
 using SweepCombination = std::vector<std::size_t>;
 
-/// The combinations that are driven: of a grid all, the last axis changing first; of a sample those
-/// drawn, in the order of the grid. The same plan gives the same combinations.
+/// The driven combinations: of a grid all, the last axis changing first; of a sample those drawn,
+/// in the order of the grid. The same plan gives the same combinations.
 [[nodiscard]] std::vector<SweepCombination> combinations_of(const SweepPlan& plan);
 
 /// The value that the combination gives a setting; nullptr if the plan does not set it.

@@ -3,7 +3,7 @@
 namespace hlc {
 namespace {
 
-/// The search of 2022 knows neither an incumbent nor a way off after a standstill.
+/// The search of 2022 has neither an incumbent nor a way out after a standstill.
 void set_search(const SweepValue& value, Scenario& scenario) {
   const Profile of = profile_from_name(value.text == "2022" ? value.text : "default");
   scenario.search.engine =
@@ -24,6 +24,10 @@ void set_wheelbase(const SweepValue& value, AutomatonConfiguration& automaton) {
   vehicle.wheelbase_m = value.number;
 }
 
+void set_reference_rule(const SweepValue& value, Scenario& scenario) {
+  scenario.profile.reference_rule = value.text == "2022" ? half_speed_last : mean_speed_first;
+}
+
 }  // namespace
 
 const std::vector<SweepSetting>& sweep_settings() {
@@ -31,14 +35,7 @@ const std::vector<SweepSetting>& sweep_settings() {
   using Value = SweepValue;
   static const std::vector<SweepSetting> all{
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
-      {"reference_rule",
-       false,
-       one_of({"2022", "later"}),
-       {},
-       [](const Value& value, Scenario& scenario) {
-         scenario.profile.reference_rule =
-             value.text == "2022" ? half_speed_last : mean_speed_first;
-       }},
+      {"reference_rule", false, one_of({"2022", "later"}), {}, set_reference_rule},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
       {"reference_speed_mps",
        true,

@@ -17,7 +17,7 @@ struct SweepValue {
   std::vector<TrimId> trims;  ///< of the setting `trims`, sorted
 };
 
-/// A setting that a sweep can change, and what it changes. A run without it has what the files say.
+/// A setting that a sweep can change, and its effect. A run without it uses the files' value.
 ///
 /// | name                  | value                                                               |
 /// |-----------------------|---------------------------------------------------------------------|
@@ -41,13 +41,13 @@ struct SweepSetting {
   std::string name;
   bool is_number{};
   Allowed allowed;
-  /// Absent: it does not change the automaton.
+  /// Absent: the setting does not change the automaton.
   std::function<void(const SweepValue&, AutomatonConfiguration&)> on_automaton;
-  /// Absent: it does not change the scenario once that is read with its profile.
+  /// Absent: the setting does not change the scenario after it is read with its profile.
   std::function<void(const SweepValue&, Scenario&)> on_scenario;
 };
 
-/// All, in the order of the table: what stands later prevails.
+/// All, in the order of the table: a later setting prevails.
 [[nodiscard]] const std::vector<SweepSetting>& sweep_settings();
 
 inline constexpr char kProfileSetting[] = "profile";

@@ -7,17 +7,17 @@
 
 namespace hlc {
 
-/// Rows that keep the limits of the speed zones are in no start clearly above them
+/// Rows keep the limits of the speed zones if in no start they are clearly above them
 /// (kFollowerExcess_mps) for more than this share of the time in zones.
 inline constexpr double kMostAboveLimit = 0.01;
 
-/// Markdown: whether switching subgraphs while driving pays. For each scenario and profile every
-/// fixed subgraph and every policy is a row, with medians over the starts in which the run counts
-/// and the vehicle of highest priority drove a lap. What is not known for one of these starts is
-/// not known.
+/// Markdown: whether switching subgraphs while driving is worthwhile. For each scenario and profile
+/// every fixed subgraph and every policy is a row, with medians over the starts in which the run
+/// counts and the vehicle of highest priority drove a lap. A value that is unknown for one of these
+/// starts is unknown.
 ///
-/// Then who is dominated by nobody, and the hypervolume (tradeoff_front.hpp) of all fixed subgraphs
-/// together, and what each single policy adds to it, in
+/// Then the non-dominated rows, the hypervolume (tradeoff_front.hpp) of all fixed subgraphs
+/// together, and the gain of each single policy over it, in
 ///
 /// * lap time and effort per metre,
 /// * lap time and comfort per metre,
@@ -27,7 +27,7 @@ inline constexpr double kMostAboveLimit = 0.01;
 /// points. Rows without values do not compete.
 [[nodiscard]] std::string tradeoff_markdown(const std::vector<RunFigures>& runs);
 
-/// The rows as comma-separated values; what is not known is empty.
+/// The rows as comma-separated values; unknown values are empty.
 [[nodiscard]] std::string tradeoff_csv(const std::vector<RunFigures>& runs);
 
 /// Dominance and hypervolumes as comma-separated values: for each scenario, profile, set of rows

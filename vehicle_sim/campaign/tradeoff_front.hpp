@@ -7,18 +7,18 @@
 
 namespace hlc {
 
-/// What a fixed subgraph, or a policy, reaches in several quantities that are all to be small.
+/// The values of a fixed subgraph, or of a policy, in several quantities to be minimised.
 struct TradeoffPoint {
   bool is_policy{};
   Objectives values;
 };
 
-/// How the fixed subgraphs and the policies compete.
+/// Competition of the fixed subgraphs and the policies.
 struct TradeoffFront {
   std::vector<std::size_t> not_dominated;  ///< indices of points, ascending
   double fixed_volume{};                   ///< hypervolume of all fixed subgraphs together
-  /// The same with one more point, by the index of the point: what a policy adds to choosing
-  /// freely among the fixed subgraphs before the run.
+  /// The same with one more point, by the index of the point: the gain of a policy over the free
+  /// choice of a fixed subgraph before the run.
   std::vector<double> volume_with;
 };
 

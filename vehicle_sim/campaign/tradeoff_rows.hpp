@@ -8,7 +8,7 @@
 #include "vehicle_sim/campaign/run_figures.hpp"
 #include "vehicle_sim/campaign/tradeoff_front.hpp"
 
-/// What the tables of tradeoff.hpp are made of.
+/// Parts of the tables of tradeoff.hpp.
 namespace hlc {
 
 /// A column.
@@ -21,7 +21,7 @@ struct TradeoffQuantity {
 
 [[nodiscard]] const std::vector<TradeoffQuantity>& tradeoff_quantities();
 
-/// Two columns that are weighed against each other, by their indices.
+/// Two columns to trade off, by their indices.
 struct TradeoffPair {
   std::size_t x;
   std::size_t y;
@@ -46,13 +46,13 @@ struct TradeoffGroup {
   std::string scenario;
   std::string profile;
   std::vector<TradeoffRow> rows;
-  bool has_zones{};  ///< somebody came into one
+  bool has_zones{};  ///< a vehicle entered a zone
 };
 
-/// They point into the runs.
+/// The rows point into the runs.
 [[nodiscard]] std::vector<TradeoffGroup> tradeoff_groups(const std::vector<RunFigures>& runs);
 
-/// How some rows compete in two columns.
+/// Competition of some rows in two columns.
 struct TradeoffCompetition {
   std::vector<const TradeoffRow*> rows;  ///< those with both values
   Objectives reference;                  ///< of all rows with values, also those left out
@@ -60,7 +60,7 @@ struct TradeoffCompetition {
 };
 
 /// @param within_limits  only rows that keep the limits
-/// @return nothing if nobody competes
+/// @return nothing without competing rows
 [[nodiscard]] std::optional<TradeoffCompetition> competition(const TradeoffGroup& group,
                                                              const TradeoffPair& pair,
                                                              bool within_limits);

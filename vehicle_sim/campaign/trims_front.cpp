@@ -17,7 +17,7 @@ const std::vector<TrimId>& trims_of(const Sweep& sweep, std::size_t combination)
   return trims->trims;
 }
 
-/// The settings of a combination in words, trims first.
+/// The settings of a combination as text, trims first.
 std::string name_of(const Sweep& sweep, std::size_t combination) {
   const SweepCombination& values = sweep.combinations()[combination];
   std::string name = value_of(sweep.plan(), values, kTrimsSetting)->text;
@@ -34,21 +34,22 @@ std::string row(const Sweep& sweep, const TrimsQuality& choice, const std::strin
          number(choice.generated_max, 0) + " | " + note + " |\n";
 }
 
-bool beats(const TrimsQuality& a, const TrimsQuality& b) {
+bool dominates(const TrimsQuality& a, const TrimsQuality& b) {
   return a.moving <= b.moving && a.error_mean_mm <= b.error_mean_mm &&
          (a.moving < b.moving || a.error_mean_mm < b.error_mean_mm);
 }
 
-/// Of all choices with these trims, how many beat it.
+/// Number of choices with these trims that are better.
 std::string place_of(const std::vector<TrimsQuality>& choices, const TrimsQuality& choice) {
-  const auto better =
-      std::ranges::count_if(choices, [&](const TrimsQuality& one) { return beats(one, choice); });
+  const auto better = std::ranges::count_if(
+      choices, [&](const TrimsQuality& one) { return dominates(one, choice); });
   const auto same_size = std::ranges::count_if(
       choices, [&](const TrimsQuality& one) { return one.moving == choice.moving; });
   const auto ahead = std::ranges::count_if(choices, [&](const TrimsQuality& one) {
     return one.moving == choice.moving && one.error_mean_mm < choice.error_mean_mm;
   });
-  return (better == 0 ? std::string("on the front") : std::to_string(better) + " choices beat it") +
+  return (better == 0 ? std::string("on the front")
+                      : std::to_string(better) + " choices dominate it") +
          "; number " + std::to_string(ahead + 1) + " of " + std::to_string(same_size) +
          " with as many trims";
 }
@@ -108,7 +109,7 @@ std::vector<TrimsQuality> trims_front(const std::vector<TrimsQuality>& choices) 
   std::vector<TrimsQuality> front;
   std::ranges::copy_if(choices, std::back_inserter(front), [&](const TrimsQuality& one) {
     return std::ranges::none_of(choices,
-                                [&](const TrimsQuality& other) { return beats(other, one); });
+                                [&](const TrimsQuality& other) { return dominates(other, one); });
   });
   return front;
 }

@@ -7,11 +7,10 @@
 
 namespace hlc {
 
-/// How well a choice of trims drives: the combination, over all starts of one scenario and
-/// subgraph.
+/// Quality of a choice of trims: the combination, over all starts of one scenario and subgraph.
 struct TrimsQuality {
   std::size_t combination{};
-  std::size_t moving{};  ///< trims that are on and move
+  std::size_t moving{};  ///< enabled moving trims
   double error_mean_mm{};
   double lap_s{};
   double generated_max{};
@@ -23,12 +22,12 @@ struct TrimsQuality {
                                                          std::size_t scenario,
                                                          std::size_t subgraph);
 
-/// Those of them that no other beats: fewer or as many moving trims and a smaller or equal mean
-/// error, one of the two strictly.
+/// The choices that no other one dominates, i.e. has fewer or as many moving trims and a smaller or
+/// equal mean error, one of the two strictly.
 [[nodiscard]] std::vector<TrimsQuality> trims_front(const std::vector<TrimsQuality>& choices);
 
 /// For every scenario and subgraph the front, the smallest choice that is not less accurate than
-/// all trims together, and the places of the trims that the configuration's own subgraphs have.
+/// all trims together, and the ranks of the trims that the configuration's own subgraphs have.
 /// @pre the plan sets `trims`
 [[nodiscard]] std::string trims_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs);
 

@@ -9,7 +9,7 @@
 
 namespace hlc::closed_loop {
 
-/// The endpoints of a controller, as hlc_process.cpp has them. Nobody asks for other subgraphs.
+/// The endpoints of a controller, as in hlc_process.cpp. There are no requests for other subgraphs.
 class ControllerHost : public Host {
  public:
   using Machine = HlcMachine;
@@ -40,11 +40,11 @@ class ControllerHost : public Host {
   template <class Process>
   void receive(std::size_t topic, const Message& message, Process& process) {
     switch (topic) {
-      case kHeardTraffic:
+      case kReceivedTraffic:
         return process.post(std::get<Traffic>(message));
-      case kHeardPredictions:
+      case kReceivedPredictions:
         return process.post(std::get<Prediction>(message));
-      case kHeardOutcomes:
+      case kReceivedOutcomes:
         return process.post(std::get<Outcome>(message));
       case kRunStates:
         return process.post_urgent(std::get<RunState>(message));
@@ -112,9 +112,9 @@ class ControllerHost : public Host {
     kStopRequests
   };
   enum Reads : std::size_t {
-    kHeardTraffic,
-    kHeardPredictions,
-    kHeardOutcomes,
+    kReceivedTraffic,
+    kReceivedPredictions,
+    kReceivedOutcomes,
     kRunStates,
     kForwarded,
     kTriggers,

@@ -12,7 +12,7 @@
 
 namespace hlc::closed_loop {
 
-/// A start of a process: one that is started again is another node.
+/// A start of a process: a restarted process is another node.
 using NodeId = std::uint32_t;
 
 enum class Happening : std::uint8_t {
@@ -20,7 +20,7 @@ enum class Happening : std::uint8_t {
   kSight,    ///< `node` may see or miss `other` on domain `detail`
   kWakeUp,   ///< of the process `node`, unless it has other plans by then (`generation`)
   kStart,    ///< of the process number `detail`
-  kAlarm,    ///< number `detail` of whoever drives the run
+  kAlarm,    ///< number `detail` of the caller
 };
 
 struct Event {
@@ -32,8 +32,8 @@ struct Event {
   SharedMessage message{};
 };
 
-/// What is going to happen, in the order of true time; at the same time in the order in which it
-/// was planned. So a run depends on nothing but its inputs.
+/// Future events, in the order of true time; at the same time in the order of their scheduling. So
+/// a run depends on nothing but its inputs.
 class EventQueue {
  public:
   [[nodiscard]] Nanoseconds now() const { return now_; }
@@ -41,7 +41,7 @@ class EventQueue {
   /// @pre not empty
   [[nodiscard]] Nanoseconds next_time() const { return heap_.front().at; }
 
-  /// @param at  if it is over already, now
+  /// @param at  now if it is in the past
   void add(Nanoseconds at, Event event) {
     heap_.push_back({std::max(at, now_), count_++, std::move(event)});
     std::ranges::push_heap(heap_, later);

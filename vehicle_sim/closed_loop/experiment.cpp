@@ -17,7 +17,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/controller/joint_step.hpp"
 #include "planner/coordination/priority.hpp"
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc {
@@ -29,8 +29,8 @@ struct Member {
   SimulatedVehicle vehicle;
   HlcCore hlc;
   ControlLoop loop;  ///< over the controller of `hlc`
-  SubgraphChoice choice;
-  bool was_told_to_stop{};
+  SubgraphSelector choice;
+  bool is_stop_requested{};
   bool has_left{};
 };
 
@@ -65,7 +65,7 @@ class Lab {
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
       HlcCore hlc(make_controller(scenario, vehicle.id));
       ControlLoop loop(hlc.controller(), cpu_clock_);
-      SubgraphChoice choice(hlc.controller(), scenario.reconfiguration);
+      SubgraphSelector choice(hlc.controller(), scenario.reconfiguration);
       members_.push_back({.id = id,
                           .vehicle = SimulatedVehicle(simulated),
                           .hlc = std::move(hlc),
@@ -94,14 +94,14 @@ class Lab {
   }
 
  private:
-  /// Nobody keeps anybody waiting here.
+  /// No participant delays another one here.
   static constexpr Nanoseconds kNoWallTime = 0;
 
   [[nodiscard]] double seconds_since(Nanoseconds from) const {
     return 1e-9 * static_cast<double>(wall_clock_() - from);
   }
 
-  /// Everybody is there, receives everybody and asks for its first tick.
+  /// All are present, receive each other and request their first tick.
   void appear() {
     std::set<std::string> timers;
     for (const Member& member : members_) {
@@ -133,7 +133,7 @@ class Lab {
     const SimulatedVehicle::Tick done = member.vehicle.tick(t);
     states_.add(member.id, done.state);
     experiment_.drives[member.id].push_back(done.driven);
-    if (member.was_told_to_stop && !member.vehicle.is_braking()) {
+    if (member.is_stop_requested && !member.vehicle.is_braking()) {
       member.has_left = true;
       alive_.erase(vehicle_name(member.id));
       lost_.insert(vehicle_name(member.id));
@@ -152,8 +152,8 @@ class Lab {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       Member& member = members_[i];
       const AnswerToList answer = member.hlc.answer(list);
-      carry(answer.command, t_now, member);
-      if (answer.copy) carry(*answer.copy, t_now, member);
+      forward(answer.command, t_now, member);
+      if (answer.copy) forward(*answer.copy, t_now, member);
       reports[i].report = with_answer(std::move(reports[i].report), answer);
       report(reports[i]);
       if (reports[i].report.status == StepStatus::kStandby) continue;
@@ -216,7 +216,7 @@ class Lab {
     experiment_.reports.push_back(record);
   }
 
-  static void carry(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
+  static void forward(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
     const std::vector<std::uint8_t> own{member.id};
     if (check_command(command, t_now, t_now, own).forward) member.vehicle.receive(command);
   }
@@ -224,7 +224,7 @@ class Lab {
   void stop() {
     for (Member& member : members_) {
       member.vehicle.brake();
-      member.was_told_to_stop = true;
+      member.is_stop_requested = true;
     }
   }
 

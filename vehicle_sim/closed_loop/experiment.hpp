@@ -12,11 +12,11 @@
 
 namespace hlc {
 
-/// What times are measured by; of one that is absent they are 0. Nothing else depends on them.
+/// Clocks for measured times; without a clock they are 0. Nothing else depends on them.
 struct Clocks {
   std::function<Nanoseconds()> wall{};  ///< WallTimes, RunFacts::wall_s
-  /// Processor time of the calling thread: the reports' planning times, so that what else the
-  /// machine does is no part of them.
+  /// Processor time of the calling thread, for the reports' planning times, so that the machine's
+  /// other load does not count.
   std::function<Nanoseconds()> cpu{};
 };
 
@@ -26,19 +26,19 @@ struct ExperimentOptions {
   std::optional<std::uint64_t> noise_seed{};
   FollowerGains gains{};
   Clocks clocks{};
-  /// What happens around the controllers' steps. Absent: nothing is lost, nobody is late.
+  /// Disturbances of the controllers' steps. Default: no losses, no delays.
   JointStepRules rules{};
 };
 
-/// Where the wall time of a run went. The rest of RunFacts::wall_s: state lists, commands, lab
-/// control, this measuring.
+/// Wall time of a run by part. The rest of RunFacts::wall_s: state lists, commands, lab control,
+/// this measurement.
 struct WallTimes {
   double planning_s{};      ///< Controller::plan of all vehicles: poses the problem, searches
   double coordination_s{};  ///< the other phases of the controllers' steps
   double vehicles_s{};      ///< the simulated vehicles' ticks
 };
 
-/// What the processes of a run would have written into its folder.
+/// The content of a run folder.
 struct Experiment {
   RunFacts facts;
   std::vector<ReportRecord> reports;
@@ -51,9 +51,9 @@ struct Experiment {
 /// (SimulatedVehicle), the very step functions that the processes run. Messages are handed over in
 /// memory instead of by DDS, all at once and none lost.
 ///
-/// A run with processes in logical time gives the same poses to the last bit (equal trace_sha256).
+/// A run with processes in logical time gives bitwise identical poses (equal trace_sha256).
 ///
-/// All middlewares hear the same, so one buffer stands for all of theirs.
+/// All middlewares receive the same, so one buffer represents all of theirs.
 ///
 /// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
 [[nodiscard]] Experiment drive_experiment(const Scenario& scenario,

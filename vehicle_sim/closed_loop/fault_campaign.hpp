@@ -15,11 +15,11 @@ namespace hlc::closed_loop {
 
 struct FaultCampaignSettings {
   std::filesystem::path scenario_folder;  ///< holds circle.yaml and paper_three_cars.yaml
-  std::size_t cars{};                     ///< 3 ... 8; 0: as the seed has it
+  std::size_t cars{};                     ///< 3 ... 8; 0: by the seed
   std::vector<FaultKind> kinds;           ///< of the faults; empty: no faults
 };
 
-/// What a seed stands for.
+/// The case of a seed.
 struct FaultCase {
   std::uint64_t seed{};
   Scenario scenario;
@@ -29,7 +29,7 @@ struct FaultCase {
 /// The seed, the scenario, and the numbered faults, each in a line.
 [[nodiscard]] std::string describe(const FaultCase& the_case);
 
-/// A seed that fails, with the fewest of its faults.
+/// A failing seed, with a minimal set of its faults.
 struct Shrunk {
   FaultCase the_case;
   std::vector<std::size_t> kept;  ///< indices of the faults that are left
@@ -37,10 +37,11 @@ struct Shrunk {
 };
 
 /// Runs with faults, one for each seed. A seed chooses
-///   * the scenario: cars on a circle that all want to the other side, or cars on the paper's three
+///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
+///   three
 ///     routes, which merge and cross, from random starts;
 ///   * real time or (one in five) logical time, the endpoints of the lab or of loopback;
-///   * the faults (draw_faults) and how they lie in time, and every delay.
+///   * the faults (draw_faults) and their distribution in time, and every delay.
 /// Scenarios are read and automata built once; then any number of threads may run.
 class FaultCampaign {
  public:
@@ -65,7 +66,7 @@ class FaultCampaign {
   std::map<std::size_t, Scenarios> scenarios_;  ///< by number of cars
 };
 
-/// What many runs came to.
+/// Sums over many runs.
 struct FaultTotals {
   std::uint64_t runs{};
   std::uint64_t failed{};

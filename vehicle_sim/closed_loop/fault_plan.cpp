@@ -135,7 +135,7 @@ class Draw {
     set_amount(fault);
     if (excludes_any(fault, faults)) return;
     faults.push_back(fault);
-    // Most cuts are of a cable: they hold both ways.
+    // Most cuts are of a cable: they affect both directions.
     if (fault.kind != FaultKind::kCut || !random_.chance(0.7)) return;
     std::swap(fault.process, fault.peer);
     faults.push_back(fault);
@@ -184,7 +184,7 @@ class Draw {
         fault.peer = any_process(true, true);
       } while (fault.peer == fault.process);
     }
-    // Everybody, or nobody: a network that is overloaded.
+    // All processes or none: an overloaded network.
     if (fault.kind == FaultKind::kCut && random_.chance(0.3)) fault.peer.clear();
   }
 
@@ -301,7 +301,7 @@ std::span<const FaultKind> all_fault_kinds() { return kKinds; }
 
 std::string to_string(const Fault& fault) {
   const auto name = [](const std::string& process) {
-    return process.empty() ? std::string("anybody") : process;
+    return process.empty() ? std::string("any") : process;
   };
   std::string text = seconds(fault.begin) + " ... " + seconds(fault.end) + ": " +
                      to_string(fault.kind) + " " + name(fault.process);

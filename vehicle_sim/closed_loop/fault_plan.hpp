@@ -11,19 +11,19 @@
 namespace hlc::closed_loop {
 
 enum class FaultKind : std::uint8_t {
-  kLose,      ///< a share of the messages is lost on the way; reliable topics send them again
-  kWithhold,  ///< a share of the messages never comes, whatever the topic promises
+  kLose,      ///< a share of the messages is lost in transit; reliable topics send them again
+  kWithhold,  ///< a share of the messages never arrives, not even on reliable topics
   kDelay,     ///< messages take up to `amount` longer
   kRepeat,    ///< a share of the messages comes twice
   kReorder,   ///< a share of the messages comes up to `amount` later, and others do not wait for it
-  kCut,       ///< nothing passes, no sign of life either
-  kKill,      ///< the process is killed, and started again at the end
-  kFreeze,    ///< the process stands still until the end
+  kCut,       ///< no messages and no signs of life pass
+  kKill,      ///< the process is killed, and restarted at the end
+  kFreeze,    ///< the process is suspended until the end
   kStep,      ///< the process's real-time clock is set by `amount`, and back at the end
   kDrift,     ///< its clocks run faster or slower by `amount` ns in a second until the end
 };
 
-/// One thing that goes wrong for a while. Times are true times since the begin of the run.
+/// A temporary fault. Times are true times since the beginning of the run.
 struct Fault {
   FaultKind kind{};
   Nanoseconds begin{};
@@ -60,15 +60,15 @@ struct FaultPlanSettings {
   std::size_t most_faults{6};
 };
 
-/// Faults of a seed, at least one, by time of their begin. Those of one process that exclude each
+/// Faults of a seed, at least one, by time of their begin. Faults of one process that exclude each
 /// other (killed while frozen) are left out.
 ///
-/// What is drawn: processes (controllers, middlewares, vehicles, the lab control) are killed or
-/// stand still for 10 ms ... 8 s, networks are bad for 50 ms
-/// ... 6 s, cuts separate two processes, or one from all, one way or both. Clocks of
-/// controllers and middlewares are set by up to 300 ms, which is more than a step; those of the
-/// vehicles by up to 2 ms only: a vehicle that drives at another time than all others believe is
-/// not where its plan says, and nothing but the safety margin (10 mm) covers that.
+/// Distribution: processes (controllers, middlewares, vehicles, lab control) are killed or
+/// suspended for 10 ms ... 8 s, networks are disturbed for 50 ms ... 6 s, cuts separate two
+/// processes, or one from all, in one direction or both. Clocks of controllers and middlewares are
+/// set by up to 300 ms, which is more than a step; those of the vehicles by up to 2 ms only: a
+/// vehicle whose clock differs from the others' is not where its plan predicts, and only the safety
+/// margin (10 mm) covers the difference.
 [[nodiscard]] std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& settings);
 
 /// The end of the last one; 0 without faults.

@@ -10,14 +10,14 @@
 namespace hlc::closed_loop {
 namespace {
 
-/// After the interruption everybody has left: vehicles brake for a second; who has lost its lab
-/// control stays for kVehicleStays after the lease.
+/// After the interruption all have left: vehicles brake for a second; a vehicle without lab control
+/// stays for kVehicleStays after the lease.
 constexpr Nanoseconds kLeaveTime = 10 * kNanosecondsPerSecond;
-/// Logical time: a run stands still for 10 s of silence for each process that is not heard, leases
-/// are 10 s, and who hears no trigger gives up after a minute.
+/// Logical time: a run waits for 10 s for each process that is silent, leases are 10 s, and a
+/// process without triggers times out after a minute.
 constexpr Nanoseconds kLogicalPatience = 180 * kNanosecondsPerSecond;
 constexpr Nanoseconds kCheckPeriod = 100 * kNanosecondsPerMillisecond;
-/// No process has as many turns in a check period, but one that waits for what is over.
+/// A process with more turns in a check period waits for a past event.
 constexpr std::uint64_t kMostTurns = 2'000;
 
 Disturbance disturbance_of(const Fault& fault) {
@@ -112,7 +112,7 @@ class FaultRun {
   static constexpr std::uint32_t kCheck = ~std::uint32_t{0};
 
   void change(const Fault& fault, bool begins) {
-    judges_.tell([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
+    judges_.trace([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
     begins ? begin(fault, lab_) : finish(fault, lab_);
     if (begins && fault.kind == FaultKind::kKill) judges_.killed(lab_.seat(fault.process));
   }
@@ -133,24 +133,25 @@ class FaultRun {
     if (interrupted_at_ && lab_.now() >= *interrupted_at_ + kLeaveTime) expect_nobody();
   }
 
-  /// Nobody asks again and again for what is over; and in real time everybody who runs has a time
-  /// at which it goes on though nothing comes. (In logical time a controller waits for its
+  /// No process polls for a past event; and in real time every running process has a wake-up time
+  /// without messages. (In logical time a controller waits for its
   /// middleware alone, whose waits end.)
   void check_waits() {
     for (Seat& seat : lab_.seats()) {
       const std::uint64_t turns = std::exchange(seat.num_turns, 0);
       if (!seat.process || seat.is_frozen) continue;
       if (turns > kMostTurns) {
-        judges_.complain(seat.name + " spins: " + std::to_string(turns) + " turns in 0.1 s");
+        judges_.report_violation(seat.name + " spins: " + std::to_string(turns) +
+                                 " turns in 0.1 s");
       }
       if (seat.planned_turn == kNoTurn && !settings_.lab.is_logical) {
-        judges_.complain(seat.name + " waits without an end");
+        judges_.report_violation(seat.name + " waits without an end");
       }
     }
   }
 
-  /// All of whose processes are there. Without the lab control everybody drives out, and an
-  /// experiment that has not begun does not begin while somebody is missing.
+  /// Vehicles whose processes are all present. Without the lab control all make a minimal-risk
+  /// stop, and an experiment that has not begun does not begin while a process is missing.
   [[nodiscard]] std::vector<std::uint8_t> able_vehicles() {
     std::vector<std::uint8_t> able;
     const bool is_complete_lab =
@@ -175,14 +176,14 @@ class FaultRun {
 
   void interrupt() {
     interrupted_at_ = lab_.now();
-    judges_.tell([] { return std::string("the run is interrupted"); });
+    judges_.trace([] { return std::string("the run is interrupted"); });
     lab_.interrupt(lab_.seats().front());
   }
 
   void expect_nobody() {
     is_over_ = true;
     for (const Seat& seat : lab_.seats()) {
-      if (seat.process) judges_.complain(seat.name + " does not end");
+      if (seat.process) judges_.report_violation(seat.name + " does not end");
     }
   }
 

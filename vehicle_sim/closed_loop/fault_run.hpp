@@ -13,19 +13,17 @@ namespace hlc::closed_loop {
 struct FaultRunSettings {
   LabSettings lab;
   std::vector<Fault> faults;
-  /// Real time: the run goes on for so long after the last fault; longer than
-  /// PlanningCheck::kPatience.
+  /// Real time: duration of the run after the last fault; longer than PlanningCheck::kPatience.
   Nanoseconds calm{6 * kNanosecondsPerSecond};
 };
 
 /// A whole run of the scenario with faults, in memory: the machines of all its processes, each with
 /// clocks of its own, connected by a simulated network.
-///
 /// Real time: faults happen, from before the start on; the calm; then the lab control is
-/// interrupted, and everybody must leave. A death does not end the run (OnDeath::kContinue).
-/// Logical time: a run of some steps, or less if somebody dies.
+/// interrupted, and all must leave. A death does not end the run (OnDeath::kContinue). Logical
+/// time: a run of some steps, or fewer if a process dies.
 ///
-/// A process that is killed is started again by whoever killed it, a vehicle where it stands.
+/// A killed process is restarted at the end of the fault, a vehicle at its last pose.
 /// @throws std::invalid_argument where the machines do
 [[nodiscard]] FaultRunResult run_with_faults(const Scenario& scenario,
                                              const FaultRunSettings& settings,

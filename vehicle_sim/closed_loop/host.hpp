@@ -9,7 +9,7 @@
 
 namespace hlc::closed_loop {
 
-/// What the endpoints of all machines have in common (MachineProcess says what else a host has).
+/// The common endpoints of all machines (MachineProcess lists the other requirements on a host).
 class Host {
  public:
   void perform(const machine::LogLine& line) const { place_.observer->on_log(place_.node, line); }

@@ -158,7 +158,7 @@ void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
   const bool cannot =
       report.reason == FallbackReason::kInfeasible || report.reason == FallbackReason::kConflict ||
       report.reason == FallbackReason::kBudget || report.reason == FallbackReason::kOffRoute ||
-      report.status == StepStatus::kDriveOut;
+      report.status == StepStatus::kMinimalRiskStop;
   if (cannot || report.status == StepStatus::kPlanned) plans_[report.vehicle.value] = true;
 }
 

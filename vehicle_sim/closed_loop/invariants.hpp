@@ -17,13 +17,13 @@
 #include "planner/geometry/pose.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
 
-/// What must hold in a run whatever goes wrong, each as a small judge that is told what happens.
+/// Invariants of a run under any faults, each as a small checker that is notified of events.
 namespace hlc::closed_loop {
 
 /// Driven footprints (without margin) never touch.
 ///
-/// Poses of one instant are compared: a tick is judged once every vehicle has driven it. Who has
-/// not begun stands at its start, who has ended stands where it was.
+/// Poses of one instant are compared: a tick is checked once every vehicle has driven it. A vehicle
+/// that has not begun stands at its start, one that has ended stands at its last pose.
 class FootprintsCheck {
  public:
   FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
@@ -34,10 +34,10 @@ class FootprintsCheck {
               bool is_unreachable = false);
   /// Its process has ended, and it stands.
   void ended(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = true; }
-  /// It stands at once, wherever it is: so long nobody can answer for it.
+  /// It stands at once, wherever it is: for so long no controller can be held responsible.
   void died(std::uint8_t vehicle, std::uint64_t unreachable_ticks);
   void came_back(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = false; }
-  /// Judges the ticks that all have driven by now.
+  /// Checks the ticks that all have driven by now.
   void judge(Nanoseconds at, Violations& violations);
   /// Smallest distance so far [m].
   [[nodiscard]] double smallest_distance_m() const { return smallest_distance_m_; }
@@ -56,7 +56,7 @@ class FootprintsCheck {
   Footprint footprint_;
   double circumradius_m_;
   std::map<std::uint8_t, Car> cars_;
-  std::optional<std::uint64_t> next_;  ///< tick to be judged
+  std::optional<std::uint64_t> next_;  ///< next tick to check
   std::set<std::pair<std::uint8_t, std::uint8_t>> touched_;
   double smallest_distance_m_{1e9};
 };
@@ -65,20 +65,19 @@ class FootprintsCheck {
 [[nodiscard]] inline bool is_anchored(const Plan& plan) { return plan.first() == plan.end(); }
 
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
-/// changes. A plan is what its vehicle has told the others of it (Prediction::areas, with margin
-/// and predicted drift), since that is what they keep clear of: the step under way has been told
-/// before. Final areas are not compared: the last area of a horizon holds the final one but for 2
-/// um (Plan::areas_from), which nobody keeps clear of. It comes into force with a report `planned`,
-/// and stays when its controller is gone, until the next controller stands by: its vehicle has been
-/// seen standing for a horizon.
+/// changes. A plan is given by the areas that its vehicle has announced (Prediction::areas, with
+/// margin and predicted drift), since the others keep clear of these: the areas of the current step
+/// have been announced before. Final areas are not compared: the last area of a horizon contains
+/// the final one except for 2 um (Plan::areas_from), of which no vehicle keeps clear. A plan comes
+/// into force with a report `planned`, and stays when its controller is gone, until the next
+/// controller is on standby: its vehicle has then been seen standing for a horizon.
 ///
-/// Who has reported nothing for horizon + 1 + kSilentSteps steps has run out of every plan that it
-/// can have agreed to, and counts with where it stands for the others (stands_for_good in
-/// missing.hpp).
+/// A vehicle without a report for horizon + 1 + kSilentSteps steps has finished every plan that it
+/// can have agreed to, and is a standing obstacle for the others (stands_for_good in missing.hpp).
 ///
-/// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives what
-/// nobody could agree to (rule 4 of plan_in_force.hpp): it is left out until it has planned anew;
-/// so is one whose plan has been anchored anew.
+/// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives
+/// areas that no other vehicle agreed to (rule 4 of plan_in_force.hpp): it is ignored until its
+/// next new plan. So is one whose plan has been anchored anew.
 class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
@@ -101,8 +100,9 @@ class PlansCheck {
   std::set<Pair> met_;
 };
 
-/// Whoever stops has said why: a process that ends with a code that is not good, in a warning or an
-/// error of its log; a vehicle that follows no command any more, in a line of its log.
+/// A process that stops has logged the reason: one that ends with an exit code of failure, in a
+/// warning or an error of its log; a vehicle that no longer follows a command, in a line of its
+/// log.
 class ReasonsCheck {
  public:
   void started(const std::string& process) { lines_[process] = {}; }
@@ -110,7 +110,7 @@ class ReasonsCheck {
   /// One tick of a vehicle.
   void driven(const std::string& vehicle, bool follows, Nanoseconds at);
   void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
-  /// To be called between two turns, so that lines of a turn are known when its ticks are judged.
+  /// To be called between two turns, so that lines of a turn are known when its ticks are checked.
   void judge(Nanoseconds at, Violations& violations);
 
  private:
@@ -118,17 +118,17 @@ class ReasonsCheck {
     bool has_complained{};  ///< in a warning or an error
     std::optional<Nanoseconds> last;
     bool follows{};
-    std::optional<Nanoseconds> stopped;  ///< and has not been judged yet
+    std::optional<Nanoseconds> stopped;  ///< and has not been checked yet
   };
   std::map<std::string, Lines> lines_;
 };
 
-/// Within 5 s after the last fault everybody who can plan has planned something new. Who cannot:
-/// who has ended, whose search found that there is no way (kInfeasible, kBudget), whose vehicle
-/// fits no route (kOffRoute), who is told to drive out; and whose plan meets another one
-/// (kConflict): it has heard everybody and is boxed in, as cars on a circle that all want through
-/// its centre are without any fault. What is judged is that nobody is left who is missing, late,
-/// not seen, or silent.
+/// Within 5 s after the last fault every vehicle that can plan has a new plan. Exempt are:
+/// processes that have ended, a search without a solution (kInfeasible, kBudget), a vehicle that
+/// fits no route (kOffRoute) or makes a minimal-risk stop; and a vehicle whose plan meets another
+/// one (kConflict): it has received all messages and is blocked, as cars on a circle that all drive
+/// through its centre are without any fault. Checked is that no vehicle is missing, late, not seen,
+/// or silent.
 class PlanningCheck {
  public:
   static constexpr Nanoseconds kPatience = 5 * kNanosecondsPerSecond;

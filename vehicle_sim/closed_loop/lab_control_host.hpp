@@ -11,7 +11,7 @@
 
 namespace hlc::closed_loop {
 
-/// The endpoints of the lab control, as lab_control_process.cpp has them.
+/// The endpoints of the lab control, as in lab_control_process.cpp.
 class LabControlHost : public Host {
  public:
   using Machine = LabControlMachine;
@@ -72,7 +72,7 @@ class LabControlHost : public Host {
     is_gathering_ = false;
     publish(kRunStates, state);
   }
-  /// The run's result, which the process logs as its last word.
+  /// The run's result, which the process logs last.
   void log_end() const {
     const LabRunResult& result = machine_->run().result();
     perform(result.exit_code == kExitGood ? machine::info("all steps driven")

@@ -11,7 +11,7 @@
 
 namespace hlc::closed_loop {
 
-/// The endpoints of the middleware of one vehicle, as middleware_process.cpp has them.
+/// The endpoints of the middleware of one vehicle, as in middleware_process.cpp.
 class MiddlewareHost : public Host {
  public:
   using Machine = MiddlewareMachine;
@@ -90,7 +90,7 @@ class MiddlewareHost : public Host {
   void perform(const ReadyStatus& status) const { publish(kReady, status); }
   void perform(const ParameterRequest& request) const { publish(kRequests, request); }
 
-  /// True once after it has begun to read more: who is there must be looked at again.
+  /// True once after new readers were created: matches must be checked again.
   [[nodiscard]] bool take_change_of_endpoints() { return std::exchange(has_subscribed_, false); }
 
  private:

@@ -30,7 +30,7 @@ struct LabSettings {
   std::uint64_t steps{100};  ///< of the run in logical time; in real time it is interrupted
 };
 
-/// Makes the processes of a scenario's run, each as its program would: machine, rules, endpoints.
+/// Creates the processes of a scenario's run, each as its program would: machine, rules, endpoints.
 class ProcessFactory {
  public:
   ProcessFactory(const Scenario& scenario, const LabSettings& settings);
@@ -39,11 +39,11 @@ class ProcessFactory {
   /// In the order in which they are numbered everywhere: the lab control, then by vehicle.
   [[nodiscard]] std::vector<ProcessKey> processes() const;
   [[nodiscard]] NodeDescription description(const ProcessKey& key) const;
-  /// @param start  of a vehicle that has driven before: where it stands
+  /// @param start  of a vehicle that has driven before: its pose
   [[nodiscard]] std::unique_ptr<SimulatedProcess> make(const ProcessKey& key,
                                                        const ProcessPlace& place,
                                                        const std::optional<Pose>& start) const;
-  /// Where the vehicle stands at first; heading_rad is the yaw.
+  /// Initial pose of the vehicle; heading_rad is the yaw.
   [[nodiscard]] Pose first_pose(std::uint8_t vehicle) const;
 
  private:

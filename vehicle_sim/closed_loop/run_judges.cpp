@@ -57,7 +57,7 @@ void RunJudges::on_log(NodeId node, const machine::LogLine& line) {
   const std::string& name = lab_->name(node);
   reasons_.log(name, line, lab_->now());
   for (const char letter : line.text) add_to_hash(static_cast<unsigned char>(letter));
-  tell([&] { return name + ": " + line.text; });
+  trace([&] { return name + ": " + line.text; });
 }
 
 void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) {
@@ -66,7 +66,7 @@ void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSa
   const VehicleId id{vehicle};
   Last& last = last_[vehicle];
   if (std::exchange(last.follows, sample.command_create) != sample.command_create) {
-    tell([&] { return follows_line(vehicle, sample.command_create, period_); });
+    trace([&] { return follows_line(vehicle, sample.command_create, period_); });
   }
   if (!stopped_.contains(vehicle)) {
     driven_.driven(id, tick, sample.command_create, result_.violations);
@@ -102,7 +102,7 @@ void RunJudges::on_report(const ReportRecord& record, const Plan* in_force) {
   add_to_hash(report.step.value);
   add_to_hash(static_cast<std::uint64_t>(report.status));
   add_to_hash(std::bit_cast<std::uint64_t>(report.cost_m2));
-  tell([&] { return report_line(report); });
+  trace([&] { return report_line(report); });
 }
 
 void RunJudges::on_command(const TrajectoryCommand& command) {
@@ -122,16 +122,16 @@ void RunJudges::changed(const Seat& seat) {
   if (!seat.exit_code) {
     reasons_.started(seat.name);
     if (seat.key.role == Role::kVehicle) footprints_.came_back(seat.key.vehicle);
-    return tell([&] { return seat.name + " starts"; });
+    return trace([&] { return seat.name + " starts"; });
   }
-  tell([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
+  trace([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
   reasons_.ended(seat.name, *seat.exit_code, lab_->now(), result_.violations);
   if (seat.key.role == Role::kVehicle) footprints_.ended(seat.key.vehicle);
   add_to_hash(static_cast<std::uint64_t>(*seat.exit_code));
 }
 
-void RunJudges::complain(const std::string& text) {
-  if (!std::exchange(has_complained_, true)) {
+void RunJudges::report_violation(const std::string& text) {
+  if (!std::exchange(has_violation_, true)) {
     result_.violations.push_back({.at = lab_->now(), .check = "waits", .text = text});
   }
 }

@@ -51,7 +51,7 @@ class RunJudges final : public RunObserver {
   void killed(const Seat& seat);
   /// It has begun or ended.
   void changed(const Seat& seat);
-  void complain(const std::string& text);
+  void report_violation(const std::string& text);
   void judge_ticks();
   void judge_planning(const std::vector<std::uint8_t>& able) {
     planning_.judge(able, lab_->now(), result_.violations);
@@ -63,7 +63,7 @@ class RunJudges final : public RunObserver {
   [[nodiscard]] FaultRunResult result();
 
   template <class Line>
-  void tell(Line line) const {
+  void trace(Line line) const {
     if (trace_) trace_(lab_->now(), line());
   }
 
@@ -87,7 +87,7 @@ class RunJudges final : public RunObserver {
   std::map<std::uint8_t, Last> last_;
   std::set<std::uint8_t> stopped_;
   FaultRunResult result_;
-  bool has_complained_{};
+  bool has_violation_{};
 };
 
 }  // namespace hlc::closed_loop

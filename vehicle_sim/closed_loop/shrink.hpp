@@ -7,8 +7,8 @@
 
 namespace hlc::closed_loop {
 
-/// The fewest of `items` for which `fails` still holds: none can be left out any more (delta
-/// debugging: halves first, then single ones). Asks O(n^2) times at most.
+/// A minimal subset of `items` for which `fails` still holds: none of it can be removed (delta
+/// debugging: halves first, then single items). Calls `fails` O(n^2) times at most.
 /// @param fails  the same answer for the same items; true for all of them
 template <class Item>
 [[nodiscard]] std::vector<Item> shrunk(std::vector<Item> items,
@@ -21,7 +21,7 @@ template <class Item>
       rest.erase(begin, begin + static_cast<std::ptrdiff_t>(left_out));
       if (fails(rest)) {
         items = std::move(rest);
-        if (size == 1) from = 0;  // what was needed with it may not be needed without
+        if (size == 1) from = 0;  // without it others may be removable
       } else {
         from += size;
       }

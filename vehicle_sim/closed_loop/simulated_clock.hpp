@@ -6,8 +6,8 @@
 
 namespace hlc::closed_loop {
 
-/// What a process's clock shows at a true time: the true time that has passed, at a rate of its
-/// own, from a beginning of its own. A clock that is never stepped never goes back.
+/// Reading of a process's clock at a true time: the true time that has passed, at the clock's own
+/// rate, from its own origin. A clock that is never stepped never goes back.
 class SimulatedClock {
  public:
   /// @param shows      at true time `now`
@@ -31,7 +31,7 @@ class SimulatedClock {
     return then;
   }
 
-  /// From now on it shows `by` more.
+  /// From now on the clock shows `by` more.
   void step(Nanoseconds now, std::int64_t by) {
     restart(now);
     shows_ += static_cast<Nanoseconds>(by);

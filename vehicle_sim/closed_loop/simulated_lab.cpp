@@ -19,7 +19,7 @@ constexpr Nanoseconds kMostDrift_ppb = 20'000;
 NetworkOptions network_options(const LabSettings& settings) {
   return {.seed = mixed(settings.seed, 1),
           .transport = settings.transport,
-          .lease = (settings.is_logical ? 10 : 2) * kNanosecondsPerSecond,
+          .lease = run_time(settings.is_logical).lease,
           .least_delay = 50'000,
           .most_delay = settings.is_logical ? Nanoseconds{200'000} : kNanosecondsPerMillisecond};
 }
@@ -74,7 +74,7 @@ std::optional<std::uint32_t> SimulatedLab::step() {
       break;
     }
     case Happening::kStart:
-      // One that was killed before its first start is started by whoever killed it.
+      // A process that was killed before its first start is started at the end of that fault.
       if (!seats_[event.detail].is_killed) start(seats_[event.detail]);
       break;
     case Happening::kAlarm:

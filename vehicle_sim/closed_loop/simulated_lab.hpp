@@ -18,7 +18,7 @@
 
 namespace hlc::closed_loop {
 
-/// A process of the lab as it is now. Its clocks outlive it.
+/// The current state of a process of the lab. Its clocks outlive it.
 struct Seat {
   ProcessKey key;
   std::string name;
@@ -32,20 +32,20 @@ struct Seat {
   std::deque<std::pair<std::size_t, SharedMessage>> unread;  ///< while frozen
   Nanoseconds planned_turn{kNoTurn};
   std::uint32_t generation{};  ///< of that plan
-  std::uint64_t num_turns{};   ///< since whoever counts them has set it back
+  std::uint64_t num_turns{};   ///< since the counter was reset
   std::uint64_t num_plans{};
 };
 
 /// All processes of a run, their clocks and their network, in one thread and in the order of true
-/// time. What happens is a matter of scenario, settings, and calls alone: no thread, no clock, no
-/// address decides anything.
+/// time. The course depends only on scenario, settings, and calls: not on threads, clocks or
+/// addresses.
 ///
-/// Processes start within half a second. One that has ended by itself stays away. Clocks differ by
-/// up to 0.2 ms and run by up to 20 ppm too fast or too slow; from what wakes a process until it
-/// acts 20 ... 150 us pass.
+/// Processes start within half a second. A process that has ended by itself is not restarted.
+/// Clocks differ by up to 0.2 ms and drift by up to 20 ppm; a process acts 20 ... 150 us after its
+/// wake-up.
 class SimulatedLab {
  public:
-  /// @param observer  hears of what happens, during `step`; must outlive this object
+  /// @param observer  is notified of events, during `step`; must outlive this object
   SimulatedLab(const Scenario& scenario, const LabSettings& settings, RunObserver& observer);
   SimulatedLab(const SimulatedLab&) = delete;  // processes refer to it
   SimulatedLab& operator=(const SimulatedLab&) = delete;
@@ -56,7 +56,7 @@ class SimulatedLab {
   [[nodiscard]] Nanoseconds true_time() const { return now_; }
   /// `step` returns this number at that time.
   void set_alarm(Nanoseconds at, std::uint32_t number);
-  /// The next thing that happens; the number of an alarm if it is one. @pre an alarm is set
+  /// Executes the next event; the number of an alarm if it is one. @pre an alarm is set
   std::optional<std::uint32_t> step();
 
   [[nodiscard]] std::vector<Seat>& seats() { return seats_; }
@@ -64,10 +64,10 @@ class SimulatedLab {
   [[nodiscard]] Seat& seat(const std::string& name) { return seats_[by_name_.at(name)]; }
   [[nodiscard]] SimulatedNetwork& network() { return network_; }
   [[nodiscard]] const std::string& name(NodeId node) const { return network_.name(node); }
-  /// Everybody has ended by itself.
+  /// All processes have ended by themselves.
   [[nodiscard]] bool is_deserted() const;
 
-  /// It is gone in the midst of whatever it did; without effect on one that has ended by itself.
+  /// Kills the process at any point; without effect on one that has ended by itself.
   void kill(Seat& seat);
   /// One that was killed.
   void restart(Seat& seat);
@@ -82,7 +82,7 @@ class SimulatedLab {
 
   /// Called when a process has begun or ended (then with its exit code).
   std::function<void(const Seat&)> on_change{[](const Seat&) {}};
-  /// Where a vehicle stands that is started again.
+  /// Pose of a restarted vehicle.
   std::function<std::optional<Pose>(std::uint8_t)> pose_of{
       [](std::uint8_t) { return std::nullopt; }};
 

@@ -7,10 +7,10 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr Nanoseconds kAnnouncementsPerLease = 8;
-/// From an announcement of somebody new until its endpoints are known.
+/// From the announcement of a new participant until its endpoints are known.
 constexpr Nanoseconds kLeastDiscovery = 5 * kNanosecondsPerMillisecond;
 constexpr Nanoseconds kMostDiscovery = 60 * kNanosecondsPerMillisecond;
-/// Until what was lost is sent again.
+/// Until a lost message is sent again.
 constexpr Nanoseconds kLeastRepair = 10 * kNanosecondsPerMillisecond;
 constexpr Nanoseconds kMostRepair = 60 * kNanosecondsPerMillisecond;
 
@@ -77,9 +77,9 @@ void SimulatedNetwork::leave(NodeId node) {
       auto& sights = nodes_[other].sights[index_of(domain)];
       const auto sight = sights.find(node);
       if (sight == sights.end() || nodes_[other].is_gone) continue;
-      const bool hears_it = sight->second.is_open && !is_cut(node, other, domain);
+      const bool is_reachable = sight->second.is_open && !is_cut(node, other, domain);
       update_sight(other, node, domain);
-      if (!hears_it || !sight->second.is_seen) continue;
+      if (!is_reachable || !sight->second.is_seen) continue;
       ++sight->second.generation;
       queue_->add(queue_->now() + options_.most_delay,
                   {.what = Happening::kSight,
@@ -108,8 +108,8 @@ void SimulatedNetwork::thaw(NodeId node) {
   if (queue_->now() - nodes_[node].frozen_at >= options_.lease) miss_some(node);
 }
 
-/// Its leases of the others have run out, but what they sent waits to be read: which of the two is
-/// looked at first is a matter of chance.
+/// Its leases of the others have run out, but their messages wait to be read: their order is
+/// random.
 void SimulatedNetwork::miss_some(NodeId node) {
   SeededRandom random(mixed(options_.seed, ++num_sights_ + (1ULL << 32U)));
   for (std::uint32_t domain = 0; domain < kNumDomains; ++domain) {
@@ -156,7 +156,7 @@ bool SimulatedNetwork::is_cut(NodeId from, NodeId to, Domain domain) const {
   });
 }
 
-// --- who sees whom ------------------------------------------------------------------------------
+// --- discovery ----------------------------------------------------------------------------------
 
 bool SimulatedNetwork::sees(NodeId observer, NodeId other, Domain domain) const {
   const auto& sights = nodes_[observer].sights[index_of(domain)];
@@ -221,11 +221,11 @@ bool SimulatedNetwork::look(const Event& event) {
   }
   flush(event.node, event.other);
   flush(event.other, event.node);
-  update_sight(event.node, event.other, domain);  // one that was missed though it is there
+  update_sight(event.node, event.other, domain);  // lost although present
   return true;
 }
 
-/// A name is there as long as one of those that bear it is.
+/// A name is present as long as one process with this name is.
 void SimulatedNetwork::note_names(NodeId observer, NodeId other, Domain domain) {
   Node& node = nodes_[observer];
   const std::string& name = nodes_[other].name;

@@ -18,28 +18,28 @@
 
 namespace hlc::closed_loop {
 
-/// What a process has on the network. Its name is on every domain of its topics.
+/// Endpoints of a process. Its name is on every domain of its topics.
 struct NodeDescription {
   std::string name;
   std::vector<Topic> writes;
   std::vector<Topic> reads;
 };
 
-/// What may happen to messages on their way while it lasts. Shares are probabilities of a message.
+/// Temporary disturbance of messages. Shares are probabilities per message.
 struct Disturbance {
   std::string from;     ///< name of the writer's process; empty: any
   std::string to;       ///< of the reader's
-  double lost{};        ///< on the way: a reliable topic sends again, later; others do not
-  double withheld{};    ///< lost for good, whatever the topic promises
+  double lost{};        ///< in transit: a reliable topic sends again, later; others do not
+  double withheld{};    ///< lost for good, even on reliable topics
   double repeated{};    ///< comes twice, the second time up to `repeat_delay` later
   double overtaken{};   ///< comes up to `overtake_delay` later, and others do not wait for it
-  Nanoseconds delay{};  ///< every message takes up to so much longer
+  Nanoseconds delay{};  ///< additional delay of every message, at most
   Nanoseconds repeat_delay{};
   Nanoseconds overtake_delay{};
   friend bool operator==(const Disturbance&, const Disturbance&) = default;
 };
 
-/// Nothing passes from one to the other, no sign of life either.
+/// No messages and no signs of life pass between the two.
 struct Cut {
   std::string from;
   std::string to;
@@ -57,29 +57,28 @@ struct NetworkOptions {
 
 /// The network of all processes of a run, with the properties of DDS that the machines rely on:
 ///
-/// * A process *sees* another one of its domains from the announcement on that reaches it, until
-/// the
+/// * A process *sees* another one of its domains from its first received announcement until the
 ///   other one leaves, or until nothing has come from it for the lease. Announcements come eight
-///   times in a lease. Who is seen once and not any more is lost. Names may be borne by several.
-/// * A writer reaches a reader while each sees the other. What is written before is lost to it, but
-///   on topics that are kept for late ones.
-/// * Who stands still for longer than the lease may miss the others for a moment when it goes on.
-/// * What a reliable topic loses is sent again, in the order of writing; while nothing passes the
-///   last `depth` messages of a writer are kept for that. Other topics lose it.
+///   times in a lease. A process that was seen and no longer is, is lost. Names need not be unique.
+/// * A writer reaches a reader while each sees the other. Earlier messages are lost to the reader,
+///   except on topics with durability for late joiners.
+/// * A process that is suspended for longer than the lease may miss the others briefly on resuming.
+/// * Lost messages of a reliable topic are sent again, in the order of writing; while nothing
+///   passes the last `depth` messages of a writer are kept for that. Other topics lose them.
 ///
-/// Every delay is a number of seed, channel, and count of its messages: what is disturbed at one
-/// place changes no delay at another.
+/// Every delay is a number of seed, channel, and count of its messages: a disturbance in one place
+/// does not change delays in another.
 class SimulatedNetwork {
  public:
   SimulatedNetwork(EventQueue& queue, NetworkOptions options) : queue_(&queue), options_(options) {}
 
   // Processes. A node is never used again.
   NodeId join(const NodeDescription& description);
-  /// It ends: the others learn it at once.
+  /// Orderly end: the others see it at once.
   void leave(NodeId node);
-  /// It is killed: the others miss it when its lease has run out.
+  /// Killed: the others lose it when its lease has run out.
   void vanish(NodeId node);
-  /// It stands still: what comes waits, and it shows no sign of life.
+  /// Suspended: arriving messages wait, and it shows no sign of life.
   void freeze(NodeId node);
   void thaw(NodeId node);
 
@@ -92,22 +91,22 @@ class SimulatedNetwork {
   /// @param topic  index among the description's `writes`
   void publish(NodeId node, std::size_t topic, Message message);
 
-  /// What was planned for now: an arrival or a sight.
+  /// An event that is due: an arrival or a sight.
   struct Arrival {
     NodeId node{};
     std::size_t topic{};  ///< index among the reader's `reads`
     SharedMessage message;
   };
-  /// Nothing if the reader does not hear the writer any more.
+  /// Nothing if the reader no longer matches the writer.
   [[nodiscard]] std::optional<Arrival> arrive(Event event);
-  /// True if `event.node` now sees somebody whom it did not see, or misses somebody.
+  /// True if `event.node` now sees a participant that it did not see, or has lost one.
   [[nodiscard]] bool look(const Event& event);
 
-  /// Whom a node sees on a domain.
+  /// Participants that a node sees on a domain.
   [[nodiscard]] machine::Participants participants(NodeId node, Domain domain) const;
-  /// Names of those that read what the node writes there (as far as it knows).
+  /// Names of the matched readers of the node's topic (as far as it knows).
   [[nodiscard]] std::set<std::string> readers(NodeId node, std::size_t topic) const;
-  /// Names of those that write what the node reads there.
+  /// Names of the matched writers of the node's topic.
   [[nodiscard]] std::set<std::string> writers(NodeId node, std::size_t topic) const;
 
   [[nodiscard]] const std::string& name(NodeId node) const { return nodes_[node].name; }
@@ -128,7 +127,7 @@ class SimulatedNetwork {
     Nanoseconds frozen_at{};
     /// By topic written: channels to all readers.
     std::vector<std::vector<std::uint32_t>> outlets;
-    /// By topic written: what late ones get.
+    /// By topic written: messages for late joiners.
     std::vector<std::deque<SharedMessage>> kept;
     /// By domain: of others, as this one sees them.
     std::array<std::map<NodeId, Sight>, kNumDomains> sights;

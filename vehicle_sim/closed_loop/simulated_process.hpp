@@ -22,7 +22,7 @@
 
 namespace hlc::closed_loop {
 
-/// What somebody who looks on learns from the processes of a run.
+/// Observer of the processes of a run.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -30,7 +30,7 @@ class RunObserver {
   /// @param time  of the sample, true in real time, of the run in logical time
   virtual void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) = 0;
   virtual void on_traffic(const Traffic& traffic) = 0;
-  /// A controller tells what it has planned; whether that comes into force says its report.
+  /// The plan of a step; the report shows whether it came into force.
   virtual void on_prediction(const Prediction& prediction) = 0;
   /// @param in_force  the plan after the step; nullptr: none
   virtual void on_report(const ReportRecord& record, const Plan* in_force) = 0;
@@ -40,7 +40,7 @@ class RunObserver {
   virtual void on_stop_symbol(std::uint8_t vehicle) = 0;
 };
 
-/// Where a process runs.
+/// The environment of a process.
 struct ProcessPlace {
   NodeId node{};
   SimulatedNetwork* network{};
@@ -51,8 +51,8 @@ struct ProcessPlace {
   bool is_logical{};
 };
 
-/// A process of a run: one machine, with the loop that the shell has
-/// (hlc_bridge/process/shell.hpp), but for the waiting: it says when its next turn is.
+/// A process of a run: one machine, with the loop of the shell (hlc_bridge/process/shell.hpp), but
+/// without waiting: it returns the time of its next turn.
 class SimulatedProcess {
  public:
   virtual ~SimulatedProcess() = default;
@@ -64,7 +64,7 @@ class SimulatedProcess {
   virtual void clocks_changed() = 0;
   /// Once through the loop.
   virtual void turn() = 0;
-  /// True time of the next turn if nothing comes; at or before now: work waits.
+  /// True time of the next turn without new messages; at or before now: work is pending.
   [[nodiscard]] virtual Nanoseconds next_turn() const = 0;
   [[nodiscard]] virtual std::optional<int> exit_code() const = 0;
 };
@@ -84,7 +84,7 @@ class MachineProcess final : public SimulatedProcess {
       : place_(place),
         host_(std::move(host)),
         machine_(std::move(machine)),
-        pacing_(make_pacing(place.is_logical, startup_timeout, wall())) {
+        pacing_(run_time(place.is_logical).make_pacing(startup_timeout, wall())) {
     host_.attach(place_, machine_);
   }
 
@@ -140,7 +140,7 @@ class MachineProcess final : public SimulatedProcess {
     wake_by(*place_.wall_clock, wake_.wall);
     wake_by(*place_.wall_clock, pacing.wall);
     wake_by(*place_.run_clock, pacing.run);
-    if (enough_ > 1) look_at_mail_at_ = now + delay;
+    if (enough_ > 1) read_mail_at_ = now + delay;
   }
 
   [[nodiscard]] Nanoseconds next_turn() const override {
@@ -148,7 +148,7 @@ class MachineProcess final : public SimulatedProcess {
     if (is_urgent_ || has_presence_changed_ || mail_.size() >= enough_ || pacing_->is_due()) {
       return *place_.now;
     }
-    if (enough_ > 1 && !mail_.empty()) return std::min(wake_at_, look_at_mail_at_);
+    if (enough_ > 1 && !mail_.empty()) return std::min(wake_at_, read_mail_at_);
     return wake_at_;
   }
   [[nodiscard]] std::optional<int> exit_code() const override { return exit_code_; }
@@ -158,7 +158,7 @@ class MachineProcess final : public SimulatedProcess {
 
   void announce(Nanoseconds wall) {
     if constexpr (requires { host_.perform(ReadyStatus{}); }) {
-      if (pacing_->has_given_up(wall)) {
+      if (pacing_->is_timed_out(wall)) {
         host_.perform(machine::error(std::string(kLabControlName) +
                                      " is not responding: no triggers received"));
         exit_code_ = kExitDied;
@@ -179,7 +179,7 @@ class MachineProcess final : public SimulatedProcess {
   std::size_t enough_{1};
   WakeUp wake_;
   Nanoseconds wake_at_{};  ///< true time; 0: at once
-  Nanoseconds look_at_mail_at_{};
+  Nanoseconds read_mail_at_{};
   std::optional<int> exit_code_;
 };
 

@@ -10,14 +10,14 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
 
-/// What processes say to each other in memory, and where: the topics of hlc_bridge/dds/topics.hpp
-/// that the processes of a run use.
+/// Messages between processes in memory, and their topics: those of hlc_bridge/dds/topics.hpp that
+/// the processes of a run use.
 namespace hlc::closed_loop {
 
 using Message = std::variant<VehicleState, VehicleStateList, TrajectoryCommand, ReadyStatus,
                              SystemTrigger, Parameter, ParameterRequest, StopRequest, Traffic,
                              Prediction, Outcome, ReportRecord, RunState>;
-/// Delivered to many, written by one.
+/// Delivered to many readers, written once.
 using SharedMessage = std::shared_ptr<const Message>;
 
 /// Networks. The local one connects a vehicle's controller with its middleware.
@@ -49,7 +49,7 @@ struct Topic {
   friend auto operator<=>(const Topic&, const Topic&) = default;
 };
 
-/// How endpoints are made (endpoint_qos.hpp).
+/// Settings of the endpoints (endpoint_qos.hpp).
 enum class Transport : std::uint8_t {
   kLoopback,  ///< on one machine: every topic is reliable
   kLab,       ///< over the lab's network: some are not, and little is kept
@@ -58,7 +58,7 @@ enum class Transport : std::uint8_t {
 struct TopicRules {
   Domain domain{};
   std::size_t depth{};  ///< messages of one writer that are kept until they have arrived; 0: none
-  bool is_kept_late{};  ///< whoever appears later gets what is kept
+  bool is_kept_late{};  ///< late joiners get the kept messages
   [[nodiscard]] constexpr bool is_reliable() const { return depth > 0; }
 };
 

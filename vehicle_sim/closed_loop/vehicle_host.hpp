@@ -7,7 +7,7 @@
 
 namespace hlc::closed_loop {
 
-/// The endpoints of a simulated vehicle, as vehicle_process.cpp has them.
+/// The endpoints of a simulated vehicle, as in vehicle_process.cpp.
 class VehicleHost : public Host {
  public:
   using Machine = VehicleMachine;
@@ -63,7 +63,7 @@ class VehicleHost : public Host {
   void perform(const DrivenSample& sample) const {
     Nanoseconds time = sample.t;
     if (!place().is_logical) {
-      // Of its own clock; those that it has to make up for lie in the past.
+      // By its clock; ticks that it has to make up for lie in the past.
       const Nanoseconds now = *place().now;
       const Nanoseconds shown = place().run_clock->at(now);
       time = now - (shown - std::min(shown, sample.t));

@@ -9,9 +9,9 @@
 
 namespace hlc {
 
-/// What one simulated vehicle is made of.
+/// Parameters of one simulated vehicle.
 struct PlantOptions {
-  Pose start;  ///< where it stands at the first tick; finite
+  Pose start;  ///< pose at the first tick; finite
   IdentifiedVehicle vehicle;
   double battery_voltage_v{kBatteryVoltage_v};
   /// Seed of the position noise; without one the pose is measured exactly.
@@ -22,7 +22,7 @@ struct PlantOptions {
 inline constexpr double kPositionNoise_m = 0.002;
 inline constexpr double kHeadingNoise_rad = 0.010;
 
-/// What the sensors say at a tick. Only the pose is noisy.
+/// Sensor values at a tick. Only the pose is noisy.
 struct Measurement {
   Pose pose;
   double speed_mps{};
@@ -32,7 +32,7 @@ struct Measurement {
   double acceleration_left_mps2{};
 };
 
-/// One simulated µCar: the identified model behind an actuator that acts late.
+/// One simulated µCar: the identified model behind an actuator with a delay.
 ///
 /// At every tick: first `measure`, then `step` with the input that was computed from it. An input
 /// given at tick n acts from tick n + 4 to n + 5; before the fifth input the actuators rest at 0.
@@ -40,20 +40,20 @@ struct Measurement {
 /// the step with which its parameters were identified: a finer integration would be another
 /// vehicle.
 ///
-/// A value: copies drive on independently, and equal options and inputs give equal bytes.
+/// A value: copies are independent, and equal options and inputs give equal bytes.
 class Plant {
  public:
   /// @throws std::invalid_argument if the start pose is not finite
   explicit Plant(const PlantOptions& options);
 
-  /// True pose and speed at the present tick.
+  /// True pose and speed at the current tick.
   [[nodiscard]] const VehicleMotion& motion() const { return motion_; }
 
-  /// The sensors at the present tick. With noise every call draws anew: call it once per tick.
+  /// The sensors at the current tick. With noise every call draws again: call it once per tick.
   [[nodiscard]] Measurement measure();
 
-  /// Queues `commanded` and drives one tick with the input that has reached the actuators. Inputs
-  /// beyond [-1, 1] are clamped; one that is not finite counts as the stop law at the present
+  /// Queues `commanded` and advances one tick with the input that has reached the actuators. Inputs
+  /// beyond [-1, 1] are clamped; one that is not finite counts as the stop law at the current
   /// speed.
   void step(const ActuatorInput& commanded);
 

@@ -11,15 +11,15 @@
 
 namespace hlc {
 
-/// The commands of one kind that a vehicle has received, and which of them it follows.
+/// The received commands of one kind, and the choice of the one to follow.
 ///
 /// The lab's rule: of the commands with valid_after <= t_now the one with the largest create_stamp
 /// is active, of equal ones the later arrival. It is usable while t_now - valid_after <
 /// kCommandLifetime. If it is not, none is, even if an older command is valid for longer: a newer
-/// word replaces an older one for good.
+/// command replaces an older one for good.
 ///
-/// At most `kCapacity` commands wait for their time; beyond that the earliest arrival makes room.
-/// The active one never has to.
+/// At most `kCapacity` commands wait for their time; beyond that the earliest arrival is dropped,
+/// never the active one.
 template <class Command>
 class CommandBuffer {
  public:
@@ -42,7 +42,7 @@ class CommandBuffer {
         active_ = std::move(arrival);
       }
     }
-    // Whatever was valid has either been taken or is older than what is active.
+    // Commands valid by now have either been activated or are older than the active one.
     std::erase_if(waiting_, [&](const Arrival& arrival) {
       return arrival.command.valid_after_stamp <= t_now;
     });
@@ -50,7 +50,7 @@ class CommandBuffer {
     return is_usable ? &active_->command : nullptr;
   }
 
-  /// Forgets everything, as after a stop.
+  /// Drops all commands, as after a stop.
   void clear() {
     active_.reset();
     waiting_.clear();

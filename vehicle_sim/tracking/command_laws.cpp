@@ -20,7 +20,7 @@ constexpr double kFrontAxle_m = 0.075;
 constexpr double kLargestWheelAngle_rad = 1.0;
 constexpr double kStanleyGain_per_s = 2.0;
 constexpr double kLeastSpeed_mps = 0.1;
-/// Points of a path closer than this are one place.
+/// Points of a path closer than this coincide.
 constexpr double kSamePlace_m = 1e-3;
 
 struct Nearest {

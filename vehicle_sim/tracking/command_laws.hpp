@@ -5,11 +5,11 @@
 #include "hlc_bridge/messages/messages.hpp"
 #include "planner/vehicle/identified_motion.hpp"
 
-/// How the vehicle answers the commands that are no trajectory (wire contract, 6.4), with the lab's
+/// The vehicle's response to commands other than trajectories (wire contract, 6.4), with the lab's
 /// figures where it states them.
 namespace hlc {
 
-/// Throttle and steering as they are told, clamped to [-1, 1].
+/// Throttle and steering as commanded, clamped to [-1, 1].
 [[nodiscard]] ActuatorInput direct_input(const DirectCommand& command);
 
 /// Servo per curvature, 0.241857 m: the lab's figure for the wanted curvature kappa [1/m],
@@ -22,7 +22,8 @@ namespace hlc {
 ///     throttle = sign(v) (0.152744 |v|)^0.62791 + 0.3 e + i,   e = v - measured speed
 ///     i grows by 0.01 e per tick of 20 ms and stays within +- 0.5
 ///
-/// clamped to [-1, 1]. Remembers i: one object per vehicle, `reset` when another law takes over.
+/// clamped to [-1, 1]. Has the state i: one object per vehicle, `reset` when another law takes
+/// over.
 class SpeedControl {
  public:
   [[nodiscard]] double tick(double wanted_mps, double measured_mps);

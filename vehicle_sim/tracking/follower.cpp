@@ -57,8 +57,7 @@ Follower::Output Follower::decide(Nanoseconds t_now, const VehicleMotion& estima
   for (const ActuatorInput& input : under_way_) {
     start = stepped(start, input, vehicle_);
   }
-  // The lead rule allows a trajectory that begins up to 30 ms after the input acts: aim at its
-  // begin.
+  // The lead rule permits a trajectory that begins up to 30 ms after the input acts: use its begin.
   const Nanoseconds t_start =
       std::max(t_now + kInputDelayTicks * kVehiclePeriod, command->points.front().t);
   Reference reference;
@@ -94,7 +93,7 @@ double Follower::steering_for(const Reference& reference, const VehicleMotion& s
 
 double Follower::throttle_for(const Reference& reference, const VehicleMotion& start,
                               double steering) const {
-  // The throttle does not change where this tick ends, so any will do to predict it.
+  // The throttle does not affect the position at the end of this tick, so any value predicts it.
   const VehicleMotion end = stepped(start, {.throttle = 0.0, .steering = steering}, vehicle_);
   const Point error_m = reference[1] - end.pose.position_m();
   const Point chord = (reference[2] - reference[1]) / kIdentifiedStep_s;

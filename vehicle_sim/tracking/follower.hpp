@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// How the follower answers the reference and its errors. All zero: the vehicle never moves.
+/// Gains of the follower. All zero: the vehicle never moves.
 struct FollowerGains {
   double feed_forward{1.0};        ///< g, share of the reference's own speed
   double longitudinal_per_s{5.0};  ///< k_lon, speed per error along the reference
@@ -17,21 +17,21 @@ struct FollowerGains {
 /// All gains times `factor`.
 [[nodiscard]] FollowerGains scaled(const FollowerGains& gains, double factor);
 
-/// What the follower did at a tick.
+/// Result of a tick of the follower.
 enum class FollowerStatus {
   kFollowing,      ///< the reference
   kNoCommand,      ///< nothing to follow: stop law
-  kNotFollowable,  ///< a command that the lead rule refuses, or an empty one: stop law
+  kNotFollowable,  ///< a command that violates the lead rule, or an empty one: stop law
   kTooFar,         ///< further than `kMaxDistance_m` from the reference: stop law
   kNoEstimate,     ///< own pose or speed is not finite: throttle and steering 0
 };
 
 /// Drives a vehicle along a timed trajectory by inverting the identified model.
 ///
-/// An input given now acts after 80 ms. The inputs under way are known, so the follower first
-/// predicts its position p and speed v for t_a = t_now + 80 ms, when the new input will act for one
-/// tick T = 20 ms. With the reference r and its chords c(t) = (r(t + T) - r(t)) / T (chords, not
-/// tangents, because the model drives a straight line in each tick), it wants
+/// An input given now acts after 80 ms. The queued inputs are known, so the follower first predicts
+/// its position p and speed v for t_a = t_now + 80 ms, when the new input will act for one tick T =
+/// 20 ms. With the reference r and its chords c(t) = (r(t + T) - r(t)) / T (chords, not tangents,
+/// because the model drives a straight line in each tick), the target is
 ///
 ///     course at t_a           angle(c(t_a)) + atan(k_lat e_lat / |c(t_a)|)
 ///     path speed at t_a + T   g |c(t_a + T)| + k_lon e_lon'
@@ -39,22 +39,21 @@ enum class FollowerStatus {
 /// e = r - p at t_a and e' at t_a + T, in the frame of the chord. The model is solved for the
 /// inputs:
 ///
-/// * The steering turns the course at once, course = yaw + p3 delta + p10. Nothing else has to hold
-/// the
-///   yaw: delta also turns the yaw towards the wanted course, at the rate p4 v / p3 (15 /s at 0.8
+/// * The steering turns the course at once, course = yaw + p3 delta + p10. The yaw needs no control
+///   of its own: delta also turns it towards the target course, at the rate p4 v / p3 (15 /s at 0.8
 ///   m/s).
 /// * The throttle changes the speed with which the *next* tick is driven.
 ///
-/// Both are clamped to [-1, 1], and the wanted speed is never negative. Where the reference stands,
+/// Both are clamped to [-1, 1], and the target speed is never negative. Where the reference stands,
 /// the steering is kept (a standing reference has no course) and a longitudinal error up to
-/// `kStandingTolerance_m` is left alone, so that the vehicle stands instead of creeping.
+/// `kStandingTolerance_m` is not corrected, so that the vehicle stands instead of creeping.
 ///
 /// Assumption: the vehicle moves by the identified model. Then, as long as the inputs are not
 /// clamped, the error along the path shrinks by the factor 1 - k_lon T per tick, across it by about
 /// 1 - k_lat T.
 class Follower {
  public:
-  /// The lab's controller gives up at this distance: its weighted sum of squares then reaches 1.5.
+  /// The lab's controller stops at this distance: its weighted sum of squares then reaches 1.5.
   static constexpr double kMaxDistance_m = 0.3;
   static constexpr double kStandingTolerance_m = 0.005;
 
@@ -72,8 +71,8 @@ class Follower {
   [[nodiscard]] Output decide(Nanoseconds t_now, const VehicleMotion& estimate,
                               const TrajectoryCommand* command) const;
 
-  /// The input that is given at this tick, whoever decided on it: to be told once per tick, since
-  /// it will be under way at the next ones.
+  /// The input given at this tick, from any source: to be called once per tick, since the input
+  /// will be queued at the next ones.
   void give(const ActuatorInput& input);
 
   /// Both at once.

@@ -6,9 +6,9 @@
 
 namespace hlc {
 
-/// Smooths the measured pose with the model: predict one tick with the input that acted, then take
-/// over `kCorrection` of the difference to what was measured. The lab's vehicle does the same with
-/// 0.3.
+/// Smooths the measured pose with the model: predict one tick with the input that acted, then
+/// correct by `kCorrection` of the difference to the measurement. The lab's vehicle does the same
+/// with 0.3.
 ///
 /// Exact measurements of a vehicle that moves by the model stay exact, bit for bit. Noise of
 /// standard deviation s leaves s sqrt(a / (2 - a)) = 0.42 s for a = 0.3. The speed is taken as

@@ -17,7 +17,7 @@ bool is_finite(const TrajectoryPoint& point) {
 }
 
 bool is_drivable(const CurveSample& look) {
-  // Written so that a value that is not a number is refused.
+  // Written so that NaN is refused.
   if (!(std::abs(look.acceleration_mps2.x()) <= kMaxAcceleration_mps2 &&
         std::abs(look.acceleration_mps2.y()) <= kMaxAcceleration_mps2)) {
     return false;

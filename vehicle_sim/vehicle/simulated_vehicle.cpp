@@ -16,7 +16,7 @@ VehicleState state_message(std::uint8_t vehicle_id, Nanoseconds t_now,
   state.create_stamp = t_now;
   state.valid_after_stamp = t_now + kStateDelay;
   state.pose = estimate.pose;
-  state.ips_update_age = 0;  // measured in this very tick
+  state.ips_update_age = 0;  // measured in this tick
   state.odometer_distance_m = measured.odometer_m;
   state.imu_acceleration_forward_mps2 = measured.acceleration_forward_mps2;
   state.imu_acceleration_left_mps2 = measured.acceleration_left_mps2;
@@ -72,8 +72,8 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
 
 SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
                                                     const VehicleMotion& estimate) {
-  // All of them are asked at every tick: a command that is not looked at while it is valid would
-  // count as new when one of higher rank has run out.
+  // All buffers are queried at every tick: a command that is not queried while it is valid would
+  // count as new when one of higher rank has expired.
   const auto usable = std::apply(
       [&](auto&... buffers) { return std::tuple{buffers.usable_at(t_now)...}; }, commands_);
   const auto& [direct, speed_curvature, trajectory, path] = usable;

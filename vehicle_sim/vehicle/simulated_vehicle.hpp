@@ -24,10 +24,10 @@ struct SimulatedVehicleOptions {
 };
 
 /// A whole µCar without network and clock: commands in, states out, one call per tick of 20 ms. The
-/// vehicle's process and every closed loop in one process drive with this class.
+/// vehicle's process and every closed loop in one process use this class.
 ///
 /// A tick: measure, estimate, choose the command, follow it (or stop), give the input to the plant.
-/// What it returns is the vehicle at `t_now`, before the plant moves on.
+/// The result is the vehicle at `t_now`, before the plant moves on.
 ///
 /// Of usable commands of several kinds the first of this order counts, as in the lab: direct, speed
 /// and curvature, trajectory, path tracking.
@@ -37,9 +37,9 @@ class SimulatedVehicle {
   static constexpr int kBrakingTicks = 50;
 
   struct Tick {
-    VehicleState state;              ///< what the vehicle says: its estimate, valid 60 ms later
-    VehicleObservation observation;  ///< what the lab's camera system says: the measured pose
-    DrivenSample driven;  ///< what is true; command_create is 0 unless a command was followed
+    VehicleState state;  ///< the published state: the vehicle's estimate, valid 60 ms later
+    VehicleObservation observation;  ///< from the lab's camera system: the measured pose
+    DrivenSample driven;             ///< true; command_create is 0 unless a command was followed
     FollowerStatus status{FollowerStatus::kNoCommand};
   };
 
@@ -56,7 +56,7 @@ class SimulatedVehicle {
   Tick tick(Nanoseconds t_now);
 
   /// The stop symbol: the stop law for `kBrakingTicks` ticks, whatever is commanded. Then all
-  /// commands received so far are forgotten, and the vehicle listens again.
+  /// commands received so far are dropped, and the vehicle listens again.
   void brake() { braking_ticks_left_ = kBrakingTicks; }
   [[nodiscard]] bool is_braking() const { return braking_ticks_left_ > 0; }
 
@@ -67,7 +67,7 @@ class SimulatedVehicle {
   struct Decision {
     ActuatorInput input;
     FollowerStatus status{FollowerStatus::kNoCommand};
-    Nanoseconds command_create{};  ///< of the command that counts
+    Nanoseconds command_create{};  ///< of the active command
   };
 
   [[nodiscard]] Decision decide(Nanoseconds t_now, const VehicleMotion& estimate);

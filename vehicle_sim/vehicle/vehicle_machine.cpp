@@ -18,15 +18,15 @@ constexpr Nanoseconds kMostMissedTicks = 500;
 const char* reason(FollowerStatus status) {
   switch (status) {
     case FollowerStatus::kFollowing:
-      return "it follows";
+      return "following";
     case FollowerStatus::kNoCommand:
       return "no usable command";
     case FollowerStatus::kNotFollowable:
-      return "the command is empty, malformed, too short or too wild";
+      return "command empty, malformed, too short or beyond the limits";
     case FollowerStatus::kTooFar:
       return "too far from its reference";
     case FollowerStatus::kNoEstimate:
-      return "its own state is not finite";
+      return "vehicle state not finite";
   }
   return "";
 }
@@ -38,8 +38,8 @@ VehicleMachine::VehicleMachine(const VehicleMachineOptions& options)
       vehicle_(options.vehicle),
       start_up_(options.startup_timeout),
       lab_control_(options.rules.lab_control_grace),
-      // The lab's controllers do not answer before the start. Ours is received soon enough.
-      gave_up_waiting_(options.is_among_lab_programs) {}
+      // The lab's controllers do not answer before the start. Ours does so soon enough.
+      wait_timed_out_(options.is_among_lab_programs) {}
 
 // --- events -------------------------------------------------------------------------------------
 
@@ -50,7 +50,7 @@ void VehicleMachine::on(Event event) {
 template <class Command>
 void VehicleMachine::take(Command command) {
   newest_answer_ = std::max(newest_answer_, command.create_stamp);
-  gave_up_waiting_ = false;
+  wait_timed_out_ = false;
   vehicle_.receive(std::move(command));
 }
 
@@ -63,7 +63,7 @@ void VehicleMachine::take(const SystemTrigger& trigger) {
 std::vector<VehicleMachine::Action> VehicleMachine::advance(const Instant& now) {
   Actions actions;
   if (exit_code_) return actions;
-  if (is_told_to_end_) {
+  if (is_end_requested_) {
     exit_code_ = kExitGood;
     return actions;
   }
@@ -131,8 +131,9 @@ std::string VehicleMachine::parameter_fault() const {
   return {};
 }
 
-/// A state or a command of the run that nobody receives is lost, and then a tick would wait for it.
-/// Among the lab's programs: of anybody.
+/// A state or a command without a receiver is lost, and then a tick would wait for it. Among the
+/// lab's programs: any receiver.
+/// Among the lab's programs: of any participant.
 bool VehicleMachine::is_connected() const {
   if (presence_.ready_readers == 0 || presence_.trigger_writers == 0) return false;
   if (options_.is_among_lab_programs) {
@@ -168,7 +169,7 @@ std::string VehicleMachine::who_is_missing() const {
 
 bool VehicleMachine::is_answered(Nanoseconds list) const {
   const std::uint8_t id = options_.vehicle.vehicle_id;
-  return stop_symbol_ || newest_answer_ >= list || gave_up_waiting_ ||
+  return stop_symbol_ || newest_answer_ >= list || wait_timed_out_ ||
          presence_.lab.lost.contains(middleware_name(id)) ||
          presence_.lab.lost.contains(controller_name(id));
 }
@@ -182,7 +183,7 @@ bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, 
   actions.emplace_back(machine::warning(
       "no answer to the list of " + std::to_string(*list) + " ns within " +
       std::to_string(options_.rules.patience / kNanosecondsPerSecond) + " s; no longer waiting"));
-  gave_up_waiting_ = true;
+  wait_timed_out_ = true;
   return false;
 }
 
@@ -222,14 +223,14 @@ void VehicleMachine::log_why_it_stops(const SimulatedVehicle::Tick& done, Action
   last_status_ = done.status;
 }
 
-/// Without it the plan is driven to its end before the vehicle leaves; one that brakes leaves as it
-/// was told to.
+/// Without the lab control the plan is driven to its end before the vehicle leaves; a braking
+/// vehicle leaves as requested.
 void VehicleMachine::watch_lab_control(Nanoseconds wall, Actions& actions) {
   if (!lab_control_.is_over(presence_.lab.lost.contains(kLabControlName), wall)) return;
   if (is_stopping_ || stop_symbol_) {
     exit_code_ = kExitGood;
   } else {
-    fail(kExitDied, std::string(kLabControlName) + " is gone", actions);
+    fail(kExitDied, std::string(kLabControlName) + " lost", actions);
   }
 }
 

@@ -20,14 +20,14 @@ namespace hlc {
 struct VehicleMachineOptions {
   SimulatedVehicleOptions vehicle;
   machine::PacingRules rules;
-  /// The lab's own programs may be around: its middleware bears another name, and its controllers
-  /// do not answer before the start.
+  /// The lab's own programs may be present: its middleware has another name, and its controllers do
+  /// not answer before the start.
   bool is_among_lab_programs{};
   bool keep_running{};  ///< after a stop brake, then listen again instead of ending
   Nanoseconds startup_timeout{30 * kNanosecondsPerSecond};  ///< wall
 };
 
-/// Who is on the lab domain, and who is matched.
+/// Presence and matches on the lab domain.
 struct VehiclePresence {
   machine::Participants lab;
   machine::Matched state_readers;
@@ -36,33 +36,33 @@ struct VehiclePresence {
   std::size_t trigger_writers{};
 };
 
-/// One simulated vehicle of a run: every 20 ms one step of `SimulatedVehicle` with the commands
-/// that have come, and its state.
+/// One simulated vehicle of a run: every 20 ms one step of `SimulatedVehicle` with the received
+/// commands, and its state.
 ///
-/// Where the rules say so, it learns period and active vehicles from the lab control before its
+/// If the rules require it, it gets period and active vehicles from the lab control before its
 /// first tick and waits for all its endpoints to be matched, and each tick waits for the answer to
 /// the last list before it; that wait ends when the middleware or the controller is lost, or after
-/// the patience (then nobody waits for them until a command is received again).
+/// the patience (then they are not awaited until a command is received again).
 ///
-/// A tick that it was too late for is made up for (the plant must keep up with the clock), but its
-/// state is not published.
+/// A tick that is too late is made up for (the plant must keep up with the clock), but its state is
+/// not published.
 ///
 /// The stop symbol: it brakes for a second, then ends (kExitGood), or listens again. Without the
-/// lab control it ends after the rules' grace (kExitDied).
+/// lab control it ends after the rules' grace period (kExitDied).
 class VehicleMachine {
  public:
   using Event =
       std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand, DirectCommand,
                    Parameter, SystemTrigger, VehiclePresence, machine::StopSignal>;
-  /// VehicleObservation: for the camera system's readers, where there are any. DrivenSample: for
-  /// the record of what is truly driven.
+  /// VehicleObservation: for the camera system's readers, if there are any. DrivenSample: for the
+  /// record of the true motion.
   using Action = std::variant<ParameterRequest, VehicleState, VehicleObservation, DrivenSample,
                               machine::LogLine>;
 
   /// @throws std::invalid_argument if the start pose is not finite
   explicit VehicleMachine(const VehicleMachineOptions& options);
 
-  /// Triggers but the stop symbol have no effect: time is what advance says.
+  /// Triggers other than the stop symbol have no effect: time comes from advance.
   void on(Event event);
   [[nodiscard]] std::vector<Action> advance(const Instant& now);
   [[nodiscard]] WakeUp wake_up() const;
@@ -82,7 +82,7 @@ class VehicleMachine {
   void take(const Parameter& parameter) { start_up_.take(parameter); }
   void take(const SystemTrigger& trigger);
   void take(VehiclePresence presence) { presence_ = std::move(presence); }
-  void take(const machine::StopSignal& /*signal*/) { is_told_to_end_ = true; }
+  void take(const machine::StopSignal& /*signal*/) { is_end_requested_ = true; }
 
   [[nodiscard]] bool is_prepared(const Instant& now, Actions& actions);
   [[nodiscard]] std::string parameter_fault() const;
@@ -105,10 +105,10 @@ class VehicleMachine {
   std::optional<Nanoseconds> last_tick_;
   VehiclePresence presence_;
   Nanoseconds newest_answer_{};  ///< largest create_stamp received
-  bool gave_up_waiting_{};
-  bool stop_symbol_{};     ///< has come, and the next tick brakes
-  bool is_stopping_{};     ///< it brakes
-  bool is_told_to_end_{};  ///< at once
+  bool wait_timed_out_{};
+  bool stop_symbol_{};       ///< received; the next tick brakes
+  bool is_stopping_{};       ///< it brakes
+  bool is_end_requested_{};  ///< at once
   FollowerStatus last_status_{FollowerStatus::kNoCommand};
   std::optional<int> exit_code_;
 };

@@ -6,7 +6,7 @@
 namespace hlc {
 namespace {
 
-constexpr double kAt = 1e-9;  // closer than this to a bound is at it
+constexpr double kAt = 1e-9;  // a variable closer than this to a bound is at it
 
 bool reaches_a_state_bound(const Transcription& transcription, const Channel& channel,
                            const Eigen::VectorXd& z) {

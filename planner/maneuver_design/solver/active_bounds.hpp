@@ -6,8 +6,8 @@
 
 namespace hlc {
 
-/// Variables that may have to move to lower the objective: all but those whose bound is active,
-/// that is, that lie at it with a multiplier which clearly has the sign to keep them there. In
+/// Variables that may have to move to lower the objective: all except those whose bound is active,
+/// that is, those at a bound with a multiplier that clearly has the sign to keep them there. In
 /// order.
 ///
 /// The multiplier of a channel's end condition is estimated from its variables between their bounds

@@ -54,7 +54,7 @@ class ActiveSet {
     return row_is_active_[static_cast<std::size_t>(row)];
   }
 
-  /// Of the constraints at hand, within the free variables.
+  /// Of the active constraints, within the free variables.
   void find_null_space() {
     free_.clear();
     active_.clear();
@@ -96,7 +96,7 @@ class ActiveSet {
     if (factors.info() == Eigen::Success) {
       direction(free_) = -null_space_ * factors.solve(reduced);
     } else {
-      // Downhill, most where the curvature is negative; it ends at a constraint.
+      // Downhill, most where the curvature is negative; ends at a constraint.
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(curvature);
       const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
       const Eigen::VectorXd sizes =
@@ -110,14 +110,14 @@ class ActiveSet {
     advance(direction, longest);
   }
 
-  /// Up to `longest` times the direction, or to the first constraint in the way, which becomes
+  /// Up to `longest` times the direction, or to the first blocking constraint, which becomes
   /// active.
   void advance(const Eigen::VectorXd& direction, double longest) {
     double step = longest;
     const Eigen::Index bound = first_bound(direction, step);
     const Eigen::Index row = first_row(direction, step);
     if (!std::isfinite(step)) {
-      return;  // no bound in the way of a direction of 0
+      return;  // no bound blocks a direction of 0
     }
     p_ += step * direction;
     if (row >= 0) {
@@ -156,7 +156,7 @@ class ActiveSet {
     return row;
   }
 
-  /// Lets go of the constraint whose multiplier has the wrong sign most; false if none has.
+  /// Drops the constraint whose multiplier has the wrong sign most; false if none has.
   bool release(const Eigen::VectorXd& slope) {
     Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(normals_.cols());
     if (!free_.empty() && normals_.cols() > 0) {

@@ -5,7 +5,7 @@
 
 namespace hlc {
 
-/// A small dense quadratic problem around a point that is feasible:
+/// A small dense quadratic problem around a feasible point:
 ///
 ///     min over p of  g^T p + p^T H p / 2,   E p = 0,   C p <= room,   lower <= p <= upper
 ///
@@ -22,11 +22,11 @@ struct QuadraticProblem {
 };
 
 /// A local minimum of the problem, by the primal active-set method (Nocedal and Wright, Numerical
-/// Optimization, 2006, Algorithm 16.3): within the constraints at hand it takes the Newton step in
-/// their null space, or, where the curvature there is negative, goes downhill until a constraint
-/// stops it; where it can go no further, it lets go of the constraint whose multiplier has the
-/// wrong sign most. Every step lowers the value, so the result is never worse than p = 0; after 20
-/// (n + rows) steps it ends where it is.
+/// Optimization, 2006, Algorithm 16.3): within the active constraints it takes the Newton step in
+/// their null space, or, where the curvature there is negative, goes downhill to the next
+/// constraint; where it cannot go further, it drops the constraint whose multiplier has the wrong
+/// sign most. Every step lowers the value, so the result is never worse than p = 0; after 20 (n +
+/// rows) steps it stops.
 [[nodiscard]] Eigen::VectorXd local_minimum(const QuadraticProblem& problem);
 
 }  // namespace hlc

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kGood = 1e-7;        // first-order residual of the objective: no more work
 constexpr double kGoodEnough = 1e-5;  // no more rounds of SLSQP
-constexpr std::size_t kCoarse = 20;   // intervals on which SLSQP looks for what Newton refines
+constexpr std::size_t kCoarse = 20;   // intervals on which SLSQP searches the start for Newton
 
 bool is_good(const Candidate& point) { return point.within_bounds && point.residual <= kGood; }
 
-/// What counts first: the constraints hold and nothing stopped the solver.
+/// First criterion of the comparison: the constraints hold and nothing stopped the solver.
 bool is_sound(const Candidate& point) { return point.within_bounds && point.reason.empty(); }
 
 }  // namespace
@@ -116,7 +116,7 @@ Eigen::VectorXd Attempt::from_coarse() {
   return variables.variables(resampled(inputs, problem_.intervals), variables.unit_s());
 }
 
-// A fresh start forgets a bad estimate of the curvature.
+// A restart drops a bad estimate of the curvature.
 Candidate Attempt::after_long_way(const Eigen::VectorXd& start, const Candidate& quick) {
   constexpr int kRounds = 5;
   Candidate best = quick;
@@ -145,7 +145,7 @@ Candidate Attempt::after_long_way(const Eigen::VectorXd& start, const Candidate&
   return best;
 }
 
-/// Makes z meet the end conditions to the last bits and looks at it.
+/// Makes z satisfy the end conditions to the last bits and evaluates it.
 Candidate Attempt::examined(Eigen::VectorXd z) const {
   meet_end_condition(speed_channel(problem_), transcription_.variables(), z);
   meet_end_condition(steering_channel(problem_), transcription_.variables(), z);
@@ -181,7 +181,7 @@ Eigen::ArrayXi Attempt::active_bounds_at(const Eigen::VectorXd& z) const {
 }
 
 /// Adds the kinds of inequality that z violates to those that a solver takes into account. True if
-/// that is a new one.
+/// there is a new one.
 bool Attempt::add_violated(const Eigen::VectorXd& z) {
   const ConstraintResiduals residuals = residuals_at(z);
   const ConstraintSet before = constraints_;

@@ -7,7 +7,7 @@
 
 namespace hlc {
 
-/// A point z and what is known about it.
+/// A point z and its evaluation.
 struct Candidate {
   Eigen::VectorXd z;
   double objective{};
@@ -16,24 +16,24 @@ struct Candidate {
   std::string reason;    ///< why the solver stopped early, if it did
 };
 
-/// The way from a problem to its optimum. From each starting point:
+/// Finds the optimum of a problem. From each starting point:
 ///
-///  1. Nothing more if the first-order conditions hold already (J2).
-///  2. The quick way: a few rounds of SLSQP in the variables that no bound clearly holds, then
-///     Newton. Where there are more than 20 intervals, the solution with 20 takes SLSQP's place.
-///  3. The long way, if that does not lead to an optimum, and for free durations, g_i and bounds on
-///     costs, which Newton's method does not know: SLSQP in all variables, again from where it
-///     stopped if need be.
+///  1. Nothing more if the first-order conditions already hold (J2).
+///  2. The fast way: a few rounds of SLSQP in the variables without a clearly active bound, then
+///     Newton. With more than 20 intervals, the solution with 20 replaces SLSQP.
+///  3. The slow way, if that does not lead to an optimum, and for free durations, g_i and bounds on
+///     costs, which Newton's method does not support: SLSQP in all variables, restarted from where
+///     it stopped if necessary.
 ///
 /// Bounds on states and g_i are added to the solvers' constraints only once a result violates them.
 class Attempt {
  public:
   /// @param unit_s  duration at which the search starts
-  /// @pre the problem is feasible as far as feasibility_of knows
+  /// @pre the problem is feasible according to feasibility_of
   Attempt(const ManeuverProblem& problem, const RunningCost& cost, const SolverOptions& options,
           double unit_s);
 
-  /// The best optimum that is reached from the starting points.
+  /// The best optimum reached from the starting points.
   [[nodiscard]] Candidate solved();
 
   [[nodiscard]] const Transcription& transcription() const { return transcription_; }

@@ -6,8 +6,8 @@
 namespace hlc {
 namespace {
 
-/// Shifts the values that can go that way, evenly and not beyond -1 ... 1, so that their mean grows
-/// by `shift`, but for what the bounds take away; false if none can.
+/// Shifts the values that can move that way, evenly and not beyond -1 ... 1, so that their mean
+/// grows by `shift`, except for the part cut by the bounds; false if none can.
 template <class Values>
 bool shift_within_bounds(Values& values, double shift) {
   const auto room = [&](double value) { return shift > 0.0 ? 1.0 - value : value + 1.0; };
@@ -73,7 +73,7 @@ Eigen::VectorXd DecisionVariables::by_variables(const Eigen::VectorXd& by_input,
 
 void meet_end_condition(const Channel& channel, const DecisionVariables& variables,
                         Eigen::VectorXd& z) {
-  // Clamping takes away from the shift where a value is at its bound: shift what is left again.
+  // Clamping at a bound reduces the shift: shift the rest again.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     auto values = variables.of(channel, z);

@@ -9,7 +9,7 @@ namespace hlc {
 
 /// The variables z of the finite-dimensional problem: the inputs of all intervals, each divided by
 /// its bound, z = (u_v0 / a, u_delta0 / r, u_v1 / a, ...); then, if the duration is free, tau = T /
-/// (duration of the guess). So -1 <= z <= 1 but for tau.
+/// (duration of the guess). So -1 <= z <= 1 except for tau.
 class DecisionVariables {
  public:
   /// @param unit_s  duration at tau = 1
@@ -26,7 +26,7 @@ class DecisionVariables {
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// Bounds of u_v and u_delta: what z = 1 means.
+  /// Bounds of u_v and u_delta: the inputs at z = 1.
   [[nodiscard]] const Eigen::Vector2d& input_max() const { return input_max_; }
   [[nodiscard]] std::vector<Input> inputs(const Eigen::VectorXd& z) const;
   [[nodiscard]] Eigen::VectorXd variables(const std::vector<Input>& inputs,
@@ -44,7 +44,7 @@ class DecisionVariables {
                                                                        intervals_);
   }
 
-  /// Mean of a channel's z that the end condition asks for; |mean| <= 1 is feasible.
+  /// Mean of a channel's z that the end condition requires; |mean| <= 1 is feasible.
   [[nodiscard]] double wanted_mean(const Channel& channel, double duration_s) const {
     return channel.change() / (duration_s * channel.input_max);
   }

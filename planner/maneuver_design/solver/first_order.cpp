@@ -36,8 +36,8 @@ Eigen::Index entering_column(const Eigen::VectorXd& slope, const Eigen::VectorXd
   return entering;
 }
 
-/// Moves the multipliers to the least squares of the passive set. Where one that has a sign would
-/// lose it, it becomes 0 and leaves the set.
+/// Moves the multipliers to the least squares of the passive set. A signed multiplier that would
+/// lose its sign becomes 0 and leaves the set.
 void solve_passive_set(const Eigen::MatrixXd& columns, const Eigen::VectorXd& wanted,
                        Eigen::Index num_free, std::vector<Eigen::Index>& passive,
                        Eigen::VectorXd& multipliers) {

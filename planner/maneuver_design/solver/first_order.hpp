@@ -4,8 +4,8 @@
 
 namespace hlc {
 
-/// How far a point is from satisfying the first-order conditions of optimality (Karush, Kuhn and
-/// Tucker) of  min f(z), c_E(z) = 0, c_I(z) <= 0 :
+/// Residual of the first-order conditions of optimality (Karush, Kuhn and Tucker) of  min f(z),
+/// c_E(z) = 0, c_I(z) <= 0 :
 ///
 ///     min over lambda, mu >= 0 of  | df + C_E^T lambda + C_A^T mu |_2  /  | df |_2
 ///

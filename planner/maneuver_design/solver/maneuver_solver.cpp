@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kFirstOrderTolerance = 1e-3;  // relative to the slope of the cost
 
-/// What a point means.
+/// Status of a point.
 ManeuverSolution solution_at(const Candidate& point, const Transcription& transcription) {
   const ManeuverProblem& problem = transcription.problem();
   ManeuverSolution solution;
@@ -46,7 +46,7 @@ void value_all_criteria(const ManeuverProblem& problem, ManeuverSolution& soluti
   }
 }
 
-/// Why a solution is none; empty if it is one.
+/// Why a result is no solution; empty if it is one.
 std::string complaint(const ManeuverProblem& problem, const ManeuverSolution& solution,
                       const Candidate& point) {
   if (!point.reason.empty()) {
@@ -58,13 +58,13 @@ std::string complaint(const ManeuverProblem& problem, const ManeuverSolution& so
   if (solution.first_order_residual > kFirstOrderTolerance) {
     std::ostringstream reason;
     reason << "the solver stopped where the first-order residual is "
-           << solution.first_order_residual << ", allowed " << kFirstOrderTolerance;
+           << solution.first_order_residual << ", must be <= " << kFirstOrderTolerance;
     return reason.str();
   }
   return {};
 }
 
-/// Solves the problem; does not ask why g_i cannot be satisfied.
+/// Solves the problem; does not analyse why g_i cannot be satisfied.
 ManeuverSolution attempt(const ManeuverProblem& problem, const RunningCost& cost,
                          const SolverOptions& options) {
   HLC_DEMAND(problem.intervals >= 1 && problem.duration_s > 0.0, problem.intervals,
@@ -90,7 +90,7 @@ ManeuverSolution attempt(const ManeuverProblem& problem, const RunningCost& cost
   return solution;
 }
 
-/// The fastest maneuver that satisfies the g_i, not faster than `longest_s`; not optimal if it was
+/// The fastest maneuver that satisfies the g_i, not slower than `longest_s`; not optimal if it was
 /// not found from any of several durations.
 ManeuverSolution fastest_from(const ManeuverProblem& problem, double longest_s) {
   SolverOptions from_constant;
@@ -109,8 +109,8 @@ ManeuverSolution fastest_from(const ManeuverProblem& problem, double longest_s) 
   return found;
 }
 
-/// Asks, for a problem whose g_i the solver could not satisfy, how long they need. Makes the
-/// solution an infeasible one if that is longer than allowed.
+/// For a problem whose g_i the solver could not satisfy, determines the duration that they need.
+/// Makes the solution an infeasible one if that exceeds the bound.
 void explain_path_violation(const ManeuverProblem& problem, ManeuverSolution& solution) {
   const double longest_s =
       problem.free_duration ? problem.free_duration->max_s : problem.duration_s;
@@ -148,8 +148,8 @@ void try_again_from_least_effort(const ManeuverProblem& problem, const RunningCo
   }
 }
 
-/// The least of what `bound` bounds, under the other bounds that `problem` has, if it is more than
-/// allowed: then an infeasible solution, with the reason.
+/// The minimum of the cost in `bound`, under the other bounds of `problem`, if it exceeds the
+/// bound: then an infeasible solution, with the reason.
 std::optional<ManeuverSolution> broken_bound(const ManeuverProblem& problem,
                                              const CostBound& bound) {
   const ManeuverSolution least = attempt(problem, *bound.cost, {});
@@ -165,9 +165,9 @@ std::optional<ManeuverSolution> broken_bound(const ManeuverProblem& problem,
   return none;
 }
 
-/// Asks, for a problem whose bounds on other costs the solver could not keep, how low those costs
-/// can be: each alone, then each under the bounds before it. Makes the solution an infeasible one
-/// if that is higher than allowed.
+/// For a problem whose bounds on other costs the solver could not keep, determines how low those
+/// costs can be: each alone, then each under the bounds before it. Makes the solution an infeasible
+/// one if that exceeds a bound.
 void explain_cost_bound(const ManeuverProblem& problem, ManeuverSolution& solution) {
   const auto is_broken_under_first = [&](std::size_t others, const CostBound& bound) {
     ManeuverProblem bounded = problem;

@@ -11,7 +11,7 @@
 
 namespace hlc {
 
-/// Where the search for an optimum starts.
+/// Starting point of the search for an optimum.
 enum class Guess {
   kBest,  ///< the cheapest of 15 courses: speed and steering each as linear ramp, as high as
           ///< the bounds allow at every time, as low, and steering high, then low, and vice versa
@@ -40,9 +40,9 @@ enum class ManeuverStatus {
 struct ManeuverSolution {
   ManeuverStatus status{ManeuverStatus::kNotConverged};
   std::string reason;  ///< empty if kOptimal; names the bound that is violated if kInfeasible
-  /// Shortest duration in which the inputs' bounds allow the change of speed and steering [s];
+  /// Shortest duration in which the inputs' bounds permit the change of speed and steering [s];
   /// infinite if a trim itself lies outside the bounds on states or violates a g_i. If a g_i makes
-  /// the pair infeasible, it is the shortest one that was found with it.
+  /// the pair infeasible, it is the shortest one found with it.
   double shortest_duration_s{std::numeric_limits<double>::infinity()};
   std::vector<Input> inputs;             ///< N; empty if kInfeasible
   std::vector<State> states;             ///< N + 1; empty if kInfeasible
@@ -56,19 +56,20 @@ struct ManeuverSolution {
   int evaluations{};  ///< of the cost
 };
 
-/// Solves the problem: NLopt's SLSQP (sequential quadratic programming) finds the way, Newton's
+/// Solves the problem: NLopt's SLSQP (sequential quadratic programming) finds the region, Newton's
 /// method the last digits; see attempt.hpp. The same problem gives the same bits.
 ///
 /// **Tie-break.** J1 is so flat in the steering that inputs whose J1 differs by 1e-6 end
-/// millimetres apart. What is minimised is therefore J / |J at the start| + tie_break mean(z^2), z
-/// the inputs divided by their bounds: of equally good maneuvers the one of least effort. The
-/// second term is at most `tie_break`, so J is within tie_break |J| of its optimum (1e-6; measured
-/// 1e-9 for J1, nothing for J2 and J3), and mirrored trims get mirrored maneuvers to about 1e-12.
-/// `cost` is J alone.
+/// millimetres apart. The minimised objective is therefore J / |J at the start| + tie_break
+/// mean(z^2), z the inputs divided by their bounds: of equally good maneuvers the one of least
+/// effort. The second term is at most `tie_break`, so J is within tie_break |J| of its optimum
+/// (1e-6; measured 1e-9 for J1, nothing for J2 and J3), and mirrored trims get mirrored maneuvers
+/// to about 1e-12. `cost` is J alone.
 ///
-/// A local optimum is found, not surely the best one; for the criteria but stopping_distance random
-/// starts have found no better one (multi_start_test.cpp). Stopping_distance is tried from all 15
-/// courses of Guess::kBest, and has been found up to 1e-3 from better ones.
+/// The result is a local optimum, not certainly the global one; for the criteria except
+/// stopping_distance random starts have found no better one (multi_start_test.cpp).
+/// Stopping_distance is tried from all 15 courses of Guess::kBest, and has been found up to 1e-3
+/// from better ones.
 ///
 /// @pre intervals >= 1, duration_s > 0; options.start empty or of N inputs
 [[nodiscard]] ManeuverSolution solve(const ManeuverProblem& problem, const RunningCost& cost,

@@ -22,12 +22,12 @@ QuadraticProblem model_at(const Transcription& transcription, const ConstraintSe
   model.gradient = gradient(free);
   model.equalities = transcription.end_conditions(z).jacobian(Eigen::all, free);
   model.rows = bounds.jacobian(Eigen::all, free);
-  // Closer than this to a constraint is at it.
+  // A point closer than this to a constraint is at it.
   constexpr double kNoRoom = 1e-12;
-  const auto settled = [](double room) { return room < kNoRoom ? 0.0 : room; };
-  model.room = (-bounds.value).unaryExpr(settled);
-  model.upper = (variables.upper() - z)(free).unaryExpr(settled);
-  model.lower = -(z - variables.lower())(free).unaryExpr(settled);
+  const auto clamped = [](double room) { return room < kNoRoom ? 0.0 : room; };
+  model.room = (-bounds.value).unaryExpr(clamped);
+  model.upper = (variables.upper() - z)(free).unaryExpr(clamped);
+  model.lower = -(z - variables.lower())(free).unaryExpr(clamped);
   return model;
 }
 
@@ -69,7 +69,7 @@ NewtonResult newton(const Transcription& transcription, const ConstraintSet& con
     const double promised = -model.gradient.dot(part) - 0.5 * part.dot(model.hessian * part);
     if (part.size() == 0 || part.lpNorm<Eigen::Infinity>() < kSmallStep || promised < kSmallGain) {
       result.converged = true;
-      // The last step is worth taking where it is one: it costs nothing and doubles the digits.
+      // A last step is always taken if there is one: it costs nothing and doubles the digits.
       if (part.size() > 0 && part.lpNorm<Eigen::Infinity>() < 1e-4) {
         Eigen::VectorXd step = Eigen::VectorXd::Zero(result.z.size());
         step(free) = part;

@@ -22,7 +22,7 @@ void add_active(const ConstraintValues& constraints, double within,
 
 double first_order_residual_at(const Transcription& transcription, const Eigen::VectorXd& z,
                                const Eigen::VectorXd& gradient) {
-  // Where J is least with the value 0, its slope is rounding.
+  // If the least J has the value 0, its slope is rounding.
   constexpr double kNoSlope = 1e-13;
   if (gradient.norm() < kNoSlope) {
     return 0.0;

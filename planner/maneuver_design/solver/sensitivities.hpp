@@ -11,9 +11,9 @@ namespace hlc {
 ///
 /// Element k is dx_k/d(u_0, ..., u_{N-1}, T), 5 x (2 N + 1): columns 2 i and 2 i + 1 belong to
 /// (u_v, u_delta) of interval i, the last one to T. Exact for the Runge-Kutta steps of `shoot`, by
-/// carrying the derivative forwards through every stage.
+/// propagating the derivative forwards through every stage.
 ///
-/// @pre states are those that `shoot` gives for these inputs
+/// @pre states are the result of `shoot` for these inputs
 [[nodiscard]] std::vector<Eigen::Matrix<double, 5, Eigen::Dynamic>> sensitivities(
     const std::vector<State>& states, const std::vector<Input>& inputs, double duration_s,
     const VehicleParameters& vehicle);

@@ -72,7 +72,7 @@ SlsqpResult run_slsqp(const Transcription& transcription, const ConstraintSet& c
   slsqp.set_min_objective(objective, &context);
   const ConstraintValues ends = transcription.end_conditions(first);
   for (Context* const end : {&speed_end, &steering_end}) {
-    // Without a variable to meet it, it holds already, and would only make the matrix singular.
+    // An end condition without a variable already holds, and would only make the matrix singular.
     if ((ends.jacobian.row(end->end).transpose().array() != 0.0 && active_bounds == 0).any()) {
       slsqp.add_equality_constraint(end_condition, end, kEndTolerance);
     }

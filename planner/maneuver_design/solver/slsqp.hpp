@@ -19,8 +19,8 @@ struct SlsqpResult {
 
 /// One run of NLopt's SLSQP (sequential quadratic programming) on a transcribed problem, with the
 /// end conditions and the inequalities that `constraints` names. Variables whose element of
-/// `active_bounds` is not 0 stay where they are in `start`: NLopt takes them out of the problem,
-/// and the time of an iteration falls with the third power of the rest.
+/// `active_bounds` is not 0 keep their value in `start`: NLopt removes them from the problem, and
+/// the time of an iteration falls with the third power of the number of the others.
 [[nodiscard]] SlsqpResult run_slsqp(const Transcription& transcription,
                                     const ConstraintSet& constraints, const Eigen::VectorXd& start,
                                     const Eigen::ArrayXi& active_bounds,

@@ -7,11 +7,11 @@
 namespace hlc {
 namespace {
 
-/// How a channel's state gets from one end to the other.
+/// Course of a channel's state from one end to the other.
 enum class Course { kRamp, kHigh, kLow, kHighLow, kLowHigh };
 
 /// Writes the scaled inputs that take the state from `from` to `to` by the highest states that the
-/// bounds allow (as fast as possible up to the bound, as late as possible down from it), or, with
+/// bounds permit (as fast as possible up to the bound, as late as possible down from it), or, with
 /// sign -1, by the lowest.
 void write_extreme(double sign, double from, double to, const Channel& channel, double per_unit,
                    Eigen::Ref<Eigen::VectorXd> z) {
@@ -22,7 +22,7 @@ void write_extreme(double sign, double from, double to, const Channel& channel, 
     const double left = sign * to + per_unit * static_cast<double>(z.size() - k - 1);
     const double after = k + 1 < z.size() ? std::min({reached, left, bound}) : sign * to;
     z(k) = std::clamp(sign * (after - before) / per_unit, -1.0, 1.0);
-    // Full input is full input: no last bits that would leave its bound open.
+    // Full input exactly, so that rounding does not leave its bound inactive.
     constexpr double kRounding = 1e-12;
     if (std::abs(z(k)) > 1.0 - kRounding) {
       z(k) = z(k) > 0.0 ? 1.0 : -1.0;

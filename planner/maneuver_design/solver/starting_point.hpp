@@ -7,17 +7,17 @@
 
 namespace hlc {
 
-/// Duration at which the search starts: the given one, or, if it is free, the nearest to it that is
-/// allowed and long enough.
+/// Duration at which the search starts: the given one, or, if it is free, the nearest duration
+/// within the bounds that is long enough.
 [[nodiscard]] double guessed_duration_s(const ManeuverProblem& problem, double shortest_duration_s);
 
-/// Where the search starts: `options.start`, or the guess; for a cost with many local optima every
-/// course of Guess::kBest, cheapest first. All guesses meet the end conditions; all but kBangBang
-/// keep the bounds on states.
+/// Starting points of the search: `options.start`, or the guess; for a cost with many local optima
+/// every course of Guess::kBest, cheapest first. All guesses meet the end conditions; all except
+/// kBangBang keep the bounds on states.
 [[nodiscard]] std::vector<Eigen::VectorXd> starting_points(const Transcription& transcription,
                                                            const SolverOptions& options);
 
-/// The same inputs over time on another number of intervals: each new one takes the mean over its
+/// The same inputs over time on another number of intervals: each new one is the mean over its
 /// time. Keeps the ends and the bounds on states.
 [[nodiscard]] std::vector<Input> resampled(const std::vector<Input>& inputs, std::size_t intervals);
 

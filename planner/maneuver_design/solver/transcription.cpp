@@ -8,7 +8,7 @@
 namespace hlc {
 namespace {
 
-/// Value of a cost at z, and its derivatives by z if asked for.
+/// Value of a cost at z, and its derivatives by z if `gradient` is not null.
 double value_of(const RunningCost& cost, const ManeuverProblem& problem,
                 const DecisionVariables& variables, const Eigen::VectorXd& z,
                 Eigen::VectorXd* gradient) {

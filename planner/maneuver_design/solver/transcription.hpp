@@ -14,7 +14,7 @@ struct ConstraintValues {
   Jacobian jacobian;  ///< (number of constraints) x (size of z)
 };
 
-/// Which kinds of inequality a solver takes into account. Most maneuvers need none of them.
+/// Kinds of inequality that a solver takes into account. Most maneuvers need none of them.
 struct ConstraintSet {
   bool speed{};        ///< bounds on the speed at the inner interval bounds
   bool steering{};     ///< the same for the steering
@@ -30,7 +30,7 @@ struct ConstraintSet {
 ///     f(z) = J / unit + tie_break mean_i(z_i^2)
 ///
 /// `unit` is the size of J, because SLSQP takes a raw cost of 1e-3 for converged at once. The
-/// second term is the effort in scaled inputs, at most 1: it decides where J does not.
+/// second term is the effort in scaled inputs, at most 1: it decides between equal J.
 ///
 /// Keeps references to the problem and the cost.
 class Transcription {
@@ -47,8 +47,8 @@ class Transcription {
   /// f, and df if `gradient` is not null.
   double objective(const Eigen::VectorXd& z, Eigen::VectorXd* gradient) const;
   /// Second derivatives of f by those variables (in order, all of them inputs): central differences
-  /// of the exact gradient. An input changes only what comes after it, so each column is a shot
-  /// over the rest of the maneuver, and the other half follows by symmetry.
+  /// of the exact gradient. An input affects only the rest of the maneuver, so each column is a
+  /// shot over that rest, and the other half follows by symmetry.
   [[nodiscard]] Eigen::MatrixXd hessian(const Eigen::VectorXd& z,
                                         const std::vector<Eigen::Index>& variables) const;
   /// J, and dJ/dz.

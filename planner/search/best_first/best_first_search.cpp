@@ -3,20 +3,19 @@
 #include <ompl/datastructures/BinaryHeap.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc {
 namespace {
 
-/// Expansions between two questions to the stop condition.
+/// Expansions between two checks of the stop condition.
 constexpr std::size_t kStopInterval = 64;
 
-/// Programmer's mistakes only; see the preconditions in the header.
-[[maybe_unused]] bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable,
-                                     CostToGo kind) {
+/// For programmer's mistakes only; see the preconditions in the header.
+bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable, CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
                             (!needs_reference_speeds(kind) && problem.reference_speed_mps.empty());
@@ -42,7 +41,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
       costs_(subgraph, options.criterion_weights, reachable.max_steps()),
       steps_(subgraph.automaton().trims.size()) {
   const UniversalAutomaton& automaton = subgraph.automaton();
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (const Edge& edge : subgraph.successors(trim)) {
       steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
                                     subgraph.distance_to_standstill(edge.to),
@@ -55,7 +54,7 @@ BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& 
 
 void BestFirstSearch::search(const HorizonProblem& problem, const std::function<bool()>& stop,
                              SearchResult& result) {
-  assert(is_well_formed(problem, reachable_, options_.cost_to_go));
+  HLC_DEMAND(is_well_formed(problem, reachable_, options_.cost_to_go));
   const std::size_t n = problem.horizon_steps();
 
   reset(result);
@@ -79,11 +78,11 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       end_at_goal(taken.vertex, problem, has_incumbent, result);
       break;
     }
-    const bool is_told_to_stop = result.expanded % kStopInterval == 0 && stop();
-    if (result.expanded == options_.max_expansions || is_told_to_stop) {
+    const bool is_stop_requested = result.expanded % kStopInterval == 0 && stop();
+    if (result.expanded == options_.max_expansions || is_stop_requested) {
       // Every other entry of the open list has no smaller f.
       const double open_cost = taken.cost_estimate + static_cast<double>(n) * costs_.least();
-      give_up(has_incumbent, lower_bound(open_cost, problem), result);
+      stop_early(has_incumbent, lower_bound(open_cost, problem), result);
       break;
     }
     expand(taken.vertex, problem, cost_to_go, open);
@@ -104,7 +103,7 @@ void BestFirstSearch::end_at_goal(VertexId goal, const HorizonProblem& problem, 
   result.reason = NoPath::kNone;
 }
 
-/// What every path costs at least, if by the cost-to-go it is `estimate`.
+/// Least cost of any path, given its `estimate` by the cost-to-go.
 double BestFirstSearch::lower_bound(double estimate, const HorizonProblem& problem) const {
   if (is_admissible(options_.cost_to_go)) return estimate;
   return least_cost_of_problem(subgraph_, reachable_, costs_, problem);

@@ -23,30 +23,31 @@ namespace hlc {
 ///
 /// (and is not near the steering limit, if the problem avoids that), so every vertex of depth n
 /// stands. The open list is ordered by f = g + h (cost-to-come + cost-to-go), then deeper first,
-/// then in the order of generation; hence two searches of one problem agree in everything. What the
-/// maneuvers cost themselves (EdgeCosts) belongs to g, its least for the rest of the path to h.
+/// then in the order of generation; hence two searches of one problem agree in everything. The
+/// maneuvers' own costs (EdgeCosts) belong to g, their least sum over the rest of the path to h.
 ///
 /// Collision checks are lazy: the edge into a vertex is checked when the vertex is taken from the
 /// open list, and the vertex is dropped if the edge is not free. The root has no such edge and is
-/// not checked: where the vehicle is, it is.
+/// not checked: its pose is given.
 ///
-/// The first vertex of depth n that is taken and free ends the search. Its path costs least if h is
-/// admissible (all but `CostToGo::kReferenceSpeed`): every other path still has a vertex in the
-/// open list whose f, a lower bound of that path's cost, is not smaller.
+/// The first free vertex of depth n taken from the open list ends the search. Its path costs least
+/// if h is admissible (all except `CostToGo::kReferenceSpeed`): every other path still has a vertex
+/// in the open list whose f, a lower bound of that path's cost, is not smaller.
 ///
-/// The incumbent changes no count. It is the answer if the search gives up; the least f in the open
-/// list then bounds the cost of every path from below (with kReferenceSpeed:
+/// The incumbent changes no count. It is the result if the search stops early; the least f in the
+/// open list then bounds the cost of every path from below (with kReferenceSpeed:
 /// least_cost_of_problem).
 ///
-/// Counts: `generated` are all vertices made, with the root and with children never looked at
-/// again; `expanded` are those whose children were made, so neither dropped vertices nor the goal.
+/// Counts: `generated` are all vertices made, including the root and children that are never
+/// checked; `expanded` are those whose children were made, so neither dropped vertices nor the
+/// goal.
 class BestFirstSearch final : public SearchEngine {
  public:
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
   BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
   using SearchEngine::search;
 
-  /// A trim that is off may start with its exit edges (Subgraph); without any there is no path.
+  /// A disabled trim may start with its exit edges (Subgraph); without any there is no path.
   /// @pre the start is finite, horizon_steps() <= reachable.max_steps(),
   ///      obstacles_m.size() is 0 or n, reference_speed_mps.size() is n (unless `kReferenceSpeed`:
   ///      or 0)
@@ -56,7 +57,7 @@ class BestFirstSearch final : public SearchEngine {
  private:
   using VertexId = std::uint32_t;
 
-  /// An edge of the subgraph with what the search needs of it.
+  /// An edge of the subgraph with the data that the search needs.
   struct Step {
     const Maneuver* maneuver;
     Frame displacement;

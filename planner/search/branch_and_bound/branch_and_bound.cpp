@@ -1,18 +1,18 @@
 #include "planner/search/branch_and_bound/branch_and_bound.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/branch_and_bound/data.hpp"
+#include "planner/search/branch_and_bound/prepared_obstacles.hpp"
 #include "planner/search/branch_and_bound/tables.hpp"
 #include "planner/search/collision.hpp"
 #include "planner/search/cost_to_go.hpp"
-#include "planner/search/prepared_obstacles.hpp"
 #include "planner/search/search_tables.hpp"
 
 namespace hlc {
@@ -30,7 +30,7 @@ using branch_and_bound::VertexData;
 
 using Instructions = BranchAndBound::Instructions;
 
-/// The last of those up to `most` that the processor has.
+/// The most advanced instruction set up to `most` that the processor has.
 Instructions available(Instructions most) {
 #ifdef HLC_AVX_KERNELS
   const bool has_avx2 = __builtin_cpu_supports("avx2");
@@ -77,7 +77,7 @@ class BranchAndBound::Core {
         instructions(available(most)),
         kernel(kernel_of(instructions)) {
     std::size_t most_corners = 0;
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       for (const Edge& edge : subgraph.successors(trim)) {
         most_corners = std::max({most_corners, edge.maneuver->swept_area_m.vertices_m.size(),
                                  edge.maneuver->lane_area_m.vertices_m.size()});
@@ -115,7 +115,8 @@ class BranchAndBound::Core {
         path[k].keys = &keys_[k * tables.most_edges()];
       }
     }
-    // As far as reference points may be from the start, if places seen from a vertex are to count.
+    // Largest distance of reference points from the start for which coordinates seen from a vertex
+    // are used.
     const double far_m = tables.counted_m() - static_cast<double>(n) * tables.longest_m();
     const double squared_far_m2 = far_m > 0.0 ? far_m * far_m : -1.0;
     plan.is_far = false;
@@ -147,7 +148,7 @@ class BranchAndBound::Core {
     search.best_y = best_y.data();
     search.generated = 1;
     search.expanded = 0;
-    search.gave_up = false;
+    search.stopped_early = false;
     search.lower_bound = 0.0;
 
     const Frame start = to_frame(problem.start);
@@ -166,7 +167,7 @@ class BranchAndBound::Core {
     kernel.prepare(plan, path[0]);
   }
 
-  /// The test of CollisionCheck, where the kernel's is too close to call.
+  /// The test of CollisionCheck, for cases that are too close for the kernel.
   [[nodiscard]] bool decides(const Question& question) const {
     const Maneuver& maneuver = *tables.maneuver(question.edge);
     const Frame start = frame_of(*question.vertex);
@@ -226,9 +227,11 @@ BranchAndBound::~BranchAndBound() = default;
 void BranchAndBound::search(const HorizonProblem& problem, const std::function<bool()>& stop,
                             SearchResult& result) {
   const std::size_t n = problem.horizon_steps();
-  assert(n <= reachable_.max_steps());
-  assert(problem.obstacles_m.empty() || problem.obstacles_m.size() == n);
-  assert(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad));
+  HLC_DEMAND(n <= reachable_.max_steps(), n, reachable_.max_steps());
+  HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == n,
+             problem.obstacles_m.size(), n);
+  HLC_DEMAND(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad),
+             problem.start.x_m, problem.start.y_m, problem.start.heading_rad);
 
   reset(result);
   result.generated = 1;
@@ -249,15 +252,15 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
   result.expanded = search.expanded;
   const bool has_path = search.best_cost < kNoPath;
   if (has_path) write_best(problem, result);
-  if (search.gave_up) {
-    // Keys stand for f but for their last bits, which number the children.
+  if (search.stopped_early) {
+    // Keys equal f except for their last bits, which number the children.
     constexpr double kLastBit = std::numeric_limits<double>::epsilon();
     search.lower_bound *= 1.0 - kLastBit * static_cast<double>(core_->tables.view().index_mask + 1);
     const EdgeCosts& costs = core_->costs;
     const double of_open = search.lower_bound + static_cast<double>(n) * costs.least();
-    // The start's own bound is tighter than that of some of its children, now and then.
+    // The start's own bound is sometimes tighter than that of some of its children.
     const double of_start = least_cost_of_problem(subgraph_, reachable_, costs, problem);
-    give_up(has_path, std::max(of_open, of_start), result);
+    stop_early(has_path, std::max(of_open, of_start), result);
   } else if (has_path) {
     result.status = SearchStatus::kOptimal;
     result.reason = NoPath::kNone;
@@ -325,7 +328,7 @@ bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const F
   put(vertex, start);
   vertex.trim = static_cast<std::uint32_t>(maneuver.from.index);
   const std::uint32_t edge = core_->tables.find(maneuver.from, &maneuver);
-  assert(edge != TableStore::kNoEdge);
+  HLC_DEMAND(edge != TableStore::kNoEdge, maneuver.from.index, maneuver.to.index);
   return core_->kernel.is_free(core_->search, edge, step, vertex);
 }
 

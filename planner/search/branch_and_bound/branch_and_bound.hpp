@@ -16,14 +16,14 @@ struct SearchTables;
 
 /// The fast engine: depth-first branch and bound over the same tree as BestFirstSearch.
 ///
-/// Only the path that is being tried is kept. The children of its last vertex are tried in the
-/// order of f = g + h, those first generated first among equals; a child is left out as soon as its
-/// f is no less than the cost of the best complete path so far, or its edge is not free. When
-/// nothing is left, the best path is a path of least cost: every path through a child that was left
-/// out costs at least its f, hence no less, or is not free.
+/// Only the current path is kept. The children of its last vertex are tried in the order of f = g +
+/// h, those generated first among equals; a child is pruned as soon as its f is no less than the
+/// cost of the best complete path so far, or its edge is not free. When nothing is left, the best
+/// path is a path of least cost: every path through a pruned child costs at least its f, hence no
+/// less, or is not free.
 ///
-/// **Bound.** As CostToGo::kReachable, but seen from the parent, so that what depends on the vertex
-/// alone is computed once for all its children. For the edge t -> u with displacement T, with m
+/// **Bound.** As CostToGo::kReachable, but seen from the parent, so that the terms of the vertex
+/// alone are computed once for all its children. For the edge t -> u with displacement T, with m
 /// steps left after it,
 ///
 ///     h = sum_{i=1}^{m} e_i^2,   e_i = max(0, max_a (| n_a q_i - c_a | - w_a))
@@ -40,37 +40,37 @@ struct SearchTables;
 /// vertex, they are compared one by one, in double precision, with the corners that the half-planes
 /// of neighbouring axes make, too (TableStore::compute_bounds).
 ///
-/// To f belongs what the maneuvers cost themselves (EdgeCosts), and to h the least that those after
-/// the edge can cost, whatever they do.
+/// f includes the maneuvers' own costs (EdgeCosts), and h the least possible sum of those after the
+/// edge.
 ///
-/// **Collision.** The answers are those of CollisionCheck. What no edge of a plan can meet in a
-/// step is left out once per plan (PreparedObstacles). Of the rest, what comes near a rectangle
+/// **Collision.** The results are those of CollisionCheck. Obstacles that no edge of a plan can
+/// meet in a step are dropped once per plan (PreparedObstacles). The rest that is near a rectangle
 /// around all edges out of a vertex is moved into the vertex' frame, once for all its children; an
-/// obstacle around the vertex itself forbids them all. A child that is tried is compared with these
+/// obstacle around the vertex itself blocks them all. A child that is tried is compared with these
 /// by a separating-axis test in single precision, eight edges at a time, unless two areas touch to
-/// within its rounding: there by the very test of CollisionCheck. Polygons of more than eight
+/// within its rounding: then by the test of CollisionCheck itself. Polygons of more than eight
 /// corners are compared piece by piece. Boundaries have rectangles around eight segments in a row.
 ///
 /// **Work.** `search` allocates nothing if the problem is no larger (steps, obstacles and their
-/// corners, boundary) than one before and `result` is reused. Per vertex there is no trigonometry,
-/// no virtual call and no allocation. The inner loop (kernel.hpp) exists for any
-/// processor, for AVX2 and for AVX-512; the processor chooses, and all give the same bits.
+/// corners, boundary) than an earlier one and `result` is reused. Per vertex there is no
+/// trigonometry, no virtual call and no allocation. The inner loop (kernel.hpp) exists for any
+/// processor, for AVX2 and for AVX-512; the processor decides, and all give the same bits.
 ///
-/// Children whose f differ in the last bits only, of which a child's number takes as many as it
-/// needs, count as equal: a best path may cost 2^-52 times the number of a trim's edges, relative
-/// to itself, more than another.
+/// Children whose f differ in the last bits only, as many as a child's number needs, count as
+/// equal: a best path may cost 2^-52 times the number of a trim's edges, relative to itself, more
+/// than another.
 ///
-/// Counts: `generated` are the root and all children whose f was computed; `expanded` the vertices
-/// they were computed for.
+/// Counts: `generated` are the root and all children whose f was computed; `expanded` their
+/// parents.
 class BranchAndBound final : public SearchEngine {
  public:
-  /// Of those that a processor has the last one is the fastest.
+  /// In ascending order of speed.
   enum class Instructions { kPortable, kAvx2, kAvx512 };
 
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph` and
   /// has at most 80 steps
-  /// @param most  the last that may be used, if the processor has them
-  /// @param tables  of this subgraph, these sets and options; none: it makes its own
+  /// @param most  the most advanced set that may be used, if the processor has it
+  /// @param tables  of this subgraph, these sets and options; none: the engine makes its own
   /// @throws std::invalid_argument unless options.cost_to_go is kReachable
   BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options,
                  Instructions most = Instructions::kAvx512,
@@ -78,25 +78,26 @@ class BranchAndBound final : public SearchEngine {
   ~BranchAndBound() override;
   using SearchEngine::search;
 
-  /// A trim that is off may start with its exit edges (Subgraph); without any there is no path.
+  /// A disabled trim may start with its exit edges (Subgraph); without any there is no path.
   /// @pre as BestFirstSearch::search
   void search(const HorizonProblem& problem, const std::function<bool()>& stop,
               SearchResult& result) override;
 
-  /// What this processor allows of it.
+  /// The instruction set in use.
   [[nodiscard]] Instructions instructions() const;
 
-  /// f of every edge out of the start, in the order of Subgraph::successors(start_trim), as the
-  /// search sees it, without n EdgeCosts::least(); infinite for those that recursive feasibility or
-  /// `avoids_steering_limit` forbids. @pre as `search`, with a horizon of at least one step
+  /// f of every edge out of the start, in the order of Subgraph::successors(start_trim), as in the
+  /// search, without n EdgeCosts::least(); infinite for edges excluded by recursive feasibility or
+  /// `avoids_steering_limit`. @pre as `search`, with a horizon of at least one step
   [[nodiscard]] std::vector<double> estimates(const HorizonProblem& problem);
 
-  /// Prepares the obstacles and the boundary of a problem, for `is_free`; `search` does it itself.
+  /// Prepares the obstacles and the boundary of a problem, for `is_free`; `search` does so itself.
   /// @pre as `estimates`
-  /// @param problem  must stay as it is while `is_free` is asked
+  /// @param problem  must stay unchanged while `is_free` is called
   void prepare(const HorizonProblem& problem);
   /// As CollisionCheck::is_free, for the problem prepared last.
-  /// @pre `maneuver` is an edge of the subgraph out of one of its `starts`; 1 <= step <= horizon
+  /// @pre `maneuver` is an edge of the subgraph out of one of its `start_trims`; 1 <= step <=
+  /// horizon
   [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
 
  private:

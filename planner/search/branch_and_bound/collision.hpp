@@ -1,13 +1,13 @@
 // The collision test of BranchAndBound's inner loop: separating axes in single precision, eight
-// obstacles, edges or boundary segments at a time. Long-winded for speed; compiled as often as
+// obstacles, edges or boundary segments at a time. Verbose for speed; compiled as often as
 // kernel.hpp, and for the same reason self-contained.
 //
 // Obstacles and boundary are prepared relative to the plan's start, where coordinates are small.
 // Obstacles are compared in the frame of the vertex, where the largest coordinate is at most twice
 // that relative to the start, S. Each step of the computation rounds by half a unit in the last
 // place, 2^-24 of a coordinate, or twice that after a rotation; from corners, normals, boxes and
-// placements to a distance they add up to less than 64 times 2^-24 S. The tolerance is 2^-18 S.
-// What is apart or overlaps by more is certain; what is between is asked of Search::decides.
+// placements to a distance they add up to less than 64 times 2^-24 S. The tolerance is 2^-18 S. A
+// larger distance or overlap is certain; in between Search::decides is called.
 #pragma once
 
 #include "planner/search/branch_and_bound/data.hpp"
@@ -61,7 +61,7 @@ HLC_INLINE Floats beyond_edges(const PolygonBlock& polygon, const PolygonBlock& 
 
 enum class Answer { kApart, kMeet, kTooClose };
 
-/// Do two polygons meet? A separating-axis test.
+/// Whether two polygons meet: a separating-axis test.
 HLC_INLINE Answer compare(const PolygonBlock& a, const PolygonBlock& b, const Floats& tolerance) {
   const Floats beyond_a = beyond_edges(a, b);
   if (lanes_less(tolerance, beyond_a) != 0) return Answer::kApart;
@@ -71,7 +71,7 @@ HLC_INLINE Answer compare(const PolygonBlock& a, const PolygonBlock& b, const Fl
   return lanes_less(most_apart, inside) == kEveryLane ? Answer::kMeet : Answer::kTooClose;
 }
 
-/// Makes those of eight obstacles ready that are near and not ready yet.
+/// Prepares those of eight obstacles that are near and not prepared yet.
 HLC_INLINE void make_ready(const Plan& plan, std::uint32_t first, std::uint32_t near) {
   BoxesBlock& boxes = plan.obstacle_boxes[first / kFloatLanes];
   std::uint32_t fresh = near & ~boxes.is_ready;
@@ -82,8 +82,8 @@ HLC_INLINE void make_ready(const Plan& plan, std::uint32_t first, std::uint32_t 
   }
 }
 
-/// Lists the obstacles of a step that what is around all edges out of a vertex does not surely
-/// miss, seen from the vertex. False if one is around the vertex itself, so that all edges meet it.
+/// Lists the obstacles of a step that the surroundings of all edges out of a vertex may meet, seen
+/// from the vertex. False if one is around the vertex itself, so that all edges meet it.
 HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& vertex) {
   const Plan& plan = *search.plan;
   vertex.num_near = 0;
@@ -117,7 +117,7 @@ HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& 
     const Floats own_apart = larger(
         absolute(dx * along_x + dy * along_y) - (half_along + (part_x * half_x + part_y * half_y)),
         absolute(dy * along_x - dx * along_y) - (half_aside + (part_y * half_x + part_x * half_y)));
-    // What is not surely apart, so that a distance that is no number is looked at.
+    // Not certainly apart, so that NaN distances are checked.
     const std::uint32_t are_there = last - first < kFloatLanes ? (1U << (last - first)) - 1 : 0xff;
     std::uint32_t near = are_there & ~lanes_less(tolerance, larger(own_apart, apart));
     if (near == 0) continue;
@@ -133,7 +133,7 @@ HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& 
   return true;
 }
 
-/// Does the edge to a child keep off the obstacles near its vertex?
+/// Whether the edge to a child keeps clear of the obstacles near its vertex.
 HLC_INLINE bool keeps_off_obstacles(const Search& search, std::uint32_t edge,
                                     const VertexData& vertex) {
   const std::uint32_t num_near = vertex.num_near;
@@ -154,7 +154,7 @@ HLC_INLINE bool keeps_off_obstacles(const Search& search, std::uint32_t edge,
   return true;
 }
 
-/// Eight segments in a row against an area, seen from its vertex.
+/// Eight consecutive segments against an area, seen from its vertex.
 HLC_INLINE bool meets_block(const Search& search, std::uint32_t edge, const LaneArea& area,
                             std::uint32_t number, const Placement& at, const VertexData& vertex) {
   const Plan& plan = *search.plan;
@@ -232,7 +232,7 @@ bool meets_segment(const Search& search, std::uint32_t edge, const Placement& at
   const Floats half_x = all(area.half_x + plan.tolerance);
   const Floats half_y = all(area.half_y + plan.tolerance);
   for (std::uint32_t i = 0; i < plan.num_blocks; i += kFloatLanes) {
-    // How far the boxes of eight rectangles, in the area's frame, are from that of the area.
+    // Distance of the boxes of eight rectangles, in the area's frame, from that of the area.
     const SegmentRectanglesBlock& rectangles = plan.segment_rectangles[i / kFloatLanes];
     const Floats dx = load(rectangles.x) - at.x;
     const Floats dy = load(rectangles.y) - at.y;
@@ -252,7 +252,7 @@ bool meets_segment(const Search& search, std::uint32_t edge, const Placement& at
   return false;
 }
 
-/// Is the edge to a child of a vertex free? @pre the obstacles near the vertex are listed
+/// Whether the edge to a child of a vertex is free. @pre the obstacles near the vertex are listed
 HLC_INLINE bool is_free(const Search& search, std::uint32_t edge, const VertexData& vertex) {
   if (!keeps_off_obstacles(search, edge, vertex)) return false;
   const Plan& plan = *search.plan;

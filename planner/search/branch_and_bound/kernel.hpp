@@ -1,13 +1,12 @@
-// The inner loop of BranchAndBound. It is long-winded for speed: four children at a time, their
-// bounds for four steps at a time, branches where they are foreseeable. Like its preparation,
-// collision test and vectors (files of their own) it shares nothing with other files but the plain
-// data of data.hpp. It is compiled three times, for any processor
-// (portable.cpp), with AVX2 (branch_and_bound_avx2.cpp) and with AVX-512
-// (avx512.cpp); only these include it. The same operations in the same order, no
+// The inner loop of BranchAndBound. It is verbose for speed: four children at a time, their bounds
+// for four steps at a time, branches where they are predictable. Like its preparation, collision
+// test and vectors (separate files) it shares nothing with other files except the plain data of
+// data.hpp. It is compiled three times, for any processor (portable.cpp), with AVX2 (avx2.cpp) and
+// with AVX-512 (avx512.cpp); only these include it. The same operations in the same order, no
 // contraction: all give the same bits. No function here may be visible outside, and none from
 // elsewhere be used, or the linker could mix them.
 //
-// What it computes is said in branch_and_bound.hpp.
+// The algorithm is specified in branch_and_bound.hpp.
 #pragma once
 
 #include "planner/search/branch_and_bound/collision.hpp"
@@ -18,7 +17,7 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-/// The last numbers of 16 bits.
+/// The lowest and highest 16-bit integers.
 constexpr std::int16_t kLowest = -32768;
 constexpr std::int16_t kHighest = 32767;
 
@@ -35,7 +34,7 @@ HLC_INLINE Move move_from_start(const Plan& plan, const VertexData& vertex, floa
           static_cast<float>(vertex.place[kCos]), static_cast<float>(vertex.place[kSin])};
 }
 
-/// How a vertex at this depth is seen, which this edge of the one before leads to.
+/// The transformation to a vertex at this depth, reached by this edge of the one before.
 HLC_INLINE const Move* move_to(const Search& search, VertexData& vertex, std::size_t depth,
                                const EdgeData& edge) {
   if (depth % kSeenInARow != 0) return &edge.move;
@@ -43,15 +42,15 @@ HLC_INLINE const Move* move_to(const Search& search, VertexData& vertex, std::si
   return &vertex.from_start;
 }
 
-/// Where eight reference points are, seen from a vertex [1 / Tables::units_per_m m]: numbers 0, 1,
-/// 4, 5, 2, 3, 6 and 7.
+/// Eight reference points, seen from a vertex [1 / Tables::units_per_m m]: numbers 0, 1, 4, 5, 2,
+/// 3, 6 and 7.
 struct Seen {
   Floats ahead;
   Floats aside;
 };
 
 /// The reference points from step `step` on, seen from a vertex at this depth. Beyond the horizon
-/// there may be any numbers: the intervals of steps that are none hold every place.
+/// they are arbitrary: the intervals of those steps hold every place.
 HLC_INLINE Seen see(const Plan& plan, std::size_t depth, const Move& move, std::size_t step) {
   const std::size_t from = (depth % kSeenInARow == 0 ? 0 : depth * plan.seen_stride) + step;
   const std::size_t to = (depth + 1) * plan.seen_stride + step;
@@ -64,7 +63,7 @@ HLC_INLINE Seen see(const Plan& plan, std::size_t depth, const Move& move, std::
   return seen;
 }
 
-/// Eight reference points along two axes in each, as `rounded` has them.
+/// Eight reference points along two axes in each, in the order of `rounded`.
 using Along = Shorts[kBoundAxes / 2];
 
 HLC_INLINE void project(const Seen& seen, Along& along) {
@@ -80,8 +79,8 @@ HLC_INLINE void project(const Seen& seen, Along& along) {
 }
 
 /// Squared distances of four reference points, the first or the second of eight, from the intervals
-/// of four edges each, on the axis that has most, 0 within them all; those of steps 0 and 1 added,
-/// edge by edge, and those of 2 and 3.
+/// of four edges each, on the axis with the largest, 0 within them all; those of steps 0 and 1
+/// added, edge by edge, and those of 2 and 3.
 template <int kFour>
 HLC_INLINE Floats squared_beyond(const BoundBlock& bound, const Along& along) {
   const auto beyond = [&](std::size_t axis, const Shorts& places) {
@@ -92,17 +91,17 @@ HLC_INLINE Floats squared_beyond(const BoundBlock& bound, const Along& along) {
     return larger(beyond(2 * two, four_times_two<kFour>(along[two])),
                   beyond(2 * two + 1, four_times_two<kFour + 2>(along[two])));
   };
-  // By twos: a processor has the largest of eight after three steps.
+  // Pairwise: the largest of eight is found in three steps.
   const Shorts first = larger(beyond_two(0), beyond_two(1));
   const Shorts second = larger(beyond_two(2), beyond_two(3));
   return squares_of_two_added(larger(larger(first, second), all_shorts(0)));
 }
 
-/// As long as there is no path, costs-to-go only order the children. They know nothing of what is
-/// in the way: where after so many expansions there still is none, they are not worth their time.
+/// As long as there is no path, costs-to-go only order the children. They do not consider
+/// obstacles: if there is still no path after this many expansions, they are not worth their time.
 constexpr std::uint64_t kPatience = 4096;
 
-/// What the keys of a vertex' children are computed from.
+/// Inputs for the keys of a vertex' children.
 struct Expansion {
   std::size_t first_group;
   std::size_t num_edges;  ///< with padding
@@ -139,7 +138,7 @@ HLC_INLINE Expansion begin_expansion(Search& search, VertexData& vertex, std::si
           all(vertex.cost_to_come)};
 }
 
-/// Cost-to-come of four edges' ends and what surely has to be paid after them.
+/// Cost-to-come of four edges' ends and the certain cost after them.
 HLC_INLINE Doubles cost_without_bound(const Expansion& expansion, std::size_t edge) {
   const Doubles beside_x = expansion.ahead - load(expansion.displacement_x + edge);
   const Doubles beside_y = expansion.aside - load(expansion.displacement_y + edge);
@@ -154,8 +153,8 @@ HLC_INLINE Doubles keep_key(const Tables& tables, VertexData& vertex, std::size_
   return key;
 }
 
-/// Writes the keys of a vertex' children without what the steps after their edges cost at least.
-/// Returns the least.
+/// Writes the keys of a vertex' children without a bound for the steps after their edges. Returns
+/// the least.
 HLC_INLINE double expand_without_bound(Search& search, VertexData& vertex, std::size_t depth) {
   const Tables& tables = *search.tables;
   const Expansion expansion = begin_expansion(search, vertex, depth);
@@ -166,8 +165,8 @@ HLC_INLINE double expand_without_bound(Search& search, VertexData& vertex, std::
   return least(lowest);
 }
 
-/// Of a long horizon, what all steps but the last eight or fewer add to the bounds of a vertex'
-/// edges: writes Search::to_go. Returns the first block that is left.
+/// For a long horizon, the contribution of all steps except the last eight or fewer to the bounds
+/// of a vertex' edges: writes Search::to_go. Returns the first remaining block.
 [[gnu::noinline]] std::size_t bound_first_steps(const Search& search, const VertexData& vertex,
                                                 std::size_t depth) {
   const Tables& tables = *search.tables;
@@ -222,8 +221,8 @@ HLC_INLINE double expand(Search& search, VertexData& vertex, std::size_t depth) 
   return least(lowest);
 }
 
-/// Where a reference point, seen from a vertex, lies along each axis and then against each
-/// [1 / Tables::units_per_m m].
+/// Coordinates of a reference point, seen from a vertex, along each axis and then against each [1 /
+/// Tables::units_per_m m].
 struct FarPoint {
   double along[2 * kBoundAxes];
 };
@@ -251,8 +250,8 @@ HLC_INLINE FarPoint see_far(const Plan& plan, std::size_t step, const VertexData
 }
 
 /// Squared distance of a reference point from an interval of a block, on all axes together: from
-/// the half-plane that it lies farthest beyond or, if that is farther, from where this one's border
-/// meets that of a neighbour. Ends that are saturated bound nothing.
+/// the half-plane that it lies farthest beyond or, if that is farther, from the intersection of its
+/// border with that of a neighbour. Saturated ends bound nothing.
 HLC_INLINE double squared_beyond_far(const BoundBlock& bound, std::size_t interval,
                                      const FarPoint& point) {
   constexpr double kMost = 1e36;  // the sum of many is still a number
@@ -281,9 +280,8 @@ HLC_INLINE double squared_beyond_far(const BoundBlock& bound, std::size_t interv
   return squared < kMost ? squared : kMost;
 }
 
-/// As `expand`, for reference points so far away that places are no numbers of 16 bits, and that
-/// sixteen directions see too little of the distance: one edge and step at a time, in double
-/// precision.
+/// As `expand`, for reference points so far away that coordinates exceed 16 bits, and that sixteen
+/// directions miss too much of the distance: one edge and step at a time, in double precision.
 double expand_far(Search& search, VertexData& vertex, std::size_t depth) {
   const Tables& tables = *search.tables;
   const Plan& plan = *search.plan;
@@ -326,10 +324,9 @@ HLC_INLINE double expand_by(Search& search, VertexData& vertex, std::size_t dept
   return expand_without_bound(search, vertex, depth);
 }
 
-/// Takes away the child with this key, the vertex' least, and notes the least of the others. At
-/// once, while the child is looked at: where the search comes back to the vertex, it knows how to
-/// go on.
-/// @pre denormal numbers are compared as they are: where f is 0 keys hold the child's number alone
+/// Removes the child with this key, the vertex' least, and stores the least of the others. Done at
+/// once, while the child is checked, so that it is ready when the search returns to the vertex.
+/// @pre denormal numbers are compared exactly: where f is 0 keys hold the child's number alone
 HLC_INLINE void take(VertexData& vertex, double key) {
   const auto take_of_four = [&](std::uint32_t first) {
     const Doubles keys = load(vertex.keys + first);
@@ -355,19 +352,19 @@ HLC_INLINE std::uint64_t bits(double value) {
   return result;
 }
 
-void give_up(Search& search, std::size_t depth, double bound) {
+void stop_early(Search& search, std::size_t depth, double bound) {
   for (std::size_t k = 0; k <= depth; ++k) {
     const double open = search.path[k].next_key;
     bound = open < bound ? open : bound;
   }
   search.lower_bound = bound;
-  search.gave_up = true;
+  search.stopped_early = true;
 }
 
-/// Expansions between two looks at whether to stop.
+/// Expansions between two checks of the stop condition.
 constexpr std::uint64_t kStopInterval = 64;
 
-/// So many expansions may be done before the next look.
+/// Number of expansions before the next check.
 HLC_INLINE std::uint64_t next_look(const Search& search) {
   const std::uint64_t next = search.expanded + kStopInterval;
   return next < search.max_expansions ? next : search.max_expansions;
@@ -378,10 +375,10 @@ void run(Search& search) {
   const Plan& plan = *search.plan;
   const std::size_t n = plan.horizon_steps;
   if (search.max_expansions == 0 || search.stop(search.stop_context)) {
-    search.gave_up = true;  // the caller knows a bound for the start
+    search.stopped_early = true;  // the caller knows a bound for the start
     return;
   }
-  std::uint64_t look_at = next_look(search);
+  std::uint64_t next_check = next_look(search);
   VertexData* vertex = search.path;
   std::size_t depth = 0;
   double best = search.best_cost;
@@ -389,10 +386,10 @@ void run(Search& search) {
   for (;;) {
     const bool has_bound = search.levels[depth].num_blocks != 0 && has_patience;
     double key = expand_by(search, *vertex, depth, has_bound);
-    // A vertex that nothing leads on from is left for good: it needs no next key.
+    // A vertex without free edges is left for good: it needs no next key.
     if (key < best && !look_around(search, depth + 1, *vertex)) key = kForbidden;
 
-    // The next vertex to expand: the first free child that is worth it, here or further back.
+    // The next vertex to expand: the first free child worth it, here or further back.
     for (;;) {
       if (!(key < best)) {
         if (depth == 0) {
@@ -438,13 +435,13 @@ void run(Search& search) {
       key = vertex->next_key;
     }
 
-    if (search.expanded == look_at) {
-      if (look_at == search.max_expansions || search.stop(search.stop_context)) {
-        give_up(search, depth, key);
+    if (search.expanded == next_check) {
+      if (next_check == search.max_expansions || search.stop(search.stop_context)) {
+        stop_early(search, depth, key);
         search.best_cost = best;
         return;
       }
-      look_at = next_look(search);
+      next_check = next_look(search);
       has_patience = best < kNoPath || search.expanded < kPatience;
     }
     ++depth;

@@ -1,6 +1,6 @@
-// What BranchAndBound's inner loop prepares once per plan, in single precision, relative to the
-// plan's start: obstacles and boundary segments that can be met, with what encloses them. Compiled
-// as often as kernel.hpp, and for the same reason self-contained.
+// Preparation of a plan for BranchAndBound's inner loop, in single precision, relative to the
+// plan's start: obstacles and boundary segments within reach, with enclosing shapes. Compiled as
+// often as kernel.hpp, and for the same reason self-contained.
 #pragma once
 
 #include "planner/search/branch_and_bound/data.hpp"
@@ -37,7 +37,7 @@ HLC_INLINE void write_piece(const Plan& plan, const PieceData& piece, PolygonBlo
     const Doubles along_x = load(x + i + 1) - from_x;
     const Doubles along_y = load(y + i + 1) - from_y;
     // An edge too short to have a direction gets no normal: it separates by 0, which is too close
-    // to call whatever lies beside it.
+    // for a decision.
     const Doubles length = larger(absolute(along_x), absolute(along_y));
     const Doubles scale = if_less(all(least_length), length, all(1.0) / length, all(0.0));
     const Doubles normal_x = along_y * scale;
@@ -51,7 +51,7 @@ HLC_INLINE void write_piece(const Plan& plan, const PieceData& piece, PolygonBlo
   for (std::uint32_t i = piece.size; i < kFloatLanes; ++i) block.offset[i] = kSeparatesNothing;
 }
 
-/// Places along the axes of the start's frame.
+/// Coordinates along the axes of the start's frame.
 struct Axes {
   Doubles x;
   Doubles y;
@@ -61,7 +61,7 @@ HLC_INLINE Doubles along_axes(const Axes& axes, double x, double y) {
   return axes.x * all(x) + axes.y * all(y);
 }
 
-/// Does the interval, on any axis, lie beyond what can be reached?
+/// Whether the interval, on any axis, lies beyond reach.
 HLC_INLINE bool is_beyond(const Doubles& low, const Doubles& high, const double* reach) {
   return (lanes_less(load(reach + kAxes), low) | lanes_less(high, load(reach))) != 0;
 }
@@ -73,7 +73,7 @@ struct Bounds {
 };
 
 HLC_INLINE Bounds bounds_of(const PolygonData& polygon) {
-  // Two corners at a time; the last two may come twice.
+  // Two corners at a time; the last two may repeat.
   const std::uint32_t last_pair = 2 * polygon.size - 4;
   Doubles lowest = load(polygon.corners + last_pair);
   Doubles highest = lowest;
@@ -85,7 +85,7 @@ HLC_INLINE Bounds bounds_of(const PolygonData& polygon) {
   return {smaller(lowest, halves_swapped(lowest)), larger(highest, halves_swapped(highest))};
 }
 
-/// Equal corners in the same order?
+/// Whether the corners are equal, in the same order.
 HLC_INLINE bool is_equal(const PolygonData& a, const PolygonData& b) {
   if (a.size != b.size) return false;
   for (std::uint32_t i = 0; i < 2 * a.size; i += 4) {
@@ -95,7 +95,7 @@ HLC_INLINE bool is_equal(const PolygonData& a, const PolygonData& b) {
   return true;
 }
 
-/// Obstacles that can be met in their step, with a box around each.
+/// Obstacles within reach in their step, with a box around each.
 HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
   const Axes absolute_axes{absolute(axes.x), absolute(axes.y)};
   const Doubles origin{plan.origin_x, plan.origin_y, plan.origin_x, plan.origin_y};
@@ -108,7 +108,7 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
     const double* const reach = plan.reach[step];
     for (const PolygonData* before = nullptr; polygon != last && polygon->step == step;
          before = polygon++) {
-      // A vehicle that keeps to its former plan is where both of its plans say.
+      // A vehicle that keeps to its former plan has equal areas from both of its plans.
       if (before != nullptr && is_equal(*before, *polygon)) continue;
       const Bounds bounds = bounds_of(*polygon);
       const Doubles centre = all(0.5) * (bounds.lowest + bounds.highest) - origin;
@@ -139,8 +139,8 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
   plan.scale = size > plan.scale ? size : plan.scale;
 }
 
-/// An oriented rectangle that contains eight segments in a row, along the line from the first one's
-/// begin to the last one's end.
+/// An oriented rectangle that contains eight consecutive segments, along the line from the first
+/// one's begin to the last one's end.
 HLC_INLINE void enclose(const SegmentBlock& segments, SegmentRectanglesBlock& rectangles,
                         std::uint32_t lane) {
   constexpr std::uint32_t kLast = kFloatLanes - 1;
@@ -170,14 +170,14 @@ HLC_INLINE void enclose(const SegmentBlock& segments, SegmentRectanglesBlock& re
   rectangles.half_width[lane] = 0.5F * (left - right);
 }
 
-/// Writes eight segments in a row, the first of them number `first`, into a block.
+/// Writes eight consecutive segments, the first of them number `first`, into a block.
 HLC_INLINE void write_segments(const Plan& plan, std::size_t first, SegmentBlock& block) {
   const Doubles origin{plan.origin_x, plan.origin_y, plan.origin_x, plan.origin_y};
   double along_x[kFloatLanes];
   double along_y[kFloatLanes];
   const std::size_t last = plan.boundary_size - 1;
   for (std::uint32_t lane = 0; lane < kFloatLanes; ++lane) {
-    // The last one again: it meets what that one meets.
+    // Repeats the last one: it meets the same areas.
     const double* const ends = plan.boundary + 4 * (first + lane < last ? first + lane : last);
     along_x[lane] = ends[2] - ends[0];
     along_y[lane] = ends[3] - ends[1];
@@ -191,7 +191,7 @@ HLC_INLINE void write_segments(const Plan& plan, std::size_t first, SegmentBlock
   for (std::uint32_t lane = 0; lane < kFloatLanes; lane += kLanes) {
     const Doubles x = load(along_x + lane);
     const Doubles y = load(along_y + lane);
-    // As with obstacles: no direction, too close to call.
+    // As with obstacles: no direction, too close for a decision.
     const Doubles length = larger(absolute(x), absolute(y));
     const Doubles scale =
         if_less(all(kLeastLength * plan.scale), length, all(1.0) / length, all(0.0));
@@ -200,20 +200,20 @@ HLC_INLINE void write_segments(const Plan& plan, std::size_t first, SegmentBlock
   }
 }
 
-/// What can be reached in any step, along the axes of the start's frame: lowest, highest.
+/// Reach of any step, along the axes of the start's frame: lowest, highest.
 struct Reachable {
   float low[kAxes];
   float high[kAxes];
 };
 
-/// Do all segments of a block, on the same axis, lie beyond what can be reached?
+/// Whether all segments of a block, on the same axis, lie beyond reach.
 HLC_INLINE bool is_beyond(const SegmentBlock& segments, const float* axis_x, const float* axis_y,
                           const Reachable& reachable) {
   const Floats from_x = load(segments.from_x);
   const Floats from_y = load(segments.from_y);
   const Floats to_x = load(segments.to_x);
   const Floats to_y = load(segments.to_y);
-  // Above the rounding of coordinates, of their projections and of what can be reached.
+  // Above the rounding of coordinates, of their projections and of the reach.
   const Floats slack =
       all(0x1p-20F) * (absolute(from_x) + absolute(from_y) + absolute(to_x) + absolute(to_y)) +
       all(1e-6F);
@@ -231,7 +231,7 @@ HLC_INLINE bool is_beyond(const SegmentBlock& segments, const float* axis_x, con
   return beyond != 0;
 }
 
-/// Blocks of boundary segments that can be met in any step.
+/// Blocks of boundary segments within reach in any step.
 HLC_INLINE void prepare_segments(Plan& plan, const double* axis_x, const double* axis_y) {
   plan.num_blocks = 0;
   if (plan.boundary_size == 0) return;

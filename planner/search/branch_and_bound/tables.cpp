@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "planner/common/demand.hpp"
 #include "planner/search/frame.hpp"
 
 namespace hlc::branch_and_bound {
@@ -13,7 +13,7 @@ namespace {
 
 std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
 
-/// A whole number as near as 16 bits allow.
+/// The nearest 16-bit integer.
 std::int16_t limited(double value) {
   using Limits = std::numeric_limits<std::int16_t>;
   return static_cast<std::int16_t>(std::clamp<double>(value, Limits::min(), Limits::max()));
@@ -41,7 +41,7 @@ Interval interval_along(const ConvexPolygon& area_m, const Point& axis) {
 Surroundings rectangle_around(const ConvexPolygon& area_m) {
   const auto& corners = area_m.vertices_m;
   if (corners.empty()) return {0.0F, 0.0F, 1.0F, 0.0F, kNoRectangle, kNoRectangle};
-  const Box box = bounding_box(area_m);  // of an area without an edge that has a direction
+  const Box box = bounding_box(area_m);  // of an area whose edges are all too short
   const Point middle = 0.5 * (box.min_m + box.max_m);
   const Point half = 0.5 * (box.max_m - box.min_m);
   Surroundings best{static_cast<float>(middle.x()), static_cast<float>(middle.y()), 1.0F, 0.0F,
@@ -67,7 +67,7 @@ Surroundings rectangle_around(const ConvexPolygon& area_m) {
   return best;
 }
 
-/// Does the origin lie inside an area, with room?
+/// Whether the origin lies inside an area, with a margin.
 bool holds_origin(const ConvexPolygon& area_m) {
   constexpr double kRoom_m = 1e-3;
   const auto& corners = area_m.vertices_m;
@@ -85,7 +85,7 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
                        const EdgeCosts& costs) {
   num_trims_ = subgraph.automaton().trims.size();
   max_steps_left_ = reachable.max_steps_left();
-  assert(reachable.max_steps() <= kMostSteps);
+  HLC_DEMAND(reachable.max_steps() <= kMostSteps, reachable.max_steps(), kMostSteps);
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1);
   add_edges(subgraph, costs);
   list_permitted(subgraph, costs, max_steps);
@@ -242,7 +242,8 @@ void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs
 }
 
 void TableStore::choose_unit() {
-  // Fine enough for what is near, and so coarse that horizons of sixteen steps need nothing beyond.
+  // Fine enough near the vehicle, and coarse enough that horizons of sixteen steps stay within 16
+  // bits.
   constexpr double kCountedSteps = 40.0;
   constexpr double kLargest = std::numeric_limits<std::int16_t>::max();
   constexpr double kLeastUnit_m = 0x1p-40;  // single precision has its square and its reciprocal
@@ -261,25 +262,25 @@ void TableStore::choose_unit() {
 }
 
 // With u = 2^-24, let L be the distance from the start to the farthest vertex of kMostSteps steps,
-// D the longest displacement, q a reference point seen from a vertex and p its place along an axis.
-// Seen from the start, in single precision, q is off by at most 6 u ||q|| + 2 u L. A step from one
-// vertex to the next adds at most 5 u ||q_i|| + u D, where q_i is seen from the i-th of seven, so
-// that ||q_i|| <= ||q|| + (7 - i) D, and the axis 3 u ||q||. So after a row of eight vertices p is
-// off by at most (6 + 7 * 5 + 3) u ||q|| + 2 u L + (7 * 6 + 21 * 5 + 7) u D. Let R be the largest
-// |c| + w of all axes. Intervals that are 192 u R + 4 u L + 256 u D wider on both sides make up for
-// the last two terms and, where ||q|| is at most 4 R, for the first. Beyond, the distance on the
-// axis that has most is at least 0.98 ||q|| - R > 0.7 ||q||, so it is off by less than 63 u of
-// itself and its square by less than 128 u.
+// D the longest displacement, q a reference point seen from a vertex and p its coordinate along an
+// axis. Seen from the start, in single precision, the error of q is at most 6 u ||q|| + 2 u L. A
+// step from one vertex to the next adds at most 5 u ||q_i|| + u D, where q_i is seen from the i-th
+// of seven, so that ||q_i|| <= ||q|| + (7 - i) D, and the axis 3 u ||q||. So after a row of eight
+// vertices the error of p is at most (6 + 7 * 5 + 3) u ||q|| + 2 u L + (7 * 6 + 21 * 5 + 7) u D.
+// Let R be the largest |c| + w of all axes. Intervals that are 192 u R + 4 u L + 256 u D wider on
+// both sides cover the last two terms and, where ||q|| is at most 4 R, the first. Beyond, the
+// distance on the axis with the largest is at least 0.98 ||q|| - R > 0.7 ||q||, so its relative
+// error is less than 63 u and that of its square less than 128 u.
 //
-// Then p is rounded to a whole number of units, by at most a half, which the intervals are wider by
-// too. From there on all is exact but the sum of squares and its scale: m / 4 + 4 roundings. Factor
-// kSurely, 1 - 160 u, makes up for them and for the square above.
+// Then p is rounded to an integer number of units, by at most a half, by which the intervals are
+// wider, too. From there on everything is exact except the sum of squares and its scale: m / 4 + 4
+// roundings. Factor kSurely, 1 - 160 u, covers them and the square above.
 //
-// Where p might be no number of 16 bits, everything is computed in double precision. Two axes
-// together take the difference of two squares, which makes rounding some 14 times as large; with m
-// terms it stays below 2^-44 of the sum, and kSurelyFar is 1 - 2^-40.
+// Where p might exceed 16 bits, everything is computed in double precision. Two axes together take
+// the difference of two squares, which makes rounding some 14 times as large; with m terms it stays
+// below 2^-44 of the sum, and kSurelyFar is 1 - 2^-40.
 //
-// Nothing here depends on how many steps there are tables for: equal searches expand equally many
+// Nothing here depends on the number of steps of the tables: equal searches expand equally many
 // vertices.
 static_assert(kSeenInARow == 8);
 
@@ -290,8 +291,8 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
   const std::size_t cap = max_steps_left_;
   const std::size_t max_steps = std::max<std::size_t>(reachable.max_steps(), 1) - 1;
   num_bound_blocks_ = (max_steps + kBoundSteps - 1) / kBoundSteps;
-  // Rows by the steps left after the first of four steps, the last for all of which even the last
-  // of the four is above the cap.
+  // Rows by the steps left after the first of four steps, the last row for all cases in which even
+  // the last of the four is above the cap.
   const std::size_t rows = cap + kBoundSteps;
   view_.bound_size = rows * num_bound_blocks_;
   bounds_.assign(edges_.size() / kLanes * view_.bound_size, BoundBlock{});
@@ -305,7 +306,7 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
                            std::size_t left) {
       std::array<Interval, kBoundAxes> intervals;
       const auto positions_m = reachable.positions_m({data.to}, steps, left);
-      if (positions_m.empty()) return;  // no permitted edge asks for it
+      if (positions_m.empty()) return;  // no permitted edge needs it
       for (const Point& position_m : positions_m) {
         const Point seen_m = transformed(position_m, frame);
         for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
@@ -336,7 +337,7 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
           const std::size_t steps = kBoundSteps * block + step + 1;
           if (step <= row && steps <= max_steps) {
             write(bound, lane, steps, std::min(row - step, cap));
-          } else {  // there is no such step
+          } else {  // a step beyond the horizon
             for (auto& lows : bound.low) lows[lane] = std::numeric_limits<std::int16_t>::min();
             for (auto& highs : bound.high) highs[lane] = std::numeric_limits<std::int16_t>::max();
           }
@@ -367,12 +368,12 @@ void TableStore::list_levels(std::size_t max_steps) {
 }
 
 void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reachable) {
-  constexpr double kSlackM = 1e-6;  // rounding must not leave out what only just touches
+  constexpr double kSlackM = 1e-6;  // covers rounding for areas that only just touch
   const double beyond_m = area_radius_m_ + kSlackM;
   reach_steps_ = std::max<std::size_t>(reachable.max_steps(), 1);
   const std::size_t rows = max_steps_left_ + 1;
   reach_.resize(num_trims_ * rows * reach_steps_ * kReachSize);
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     for (std::size_t left = 0; left < rows; ++left) {
       for (std::size_t steps = 0; steps < reach_steps_; ++steps) {
         const Reach& reach = reachable.reach(trim, steps, left);

@@ -14,13 +14,13 @@
 
 namespace hlc::branch_and_bound {
 
-/// How many blocks hold so many corners or segments.
+/// Number of blocks for this many corners or segments.
 [[nodiscard]] constexpr std::size_t blocks_of(std::size_t size) {
   return (size + kFloatLanes - 1) / kFloatLanes;
 }
 
-/// Everything the kernel needs of a subgraph, computed once: edges with their areas, bounds, and
-/// what is permitted (see BranchAndBound and data.hpp).
+/// The kernel's data of a subgraph, computed once: edges with their areas, bounds, and permissions
+/// (see BranchAndBound and data.hpp).
 class TableStore {
  public:
   /// @pre reachable.max_steps() <= kMostSteps
@@ -28,12 +28,12 @@ class TableStore {
   TableStore(const TableStore&) = delete;  // it refers to itself
   TableStore& operator=(const TableStore&) = delete;
 
-  /// Of so many steps the rounding of a bound is known (see the implementation).
+  /// The rounding of a bound is known for at most this many steps (see the implementation).
   static constexpr std::size_t kMostSteps = 80;
 
   [[nodiscard]] const Tables& view() const { return view_; }
-  /// A depth with `steps_left` steps after an edge from it, if a plan may or may not end steps in
-  /// trims near the steering limit.
+  /// The depth with `steps_left` steps after an edge from it, for plans that may or may not end
+  /// steps in trims near the steering limit.
   [[nodiscard]] const Level& level(std::size_t steps_left, bool avoids_limit) const {
     return levels_[avoids_limit ? 1 : 0][steps_left];
   }
@@ -44,17 +44,18 @@ class TableStore {
   static constexpr std::uint32_t kNoEdge = static_cast<std::uint32_t>(-1);
   static constexpr std::size_t kReachSize = 2 * kAxes;
 
-  /// Where areas of the step after `steps` steps can be, as in Plan::reach: the half-planes of
+  /// Range of the areas of the step after `steps` steps, as in Plan::reach: the half-planes of
   /// ReachableSets::reach moved outwards by the farthest corner of any area from the start of its
   /// maneuver.
   [[nodiscard]] const double* reach(TrimId trim, std::size_t steps, std::size_t steps_left) const;
-  /// No corner of an area of the first `steps` steps is farther from the start, and no vertex [m].
+  /// Largest distance of any corner of an area of the first `steps` steps, and of any vertex, from
+  /// the start [m].
   [[nodiscard]] double reach_m(std::size_t steps) const {
     return static_cast<double>(steps) * area_radius_m_;
   }
   /// The longest displacement of an edge.
   [[nodiscard]] double longest_m() const { return longest_m_; }
-  /// So far from a vertex a place along an axis is a number of 16 bits.
+  /// Up to this distance from a vertex a coordinate along an axis fits into 16 bits.
   [[nodiscard]] double counted_m() const { return counted_m_; }
   /// Most edges out of one trim, padded.
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
@@ -68,7 +69,7 @@ class TableStore {
   [[nodiscard]] LaneArea add_lane_area(const ConvexPolygon& area_m);
   void add_blocks(std::span<const Point> corners);
   void list_permitted(const Subgraph& subgraph, const EdgeCosts& costs, std::size_t max_steps);
-  /// Of bounds, and the edges' displacements in it.
+  /// Chooses the unit of bounds, and of the edges' displacements.
   void choose_unit();
   void compute_bounds(const ReachableSets& reachable);
   void list_levels(std::size_t max_steps);
@@ -98,7 +99,7 @@ class TableStore {
   std::size_t max_steps_left_{};
   std::size_t most_edges_{};
   std::size_t num_bound_blocks_{};  ///< fours of steps after an edge
-  std::size_t penalty_rows_{};      ///< by steps left, the last for all that are more
+  std::size_t penalty_rows_{};      ///< by steps left, the last row for all that are more
   Tables view_{};
 };
 

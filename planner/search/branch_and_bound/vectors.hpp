@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Four doubles, eight floats or sixteen whole numbers at a time, for the kernel of BranchAndBound
-/// alone: with AVX2 one register, else halves of the 16 bytes that every x86-64 processor has (and,
-/// written with the compiler's vectors, others too). The same operations give the same bits both
-/// ways.
+/// Four doubles, eight floats or sixteen 16-bit integers at a time, for the kernel of
+/// BranchAndBound alone: with AVX2 one register, otherwise halves of the 16 bytes that every x86-64
+/// processor has (and, written with the compiler's vectors, others too). The same operations give
+/// the same bits both ways.
 ///
 /// Everything is inlined and in an unnamed namespace: the translation units that include this must
 /// not share a function.
@@ -130,16 +130,16 @@ HLC_INLINE Shorts four_times_two(const Shorts& a) {
   return reinterpret_cast<Shorts>(__builtin_shufflevector(twos, twos, kTwo, kTwo, kTwo, kTwo,
                                                           kTwo + 4, kTwo + 4, kTwo + 4, kTwo + 4));
 }
-/// Elements 2 and 3 in the place of 4 and 5, and these in theirs.
+/// Elements 2 and 3 swapped with 4 and 5.
 HLC_INLINE Floats middle_swapped(const Floats& a) {
   return __builtin_shufflevector(a, a, 0, 1, 4, 5, 2, 3, 6, 7);
 }
-/// Squares of each two in a row, added.
+/// Squares of consecutive pairs, added.
 HLC_INLINE Floats squares_of_two_added(const Shorts& a) {
   return __builtin_convertvector(__builtin_ia32_pmaddwd256(a, a), Floats);
 }
-/// What is computed from it stays in a loop: sixteen registers are not enough to keep it all, and
-/// memory is slower (with more of them it makes no difference).
+/// Keeps the computation of dependent values inside a loop: sixteen registers are not enough to
+/// keep them all, and memory is slower (with more registers it makes no difference).
 HLC_INLINE void stay_in_loop(Shorts& a) { asm("" : "+x"(a)); }
 HLC_INLINE Doubles halves_swapped(const Doubles& a) {
   return __builtin_shufflevector(a, a, 2, 3, 0, 1);
@@ -160,7 +160,7 @@ HLC_INLINE Doubles halves_added(const Floats& a) {
   return __builtin_ia32_cvtps2pd256(low + high);
 }
 #else
-/// Two halves: the compiler makes poor code of longer vectors than the processor has.
+/// Two halves: the compiler generates poor code for vectors longer than the processor's.
 using HalfShorts = short __attribute__((vector_size(16)));
 
 template <class Half>

@@ -4,9 +4,9 @@
 #include <ompl/control/spaces/DiscreteControlSpace.h>
 
 #include <algorithm>
-#include <cassert>
 
 #include "planner/automaton/reachable_sets.hpp"
+#include "planner/common/demand.hpp"
 #include "planner/search/collision.hpp"
 
 namespace ob = ompl::base;
@@ -17,7 +17,7 @@ namespace {
 
 using ControlType = oc::DiscreteControlSpace::ControlType;
 
-/// A footprint of room around what can be reached.
+/// Adds a footprint of room to the reachable box.
 constexpr double kRoom_m = 0.1;
 
 class ManeuverPropagator final : public oc::StatePropagator {
@@ -49,7 +49,7 @@ class ManeuverPropagator final : public oc::StatePropagator {
   [[nodiscard]] int number_of(const HorizonState& from, const Maneuver& maneuver) const {
     const std::vector<const Maneuver*> choices = edges(from);
     const auto found = std::ranges::find(choices, &maneuver);
-    assert(found != choices.end());
+    HLC_DEMAND(found != choices.end(), from.step);
     return static_cast<int>(found - choices.begin());
   }
 
@@ -91,7 +91,7 @@ PositionBounds reach_of(const ReachableSets& reachable, const HorizonProblem& pr
 
 int max_edges(const Subgraph& subgraph) {
   std::size_t most = 1;
-  for (const TrimId trim : subgraph.starts()) {
+  for (const TrimId trim : subgraph.start_trims()) {
     most = std::max(most, subgraph.successors(trim).size());
   }
   return static_cast<int>(most);
@@ -119,7 +119,7 @@ std::shared_ptr<oc::SpaceInformation> make_control_space_information(
 ob::PathPtr make_control_path(const std::shared_ptr<oc::SpaceInformation>& si,
                               const HorizonProblem& problem, const SearchResult& plan) {
   const auto* propagator = dynamic_cast<const ManeuverPropagator*>(si->getStatePropagator().get());
-  assert(propagator != nullptr);
+  HLC_DEMAND(propagator != nullptr);
   auto path = std::make_shared<oc::PathControl>(si);
   ob::State* state = si->allocState();
   oc::Control* control = si->allocControl();

@@ -11,18 +11,18 @@
 
 namespace hlc {
 
-/// The problem as OMPL's kinodynamic planners (ompl/control) see it: the same states
-/// (make_state_space), a control for each edge of the subgraph.
+/// The problem for OMPL's kinodynamic planners (ompl/control): the same states (make_state_space),
+/// a control for each edge of the subgraph.
 ///
 /// A control is an integer c >= 0. In a state with trim q and j steps done, and m edges that a plan
 /// may take there (Subgraph::successors(q, n - j), without those that end near the steering limit
 /// if the problem avoids that), it drives number c mod m of them; for one duration of step_s, no
 /// other. Where the edge is not free (CollisionCheck in step j + 1), where there is none, or beyond
-/// the horizon the state that it leads to is out of bounds, hence not valid. So whatever path such
-/// a planner finds to a StandstillGoal of the problem is a plan.
+/// the horizon the resulting state is out of bounds, hence not valid. So every path of such a
+/// planner to a StandstillGoal of the problem is a plan.
 ///
-/// The bounds of positions, from which such planners sample, hold all that the automaton reaches.
-/// For one thread only.
+/// The bounds of positions, from which such planners sample, contain everything that the automaton
+/// reaches. For one thread only.
 ///
 /// @param subgraph, reachable, problem  must outlive the space information, `problem` unchanged
 [[nodiscard]] std::shared_ptr<ompl::control::SpaceInformation> make_control_space_information(

@@ -32,7 +32,7 @@ class OmplEngine final : public SearchEngine {
       planner_.setProblemDefinition(definition_);
     }
     planner_.solve(ob::PlannerTerminationCondition(stop));
-    // The definition still refers to `problem`: nobody may ask it before it poses the next one.
+    // The definition still refers to `problem`: it must not be used before it poses the next one.
     result = planner_.take_result();
   }
 

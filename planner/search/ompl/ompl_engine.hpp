@@ -7,9 +7,9 @@
 namespace hlc {
 
 /// The engine that `options.engine` names, called through a RecedingHorizonPlanner, that is through
-/// `ompl::base::Planner::solve`: results and counts are the engine's own, to the bit. For whoever
-/// wants OMPL between controller and engine; every plan takes some microseconds longer.
-/// An EngineFactory: SearchOptions::factory.
+/// `ompl::base::Planner::solve`: results and counts are bitwise the engine's own. For users who
+/// need OMPL between controller and engine; every plan takes some microseconds longer. An
+/// EngineFactory: SearchOptions::factory.
 /// @throws std::invalid_argument as make_search_engine
 [[nodiscard]] std::unique_ptr<SearchEngine> make_ompl_engine(
     const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,

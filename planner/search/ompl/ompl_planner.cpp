@@ -26,13 +26,13 @@ std::size_t expansions_from_text(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || value == 0) {
-    throw std::invalid_argument("max_expansions = " + text + ", allowed whole numbers from 1");
+    throw std::invalid_argument("max_expansions = " + text + ", must be a whole number >= 1");
   }
   return value;
 }
 
-/// Written into the states of `former`, if that is a path as long which nobody else has: making
-/// states takes longer than many a search.
+/// Written into the states of `former`, if that is a path of the same length without another owner:
+/// making states takes longer than many a search.
 ob::PathPtr make_geometric_path(const ob::SpaceInformationPtr& si, const HorizonProblem& problem,
                                 const SearchResult& plan, ob::PathPtr former) {
   const std::size_t num_states = plan.maneuvers.size() + 1;
@@ -73,7 +73,7 @@ RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si
   declare_parameters();
 }
 
-/// Whoever changes a parameter has the engine made anew by the next `solve`.
+/// After a change of a parameter the next `solve` makes a new engine.
 void RecedingHorizonPlanner::declare_parameters() {
   const auto declare = [this](const std::string& name, const std::string& allowed, auto set,
                               auto get) {

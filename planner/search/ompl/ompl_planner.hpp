@@ -26,7 +26,7 @@ namespace hlc {
 ///     planner.params().setParam("engine", "branch_and_bound");
 ///     const ompl::base::PlannerStatus status = planner.solve(1.0);  // seconds
 ///
-/// and planner/apps/ompl_example.cpp. `solve` asks the termination condition now and then between
+/// and planner/apps/ompl_example.cpp. `solve` checks the termination condition regularly between
 /// expansions and returns
 ///
 /// | status                 | meaning                                                      |
@@ -40,10 +40,11 @@ namespace hlc {
 /// | UNRECOGNIZED_GOAL_TYPE | the goal is not a StandstillGoal                             |
 ///
 /// The path has n + 1 states: a control::PathControl of n edges if the space information is one of
-/// ompl_control.hpp, else a geometric::PathGeometric. Each `solve` searches from the beginning.
+/// ompl_control.hpp, otherwise a geometric::PathGeometric. Each `solve` searches from the
+/// beginning.
 ///
-/// Parameters (`params()`), all as text; a value that is not allowed is refused (setParam returns
-/// false). They take effect at the next `solve`:
+/// Parameters (`params()`), all as text; a value out of range is refused (setParam returns false).
+/// They take effect at the next `solve`:
 ///
 /// | name           | allowed                                            |
 /// |----------------|----------------------------------------------------|
@@ -54,19 +55,19 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
  public:
   /// @param si  of make_space_information or make_control_space_information for this subgraph
   /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon
-  /// @param options  `factory` is ignored: the engine behind this planner is one of `engine`
+  /// @param options  `factory` is ignored: the engine behind this planner is `engine`
   /// @param tables  as make_search_engine; used until a parameter changes
   RecedingHorizonPlanner(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                          const ReachableSets& reachable, const SearchOptions& options,
                          std::shared_ptr<const SearchTables> tables = nullptr);
 
-  /// @throws std::invalid_argument as make_search_engine, if the parameters do not fit each other;
-  /// so does the next `solve`
+  /// @throws std::invalid_argument as make_search_engine, if the parameters do not match; so does
+  /// the next `solve`
   void setup() override;
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   using ompl::base::Planner::solve;
   void clear() override;
-  /// What was found for another definition is forgotten.
+  /// Drops the result of another definition.
   void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& definition) override;
 
   /// The path of the last `solve`: a vertex for each of its states, the first a start vertex, the
@@ -77,7 +78,7 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
 
   [[nodiscard]] const SearchOptions& options() const { return options_; }
 
-  /// What the engine found in the last `solve`, with maneuvers and counts.
+  /// The engine's result of the last `solve`, with maneuvers and counts.
   [[nodiscard]] const SearchResult& result() const { return result_; }
   /// The same, moved out; `result` is empty (infeasible) afterwards.
   [[nodiscard]] SearchResult take_result();
@@ -94,9 +95,9 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   std::shared_ptr<const SearchTables> tables_;
   std::unique_ptr<SearchEngine> engine_;
   SearchResult result_;
-  ompl::base::ScopedState<> state_;  ///< for what is asked of one state: making one takes long
+  ompl::base::ScopedState<> state_;  ///< for queries about one state: making one takes long
   ompl::base::PathPtr path_;
-  ompl::base::PathPtr former_path_;  ///< to be written anew, if nobody else has it
+  ompl::base::PathPtr former_path_;  ///< to be overwritten, if it has no other owner
 };
 
 }  // namespace hlc

@@ -28,16 +28,16 @@ struct PositionBounds {
 };
 
 /// Compound of SE2StateSpace, DiscreteStateSpace (trims, from 0) and DiscreteStateSpace (0 ...
-/// max_steps), locked. Two states are as far from each other as their poses. The bounds are what
-/// planners of OMPL sample from; RecedingHorizonPlanner samples nothing.
+/// max_steps), locked. The distance of two states is that of their poses. The bounds are for the
+/// sampling of OMPL's planners; RecedingHorizonPlanner does not sample.
 ///
-/// Switches OMPL's own console log off, for the whole process.
+/// Turns OMPL's own console log off, for the whole process.
 [[nodiscard]] ompl::base::StateSpacePtr make_state_space(const Subgraph& subgraph,
                                                          std::size_t max_steps,
                                                          const PositionBounds& bounds = {});
 
-/// That space, set up. Obstacles are a matter of maneuvers, not of states: every state is valid and
-/// `ompl::base::Path::check` says nothing about collision (ompl_control.hpp does).
+/// That space, set up. Obstacles concern maneuvers, not states: every state is valid and
+/// `ompl::base::Path::check` does not check for collision (ompl_control.hpp does).
 [[nodiscard]] ompl::base::SpaceInformationPtr make_space_information(const Subgraph& subgraph,
                                                                      std::size_t max_steps);
 
@@ -45,18 +45,18 @@ void write_state(const HorizonState& from, ompl::base::State& to);
 [[nodiscard]] HorizonState read_state(const ompl::base::State& state);
 
 /// Goal: the last step of the horizon, in an equilibrium trim, not farther than `radius_m` from the
-/// last reference point. It carries the whole problem, so that a problem definition with this goal,
-/// whoever made it, is one that RecedingHorizonPlanner solves.
+/// last reference point. It contains the whole problem, so that RecedingHorizonPlanner solves every
+/// problem definition with this goal, whatever its origin.
 class StandstillGoal final : public ompl::base::Goal {
  public:
   /// @param subgraph  must outlive this object
-  /// @param problem   must live on, unchanged, as long as this object poses it
+  /// @param problem   must stay alive and unchanged as long as this object poses it
   StandstillGoal(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                  const HorizonProblem& problem,
                  double radius_m = std::numeric_limits<double>::infinity());
   bool isSatisfied(const ompl::base::State* state) const override;
   [[nodiscard]] const HorizonProblem& problem() const { return *problem_; }
-  /// From now on the goal of another problem.
+  /// Changes the problem of this goal.
   void pose(const HorizonProblem& problem) { problem_ = &problem; }
 
  private:
@@ -69,12 +69,12 @@ class StandstillGoal final : public ompl::base::Goal {
 /// [m^2].
 class SquaredDistanceObjective final : public ompl::base::OptimizationObjective {
  public:
-  /// @param reference_m  must live on as long as this object measures from it
+  /// @param reference_m  must stay alive as long as this object measures from it
   SquaredDistanceObjective(const ompl::base::SpaceInformationPtr& si,
                            const std::vector<Point>& reference_m);
-  /// From now on distances to these points.
+  /// Changes the reference points.
   void pose(const std::vector<Point>& reference_m) { reference_m_ = &reference_m; }
-  /// The term of the state's own step; 0 for the start and beyond the horizon.
+  /// The cost term of the state's step; 0 for the start and beyond the horizon.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
   /// The term of the step that ends in `to`.
   ompl::base::Cost motionCost(const ompl::base::State* from,
@@ -88,11 +88,11 @@ class SquaredDistanceObjective final : public ompl::base::OptimizationObjective 
 class HorizonProblemDefinition final : public ompl::base::ProblemDefinition {
  public:
   /// @param subgraph  must outlive this object
-  /// @param problem   must live on, unchanged, as long as this object poses it
+  /// @param problem   must stay alive and unchanged as long as this object poses it
   HorizonProblemDefinition(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
                            const HorizonProblem& problem);
-  /// Poses another problem of the same subgraph, without solutions yet: making a definition takes
-  /// longer than many a search. A planner that has this one must be cleared.
+  /// Poses another problem of the same subgraph, without solutions: making a definition takes
+  /// longer than many a search. A planner with this definition must be cleared.
   void pose(const HorizonProblem& problem);
 
  private:

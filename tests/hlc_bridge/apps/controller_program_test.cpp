@@ -140,10 +140,10 @@ TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
     const std::optional<int> code = program.wait_for(60s);
     return std::pair{code, read_text(folder / "output")};
   };
-  const auto [missing, nobody] =
+  const auto [missing, output] =
       start("--scenario=lab_circle --dds_initial_peer=rtps@udpv4://10.0.0.1");
-  EXPECT_EQ(missing, kExitMissing) << nobody;
-  EXPECT_NE(nobody.find("--dds_initial_peer"), std::string::npos) << nobody;
+  EXPECT_EQ(missing, kExitMissing) << output;
+  EXPECT_NE(output.find("--dds_initial_peer"), std::string::npos) << output;
   EXPECT_EQ(start("").first, kExitMissing) << "without a name it drives the lab's three cars";
   const auto [bad, unknown] = start("--scenario=nowhere");
   EXPECT_EQ(bad, kExitBadInput);
@@ -163,7 +163,7 @@ TEST(ControllerProgram, RefusesAnAutomatonThatTheLabsVehiclesCannotFollow) {
   EXPECT_NE(outcome.output.find("paper.yaml: subgraph B, trim 2: curvature = -4.3"),
             std::string::npos)
       << outcome.output;
-  EXPECT_NE(outcome.output.find("allowed -3.96 ... 4.316"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("must be in -3.96 ... 4.316"), std::string::npos) << outcome.output;
   EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
 }
 
@@ -175,10 +175,10 @@ TEST(ControllerProgram, RefusesAVehicleThatIsNamedTwice) {
 
 TEST(ControllerProgram, SaysWhatAFlagMayBe) {
   const std::vector<std::pair<std::string, std::string>> lines{
-      {"--simulated_time=perhaps", "--simulated_time: perhaps, allowed true or false"},
-      {"--core=first", "--core: first, allowed 0 ... 1023"},
-      {"--dds_domain=400", "--dds_domain: 400 is not allowed, 0 to 232"},
-      {"--colour=red", "not expected: --colour=red, allowed what --help lists"}};
+      {"--simulated_time=perhaps", "--simulated_time: perhaps, must be true or false"},
+      {"--core=first", "--core: first, must be in 0 ... 1023"},
+      {"--dds_domain=400", "--dds_domain: 400, must be in 0 ... 232"},
+      {"--colour=red", "not expected: --colour=red, must be a flag that --help lists"}};
   for (const auto& [flag, line] : lines) {
     const Outcome outcome = run_program("high_level_controller --vehicle_ids=1 " + flag);
     EXPECT_EQ(outcome.exit_code, kExitBadInput) << flag;

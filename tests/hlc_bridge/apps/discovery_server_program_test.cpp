@@ -20,8 +20,8 @@ void expect_refused(const std::string& flags, const std::string& line) {
 }
 
 TEST(DiscoveryServerProgram, RefusesAnAddressThatIsNotThisMachines) {
-  expect_refused("--discovery_server_ip=192.0.2.1",  // for documentation: nobody's
-                 "--discovery_server_ip: 192.0.2.1 is not allowed, an address of this machine");
+  expect_refused("--discovery_server_ip=192.0.2.1",  // for documentation: unassigned
+                 "--discovery_server_ip: 192.0.2.1, must be an address of this machine");
 }
 
 TEST(DiscoveryServerProgram, RefusesAPortThatSomebodyHas) {
@@ -35,7 +35,7 @@ TEST(DiscoveryServerProgram, RefusesAPortThatSomebodyHas) {
   ASSERT_EQ(getsockname(holder, bound, &size), 0);
   const std::string port = std::to_string(ntohs(address.sin_port));
   expect_refused("--discovery_server_ip=127.0.0.1 --discovery_server_port=" + port,
-                 "--discovery_server_port: " + port + " is not allowed, one that is free here");
+                 "--discovery_server_port: " + port + ", must be free on this machine");
   close(holder);
 }
 

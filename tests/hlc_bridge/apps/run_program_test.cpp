@@ -44,9 +44,9 @@ TEST_F(RunProgramDeathTest, TheProcesssExitCodeIsMains) {
 
 TEST_F(RunProgramDeathTest, WhatCannotBeMadeIsBadInput) {
   EXPECT_EXIT(end_with([]() -> std::shared_ptr<FakeProcess> {
-                throw std::invalid_argument("--colour = grey, allowed blue");
+                throw std::invalid_argument("--colour = grey, must be blue");
               }),
-              ExitedWithCode(kExitBadInput), "blue: --colour = grey, allowed blue");
+              ExitedWithCode(kExitBadInput), "blue: --colour = grey, must be blue");
 }
 
 TEST_F(RunProgramDeathTest, WhatFailsInTheRunIsNoBadInput) {

@@ -156,7 +156,7 @@ TEST(LabTransport, APeerWithTheLibrarysDefaultsHearsUsAndIsHeard) {
   DefaultPeer theirs(domain.first(), topic.name);
   Mailbox<VehicleState> mailbox{ours, topic};
   Writer<VehicleState> writer{ours, topic};
-  // Their reader hears their writer, too: two readers each.
+  // Their reader is matched with their writer, too: two readers each.
   ASSERT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
     return theirs.matched_readers() == 2 && writer.matched() == 1 &&
            mailbox.reader().matched() == 1;
@@ -164,9 +164,9 @@ TEST(LabTransport, APeerWithTheLibrarysDefaultsHearsUsAndIsHeard) {
   ::VehicleState state;
   state.vehicle_id(7);
   EXPECT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
-    theirs.write(state);  // volatile and best effort: until it is heard
-    return std::ranges::any_of(mailbox.now(),
-                               [](const VehicleState& heard) { return heard.vehicle_id == 7; });
+    theirs.write(state);  // volatile and best effort: until it is received
+    return std::ranges::any_of(
+        mailbox.now(), [](const VehicleState& received) { return received.vehicle_id == 7; });
   }));
   EXPECT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
     return writer.write(VehicleState{.vehicle_id = 8}) && theirs.reads(8);

@@ -74,7 +74,7 @@ TEST(TopicQos, LoopbackIsReliableKeepsTheLastAndRepairsSoon) {
       EXPECT_EQ(qos.reliability, Reliability::kReliable);
       EXPECT_GT(qos.history_depth, 0) << "keep all blocks the writer when a reader hangs";
       EXPECT_LE(qos.heartbeat_period, 50ms);
-      EXPECT_GT(qos.nack_suppression, 0ms) << "a timer would start anew with every sample";
+      EXPECT_GT(qos.nack_suppression, 0ms) << "a timer would restart with every sample";
       EXPECT_LT(qos.nack_suppression, qos.heartbeat_period) << "the next report counts";
       EXPECT_EQ(qos.nack_response, 0ms);
       EXPECT_LE(qos.heartbeat_response, 10ms);

@@ -13,8 +13,8 @@ const void* file_of(const void* address) {
   return dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
 }
 
-// The thread of the timers ended a process with an assertion when somebody left in the instant in
-// which his lease was to be looked at.
+// The thread of the timers ended a process with an assertion when a participant left in the instant
+// in which his lease was to be looked at.
 TEST(ParticipantThatHasLeft, IsNotLookedAtForItsLease) {
   frtps::ParticipantProxyData proxy{frtps::RTPSParticipantAllocationAttributes{}};
   proxy.m_guid.entityId = frtps::c_EntityId_RTPSParticipant;

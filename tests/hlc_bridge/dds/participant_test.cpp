@@ -73,7 +73,7 @@ class Watcher {
     return signal_.wait_until(soon(), [&] { return condition(participant_); });
   }
   Participant& participant() { return participant_; }
-  /// The change of state is visible before it is told: waits for the telling.
+  /// The change of state is visible before its notification: waits for the notification.
   bool wait_for_changes(int at_least) {
     return signal_.wait_until(soon(), [&] { return changes_ >= at_least; });
   }
@@ -94,7 +94,7 @@ TEST(Participant, SeesOthersAppearAndLeave) {
     ASSERT_TRUE(watcher.participant().wait_for({"red", "blue"}, soon()));
     ASSERT_TRUE(red.wait_for({"watcher", "blue"}, soon()));
     EXPECT_EQ(watcher.participant().lost(), Names{});
-    EXPECT_FALSE(red.is_alive("red")) << "nobody sees himself";
+    EXPECT_FALSE(red.is_alive("red")) << "a participant does not see itself";
   }
   ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.lost().size() == 2; }));
   EXPECT_EQ(watcher.participant().lost(), (Names{"red", "blue"}));
@@ -102,7 +102,7 @@ TEST(Participant, SeesOthersAppearAndLeave) {
   Participant again{on_loopback("red", domain.first(), DomainRole::kController)};
   ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("red"); }));
   EXPECT_FALSE(watcher.participant().is_lost("red"));
-  EXPECT_TRUE(watcher.wait_for_changes(5)) << "three times somebody came, twice somebody left";
+  EXPECT_TRUE(watcher.wait_for_changes(5)) << "three participants came, two left";
 }
 
 TEST(Participant, SaysItsVersionToOthers) {
@@ -119,7 +119,7 @@ TEST(Participant, SaysItsVersionToOthers) {
 TEST(Participant, WaitForEndsAtTheDeadline) {
   const DomainReservation domain;
   Participant alone{on_loopback("alone", domain.first(), DomainRole::kController)};
-  EXPECT_FALSE(alone.wait_for({"nobody"}, std::chrono::steady_clock::now()));
+  EXPECT_FALSE(alone.wait_for({"absent"}, std::chrono::steady_clock::now()));
 }
 
 TEST(Participant, SeesNobodyOfAnotherDomain) {

@@ -117,7 +117,7 @@ TEST(LargeMessage, OfSeveralDatagramsArrives) {
   EXPECT_EQ(text(received.back()), text(traffic));
 }
 
-// The library's default of ten instances would lose what the eleventh and later vehicles say.
+// The library's default of ten instances would lose the samples of the eleventh and later vehicles.
 TEST(KeyedTopics, AllOf30VehiclesAreHeard) {
   const DomainReservation domain;
   Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
@@ -148,11 +148,11 @@ TEST(KeyedTopics, AllOf30VehiclesAreHeard) {
     ASSERT_EQ(of_many.wait_for(30 * (step + 1)).size(), 30 * (step + 1));
     ASSERT_EQ(of_one.wait_for(30 * (step + 1)).size(), 30 * (step + 1));
   }
-  std::map<std::uint8_t, std::uint64_t> heard;
+  std::map<std::uint8_t, std::uint64_t> received;
   for (const Outcome& outcome : of_many.wait_for(30 * kSteps)) {
-    EXPECT_EQ(outcome.step.value, heard[outcome.vehicle.value]++) << "out of order";
+    EXPECT_EQ(outcome.step.value, received[outcome.vehicle.value]++) << "out of order";
   }
-  EXPECT_EQ(heard.size(), 30U);
+  EXPECT_EQ(received.size(), 30U);
 }
 
 TEST(KeyedTopics, AVehicleIdWithoutRoomIsNotWritten) {
@@ -179,7 +179,7 @@ TEST(LateJoiner, GetsEveryReportAndTheLastRunState) {
     ASSERT_TRUE(blue.write(record));
   }
   ASSERT_TRUE(run_state.write({RunPhase::kRunning, 7}));
-  ASSERT_TRUE(run_state.write({RunPhase::kDriveOut, 7}));
+  ASSERT_TRUE(run_state.write({RunPhase::kMinimalRiskStop, 7}));
 
   Participant late{on_loopback("late", domain.first(), DomainRole::kController)};
   Mailbox<ReportRecord> reports{late, topics::report()};
@@ -191,7 +191,7 @@ TEST(LateJoiner, GetsEveryReportAndTheLastRunState) {
   EXPECT_EQ(next, (std::map<std::uint8_t, std::uint64_t>{{1, kSteps}, {2, kSteps}}));
   const std::vector<RunState> received = states.wait_for(1);
   ASSERT_EQ(received.size(), 1U);
-  EXPECT_EQ(received.front().phase, RunPhase::kDriveOut);
+  EXPECT_EQ(received.front().phase, RunPhase::kMinimalRiskStop);
 }
 
 // A burst as long as the history: repairs must come from it.
@@ -226,9 +226,9 @@ TEST(OwnParticipant, IsNotHeardAndDoesNotCount) {
   ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {1}, .wants_fallback = false}));
   ASSERT_EQ(others.wait_for(1).size(), 1U);
   ASSERT_TRUE(other_writer.write(Outcome{.vehicle = {2}, .step = {2}, .wants_fallback = false}));
-  const std::vector<Outcome> heard = own.wait_for(1);
-  ASSERT_EQ(heard.size(), 1U);
-  EXPECT_EQ(heard.front().vehicle.value, 2);
+  const std::vector<Outcome> received = own.wait_for(1);
+  ASSERT_EQ(received.size(), 1U);
+  EXPECT_EQ(received.front().vehicle.value, 2);
   EXPECT_EQ(writer.matched(), 1U);
   EXPECT_EQ(writer.matched_names(), std::set<std::string>{"other"});
   EXPECT_EQ(own.reader().matched_names(), std::set<std::string>{"other"});

@@ -112,7 +112,7 @@ void put_message(std::ostream& out, const ::CommonroadDDSPositionInterval& value
   put_all(out, value.circles(), value.polygons(), value.rectangles(), value.lanelet_refs());
 }
 void put_message(std::ostream& out, const GoalState& value) {
-  const auto& goal = std::any_cast<const ::CommonroadDDSGoalState&>(value.carried);
+  const auto& goal = std::any_cast<const ::CommonroadDDSGoalState&>(value.payload);
   put_all(out, goal.time(), goal.time_set(), goal.has_exact_position(), goal.exact_position(),
           goal.position(), goal.orientation(), goal.velocity(), goal.planning_problem_id(),
           goal.goal_state_pos());

@@ -22,7 +22,7 @@ TEST(Transport, IsKnownByName) {
   EXPECT_EQ(transport_from_name("lab"), Transport::kLab);
   EXPECT_EQ(transport_from_name("loopback"), Transport::kLoopback);
   EXPECT_EQ(refusal([] { static_cast<void>(transport_from_name("udp")); }),
-            "--transport: \"udp\" is not allowed, lab or loopback");
+            "--transport: \"udp\", must be lab or loopback");
 }
 
 TEST(Domains, IdsAreFrom0To232) {
@@ -30,7 +30,7 @@ TEST(Domains, IdsAreFrom0To232) {
     EXPECT_NO_THROW(check_domain_id("--dds_domain", id));
   }
   EXPECT_EQ(refusal([] { check_domain_id("--dds_domain", 233); }),
-            "--dds_domain: 233 is not allowed, 0 to 232");
+            "--dds_domain: 233, must be in 0 ... 232");
   EXPECT_THROW(check_domain_id("--dds_domain", -1), std::invalid_argument);
 }
 

@@ -85,7 +85,7 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
         if constexpr (std::is_same_v<TypeParam, AutomatonRequest>) {
           ASSERT_TRUE(std::isfinite(incoming.message->subgraph.max_speed_mps.value_or(0.0)));
         }
-        // But for those that hold words, which may be any, and goals, which nobody here reads.
+        // But for those that hold words, which may be any, and goals, which are not read here.
         if constexpr (!std::is_same_v<TypeParam, ReadyStatus> && !std::is_same_v<TypeParam, Log> &&
                       !std::is_same_v<TypeParam, Parameter> &&
                       !std::is_same_v<TypeParam, Visualization> &&

@@ -10,21 +10,21 @@ namespace {
 constexpr Nanoseconds kNow = 1'700'000'000'000'000'000;
 
 /// Three seconds of vehicle 1 alone, with all that a run needs.
-Heard good(std::int64_t age_ns = 2'000'000) {
-  Heard heard;
-  heard.listened_s = std::chrono::seconds{3};
-  heard.lab_control_answers = true;
-  heard.period_ms = 200;
-  heard.controllers = {"high_level_controller_1"};
+Received good(std::int64_t age_ns = 2'000'000) {
+  Received received;
+  received.listened_s = std::chrono::seconds{3};
+  received.lab_control_answers = true;
+  received.period_ms = 200;
+  received.controllers = {"high_level_controller_1"};
   for (Nanoseconds i = 0; i < 150; ++i) {
     const Nanoseconds now = kNow + i * 20'000'000;
-    note({.vehicle_id = 1, .create_stamp = now - static_cast<Nanoseconds>(age_ns)}, now, heard);
+    note({.vehicle_id = 1, .create_stamp = now - static_cast<Nanoseconds>(age_ns)}, now, received);
   }
-  return heard;
+  return received;
 }
 
-std::vector<Finding> bad_ones(const std::vector<int>& ids, const Heard& heard) {
-  std::vector<Finding> findings = diagnose(ids, heard);
+std::vector<Finding> bad_ones(const std::vector<int>& ids, const Received& received) {
+  std::vector<Finding> findings = diagnose(ids, received);
   std::erase_if(findings, [](const Finding& f) { return f.verdict != Verdict::kBad; });
   return findings;
 }
@@ -37,10 +37,10 @@ TEST(Diagnosis, OfALabThatIsCompleteIsGood) {
 }
 
 TEST(Diagnosis, ProgramsOfAnotherRevisionAreNamedAndTheLabsOwnAreNot) {
-  Heard heard = good();
-  heard.versions = {{"middleware_1", "revision a"}, {"high_level_controller_1", "revision b"}};
+  Received received = good();
+  received.versions = {{"middleware_1", "revision a"}, {"high_level_controller_1", "revision b"}};
   const auto is_bad = [](const Finding& finding) { return finding.verdict == Verdict::kBad; };
-  const std::vector<Finding> findings = diagnose({1}, heard, "revision a");
+  const std::vector<Finding> findings = diagnose({1}, received, "revision a");
   const auto found = std::ranges::find_if(findings, is_bad);
   ASSERT_EQ(std::ranges::count_if(findings, is_bad), 1);
   EXPECT_EQ(found->what, "high_level_controller_1: revision b, this machine: revision a");
@@ -52,7 +52,7 @@ TEST(Diagnosis, NamesWhoDoesNotAnswerAndSaysWhatToDo) {
   EXPECT_EQ(findings[0].what, "vehicle 2: no state");
   EXPECT_NE(findings[0].advice, "");
 
-  Heard silent;
+  Received silent;
   silent.listened_s = std::chrono::seconds{3};
   silent.listened_to_middleware = true;
   EXPECT_EQ(bad_ones({1, 2}, silent).size(), 4U) << "lab control, two vehicles, middleware";
@@ -68,37 +68,37 @@ TEST(Diagnosis, TellsOfClocksThatDiffer) {
 }
 
 TEST(Diagnosis, TakesTheYoungestStateForTheClock) {
-  Heard heard = good();
-  note({.vehicle_id = 1, .create_stamp = kNow - 900'000'000}, kNow, heard);
-  EXPECT_TRUE(bad_ones({1}, heard).empty()) << "one late state is no clock that differs";
+  Received received = good();
+  note({.vehicle_id = 1, .create_stamp = kNow - 900'000'000}, kNow, received);
+  EXPECT_TRUE(bad_ones({1}, received).empty()) << "one late state is no clock that differs";
 }
 
 TEST(Diagnosis, TellsOfAVehicleThatTheCamerasDoNotSeeAnyMore) {
-  Heard heard = good();
-  const auto note_with_age = [&heard](Nanoseconds age) {
-    note({.vehicle_id = 1, .create_stamp = kNow, .ips_update_age = age}, kNow, heard);
+  Received received = good();
+  const auto note_with_age = [&received](Nanoseconds age) {
+    note({.vehicle_id = 1, .create_stamp = kNow, .ips_update_age = age}, kNow, received);
   };
   note_with_age(600'000'000);
-  const auto findings = bad_ones({1}, heard);
+  const auto findings = bad_ones({1}, received);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].what, "vehicle 1: the cameras have not seen it for more than 500.0 ms");
   note_with_age(80'000'000);
-  EXPECT_TRUE(bad_ones({1}, heard).empty());
+  EXPECT_TRUE(bad_ones({1}, received).empty());
 }
 
 TEST(Diagnosis, DoesNotCompareLogicalTimeWithAClock) {
-  Heard heard = good();
-  heard.vehicles.clear();
+  Received received = good();
+  received.vehicles.clear();
   for (Nanoseconds i = 1; i <= 150; ++i) {
-    note({.vehicle_id = 1, .create_stamp = i * 20'000'000}, kNow, heard);
+    note({.vehicle_id = 1, .create_stamp = i * 20'000'000}, kNow, received);
   }
-  EXPECT_TRUE(bad_ones({1}, heard).empty());
+  EXPECT_TRUE(bad_ones({1}, received).empty());
 }
 
 TEST(Diagnosis, TellsOfStatesThatAreLost) {
-  Heard heard = good();
-  heard.listened_s = std::chrono::seconds{10};
-  const auto findings = bad_ones({1}, heard);
+  Received received = good();
+  received.listened_s = std::chrono::seconds{10};
+  const auto findings = bad_ones({1}, received);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].what.find("vehicle 1: 15.0 states per second instead of 50"), 0U);
 }
@@ -106,7 +106,7 @@ TEST(Diagnosis, TellsOfStatesThatAreLost) {
 TEST(Diagnosis, NotesAVehicleThatNobodyAskedFor) {
   const std::vector<Finding> findings = diagnose({}, good());
   EXPECT_TRUE(std::ranges::any_of(findings, [](const Finding& finding) {
-    return finding.verdict == Verdict::kNote && finding.what == "vehicle 1: is there, too";
+    return finding.verdict == Verdict::kNote && finding.what == "vehicle 1: also present";
   }));
 }
 

@@ -46,9 +46,9 @@ TEST_F(Listening, HearsWhoIsThere) {
       }};
 
   auto listening = std::async(std::launch::async, [&] {
-    return listen(options(60s), [](const Heard& heard) {
-      return heard.lab_control_answers && heard.lists == 1 && heard.vehicles.contains(2) &&
-             heard.vehicles.at(2).states == 7 && !heard.controllers.empty();
+    return listen(options(60s), [](const Received& received) {
+      return received.lab_control_answers && received.lists == 1 && received.vehicles.contains(2) &&
+             received.vehicles.at(2).states == 7 && !received.controllers.empty();
     });
   });
   ASSERT_TRUE(states.wait_for_matched(1, soon()) && lists.wait_for_matched(1, soon()));
@@ -60,7 +60,7 @@ TEST_F(Listening, HearsWhoIsThere) {
                .states = {},
                .observations = {},
                .active_vehicle_ids = {2}});
-  const Heard result = listening.get();
+  const Received result = listening.get();
   ASSERT_EQ(result.vehicles.count(2), 1U);
   EXPECT_EQ(result.vehicles.at(2).states, 7U);
   EXPECT_GE(result.vehicles.at(2).least_age_ns, 0);
@@ -71,7 +71,7 @@ TEST_F(Listening, HearsWhoIsThere) {
 }
 
 TEST_F(Listening, EndsWhereNobodyIs) {
-  const Heard result = listen(options(500ms), [](const Heard&) { return false; });
+  const Received result = listen(options(500ms), [](const Received&) { return false; });
   EXPECT_TRUE(result.vehicles.empty());
   EXPECT_FALSE(result.lab_control_answers);
   EXPECT_EQ(result.lists, 0U);

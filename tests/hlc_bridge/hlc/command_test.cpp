@@ -12,7 +12,7 @@ constexpr StepIndex kStep{50};
 constexpr Nanoseconds kNow = 50 * kPeriod + 1;
 
 const Maneuver& edge(std::size_t from, std::size_t to) {
-  return *paper_automaton()->find(pi(from), pi(to), from == to ? kOwnStepLabel : "J2");
+  return *paper_automaton()->find(pi(from), pi(to), from == to ? kSelfLoopLabel : "J2");
 }
 
 TrajectoryCommand driving_command() {

@@ -69,7 +69,7 @@ class DrivenMachine {
   /// What comes from outside, and all that is done then without time passing.
   void on(HlcEvent event) {
     feed(std::move(event));
-    settle();
+    advance_until_idle();
   }
   /// ... while the thread is not running.
   void feed(HlcEvent event) { machine_.on(std::move(event)); }
@@ -77,15 +77,15 @@ class DrivenMachine {
 
   /// The machine is to be advanced at this instant.
   [[nodiscard]] bool is_due() const { return time_to_wake_up() == Nanoseconds{0}; }
-  /// One call of advance: what it says is to be done.
+  /// One call of advance: returns the actions to execute.
   std::vector<HlcAction> advance() {
     std::vector<HlcAction> actions = machine_.advance(now_);
     done_.insert(done_.end(), actions.begin(), actions.end());
     return actions;
   }
 
-  /// As the shell: advances until the machine has nothing to do any more at this instant.
-  void settle() {
+  /// As the shell: advances until the machine has nothing more to do at this instant.
+  void advance_until_idle() {
     for (int i = 0; i < 100 && !exit_code(); ++i) {
       static_cast<void>(advance());
       if (!is_due()) return;
@@ -96,12 +96,12 @@ class DrivenMachine {
   /// Time passes; the machine is advanced when it asks for it.
   void pass(Nanoseconds duration) {
     const Nanoseconds until = now_.wall + duration;
-    settle();
+    advance_until_idle();
     while (!exit_code()) {
       const std::optional<Nanoseconds> wait = time_to_wake_up();
       if (!wait || now_.wall + *wait > until) break;
       move_clocks(*wait);
-      settle();
+      advance_until_idle();
     }
     move_clocks(until - now_.wall);
   }
@@ -159,13 +159,13 @@ class DrivenMachine {
   std::vector<HlcAction> done_;
 };
 
-/// Car 1, alone unless said otherwise, stands at its start.
+/// Car 1, alone by default, stands at its start.
 inline const std::vector<MeasuredVehicle>& standing() {
   static const std::vector<MeasuredVehicle> one{east_bound::seen(1, 0.0, 0.0)};
   return one;
 }
 
-/// Until the car has stood for so long that it may be told to (real time), or that its states may
+/// Until the car has stood for so long that it may drive off (real time), or that its states may
 /// be trusted with the next list (logical time), and the controller is ready.
 inline void stand(DrivenMachine& one, const std::vector<MeasuredVehicle>& vehicles = standing()) {
   const int lists = one.rules().start == StartRule::kTogether ? 5 : 9;

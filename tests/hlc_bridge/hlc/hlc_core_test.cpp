@@ -51,7 +51,7 @@ TEST(HlcCore, AVehicleOutsideTheLabIsToldToStandAndTheReportSaysSo) {
   outside.x_m = -0.5;
   const Report standby = core.controller().stand_by(standing_at({10}, outside));
   const AnswerToList answer = core.answer(list_at(10));
-  EXPECT_THAT(answer.fault, HasSubstr("coordinate = -0.5 m, allowed 0 ... 4.5 in x"));
+  EXPECT_THAT(answer.fault, HasSubstr("coordinate = -0.5 m, must be in 0 ... 4.5 in x"));
   EXPECT_THAT(answer.command.points, IsEmpty());
   EXPECT_EQ(answer.command.create_stamp, list_at(10).t_now);
   EXPECT_FALSE(answer.copy);

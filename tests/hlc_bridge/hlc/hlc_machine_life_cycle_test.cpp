@@ -36,7 +36,7 @@ TEST(HlcMachineReady, SaysSoEveryHalfSecondUntilTheStartOnceItsVehicleMayBeToldT
   EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty()) << "its plan may be to wait and drive";
   one.next_list(standing());
   ASSERT_THAT(one.take<ReadyStatus>(), SizeIs(1));
-  EXPECT_TRUE(one.has_logged("ready, waits for a trigger"));
+  EXPECT_TRUE(one.has_logged("ready; waiting for the start trigger"));
   one.pass(kSecond);
   EXPECT_THAT(one.take<ReadyStatus>(), SizeIs(2));
   one.on(SystemTrigger{.next_start = 1});
@@ -51,7 +51,7 @@ TEST(HlcMachineReady, WaitsForAllWhoAreToReceiveWhatItPublishesAndNamesThem) {
   stand(one, both);
   one.pass(kSecond);
   EXPECT_THAT(one.take<ReadyStatus>(), IsEmpty());
-  EXPECT_TRUE(one.has_logged("waits: not there: high_level_controller_2"));
+  EXPECT_TRUE(one.has_logged("waiting: missing: high_level_controller_2"));
   one.on(peers({2}));
   EXPECT_THAT(one.take<ReadyStatus>(), SizeIs(1));
 }
@@ -62,13 +62,13 @@ TEST(HlcMachineReady, LeavesAfterTheStartupTimeoutAndSaysWhoIsMissing) {
   EXPECT_FALSE(without_lists.exit_code());
   without_lists.pass(1);
   EXPECT_EQ(without_lists.exit_code(), kExitMissing);
-  EXPECT_TRUE(without_lists.has_logged("no state list came from the middleware within 30 s"));
+  EXPECT_TRUE(without_lists.has_logged("no state list received from the middleware within 30 s"));
 
   DrivenMachine without_readers(real_time());
   without_readers.next_list(standing());
   without_readers.pass(31 * kSecond);
   EXPECT_EQ(without_readers.exit_code(), kExitMissing);
-  EXPECT_TRUE(without_readers.has_logged("not there: the middleware's reader of commands"));
+  EXPECT_TRUE(without_readers.has_logged("missing: the middleware's reader of commands"));
 }
 
 TEST(HlcMachineReady, InLogicalTimeTheFirstListIsAnsweredWhenEverybodyIsThere) {
@@ -159,7 +159,7 @@ TEST(HlcMachineStart, JoinsARunningExperimentByTheOthersTraffic) {
   one.on(traffic_of(2, one.step() - 3));
   one.on(traffic_of(3, one.step() + 1));
   one.next_list(both);
-  EXPECT_EQ(last_status(one), StepStatus::kStandby) << "of another time, or of nobody who drives";
+  EXPECT_EQ(last_status(one), StepStatus::kStandby) << "of another time, or of no driving vehicle";
   one.on(traffic_of(2, one.step()));
   one.next_list(both);  // ready now, though 2 receives nothing of it
   one.pass(kPeriod / 2);
@@ -193,10 +193,10 @@ TEST(HlcMachineLoss, PlansOnWhenItsMiddlewareIsBack) {
   start(one);
   one.next_list(standing());
   one.on(without_middleware());
-  EXPECT_TRUE(one.has_logged("middleware_1 is gone"));
+  EXPECT_TRUE(one.has_logged("middleware_1 lost"));
   one.pass(30 * kSecond);
   EXPECT_FALSE(one.exit_code());
-  EXPECT_TRUE(one.has_logged("waits: middleware_1 has sent no state list for"));
+  EXPECT_TRUE(one.has_logged("waiting: no state list from middleware_1 for"));
   one.on(peers());
   EXPECT_TRUE(one.has_logged("middleware_1 is back"));
   one.forget();
@@ -217,7 +217,7 @@ TEST(HlcMachineLoss, LeavesWithoutItsMiddlewareAtOnceWhenEverybodyDrivesOutOrTim
   DrivenMachine one(real_time());
   one.on(peers());
   start(one);
-  one.on(RunState{.phase = RunPhase::kDriveOut});
+  one.on(RunState{.phase = RunPhase::kMinimalRiskStop});
   EXPECT_FALSE(one.exit_code());
   one.on(without_middleware());
   EXPECT_EQ(one.exit_code(), kExitDied);
@@ -236,9 +236,9 @@ TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
   HlcPeers alone = peers();
   alone.lab = {.alive = {}, .lost = {kLabControlName}};
   one.on(alone);
-  EXPECT_TRUE(one.has_logged("lab_control is gone"));
+  EXPECT_TRUE(one.has_logged("lab_control lost"));
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kDriveOut);
+  EXPECT_EQ(last_status(one), StepStatus::kMinimalRiskStop);
   one.on(peers());
   EXPECT_TRUE(one.has_logged("lab_control is back"));
   one.next_list(standing());
@@ -249,7 +249,7 @@ TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
   one.on(alone);
   one.pass(machine::LabControlWatch::kGap);
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kDriveOut);
+  EXPECT_EQ(last_status(one), StepStatus::kMinimalRiskStop);
   one.pass(kControllerStays);
   EXPECT_EQ(one.exit_code(), kExitDied);
 }
@@ -321,7 +321,7 @@ TEST(HlcMachineEnd, AsksForTheStopOfAllWhenTheLabsPeriodIsNotItsStep) {
   one.on(list);
   EXPECT_EQ(one.exit_code(), kExitBadInput);
   EXPECT_THAT(one.take<StopRequest>(), SizeIs(1));
-  EXPECT_TRUE(one.has_logged("the middleware's period is 400 ms, the automaton's step is 0.2 s"));
+  EXPECT_TRUE(one.has_logged("middleware period = 400 ms, must be the automaton's step of 0.2 s"));
 
   DrivenMachine unheard(real_time());
   unheard.on(list);
@@ -338,7 +338,7 @@ TEST(HlcMachineEnd, WhatTheOwnerCouldNotWriteIsSaidAndItsExitCode) {
   one.next_list(standing());
   ASSERT_THAT(one.take<AfterStep>(), SizeIs(1));
   one.on(AfterStepFailure{"no space left"});
-  EXPECT_TRUE(one.has_logged("on nothing is written: no space left"));
+  EXPECT_TRUE(one.has_logged("on not written: no space left"));
   one.next_list(standing());
   EXPECT_THAT(one.take<AfterStep>(), IsEmpty());
   one.forget();

@@ -23,7 +23,7 @@ using testing::Eq;
 constexpr std::size_t kCars = 3;
 constexpr double kBeside_m = 0.25;  // coupled with the neighbour
 
-/// What a step came to, and to the last bit.
+/// The bitwise result of a step.
 using Result = std::tuple<std::uint64_t, StepStatus, FallbackReason, double, double, std::uint64_t,
                           std::uint64_t, double, std::size_t, std::size_t>;
 Result result_of(const Report& report) {
@@ -123,7 +123,7 @@ class Turmoil {
       case 0:
         return one_.on(any_peers());
       case 1:
-        return one_.on(pick(8) == 0 ? RunState{.phase = RunPhase::kDriveOut}
+        return one_.on(pick(8) == 0 ? RunState{.phase = RunPhase::kMinimalRiskStop}
                                     : RunState{.start = pick(2) * one_.now().run});
       case 2:
         return one_.on(any_traffic());
@@ -148,7 +148,8 @@ class Turmoil {
     for (const HlcAction& action : one_.take_all()) {
       if (const auto* traffic = std::get_if<Traffic>(&action)) last_traffic_ = traffic->step;
       if (const auto* prediction = std::get_if<Prediction>(&action)) {
-        ASSERT_EQ(prediction->step, last_traffic_) << "who plans has said where it is";
+        ASSERT_EQ(prediction->step, last_traffic_)
+            << "a controller that plans has published its traffic";
       }
       if (const auto* record = std::get_if<ReportRecord>(&action)) {
         ASSERT_GT(record->report.step, last_report_) << "each step is done once";
@@ -203,7 +204,7 @@ class Turmoil {
   void check(const TrajectoryCommand& command) {
     ASSERT_TRUE(lists_.contains(command.create_stamp)) << "it answers a list";
     ASSERT_GE(command.create_stamp, last_command_);
-    ASSERT_FALSE(is_stopped_) << "the vehicle is to hear nothing";
+    ASSERT_FALSE(is_stopped_) << "the vehicle must receive nothing";
     last_command_ = command.create_stamp;
   }
   void prepare_requests() {

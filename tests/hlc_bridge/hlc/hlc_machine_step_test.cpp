@@ -21,7 +21,7 @@ const std::vector<MeasuredVehicle>& both() {
   return result;
 }
 
-/// The other car's controller, whose messages come when the test says so.
+/// The other car's controller, whose messages are triggered by the test.
 class Peer {
  public:
   Peer(std::uint8_t vehicle, double y_m) : controller_(east_bound::controller(vehicle, y_m)) {}
@@ -128,7 +128,7 @@ TEST_F(HlcMachineStep, InRealTimeTrafficIsAwaitedUntilItsDeadline) {
   static_cast<void>(begin());
   EXPECT_NEAR(share_of<Prediction>(), StepDeadlines{}.traffic, kTolerance);
   const std::vector<ReportRecord> records = one_->take<ReportRecord>();
-  ASSERT_THAT(records, SizeIs(1)) << "who is missing is not coupled";
+  ASSERT_THAT(records, SizeIs(1)) << "a missing vehicle is not coupled";
   EXPECT_THAT(records[0].report.missing, ElementsAre(VehicleId{2}));
 }
 
@@ -137,7 +137,7 @@ TEST_F(HlcMachineStep, InRealTimePredecessorsAreAwaitedUntilTheirDeadline) {
   static_cast<void>(begin());
   one_->on(other_->begin(one_->step()));
   EXPECT_NEAR(share_of<Prediction>(), StepDeadlines{}.predecessors, kTolerance);
-  EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.settle, kTolerance);
+  EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.commit, kTolerance);
 }
 
 TEST_F(HlcMachineStep, InRealTimeTheOthersNewPlansAreAwaitedUntilTheirDeadline) {
@@ -145,7 +145,7 @@ TEST_F(HlcMachineStep, InRealTimeTheOthersNewPlansAreAwaitedUntilTheirDeadline) 
   static_cast<void>(begin());
   one_->on(other_->begin(one_->step()));
   EXPECT_THAT(one_->take<Prediction>(), SizeIs(1));
-  EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.settle, kTolerance);
+  EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.commit, kTolerance);
 }
 
 TEST_F(HlcMachineStep, WhoIsGoneFromTheDomainIsNotAwaited) {
@@ -165,7 +165,7 @@ TEST_F(HlcMachineStep, AfterTheCommandsDeadlineThePlanInForceStaysAndTheMissIsCo
   one.feed(one.wait_for_list(standing()));
   static_cast<void>(one.advance());
   one.delay(190 * kMillisecond);  // the thread gets no processor
-  one.settle();
+  one.advance_until_idle();
   const std::vector<ReportRecord> records = one.take<ReportRecord>();
   ASSERT_THAT(records, SizeIs(1));
   EXPECT_TRUE(records[0].deadline_missed);
@@ -196,7 +196,7 @@ TEST_F(HlcMachineStep, InRealTimeOnlyTheNewestListIsAnsweredInLogicalTimeEveryOn
     one.on(peers());
     start(one);
     for (std::uint64_t i = 1; i <= 3; ++i) one.feed(list_of(one.step() + i, standing()));
-    one.settle();
+    one.advance_until_idle();
     EXPECT_THAT(one.take<ReportRecord>(), SizeIs(rules.answers_every_list ? 3 : 1));
     one.on(list_of(one.step() + 3, standing()));
     EXPECT_THAT(one.take<ReportRecord>(), IsEmpty()) << "each step is done once";
@@ -226,7 +226,7 @@ TEST_F(HlcMachineStep, RequestsArePreparedOneByOneBesideTheRun) {
   EXPECT_EQ(answers[0].outcome, RequestOutcome::kAccepted);
   EXPECT_EQ(answers[1].outcome, RequestOutcome::kInForce);
   EXPECT_EQ(answers[1].step, StepIndex{one.step()});
-  EXPECT_TRUE(one.has_logged("plans on subgraph"));
+  EXPECT_TRUE(one.has_logged("planning on subgraph"));
 }
 
 TEST_F(HlcMachineStep, OfTooManyRequestsTheFirstAreDropped) {

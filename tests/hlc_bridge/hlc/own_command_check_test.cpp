@@ -68,24 +68,24 @@ TEST(OwnCommandCheck, AFirstPointThatIsNotBeforeValidAfterIsFound) {
   TrajectoryCommand command = good_command();
   command.valid_after_stamp = command.points.front().t;
   EXPECT_EQ(validate_own_command(command, kCpmLab),
-            "the first point is 0 s after valid_after, allowed before it");
+            "the first point is 0 s after valid_after, must be before it");
 }
 
 // now + period + 360 ms would do for the lab's vehicle if no command were ever lost.
 TEST(OwnCommandCheck, ACommandThatEndsBeforeItExpiresIsFound) {
   TrajectoryCommand command = good_command();
   while (command.points.back().t >= kList + 1'360 * kMs) command.points.pop_back();
-  EXPECT_THAT(validate_own_command(command, kCpmLab), HasSubstr("allowed from 1.36 s on"));
+  EXPECT_THAT(validate_own_command(command, kCpmLab), HasSubstr("must be >= 1.36 s"));
   TrajectoryCommand later = good_command();
   later.valid_after_stamp += 900 * kMs;
-  EXPECT_THAT(validate_own_command(later, kCpmLab), HasSubstr("allowed from 1.36 s on"));
+  EXPECT_THAT(validate_own_command(later, kCpmLab), HasSubstr("must be >= 1.36 s"));
 }
 
 TEST(OwnCommandCheck, WhatTheLabsVehicleCannotFollowIsFoundWithAPlace) {
   TrajectoryCommand outside = good_command();
   for (TrajectoryPoint& point : outside.points) point.x_m += 3.45;
   EXPECT_THAT(validate_own_command(outside, kCpmLab), StartsWith("coordinate = 4.5"));
-  EXPECT_EQ(validate_own_command(outside, std::nullopt), "") << "nobody has said what is outside";
+  EXPECT_EQ(validate_own_command(outside, std::nullopt), "") << "no area is given";
 
   TrajectoryCommand aside = good_command();
   aside.points[2].y_m += 0.003;

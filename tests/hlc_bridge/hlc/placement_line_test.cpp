@@ -27,18 +27,17 @@ std::string line_of(VehicleId id, const Pose& measured) {
 TEST(PlacementLine, NamesRouteAndPlace) {
   const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
   const std::string line = line_of({3}, compose(start, {0.0, 0.030, 0.0}));
-  EXPECT_THAT(line, HasSubstr("vehicle 3 takes route green at 1.5"));
+  EXPECT_THAT(line, HasSubstr("vehicle 3 selects route green at 1.5"));
   EXPECT_THAT(line, HasSubstr("30 mm beside its path"));
-  EXPECT_THAT(line_of({9}, start),
-              HasSubstr("vehicle 9 takes route green, which it fits best, at"));
+  EXPECT_THAT(line_of({9}, start), HasSubstr("vehicle 9 selects route green (best fit) at"));
 }
 
 TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
   const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
   const std::string turned = line_of({3}, compose(start, {0.0, 0.0, 2.0}));
   EXPECT_THAT(turned, HasSubstr("vehicle 3 fits no route: nearest is green at"));
-  EXPECT_THAT(turned, HasSubstr("(allowed 150 mm)"));
-  EXPECT_THAT(turned, HasSubstr("(allowed 0.600 rad)"));
+  EXPECT_THAT(turned, HasSubstr("(must be <= 150 mm)"));
+  EXPECT_THAT(turned, HasSubstr("(must be <= 0.600 rad)"));
   EXPECT_THAT(line_of({3}, {-1.0, -1.0, 0.0}), HasSubstr("is not on the map"));
 }
 
@@ -46,7 +45,7 @@ TEST(StuckLine, NamesTheBudgetIfItWasUsedUp) {
   const std::unique_ptr<Controller> controller = make_controller(three_cars(), {3});
   EXPECT_THAT(stuck_line(*controller, FallbackReason::kOffRoute), HasSubstr("no plan of 8 steps"));
   EXPECT_EQ(stuck_line(*controller, FallbackReason::kBudget),
-            "vehicle 3 has no new plan: its search used up max_expansions = " +
+            "vehicle 3: no new plan, the search used up max_expansions = " +
                 std::to_string(three_cars().search.max_expansions));
 }
 

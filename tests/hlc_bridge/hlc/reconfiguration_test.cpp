@@ -31,13 +31,13 @@ class ReconfigurationTest : public testing::Test {
     return reconfiguration_.take(prepare(base(), request), {step}).back();
   }
   std::optional<AutomatonAnswer> begin(std::uint64_t step) {
-    const auto answer = reconfiguration_.begin_step(choice_, {step}, step * kStep);
-    EXPECT_EQ(choice_.begin_step(*controller_, {step}, StepIndex{0}, {}), answer.has_value());
+    const auto answer = reconfiguration_.begin_step(selector_, {step}, step * kStep);
+    EXPECT_EQ(selector_.begin_step(*controller_, {step}, StepIndex{0}, {}), answer.has_value());
     return answer;
   }
   [[nodiscard]] RequestBase base() const {
-    return {.subgraph = choice_.base(),
-            .limits_mps = choice_.limits_mps(),
+    return {.subgraph = selector_.base(),
+            .limits_mps = selector_.limits_mps(),
             .horizon_steps = scenario().horizon_steps,
             .search = scenario().search};
   }
@@ -46,7 +46,7 @@ class ReconfigurationTest : public testing::Test {
   }
 
   std::unique_ptr<Controller> controller_ = make_controller(scenario(), kRed);
-  SubgraphChoice choice_{*controller_, {}};
+  SubgraphSelector selector_{*controller_, {}};
   Reconfiguration reconfiguration_;
 };
 
@@ -65,13 +65,13 @@ TEST_F(ReconfigurationTest, IsInForceFromTheFirstStepOfItsTimeOn) {
   EXPECT_EQ(in_force->step, StepIndex{12});
   EXPECT_EQ(controller_->subgraph().spec().name, "B, at most 0.6 m/s");
   EXPECT_EQ(limit_mps(), 0.6);
-  EXPECT_FALSE(begin(13)) << "told once";
+  EXPECT_FALSE(begin(13)) << "reported once";
 }
 
 TEST_F(ReconfigurationTest, ALaterRequestCountsWhicheverComesFirst) {
   EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kAccepted);
   EXPECT_EQ(take(slow(6, 0.5), 1).outcome, RequestOutcome::kStale);
-  EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kStale) << "heard twice";
+  EXPECT_EQ(take(slow(7, 0.6), 1).outcome, RequestOutcome::kStale) << "received twice";
   ASSERT_TRUE(begin(2));
   EXPECT_EQ(limit_mps(), 0.6);
   EXPECT_EQ(take(slow(8, 0.5), 3).outcome, RequestOutcome::kAccepted);
@@ -97,14 +97,14 @@ TEST_F(ReconfigurationTest, ARefusedRequestLeavesWhatIsInForceAndWhatWaits) {
   EXPECT_EQ(take(slow(2, 0.5, 5 * kStep), 2).outcome, RequestOutcome::kAccepted);
   const AutomatonAnswer refused = take(slow(3, 0.1), 2);
   EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
-  EXPECT_NE(refused.text.find("speed limit 0.1 m/s, allowed at least 0.4"), std::string::npos);
+  EXPECT_NE(refused.text.find("speed limit 0.1 m/s, must be >= 0.4"), std::string::npos);
   EXPECT_FALSE(begin(3));
   EXPECT_EQ(limit_mps(), 0.6);
   ASSERT_TRUE(begin(5));
   EXPECT_EQ(limit_mps(), 0.5);
 }
 
-// Not from the last request, so whoever comes late needs only the last one.
+// Not from the last request, so a late joiner needs only the last one.
 TEST_F(ReconfigurationTest, EveryRequestStartsFromTheScenariosSubgraph) {
   EXPECT_EQ(take(slow(1, 0.6), 1).outcome, RequestOutcome::kAccepted);
   ASSERT_TRUE(begin(1));
@@ -139,7 +139,7 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
   const AutomatonAnswer refused =
       reconfiguration_.take(prepare(base(), unknown, &weights), {2}).back();
   EXPECT_EQ(refused.outcome, RequestOutcome::kRefused);
-  EXPECT_NE(refused.text.find("'J9', allowed J1"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("'J9', must be one of J1"), std::string::npos) << refused.text;
   EXPECT_FALSE(begin(2));
   EXPECT_EQ(controller_->subgraph().spec().name, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
 }

@@ -148,9 +148,9 @@ TEST_F(WeightDesignTest, ForgetsTheWeightsThatWereAskedForLongestAgo) {
 
 TEST_F(WeightDesignTest, RefusesWhatNoSumCanBeMadeOf) {
   EXPECT_THAT(refusal({{"J1", 0.3}, {"J9", 0.7}}),
-              HasSubstr("weights: criterion 'J9', allowed J1, J2, J3"));
+              HasSubstr("weights: criterion 'J9', must be one of J1, J2, J3"));
   EXPECT_THAT(refusal({{"J1", 0.3}, {"J1", 0.7}}), HasSubstr("J1 is listed twice"));
-  EXPECT_THAT(refusal({{"J1", -0.3}, {"J2", 0.7}}), HasSubstr("J1 = -0.3, allowed at least 0"));
+  EXPECT_THAT(refusal({{"J1", -0.3}, {"J2", 0.7}}), HasSubstr("J1 = -0.3, must be >= 0"));
   EXPECT_THAT(refusal({{"J1", std::nan("")}}), HasSubstr("J1 = nan"));
   EXPECT_THAT(refusal({{"J1", INFINITY}}), HasSubstr("J1 = inf"));
   EXPECT_THAT(refusal({{"J1", 0.0}}), HasSubstr("all 0"));
@@ -159,17 +159,17 @@ TEST_F(WeightDesignTest, RefusesWhatNoSumCanBeMadeOf) {
 
 TEST_F(WeightDesignTest, RefusesWithoutTheConfigurationThatTheAutomatonWasBuiltFrom) {
   WeightDesign without(base().shared_automaton(), {});
-  EXPECT_THAT(refusal_of(without, kWeights), HasSubstr("is not known"));
+  EXPECT_THAT(refusal_of(without, kWeights), HasSubstr("configuration of the automaton unknown"));
   WeightDesign unreadable(base().shared_automaton(), []() -> AutomatonConfiguration {
-    throw std::invalid_argument("built.yaml: its configuration is not beside it");
+    throw std::invalid_argument("built.yaml: configuration not found in its folder");
   });
-  EXPECT_THAT(refusal_of(unreadable, kWeights), HasSubstr("is not beside it"));
+  EXPECT_THAT(refusal_of(unreadable, kWeights), HasSubstr("not found in its folder"));
   WeightDesign edited(base().shared_automaton(), [] {
     AutomatonConfiguration configuration = paper_b();
     configuration.limits.acceleration_mps2 *= 0.5;
     return configuration;
   });
-  EXPECT_THAT(refusal_of(edited, kWeights), HasSubstr("paper.yaml says something else"));
+  EXPECT_THAT(refusal_of(edited, kWeights), HasSubstr("paper.yaml differs from"));
 }
 
 TEST_F(WeightDesignTest, StopsBetweenTwoManeuvers) {
@@ -195,7 +195,7 @@ TEST_F(WeightDesignTest, NothingIsFasterThanTheScenariosAutomaton) {
   const std::string reason =
       fault(design_, Subgraph(build_shared_automaton(declared), declared.subgraphs.front()));
   EXPECT_THAT(reason, HasSubstr("(J1 1) reaches"));
-  EXPECT_THAT(reason, HasSubstr("m/s, allowed 0.8"));
+  EXPECT_THAT(reason, HasSubstr("m/s, must be <= 0.8"));
 }
 
 TEST_F(WeightDesignTest, TheLabsVehiclesCanFollowWhatIsOn) {

@@ -38,7 +38,7 @@ std::vector<Nanoseconds> triggers(const std::vector<LabControlMachine::Action>& 
 
 LabRunSettings settings() { return {.vehicle_ids = {1}, .period = kPeriod, .steps = 3}; }
 
-LabControlPresence everybody() {
+LabControlPresence all_present() {
   return {.participants = {.alive = {vehicle_name(1), middleware_name(1), controller_name(1)}},
           .trigger_readers = {2, {vehicle_name(1), middleware_name(1)}}};
 }
@@ -58,7 +58,7 @@ class LogicalLabControl : public testing::Test {
   }
   /// The first tick, of the vehicle, is released.
   void begin() {
-    lab_.on(everybody());
+    lab_.on(all_present());
     lab_.on(ReadyStatus{vehicle_name(1), 0});
     lab_.on(ReadyStatus{middleware_name(1), kListOffset});
     const auto actions = advance();
@@ -97,20 +97,20 @@ TEST_F(LogicalLabControl, AwaitsAsManyEventsAsAreMissingForTheNextTick) {
   lab_.on(ReadyStatus{vehicle_name(1), kVehiclePeriod});
   EXPECT_THAT(triggers(advance()), ElementsAre(kListOffset));
   EXPECT_EQ(lab_.wake_up().run, std::nullopt);
-  EXPECT_EQ(lab_.wake_up().wall, wall_ + kSecond) << "progress; then who owes an answer is dead";
+  EXPECT_EQ(lab_.wake_up().wall, wall_ + kSecond)
+      << "progress; then a process with a pending reply is dead";
 }
 
 TEST_F(LogicalLabControl, WhoOwesAnAnswerForTooLongIsDead) {
   begin();
   wall_ += kAnswerTimeout;
   const auto actions = advance();
-  EXPECT_THAT(
-      of<machine::LogLine>(actions),
-      ElementsAre(machine::error("vehicle_raspberry_1 died: it owes an answer for too long")));
+  EXPECT_THAT(of<machine::LogLine>(actions),
+              ElementsAre(machine::error("vehicle_raspberry_1 died: answer overdue")));
   ASSERT_EQ(of<Log>(actions).size(), 1U);
   EXPECT_EQ(of<Log>(actions)[0].level, 1);
   ASSERT_EQ(of<RunState>(actions).size(), 1U);
-  EXPECT_EQ(of<RunState>(actions)[0].phase, RunPhase::kDriveOut);
+  EXPECT_EQ(of<RunState>(actions)[0].phase, RunPhase::kMinimalRiskStop);
 }
 
 TEST_F(LogicalLabControl, ShowsHowFarTheRunIs) {
@@ -120,7 +120,7 @@ TEST_F(LogicalLabControl, ShowsHowFarTheRunIs) {
   auto shown = of<ProgressText>(advance());
   ASSERT_EQ(shown.size(), 1U);
   EXPECT_EQ(shown[0].text,
-            "waiting, not there: vehicle_raspberry_1, middleware_1, high_level_controller_1");
+            "waiting: missing: vehicle_raspberry_1, middleware_1, high_level_controller_1");
   begin();
   wall_ += 2 * kSecond;
   shown = of<ProgressText>(advance());
@@ -129,7 +129,7 @@ TEST_F(LogicalLabControl, ShowsHowFarTheRunIs) {
 }
 
 TEST_F(LogicalLabControl, LeavesWhenNobodyReadsTriggersAnyMore) {
-  lab_.on(everybody());
+  lab_.on(all_present());
   lab_.on(machine::StopSignal{});
   EXPECT_THAT(triggers(advance()), ElementsAre(kStopSymbol));
   EXPECT_TRUE(lab_.run().finished());
@@ -142,7 +142,7 @@ TEST_F(LogicalLabControl, LeavesWhenNobodyReadsTriggersAnyMore) {
 }
 
 TEST_F(LogicalLabControl, DoesNotWaitForLongForThoseWhoStay) {
-  lab_.on(everybody());
+  lab_.on(all_present());
   static_cast<void>(advance());
   wall_ += settings().startup_timeout;
   static_cast<void>(advance());
@@ -154,7 +154,7 @@ TEST_F(LogicalLabControl, DoesNotWaitForLongForThoseWhoStay) {
 
 TEST(RealTimeLabControl, CountsByTheTimeOfTheRun) {
   LabControlMachine lab{std::make_unique<RealTimeRun>(settings()), kSecond / 10};
-  lab.on(everybody());
+  lab.on(all_present());
   lab.on(ReadyStatus{middleware_ready_id(1), 0});
   for (Nanoseconds t = kReal - kSecond; t <= kReal; t += kVehiclePeriod) {
     lab.on(VehicleState{.vehicle_id = 1, .create_stamp = t});
@@ -173,18 +173,18 @@ TEST(RealTimeLabControl, SaysWhoIsBack) {
   LabRunSettings continues = settings();
   continues.on_death = OnDeath::kContinue;
   LabControlMachine lab{std::make_unique<RealTimeRun>(continues), kSecond / 10};
-  lab.on(everybody());
+  lab.on(all_present());
   lab.on(ReadyStatus{middleware_ready_id(1), 0});
   for (Nanoseconds t = kReal - kSecond; t <= kReal; t += kVehiclePeriod) {
     lab.on(VehicleState{.vehicle_id = 1, .create_stamp = t});
   }
   static_cast<void>(lab.advance({.run = kReal, .wall = kWall}));
-  LabControlPresence without = everybody();
+  LabControlPresence without = all_present();
   without.participants.alive.erase(middleware_name(1));
   without.participants.lost.insert(middleware_name(1));
   lab.on(without);
   EXPECT_EQ(of<Log>(lab.advance({.run = kReal + 1, .wall = kWall + 1})).size(), 1U);
-  lab.on(everybody());
+  lab.on(all_present());
   EXPECT_THAT(of<machine::LogLine>(lab.advance({.run = kReal + 2, .wall = kWall + 2})),
               ElementsAre(machine::info("middleware_1 is back")));
 }

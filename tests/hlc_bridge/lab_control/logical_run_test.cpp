@@ -51,8 +51,8 @@ TEST(LogicalRun, ReleasesEveryTickInOrderWhateverTheOrderOfEvents) {
   }
 }
 
-// Property: whoever dies, at whatever time, in whichever way: nothing blocks, the right one is
-// named, the living go on for three seconds.
+// Property: if any process dies, at any time, in any way: nothing blocks, the dead process is
+// named, the live ones continue for three seconds.
 TEST(LogicalRun, DeathsDoNotBlockAndAreNamed) {
   for (unsigned seed = 0; seed < test::num_seeds(120); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -73,13 +73,13 @@ TEST(LogicalRun, DeathsDoNotBlockAndAreNamed) {
     ASSERT_FALSE(lab.result().deaths.empty());
     EXPECT_EQ(lab.result().deaths.front().process, fault.process);
     EXPECT_THAT(lab.result().reason, StartsWith("died: " + fault.process));
-    // A controller leaves when its middleware is lost; nobody else is accused.
+    // A controller leaves when its middleware is lost; no other process is accused.
     for (std::size_t i = 1; i < lab.result().deaths.size(); ++i) {
       EXPECT_EQ(fault.process, middleware_name(id));
       EXPECT_EQ(lab.result().deaths[i].process, controller_name(id));
     }
-    ASSERT_TRUE(lab.death_told_at() && lab.stopped_at());
-    EXPECT_NEAR(static_cast<double>(*lab.stopped_at() - *lab.death_told_at()), 3e9, 21e6);
+    ASSERT_TRUE(lab.death_reported_at() && lab.stopped_at());
+    EXPECT_NEAR(static_cast<double>(*lab.stopped_at() - *lab.death_reported_at()), 3e9, 21e6);
     EXPECT_GE(lab.released().back() + kListOffset, *lab.stopped_at() + kSecond);
   }
 }
@@ -144,7 +144,7 @@ TEST(LogicalRun, NamesWhoDidNotAppearAndWhoIsNotReady) {
   EXPECT_TRUE(run.finished());
   EXPECT_EQ(run.result().exit_code, kExitMissing);
   EXPECT_EQ(run.result().reason,
-            "after 20 s: not there: high_level_controller_2; not ready: middleware_2");
+            "after 20 s: missing: high_level_controller_2; not ready: middleware_2");
 }
 
 TEST(LogicalRun, ProcessThatIsLostBeforeTheStartMayComeBack) {
@@ -167,7 +167,7 @@ TEST(LogicalRun, FirstTriggerWaitsUntilItReachesEveryTimer) {
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   EXPECT_THAT(run.advance(1).triggers, IsEmpty()) << "two readers, but not the two timers'";
-  EXPECT_THAT(run.waiting_for(), HasSubstr("triggers, which do not yet reach middleware_1"));
+  EXPECT_THAT(run.waiting_for(), HasSubstr("triggers, not yet matched by middleware_1"));
   run.trigger_readers(timers_of({1}));
   EXPECT_THAT(run.advance(2).triggers, ElementsAre(0));
 }
@@ -199,20 +199,20 @@ TEST(LogicalRun, LostTriggerIsSentAgain) {
 
 TEST(LogicalRun, NothingIsReleasedBeforeAllAnswersOwedHaveCome) {
   LogicalRun run{settings({1, 2}, 20)};
-  EXPECT_EQ(run.answers_owed(), 0U) << "before the beginning anything may count";
+  EXPECT_EQ(run.pending_answers(), 0U) << "before the beginning anything may count";
   run.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : std::vector<std::uint8_t>{1, 2}) {
     run.ready({vehicle_name(id), 0});
     run.ready({middleware_name(id), kListOffset});
   }
   EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
-  EXPECT_EQ(run.answers_owed(), 2U);
+  EXPECT_EQ(run.pending_answers(), 2U);
   run.ready({vehicle_name(1), kVehiclePeriod});
   EXPECT_THAT(run.advance(2).triggers, IsEmpty());
-  EXPECT_EQ(run.answers_owed(), 1U);
+  EXPECT_EQ(run.pending_answers(), 1U);
   run.ready({vehicle_name(2), kVehiclePeriod});
   EXPECT_THAT(run.advance(3).triggers, ElementsAre(kListOffset));
-  EXPECT_EQ(run.answers_owed(), 2U);
+  EXPECT_EQ(run.pending_answers(), 2U);
 }
 
 TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
@@ -226,7 +226,7 @@ TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
   run.stop_requested(2);
   EXPECT_EQ(run.advance(2).triggers.front(), kStopSymbol);
   EXPECT_EQ(run.result().exit_code, kExitDied);
-  EXPECT_EQ(run.result().reason, "high_level_controller_2 asked for the stop");
+  EXPECT_EQ(run.result().reason, "high_level_controller_2 requested the stop");
 }
 
 }  // namespace

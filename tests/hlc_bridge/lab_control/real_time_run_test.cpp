@@ -45,11 +45,11 @@ class RealTimeRunTest : public testing::Test {
     run_.presence(kAll, {});
     run_.trigger_readers(timers_of({1, 2}));
     for (const std::uint8_t id : settings().vehicle_ids) {
-      let_settle(id);
+      send_settled_states(id);
       run_.ready({middleware_ready_id(id), 0});
     }
   }
-  void let_settle(std::uint8_t id) {
+  void send_settled_states(std::uint8_t id) {
     for (const VehicleState& state : second_of_states(id)) run_.state(state);
   }
   /// Every controller reports the step of `now`; then the run is advanced.
@@ -72,9 +72,9 @@ TEST_F(RealTimeRunTest, TriggersOneSecondAheadWhenEverybodyIsReady) {
 
 TEST_F(RealTimeRunTest, WaitsForEachSingleOne) {
   run_.trigger_readers(timers_of({1, 2}));
-  let_settle(1);
+  send_settled_states(1);
   run_.ready({middleware_ready_id(1), 0});
-  let_settle(2);
+  send_settled_states(2);
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
   run_.ready({middleware_ready_id(2), 0});
   std::set<std::string> readers = timers_of({1});
@@ -90,7 +90,7 @@ TEST_F(RealTimeRunTest, AVehicleIsReadyWhenItsStatesHaveSettled) {
   run_.trigger_readers(timers_of({1, 2}));
   run_.ready({middleware_ready_id(1), 0});
   run_.ready({middleware_ready_id(2), 0});
-  let_settle(1);
+  send_settled_states(1);
   std::vector<VehicleState> states = second_of_states(2);
   states[25].pose.x_m = 1.0;  // it finds itself
   for (const VehicleState& state : states) run_.state(state);
@@ -101,7 +101,7 @@ TEST_F(RealTimeRunTest, AVehicleIsReadyWhenItsStatesHaveSettled) {
 TEST_F(RealTimeRunTest, TimerNamesAreNoSignOfReadinessInRealTime) {
   run_.trigger_readers(timers_of({1, 2}));
   for (const std::uint8_t id : settings().vehicle_ids) {
-    let_settle(id);
+    send_settled_states(id);
     run_.ready({middleware_name(id), 0});
   }
   EXPECT_THAT(run_.advance(kStart).triggers, IsEmpty());
@@ -142,12 +142,12 @@ class OnDeathContinue : public RealTimeRunTest {
     run_.presence(kAll, {});
     run_.trigger_readers(timers_of({1, 2}));
   }
-  /// Advances period by period; controller 2 reports only if it `lives`.
-  LabRunActions drive(std::uint64_t from, std::uint64_t to, bool lives) {
+  /// Advances period by period; controller 2 reports only if `is_alive`.
+  LabRunActions drive(std::uint64_t from, std::uint64_t to, bool is_alive) {
     LabRunActions all;
     for (std::uint64_t step = from; step < to; ++step) {
       run_.report(report(1, step, StepStatus::kPlanned));
-      if (lives) run_.report(report(2, step, StepStatus::kPlanned));
+      if (is_alive) run_.report(report(2, step, StepStatus::kPlanned));
       const LabRunActions actions = run_.advance(step * kPeriod);
       std::ranges::copy(actions.deaths, std::back_inserter(all.deaths));
       std::ranges::copy(actions.returns, std::back_inserter(all.returns));
@@ -186,7 +186,7 @@ TEST_F(OnDeathContinue, TheRunGoesOnAndEndsWellIfWhoDiedIsBack) {
   const LabRunActions death = drive(k0_ + 10, k0_ + 25, false);
   ASSERT_EQ(death.deaths.size(), 1U);
   EXPECT_EQ(death.deaths.front().process, controller_name(2));
-  EXPECT_EQ(death.run_state, std::nullopt) << "nobody drives out";
+  EXPECT_EQ(death.run_state, std::nullopt) << "no minimal-risk stop";
   EXPECT_THAT(death.triggers, IsEmpty());
   run_.presence(kAll, {});
   EXPECT_THAT(drive(k0_ + 25, k0_ + 26, false).returns, IsEmpty()) << "it does not report yet";
@@ -224,7 +224,7 @@ TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   const LabRunActions actions = run_.advance(kStart + 2 * kSecond);
   ASSERT_EQ(actions.deaths.size(), 1U);
   EXPECT_EQ(actions.deaths.front().process, middleware_name(2));
-  EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
+  EXPECT_EQ(actions.run_state, RunPhase::kMinimalRiskStop);
   EXPECT_THAT(actions.triggers, IsEmpty());
   for (Nanoseconds t = kStart + 2 * kSecond; t < kStart + 5 * kSecond; t += kPeriod) {
     run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
@@ -232,7 +232,7 @@ TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   }
   EXPECT_EQ(run_.wake_up(), kStart + 5 * kSecond);
   EXPECT_THAT(run_.advance(kStart + 5 * kSecond).triggers, ElementsAre(kStopSymbol));
-  // Everybody leaves as told: no further death.
+  // All leave on the stop: no further death.
   run_.presence({}, kAll);
   EXPECT_THAT(run_.advance(kStart + 5 * kSecond + 1).deaths, IsEmpty());
   (void)run_.advance(kStart + 5 * kSecond + kBrakingTime);
@@ -245,13 +245,13 @@ TEST_F(RealTimeRunTest, NamesWhoIsMissing) {
   run_.presence({vehicle_name(1), vehicle_name(2), middleware_name(1), controller_name(1),
                  controller_name(2)},
                 {});
-  let_settle(1);
+  send_settled_states(1);
   run_.ready({middleware_ready_id(1), 0});
   (void)run_.advance(kStart);
   EXPECT_THAT(run_.advance(kStart + 20 * kSecond).triggers, ElementsAre(kStopSymbol));
   EXPECT_EQ(run_.result().exit_code, kExitMissing);
   EXPECT_EQ(run_.result().reason,
-            "after 20 s: not there: middleware_2; not ready: "
+            "after 20 s: missing: middleware_2; not ready: "
             "vehicle_raspberry_2");
 }
 
@@ -283,7 +283,7 @@ TEST_F(RealTimeRunTest, AControllerThatHangsIsNamedThoughItsParticipantLives) {
   const LabRunActions actions = run_.advance(due);
   ASSERT_EQ(actions.deaths.size(), 1U);
   EXPECT_EQ(actions.deaths.front().process, controller_name(2));
-  EXPECT_EQ(actions.run_state, RunPhase::kDriveOut);
+  EXPECT_EQ(actions.run_state, RunPhase::kMinimalRiskStop);
   EXPECT_EQ(run_.result().exit_code, kExitDied);
 }
 

@@ -29,9 +29,9 @@ inline std::set<std::string> timers_of(const std::vector<std::uint8_t>& vehicle_
 /// chosen time.
 ///
 /// They keep the run protocol: a vehicle waits for the answer to the last list, a middleware for
-/// its controller's answer, a controller for the other controllers. Nobody waits for a process that
-/// he knows to be lost. When nobody can do anything, 10 s of wall time pass, and the dead process
-/// is known.
+/// its controller's answer, a controller for the other controllers. No process waits for
+/// one that it has lost. When no process can act, 10 s of wall time pass, and the dead process is
+/// detected.
 class SimulatedLab {
  public:
   enum class Dying { kVanishes, kHangs };  ///< its participant goes, or stays without an answer
@@ -84,7 +84,7 @@ class SimulatedLab {
   [[nodiscard]] const LabRunResult& result() const { return run_.result(); }
   [[nodiscard]] const std::vector<Nanoseconds>& released() const { return released_; }
   [[nodiscard]] const std::vector<std::string>& violations() const { return violations_; }
-  [[nodiscard]] std::optional<Nanoseconds> death_told_at() const { return death_told_at_; }
+  [[nodiscard]] std::optional<Nanoseconds> death_reported_at() const { return death_reported_at_; }
   [[nodiscard]] std::optional<Nanoseconds> stopped_at() const { return stopped_at_; }
   [[nodiscard]] Nanoseconds wall() const { return wall_; }
   [[nodiscard]] std::uint64_t last_report(std::uint8_t id) const {
@@ -94,7 +94,7 @@ class SimulatedLab {
  private:
   struct Vehicle {
     Nanoseconds deadline{};
-    bool said{};      ///< ready for `deadline`
+    bool is_ready{};  ///< ready for `deadline`
     bool released{};  ///< trigger for `deadline` has come
     std::optional<Nanoseconds> command;
     int braking_ticks{};
@@ -102,7 +102,7 @@ class SimulatedLab {
   };
   struct Middleware {
     Nanoseconds deadline{};
-    bool said{};
+    bool is_ready{};
     bool released{};
     bool list_written{};
     bool gone{};
@@ -121,8 +121,8 @@ class SimulatedLab {
   }
 
   void perform(const LabRunActions& actions) {
-    if (!actions.deaths.empty() && !death_told_at_) {
-      death_told_at_ = latest_;
+    if (!actions.deaths.empty() && !death_reported_at_) {
+      death_reported_at_ = latest_;
     }
     for (const Nanoseconds trigger : actions.triggers) {
       if (trigger == kStopSymbol) {
@@ -157,10 +157,10 @@ class SimulatedLab {
       latest_ = tick;
     }
     for (auto& [id, vehicle] : vehicles_) {
-      vehicle.released |= vehicle.said && vehicle.deadline == tick;
+      vehicle.released |= vehicle.is_ready && vehicle.deadline == tick;
     }
     for (auto& [id, middleware] : middlewares_) {
-      middleware.released |= middleware.said && middleware.deadline == tick;
+      middleware.released |= middleware.is_ready && middleware.deadline == tick;
     }
   }
 
@@ -175,14 +175,14 @@ class SimulatedLab {
     const bool known = run_.phase() != LabRun::Phase::kGathering;
     for (const auto& [id, vehicle] : vehicles_) {
       const bool waited_for = !vehicle.gone && acts(vehicle_name(id));
-      expect(!waited_for || (vehicle.said && !vehicle.released && vehicle.deadline >= tick),
+      expect(!waited_for || (vehicle.is_ready && !vehicle.released && vehicle.deadline >= tick),
              vehicle_name(id) + " has not answered before tick " + std::to_string(tick));
     }
     for (const auto& [id, middleware] : middlewares_) {
       const bool waited_for = !middleware.gone && acts(middleware_name(id));
-      expect(
-          !waited_for || (middleware.said && !middleware.released && middleware.deadline >= tick),
-          middleware_name(id) + " has not answered before tick " + std::to_string(tick));
+      expect(!waited_for ||
+                 (middleware.is_ready && !middleware.released && middleware.deadline >= tick),
+             middleware_name(id) + " has not answered before tick " + std::to_string(tick));
     }
     for (const auto& [id, controller] : controllers_) {
       const bool waited_for = !controller.gone && acts(controller_name(id)) &&
@@ -223,9 +223,9 @@ class SimulatedLab {
     return true;
   }
 
-  void say_ready(const std::string& name, Nanoseconds deadline, bool& said) {
+  void publish_ready(const std::string& name, Nanoseconds deadline, bool& is_ready) {
     run_.ready({name, deadline});
-    said = true;
+    is_ready = true;
     if (random_() % 20 == 0) {
       run_.ready({name, deadline});  // a repetition
     }
@@ -236,12 +236,12 @@ class SimulatedLab {
     if (!acts(name) || vehicle.gone) {
       return;
     }
-    if (!vehicle.said) {
+    if (!vehicle.is_ready) {
       possible.push_back([this, name, &vehicle] {
         if (vehicle.braking_ticks == 50) {
           leave(name, vehicle.gone);
         } else {
-          say_ready(name, vehicle.deadline, vehicle.said);
+          publish_ready(name, vehicle.deadline, vehicle.is_ready);
         }
       });
       return;
@@ -253,7 +253,7 @@ class SimulatedLab {
     if (vehicle.released && has_command) {
       possible.push_back([this, &vehicle] {
         vehicle.deadline += kVehiclePeriod;
-        vehicle.said = vehicle.released = false;
+        vehicle.is_ready = vehicle.released = false;
         vehicle.braking_ticks += stopped_at_ ? 1 : 0;
       });
     }
@@ -265,9 +265,10 @@ class SimulatedLab {
     if (!acts(name) || middleware.gone) {
       return;
     }
-    if (!middleware.said) {
-      possible.push_back(
-          [this, name, &middleware] { say_ready(name, middleware.deadline, middleware.said); });
+    if (!middleware.is_ready) {
+      possible.push_back([this, name, &middleware] {
+        publish_ready(name, middleware.deadline, middleware.is_ready);
+      });
       return;
     }
     if (!middleware.released) {
@@ -283,7 +284,7 @@ class SimulatedLab {
       possible.push_back([this, id, &middleware] {
         vehicles_[id].command = middleware.deadline;
         middleware.deadline += settings_.period;
-        middleware.said = middleware.released = middleware.list_written = false;
+        middleware.is_ready = middleware.released = middleware.list_written = false;
       });
     }
   }
@@ -324,7 +325,7 @@ class SimulatedLab {
     run_.report(record);
   }
 
-  /// Nobody can do anything: the peers' patience ends, later the lab control's own.
+  /// No process can act: the peers' timeouts expire, later the lab control's.
   bool pass_time() {
     if (!dead_.empty() && known_lost_.insert(dead_).second) {
       wall_ += kMessageTimeout;
@@ -358,7 +359,7 @@ class SimulatedLab {
   Nanoseconds latest_{};
   std::vector<Nanoseconds> released_;
   std::vector<std::string> violations_;
-  std::optional<Nanoseconds> death_told_at_;
+  std::optional<Nanoseconds> death_reported_at_;
   std::optional<Nanoseconds> stopped_at_;
 };
 

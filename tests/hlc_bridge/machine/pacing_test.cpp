@@ -73,14 +73,14 @@ TEST_F(LogicalPacingTest, ATriggerGivesOneTickOnly) {
 }
 
 TEST_F(LogicalPacingTest, GivesUpWhenNoTriggerComesThoughATickIsWanted) {
-  EXPECT_FALSE(pacing.has_given_up(kWall + 1000 * kSecond));
+  EXPECT_FALSE(pacing.is_timed_out(kWall + 1000 * kSecond));
   pacing.want(0);
-  EXPECT_FALSE(pacing.has_given_up(kWall + 60 * kSecond - 1));
-  EXPECT_TRUE(pacing.has_given_up(kWall + 60 * kSecond));
-  pacing.on_trigger(17, kWall + 59 * kSecond);  // for somebody else: the lab control lives
-  EXPECT_FALSE(pacing.has_given_up(kWall + 100 * kSecond));
-  EXPECT_TRUE(pacing.has_given_up(kWall + 119 * kSecond));
-  EXPECT_FALSE(pacing.has_given_up(kWall)) << "a reading from before the trigger";
+  EXPECT_FALSE(pacing.is_timed_out(kWall + 60 * kSecond - 1));
+  EXPECT_TRUE(pacing.is_timed_out(kWall + 60 * kSecond));
+  pacing.on_trigger(17, kWall + 59 * kSecond);  // for another vehicle: the lab control is alive
+  EXPECT_FALSE(pacing.is_timed_out(kWall + 100 * kSecond));
+  EXPECT_TRUE(pacing.is_timed_out(kWall + 119 * kSecond));
+  EXPECT_FALSE(pacing.is_timed_out(kWall)) << "a reading from before the trigger";
 }
 
 TEST(LogicalPacing, HasMorePatienceWithALongStart) {
@@ -100,7 +100,7 @@ TEST(RealPacing, TimeIsThatOfTheClock) {
   EXPECT_FALSE(pacing.on_trigger(200, 7));
   EXPECT_FALSE(pacing.is_due());
   EXPECT_EQ(pacing.announcement(7), std::nullopt);
-  EXPECT_FALSE(pacing.has_given_up(~Nanoseconds{0}));
+  EXPECT_FALSE(pacing.is_timed_out(~Nanoseconds{0}));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct StartUpTest : testing::Test {
     actions.clear();
     return start_up.connect(now, missing, actions);
   }
-  void tell_everything() {
+  void publish_everything() {
     start_up.take({kPeriodParameter, std::uint64_t{200}});
     start_up.take({kActiveIdsParameter, std::vector<std::int32_t>{1, 2}});
   }
@@ -60,7 +60,7 @@ TEST_F(StartUpTest, AsksForWhatIsMissingAgainAndAgain) {
   start_up.take({kPeriodParameter, std::uint64_t{200}});
   EXPECT_FALSE(learn(*start_up.wake_up()));
   EXPECT_THAT(requested(actions), ElementsAre(kActiveIdsParameter));
-  tell_everything();
+  publish_everything();
   EXPECT_TRUE(learn(kBegin + StartUp::kRequestInterval + 1));
   EXPECT_EQ(start_up.wake_up(), std::nullopt);
   EXPECT_TRUE(actions.empty());
@@ -73,7 +73,7 @@ TEST_F(StartUpTest, LogsForWhomItWaits) {
     EXPECT_FALSE(learn(*start_up.wake_up()));
     for (const LogLine& line : logged(actions)) lines.push_back(line);
   }
-  EXPECT_THAT(lines, ElementsAre(info("waiting for lab_control to tell middleware_period_ms, "
+  EXPECT_THAT(lines, ElementsAre(info("waiting for lab_control to send middleware_period_ms, "
                                       "active_vehicle_ids")));
 }
 
@@ -84,24 +84,24 @@ TEST_F(StartUpTest, ALabControlThatDoesNotAnswerIsMissed) {
   EXPECT_EQ(start_up.wake_up(), kBegin + kTimeout);
   EXPECT_FALSE(learn(kBegin + kTimeout));
   EXPECT_EQ(start_up.exit_code(), kExitMissing);
-  EXPECT_THAT(logged(actions), ElementsAre(error("lab_control did not tell middleware_period_ms, "
+  EXPECT_THAT(logged(actions), ElementsAre(error("lab_control did not send middleware_period_ms, "
                                                  "active_vehicle_ids within 30 s")));
 }
 
 TEST_F(StartUpTest, WaitsForEverybodyWithinTheSameTime) {
   EXPECT_FALSE(learn(kBegin));
-  tell_everything();
+  publish_everything();
   EXPECT_TRUE(learn(kBegin + kTimeout - 10));
   EXPECT_FALSE(connect(kBegin + kTimeout - 10, "a, b"));
   EXPECT_THAT(logged(actions), ElementsAre(info("waiting for a, b")));
   EXPECT_EQ(start_up.wake_up(), kBegin + kTimeout);
   EXPECT_FALSE(connect(kBegin + kTimeout, "b"));
-  EXPECT_THAT(logged(actions), ElementsAre(error("not there within 30 s: b")));
+  EXPECT_THAT(logged(actions), ElementsAre(error("missing after 30 s: b")));
   EXPECT_EQ(start_up.exit_code(), kExitMissing);
 }
 
 TEST_F(StartUpTest, GoesOnWhenEverybodyIsThere) {
-  tell_everything();
+  publish_everything();
   EXPECT_TRUE(learn(kBegin));
   EXPECT_FALSE(connect(kBegin, "a"));
   EXPECT_EQ(start_up.wake_up(), kBegin + 2 * kNanosecondsPerSecond);

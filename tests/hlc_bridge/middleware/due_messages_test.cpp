@@ -46,7 +46,7 @@ TEST(DueMessages, SilentPeersAreNotWaitedForUntilTheirNextMessage) {
   due.received(2);
   EXPECT_FALSE(due.are_in({1, 2}, kPatience, actions));
   EXPECT_EQ(due.awaited(), 1U);
-  EXPECT_EQ(actions.size(), 1U) << "who is silent is logged once";
+  EXPECT_EQ(actions.size(), 1U) << "a silent process is logged once";
 }
 
 TEST(DueMessages, PeersThatAreSilentAtFirstAreWaitedForFromTheirFirstMessageOn) {

@@ -17,7 +17,7 @@ class ExperimentCycleTest : public testing::Test {
   void ready(ExperimentCycle& cycle, std::uint8_t id) {
     cycle.take(ReadyStatus{.source_id = controller_ready_id(id)});
   }
-  /// What follows a period later: all that is said and done.
+  /// All actions of the next period.
   MiddlewareActions period(ExperimentCycle& cycle) {
     now_ += 2 * kNanosecondsPerSecond;
     MiddlewareActions actions;
@@ -70,18 +70,18 @@ TEST_F(ExperimentCycleTest, LogsNowAndThenForWhomItWaits) {
 
 TEST_F(ExperimentCycleTest, WithholdsGoalsUntilAllControllersAreReady) {
   ExperimentCycle cycle{{1, 2}, kListOffset, false};
-  cycle.take(GoalState{.carried = 1});
-  cycle.take(GoalState{.carried = 2});
+  cycle.take(GoalState{.payload = 1});
+  cycle.take(GoalState{.payload = 2});
   ready(cycle, 1);
   EXPECT_EQ(count<GoalState>(period(cycle)), 0U);
   ready(cycle, 2);
   MiddlewareActions actions;
   cycle.forward_goals(actions);
   ASSERT_EQ(actions.size(), 2U);
-  EXPECT_EQ(std::any_cast<int>(std::get<GoalState>(actions[0]).carried), 1);
-  EXPECT_EQ(std::any_cast<int>(std::get<GoalState>(actions[1]).carried), 2);
+  EXPECT_EQ(std::any_cast<int>(std::get<GoalState>(actions[0]).payload), 1);
+  EXPECT_EQ(std::any_cast<int>(std::get<GoalState>(actions[1]).payload), 2);
   EXPECT_EQ(count<GoalState>(period(cycle)), 0U);
-  cycle.take(GoalState{.carried = 3});
+  cycle.take(GoalState{.payload = 3});
   EXPECT_EQ(count<GoalState>(period(cycle)), 1U);
 }
 

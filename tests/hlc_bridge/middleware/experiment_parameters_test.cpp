@@ -71,7 +71,7 @@ TEST_F(NextExperimentTest, MayChangeUntilItBegins) {
   ASSERT_TRUE(evaluate().parameters);
   ASSERT_TRUE(next_.request_is_due(2 * kNanosecondsPerSecond));
   EXPECT_FALSE(evaluate().parameters) << "not answered yet";
-  EXPECT_TRUE(next_.is_known()) << "it was, and nothing else has been said since";
+  EXPECT_TRUE(next_.is_known()) << "unchanged since it became known";
   answer(200, {1, 5});
   EXPECT_NE(evaluate().problem, "");
   EXPECT_FALSE(next_.is_known());

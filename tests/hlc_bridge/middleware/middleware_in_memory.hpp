@@ -40,7 +40,7 @@ inline TrajectoryCommand command(std::uint8_t id, Nanoseconds t_now) {
   return command;
 }
 
-/// What the lab control has told.
+/// Parameters from the lab control.
 inline RunParameters run_parameters(std::uint64_t period_ms,
                                     const std::vector<std::int32_t>& active_ids) {
   RunParameters parameters;
@@ -49,7 +49,7 @@ inline RunParameters run_parameters(std::uint64_t period_ms,
   return parameters;
 }
 
-/// A middleware machine with what it has said to do so far, and the two clocks that it is advanced
+/// A middleware machine with its actions so far, and the two clocks that it is advanced
 /// by. In logical time `run` is moved by release(), in real time by pass().
 class MiddlewareInMemory {
  public:
@@ -85,13 +85,13 @@ class MiddlewareInMemory {
     advance();
   }
 
-  void tell_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
+  void publish_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
     post(Parameter{.name = kPeriodParameter, .value = period_ms});
     on(Parameter{.name = kActiveIdsParameter, .value = active_ids});
   }
 
-  /// Everybody is there: the lab control, the controllers, these vehicles.
-  [[nodiscard]] MiddlewarePeers everybody(const std::set<std::uint8_t>& vehicles) const {
+  /// All are present: the lab control, the controllers, these vehicles.
+  [[nodiscard]] MiddlewarePeers all_present(const std::set<std::uint8_t>& vehicles) const {
     return {.lab_control_is_matched = true,
             .lab_control_is_lost = false,
             .controllers_are_matched = true,

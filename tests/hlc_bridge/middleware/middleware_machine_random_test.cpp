@@ -77,8 +77,8 @@ TEST(MiddlewareMachineProperty, WithPatienceListsDependOnNothingButTheMessages) 
     test::MiddlewareInMemory run{
         {.vehicle_ids = controllers, .rules = logical_middleware_rules(false)}};
     run.begin_in_logical_time();
-    run.tell_parameters(200, active);
-    run.on(run.everybody(here));
+    run.publish_parameters(200, active);
+    run.on(run.all_present(here));
 
     std::size_t forwarded = 0;
     for (Nanoseconds tick = kListOffset; tick < 6 * kPeriod; tick += kPeriod) {
@@ -88,7 +88,7 @@ TEST(MiddlewareMachineProperty, WithPatienceListsDependOnNothingButTheMessages) 
         const auto* sent = std::get_if<VehicleCommand>(&event);
         return sent != nullptr && vehicle_of(*sent) != 200;
       }));
-      // What comes before the release may come in any order, too; but nobody answers a list that is
+      // What comes before the release may come in any order, too; but no list is answered that is
       // not there.
       const auto is_answer = [](const MiddlewareEvent& event) {
         return std::holds_alternative<VehicleCommand>(event);
@@ -129,8 +129,8 @@ TEST(MiddlewareMachineProperty, WithPatienceListsDependOnNothingButTheMessages) 
 class RandomLife {
  public:
   explicit RandomLife(std::uint64_t seed) : random_{seed} {
-    run_.on(run_.everybody({1, 2, 3}));
-    run_.tell_parameters(200, {1, 2, 3});
+    run_.on(run_.all_present({1, 2, 3}));
+    run_.publish_parameters(200, {1, 2, 3});
   }
 
   void step() {
@@ -161,10 +161,10 @@ class RandomLife {
         }
         break;
       case 5:
-        run_.tell_parameters(200, {1, 2, 3});
+        run_.publish_parameters(200, {1, 2, 3});
         break;
       case 6:
-        run_.on(chance(random_, 50) ? run_.everybody({1, 2, 3}) : MiddlewarePeers{});
+        run_.on(chance(random_, 50) ? run_.all_present({1, 2, 3}) : MiddlewarePeers{});
         break;
       case 7:
         run_.on(published_state(1, run_.now().run));

@@ -1,4 +1,4 @@
-// The machine without patience: lists by the clock, whoever is there.
+// The machine without waits: lists by the clock, with any participants.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ class ImpatientMiddlewareTest : public testing::Test {
               .keep_running = keep_running,
               .startup_timeout = 30 * kNanosecondsPerSecond,
               .rules = real_middleware_rules(false)}} {
-    run_.tell_parameters(200, {1, 2});
-    run_.on(run_.everybody({1, 2}));
+    run_.publish_parameters(200, {1, 2});
+    run_.on(run_.all_present({1, 2}));
     pass_period();
     run_.forget_actions();
   }
@@ -41,7 +41,7 @@ class ImpatientMiddlewareTest : public testing::Test {
     return times;
   }
   [[nodiscard]] MiddlewarePeers without_lab_control() const {
-    MiddlewarePeers peers = run_.everybody({1, 2});
+    MiddlewarePeers peers = run_.all_present({1, 2});
     peers.lab_control_is_lost = true;
     return peers;
   }
@@ -129,7 +129,7 @@ TEST_F(ImpatientMiddlewareTest, StaysForAWhileWithoutTheLabControl) {
 TEST_F(ImpatientMiddlewareTest, ALabControlThatComesBackIsNotLost) {
   run_.on(without_lab_control());
   pass_periods(kMiddlewareStays - kPeriod);
-  run_.on(run_.everybody({1, 2}));
+  run_.on(run_.all_present({1, 2}));
   pass_period();
   run_.on(without_lab_control());
   pass_periods(kMiddlewareStays - kPeriod);
@@ -164,7 +164,7 @@ TEST_F(KeptRunningMiddlewareTest, ServesTheNextExperimentWithItsVehicles) {
   controller_ready();
   pass_period();
   EXPECT_TRUE(run_.all<ReadyStatus>().empty()) << "the next experiment is not known yet";
-  run_.tell_parameters(200, {1, 2, 5});
+  run_.publish_parameters(200, {1, 2, 5});
   pass_period();
   EXPECT_EQ(run_.all<ReadyStatus>().size(), 1U);
   EXPECT_THAT(run_.all<SubscribeToVehicles>().back().vehicle_ids, ElementsAre(1, 2, 5));
@@ -186,7 +186,7 @@ TEST_F(KeptRunningMiddlewareTest, AStopDuringTheStartDoesNotHideTheParameters) {
   test::MiddlewareInMemory run{
       {.vehicle_ids = {1}, .keep_running = true, .rules = real_middleware_rules(false)}};
   run.on(SystemTrigger{kStopSymbol});
-  run.tell_parameters(200, {1});
+  run.publish_parameters(200, {1});
   EXPECT_TRUE(run.machine().wake_up().run);
 }
 

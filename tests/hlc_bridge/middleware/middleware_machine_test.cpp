@@ -36,11 +36,11 @@ TEST_F(MiddlewareStartTest, AsksForTheParametersUntilTheyAreTold) {
   ASSERT_TRUE(run_.machine().wake_up().wall);
   run_.wait(*run_.machine().wake_up().wall - run_.now().wall);
   EXPECT_EQ(run_.all<ParameterRequest>().size(), 4U);
-  run_.tell_parameters(200, {1, 2});
+  run_.publish_parameters(200, {1, 2});
   ASSERT_EQ(run_.all<SubscribeToVehicles>().size(), 1U);
   EXPECT_THAT(run_.all<SubscribeToVehicles>()[0].vehicle_ids, ElementsAre(1, 2));
   EXPECT_FALSE(run_.machine().wake_up().run) << "asks for no tick before all are connected";
-  run_.on(run_.everybody({1, 2}));
+  run_.on(run_.all_present({1, 2}));
   EXPECT_EQ(run_.machine().wake_up().run, kTick0);
 }
 
@@ -54,21 +54,21 @@ TEST_F(MiddlewareStartTest, EndsIfTheLabControlTellsNothing) {
 }
 
 TEST_F(MiddlewareStartTest, NamesWhoeverDoesNotAppearInTime) {
-  run_.tell_parameters(200, {1, 2});
-  MiddlewarePeers peers = run_.everybody({1, 2});
+  run_.publish_parameters(200, {1, 2});
+  MiddlewarePeers peers = run_.all_present({1, 2});
   peers.controllers_are_matched = false;
   peers.state_publishers.erase(2);
   peers.command_subscribers.erase(1);
   run_.on(peers);
   run_.wait(kStartupTimeout);
   EXPECT_EQ(run_.machine().exit_code(), kExitMissing);
-  EXPECT_EQ(run_.count_lines("not there within 30 s: high_level_controller_1, "
+  EXPECT_EQ(run_.count_lines("missing after 30 s: high_level_controller_1, "
                              "vehicle_raspberry_1, vehicle_raspberry_2"),
             1U);
 }
 
 TEST_F(MiddlewareStartTest, RefusesParametersWithoutItsVehicle) {
-  run_.tell_parameters(200, {2, 3});
+  run_.publish_parameters(200, {2, 3});
   EXPECT_EQ(run_.machine().exit_code(), kExitBadInput);
   EXPECT_EQ(run_.count_lines(kActiveIdsParameter), 1U);
 }
@@ -89,8 +89,8 @@ class PatientMiddlewareTest : public testing::Test {
               .startup_timeout = kStartupTimeout,
               .rules = logical_middleware_rules(beside_lab_programs)}} {
     run_.begin_in_logical_time();
-    run_.tell_parameters(200, {1, 2});
-    run_.on(run_.everybody({1, 2}));
+    run_.publish_parameters(200, {1, 2});
+    run_.on(run_.all_present({1, 2}));
   }
 
   /// The tick that the machine asks for; nothing while it has not done the last one.
@@ -162,7 +162,7 @@ TEST_F(PatientMiddlewareTest, AVehicleThatIsGoneIsNotWaitedFor) {
   run_.on(published_state(1, 140 * kMs));
   run_.release(kTick1);
   EXPECT_EQ(run_.all<VehicleStateList>().size(), 1U);
-  run_.on(run_.everybody({1}));
+  run_.on(run_.all_present({1}));
   EXPECT_EQ(run_.all<VehicleStateList>().size(), 2U);
 }
 
@@ -187,7 +187,7 @@ TEST_F(PatientMiddlewareTest, ASilentControllerIsNotWaitedForUntilItsNextCommand
 TEST_F(PatientMiddlewareTest, AControllerThatIsLostIsNotWaitedFor) {
   run_.release(kTick0);
   EXPECT_FALSE(wanted());
-  MiddlewarePeers peers = run_.everybody({1, 2});
+  MiddlewarePeers peers = run_.all_present({1, 2});
   peers.lost_controllers = {1};
   run_.on(peers);
   EXPECT_EQ(wanted(), kTick1);
@@ -195,7 +195,7 @@ TEST_F(PatientMiddlewareTest, AControllerThatIsLostIsNotWaitedFor) {
 
 TEST_F(PatientMiddlewareTest, NobodyIsWaitedForIfNobodySendsCommands) {
   run_.release(kTick0);
-  MiddlewarePeers peers = run_.everybody({1, 2});
+  MiddlewarePeers peers = run_.all_present({1, 2});
   peers.commands_are_sent = false;
   run_.on(peers);
   EXPECT_EQ(wanted(), kTick1);
@@ -217,7 +217,7 @@ TEST_F(PatientMiddlewareTest, TheStopSymbolIsForwardedBeforeItEnds) {
   EXPECT_FALSE(run_.machine().exit_code()) << "the controllers are to leave first";
   run_.on(command(1, kTick0));
   EXPECT_EQ(run_.all<VehicleCommand>().size(), 1U) << "kept back";
-  MiddlewarePeers peers = run_.everybody({1, 2});
+  MiddlewarePeers peers = run_.all_present({1, 2});
   peers.commands_are_sent = false;
   run_.on(peers);
   EXPECT_EQ(run_.machine().exit_code(), kExitGood);
@@ -239,16 +239,16 @@ TEST_F(PatientMiddlewareTest, StopEndsItWhileItWaits) {
 
 TEST_F(PatientMiddlewareTest, ALostLabControlEndsItAtOnce) {
   drive_through(kTick0);
-  MiddlewarePeers peers = run_.everybody({1, 2});
+  MiddlewarePeers peers = run_.all_present({1, 2});
   peers.lab_control_is_lost = true;
   run_.on(peers);
   EXPECT_EQ(run_.machine().exit_code(), kExitDied);
-  EXPECT_EQ(run_.count_lines("lab_control is gone"), 1U);
+  EXPECT_EQ(run_.count_lines("lab_control lost"), 1U);
 }
 
 TEST_F(PatientMiddlewareTest, AStopSymbolGoesBeforeTheLossOfTheLabControl) {
   drive_through(kTick0);
-  MiddlewarePeers peers = run_.everybody({1, 2});
+  MiddlewarePeers peers = run_.all_present({1, 2});
   peers.lab_control_is_lost = true;
   peers.commands_are_sent = false;
   run_.post(peers);

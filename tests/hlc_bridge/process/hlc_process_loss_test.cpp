@@ -1,5 +1,5 @@
 // What a controller does when the lab control, its middleware or what is sent is lost, and when it
-// is told to stop.
+// is stopped.
 #include <gtest/gtest.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
@@ -48,7 +48,7 @@ class Centre {
   explicit Centre(int domain)
       : participant_{on_loopback("ParticipantSingleton", domain, DomainRole::kLab)} {
     listen();
-    // Announced after the other reader: who draws knows both.
+    // Announced after the other reader: a controller that draws knows both.
     drawings_ = std::make_unique<Mailbox<Visualization>>(participant_, topics::visualization());
   }
 
@@ -69,8 +69,8 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
   FakeMiddleware middleware{local()};
   Others others{controllers()};
   const auto reports = [&] { return others.reports.now(); };
-  const auto drives_out = [&] {
-    return !reports().empty() && reports().back().report.status == StepStatus::kDriveOut;
+  const auto is_stopping = [&] {
+    return !reports().empty() && reports().back().report.status == StepStatus::kMinimalRiskStop;
   };
   ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
   ASSERT_TRUE(gets_ready(middleware));
@@ -80,12 +80,12 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
   const std::size_t before = reports().size();  // it looks for the centre once a step
   ASSERT_TRUE(comes_to(middleware, [&] { return reports().size() >= before + 3; }));
   EXPECT_NE(reports().back().report.status, StepStatus::kStandby);
-  ASSERT_FALSE(drives_out());
+  ASSERT_FALSE(is_stopping());
 
   centre.leave();
-  ASSERT_TRUE(comes_to(middleware, drives_out));
+  ASSERT_TRUE(comes_to(middleware, is_stopping));
   centre.listen();
-  EXPECT_TRUE(comes_to(middleware, [&] { return !drives_out(); }));
+  EXPECT_TRUE(comes_to(middleware, [&] { return !is_stopping(); }));
   EXPECT_FALSE(has_ended());
 
   centre.leave();
@@ -113,7 +113,7 @@ TEST_F(HlcProcessLossTest, TakesTheStopAndNothingElseFromTheLabDomain) {
   EXPECT_EQ(code_.get(), kExitGood);
 }
 
-/// On the lab's transport, where the copy of a command waits; told to stop while it does.
+/// On the lab's transport, where the copy of a command waits; stopped meanwhile.
 class InterruptedHlcProcessTest : public HlcProcessLossTest {
  protected:
   InterruptedHlcProcessTest() : HlcProcessLossTest(stops_after_a_step(*this)) {}
@@ -177,11 +177,11 @@ TEST_F(UnwrittenHlcProcessTest, DrivesOnAndSaysByItsExitCodeThatSomethingWasNotW
   EXPECT_EQ(calls_, 1);
 }
 
-/// Lines of the log, and who logs them.
+/// Lines of the log, with their threads.
 class LogListener : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  /// The thread that logged a line with this text; 0: nobody.
-  [[nodiscard]] std::size_t thread_that_said(const std::string& text) {
+  /// The thread that logged a line with this text; 0: none.
+  [[nodiscard]] std::size_t thread_that_logged(const std::string& text) {
     const std::lock_guard lock{mutex_};
     for (const auto& [thread, line] : lines_) {
       if (line.find(text) != std::string::npos) return thread;
@@ -220,11 +220,12 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
   ASSERT_TRUE(gets_ready(middleware));
   VehicleStateList list = list_of(start_pose(), 0.0);
   list.states[0].pose.x_m = std::numeric_limits<double>::quiet_NaN();
-  const std::string line = "topic vehicleStateList: what came holds something that is not valid";
+  const std::string line = "topic vehicleStateList: invalid content received";
   ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), kBetweenLists, [&] { return log().thread_that_said(line) != 0; },
+      soon(), kBetweenLists, [&] { return log().thread_that_logged(line) != 0; },
       [&] { middleware.lists.write(list); }));
-  EXPECT_EQ(log().thread_that_said(line), log().thread_that_said("ready, waits for a trigger"));
+  EXPECT_EQ(log().thread_that_logged(line),
+            log().thread_that_logged("ready; waiting for the start trigger"));
 }
 
 TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
@@ -232,7 +233,7 @@ TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
   ASSERT_TRUE(gets_ready(middleware));
   EXPECT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists,
-      [&] { return log().thread_that_said("waits: middleware_1 has sent no state list") != 0; },
+      [&] { return log().thread_that_logged("waiting: no state list from middleware_1") != 0; },
       [] {}));
 }
 
@@ -247,19 +248,17 @@ TEST_F(ListenedToHlcProcessTest, OutlivesAMomentInWhichAllOthersAreGone) {
   middleware->triggers.write({.next_start = 1});
   ASSERT_TRUE(comes_to(*middleware, [&] { return centre.is_known(); }));
 
-  const auto has_said = [&](const char* text) { return log().thread_that_said(text) != 0; };
+  const auto has_logged = [&](const char* text) { return log().thread_that_logged(text) != 0; };
   middleware = nullptr;
   centre.leave();
   ASSERT_TRUE(Signal{}.repeat_until(
       soon(), kBetweenLists,
-      [&] {
-        return has_said("lab_control is gone") && has_said("nothing reaches the vehicle any more");
-      },
+      [&] { return has_logged("lab_control lost") && has_logged("no commands reach the vehicle"); },
       [] {}));
   middleware = std::make_unique<FakeMiddleware>(local());
   centre.listen();
   EXPECT_TRUE(comes_to(*middleware, [&] {
-    return has_said("lab_control is back") && has_said("middleware_1 is back");
+    return has_logged("lab_control is back") && has_logged("middleware_1 is back");
   }));
   const std::size_t before = others.reports.now().size();
   EXPECT_TRUE(comes_to(*middleware, [&] { return others.reports.now().size() > before; }));

@@ -56,7 +56,7 @@ TEST_F(HlcProcessTest, LeavesWithoutItsMiddlewareWhenTheOthersDriveOut) {
   auto middleware = std::make_unique<FakeMiddleware>(local());
   ASSERT_TRUE(gets_ready(*middleware));
   ASSERT_TRUE(run_states.wait_for_matched(1, soon()));
-  run_states.write({.phase = RunPhase::kDriveOut, .start = 0});
+  run_states.write({.phase = RunPhase::kMinimalRiskStop, .start = 0});
   middleware = nullptr;
   ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
@@ -82,9 +82,9 @@ TEST_F(ImpatientHlcProcessTest, LeavesWhenItsMiddlewareStaysAway) {
 }
 
 TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
-  const Participant twin{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  const Participant duplicate{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(twin.wait_for({controller_name(1)}, soon()));
+  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, soon()));
   ASSERT_TRUE(middleware.lists.wait_for_matched(1, soon()));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const auto has_left = [this] {
@@ -100,8 +100,8 @@ TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
 TEST_F(HlcProcessTest, StaysWhenAnotherControllerOfItsVehicleComesLater) {
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(gets_ready(middleware));
-  const Participant twin{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
-  ASSERT_TRUE(twin.wait_for({controller_name(1)}, soon()));
+  const Participant duplicate{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, soon()));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const std::size_t before = middleware.commands.now().size();
   EXPECT_TRUE(Signal{}.repeat_until(
@@ -147,7 +147,7 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   Operator lab_control{domains_.first()};
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
-  // Each is repeated: what is said before the writer has matched its reader is lost.
+  // Each is repeated: samples from before the match of writer and reader are lost.
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
   const bool is_drawn = Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{50},
@@ -158,13 +158,13 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   EXPECT_EQ(state.text, "1: standby");
   EXPECT_NEAR(state.points_m.at(0).x(), start.x_m, 0.01);
 
-  const bool is_told = Signal{}.repeat_until(
+  const bool is_logged = Signal{}.repeat_until(
       soon(), std::chrono::milliseconds{10}, [&] { return !lab_control.log.wait_for(0).empty(); },
       [] {
-        spdlog::info("not for an operator who asks for critical lines alone");
+        spdlog::info("not for the operator's level critical");
         spdlog::error("the operator's line");
       });
-  ASSERT_TRUE(is_told);
+  ASSERT_TRUE(is_logged);
   for (const Log& line : lab_control.log.wait_for(1)) {
     EXPECT_EQ(line.content, "the operator's line");
     EXPECT_EQ(line.id, "high_level_controller");
@@ -179,7 +179,7 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
         return std::ranges::any_of(lab_control.log.wait_for(1),
                                    [](const Log& line) { return line.level == 3; });
       },
-      [] { spdlog::info("for an operator who asks for all lines"); });
+      [] { spdlog::info("for the operator's level of all lines"); });
   EXPECT_TRUE(reads_all);
 }
 
@@ -203,7 +203,7 @@ TEST_F(HlcProcessTest, TellsTheOperatorThatItsVehicleFitsNoRouteAndIsNotReadyUnt
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
 
-/// Whoever says something is heard from now on.
+/// Receives from every sender from now on.
 bool are_matched(FakeMiddleware& middleware, Others& others) {
   return middleware.lists.wait_for_matched(1, soon()) &&
          others.traffic.wait_for_matched(1, soon()) &&
@@ -234,7 +234,7 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
   Others others{controllers()};
   ASSERT_TRUE(are_matched(middleware, others));
   const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  const auto tell = [&](double speed_mps) {
+  const auto publish_speed = [&](double speed_mps) {
     VehicleStateList list = list_of(start, speed_mps);
     list.active_vehicle_ids = {1, 2};
     others.traffic.write(traffic_of(2, list.t_now / kPeriod));
@@ -242,7 +242,7 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
   };
   const auto ends = std::chrono::steady_clock::now() + std::chrono::seconds{1};
   static_cast<void>(Signal{}.repeat_until(
-      ends, std::chrono::milliseconds{50}, [] { return false; }, [&] { tell(0.5); }));
+      ends, std::chrono::milliseconds{50}, [] { return false; }, [&] { publish_speed(0.5); }));
   EXPECT_TRUE(middleware.commands.wait_for(0).empty()) << "it drives what it was left";
   EXPECT_TRUE(others.reports.wait_for(0).empty());
   const auto drives = [&] {
@@ -250,8 +250,8 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
       return record.report.status == StepStatus::kPlanned;
     });
   };
-  EXPECT_TRUE(
-      Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, drives, [&] { tell(0.0); }));
+  EXPECT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, drives,
+                                    [&] { publish_speed(0.0); }));
   EXPECT_EQ(others.reports.wait_for(1)[0].report.status, StepStatus::kStandby);
 }
 

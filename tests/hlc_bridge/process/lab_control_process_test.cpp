@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "hlc_bridge/lab_control/logical_run.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
@@ -26,7 +27,7 @@ using testing::ThrowsMessage;
 
 constexpr Nanoseconds kPeriod = 200'000'000;
 
-/// Says something again and again, as vehicles do, until it has the effect.
+/// Publishes a sample repeatedly, as vehicles do, until it has the effect.
 template <class Condition, class Act>
 bool repeat_until(Condition condition, Act act) {
   return Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, condition, act);
@@ -51,7 +52,7 @@ class FakeVehicle {
         reports_{std::make_unique<Writer<ReportRecord>>(*controller_, topics::report())},
         triggers_{vehicle_, topics::system_trigger(),
                   [this](const SystemTrigger& trigger) {
-                    signal_.post([&] { heard_.push_back(trigger.next_start); });
+                    signal_.post([&] { received_.push_back(trigger.next_start); });
                   },
                   [this] { signal_.notify(); }},
         middleware_triggers_{middleware_, topics::system_trigger()},
@@ -93,11 +94,11 @@ class FakeVehicle {
     vehicle_ready_.write({vehicle_name(1), 0});
     middleware_ready_.write({middleware_name(1), kListOffset});
     while (true) {
-      static_cast<void>(signal_.wait_until(soon(), [this] { return ends_ || !heard_.empty(); }));
-      const auto [heard, ends, dies_at] = signal_.locked([this] {
-        return std::tuple{std::exchange(heard_, {}), ends_, controller_dies_at_};
+      static_cast<void>(signal_.wait_until(soon(), [this] { return ends_ || !received_.empty(); }));
+      const auto [received, ends, dies_at] = signal_.locked([this] {
+        return std::tuple{std::exchange(received_, {}), ends_, controller_dies_at_};
       });
-      for (const Nanoseconds tick : heard) {
+      for (const Nanoseconds tick : received) {
         answer(tick, dies_at);
       }
       if (ends) {
@@ -131,7 +132,7 @@ class FakeVehicle {
   }
 
   Signal signal_;
-  std::deque<Nanoseconds> heard_;
+  std::deque<Nanoseconds> received_;
   Nanoseconds vehicle_tick_{};
   bool ends_{};
   std::uint64_t controller_dies_at_{~std::uint64_t{0}};
@@ -152,7 +153,8 @@ class LabControlTest : public testing::Test {
     options.transport = Transport::kLoopback;
     options.lab_domain = domain_.first();
     options.controller_domain = domain_.first() + 50;
-    options.logical_time = true;
+    options.time = kLogicalTime;
+    options.make_run = make_lab_run<LogicalRun>;
     options.out = folder_ / "run";
     return options;
   }
@@ -163,7 +165,7 @@ class LabControlTest : public testing::Test {
   }
 
   void TearDown() override {
-    if (process_) process_->interrupt();  // else a failed test would wait for its run for ever
+    if (process_) process_->interrupt();  // else a failed test would wait for its run forever
   }
 
   /// -1 if it does not end.
@@ -257,7 +259,7 @@ TEST_F(LabControlTest, StopRequestOfAControllerEndsTheRun) {
   ASSERT_TRUE(vehicle_.stop_requests.wait_for_matched(1, soon()));
   vehicle_.stop_requests.write({1});
   EXPECT_EQ(exit_code(), kExitDied);
-  EXPECT_EQ(facts().reason, "high_level_controller_1 asked for the stop");
+  EXPECT_EQ(facts().reason, "high_level_controller_1 requested the stop");
 }
 
 class EmptyLabTest : public testing::Test {
@@ -268,7 +270,8 @@ class EmptyLabTest : public testing::Test {
     options_.transport = Transport::kLoopback;
     options_.lab_domain = domain_.first();
     options_.controller_domain = domain_.first() + 50;
-    options_.logical_time = true;
+    options_.time = kLogicalTime;
+    options_.make_run = make_lab_run<LogicalRun>;
     options_.out = folder_.path();
   }
   DomainReservation domain_;
@@ -280,7 +283,7 @@ TEST_F(EmptyLabTest, NamesWhoDoesNotAppear) {
   LabControlProcess process{options_};
   EXPECT_EQ(process.run(), kExitMissing);
   EXPECT_EQ(read_facts(folder_ / "run.json").reason,
-            "after 1 s: not there: vehicle_raspberry_7, middleware_7, high_level_controller_7");
+            "after 1 s: missing: vehicle_raspberry_7, middleware_7, high_level_controller_7");
 }
 
 /// A vehicle of the real-time run as far as the lab control meets it.
@@ -295,7 +298,8 @@ struct FakeRealVehicle {
 };
 
 TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgain) {
-  options_.logical_time = false;
+  options_.time = kRealTime;
+  options_.make_run = make_lab_run<RealTimeRun>;
   options_.run.startup_timeout = 60 * kNanosecondsPerSecond;
   options_.out.clear();
   LabControlProcess process{options_};

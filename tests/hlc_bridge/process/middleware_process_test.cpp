@@ -46,17 +46,17 @@ class FakeLab {
                   }} {}
 
   /// Answers until both parameters have been asked for.
-  void tell_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
+  void publish_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
     ASSERT_TRUE(parameter_writer_.wait_for_matched(1, soon()));  // else an answer is lost
-    bool period_told = false;
-    bool ids_told = false;
-    while (!period_told || !ids_told) {
+    bool is_period_published = false;
+    bool are_ids_published = false;
+    while (!is_period_published || !are_ids_published) {
       ASSERT_TRUE(signal_.wait_until(soon(), [this] { return !asked_.empty(); }));
       for (const std::string& name : signal_.locked([this] { return std::exchange(asked_, {}); })) {
         if (name == "middleware_period_ms") {
-          period_told = parameter_writer_.write({.name = name, .value = period_ms});
+          is_period_published = parameter_writer_.write({.name = name, .value = period_ms});
         } else if (name == "active_vehicle_ids") {
-          ids_told = parameter_writer_.write({.name = name, .value = active_ids});
+          are_ids_published = parameter_writer_.write({.name = name, .value = active_ids});
         }
       }
     }
@@ -133,7 +133,10 @@ class MiddlewareTest : public testing::Test {
     options.transport = transport_;
     options.lab_domain = domains_.first();
     options.local_domain = domains_.first() + 1;
-    options.logical_time = logical_time;
+    const bool beside_lab_programs = transport_ == Transport::kLab;
+    options.time = run_time(logical_time);
+    options.rules = logical_time ? logical_middleware_rules(beside_lab_programs)
+                                 : real_middleware_rules(beside_lab_programs);
     options.keep_running = keep_running_;
     options.startup_timeout = startup_timeout_;
     process_ = std::make_unique<MiddlewareProcess>(options);
@@ -142,9 +145,9 @@ class MiddlewareTest : public testing::Test {
 
   void start_in_logical_time() {
     start(true);
-    lab_.tell_parameters(kPeriod / kMs, {1, 2});
+    lab_.publish_parameters(kPeriod / kMs, {1, 2});
     ASSERT_EQ(lab_.ready.wait_for(1).at(0).next_start, kListOffset);
-    // The middleware has matched everybody; what is written before it is matched here, too, would
+    // The middleware has matched all; what is written before it is matched here, too, would
     // be lost.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{20};
     ASSERT_TRUE(lab_.state_1.wait_for_matched(1, deadline));
@@ -180,7 +183,7 @@ class MiddlewareTest : public testing::Test {
   }
 
   void TearDown() override {
-    if (process_) process_->stop();  // else a failed test would wait for its run for ever
+    if (process_) process_->stop();  // else a failed test would wait for its run forever
   }
 
   /// -1 if it does not end.
@@ -301,7 +304,7 @@ TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
   startup_timeout_ = std::chrono::seconds{5};
   controller_.reset();
   start(true);
-  lab_.tell_parameters(200, {1, 2});
+  lab_.publish_parameters(200, {1, 2});
   EXPECT_EQ(exit_code(), kExitMissing);
 }
 
@@ -316,13 +319,13 @@ TEST_F(MiddlewareTest, BearsItsVehiclesNameWhateverItsNodeId) {
 
 TEST_F(MiddlewareTest, RefusesParametersWithoutItsVehicle) {
   start(true);
-  lab_.tell_parameters(200, {2, 3});
+  lab_.publish_parameters(200, {2, 3});
   EXPECT_EQ(exit_code(), kExitBadInput);
 }
 
 TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIsReady) {
   start(false);
-  lab_.tell_parameters(20, {1, 2});
+  lab_.publish_parameters(20, {1, 2});
   ASSERT_GE(controller_->lists.wait_for(3).size(), 3U);
   const std::vector<VehicleStateList> lists = controller_->lists.wait_for(3);
   for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -345,7 +348,7 @@ TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIs
 TEST_F(MiddlewareTest, OneOfSeveralVehiclesIsReadyWithAllItsControllersAndCommandsEachItsOwn) {
   vehicle_ids_ = {1, 2};
   start(false);
-  lab_.tell_parameters(20, {1, 2});
+  lab_.publish_parameters(20, {1, 2});
   ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
   ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
   ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
@@ -383,16 +386,16 @@ TEST_F(MiddlewareTest, InLogicalTimeATickWaitsForAllItsControllers) {
 TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
   keep_running_ = true;
   start(false);
-  lab_.tell_parameters(20, {1, 2});
+  lab_.publish_parameters(20, {1, 2});
   ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
   ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
   ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
   ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
   const auto drive = [&](std::size_t commands_before) {
     ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
-    if (commands_before > 0) lab_.tell_parameters(20, {1, 2, 5});
-    const std::size_t told = lab_.ready.wait_for(0).size();
-    ASSERT_GE(lab_.ready.wait_for(told + 1).size(), told + 1);
+    if (commands_before > 0) lab_.publish_parameters(20, {1, 2, 5});
+    const std::size_t published = lab_.ready.wait_for(0).size();
+    ASSERT_GE(lab_.ready.wait_for(published + 1).size(), published + 1);
     lab_.triggers.write({5});
     ASSERT_EQ(controller_->triggers.wait_for(2 * commands_before + 1).back().next_start, 5U);
     controller_->commands.write(command(controller_->lists.wait_for(1).back().t_now));
@@ -425,19 +428,19 @@ TEST_F(MiddlewareBesideTheLabTest, HoldsGoalsBackUntilItsControllersAreReady) {
   std::vector<GoalState> goals;
   for (int i = 0; i < 3; ++i) goals.push_back(sample<GoalState>(random));
   Writer<GoalState> centre{lab_.participant(), topics::goal_state()};
-  Mailbox<GoalState> heard{controller_->participant(), topics::goal_state()};
+  Mailbox<GoalState> received{controller_->participant(), topics::goal_state()};
   centre.write(goals[0]);  // before the middleware is there
   start(false);
-  lab_.tell_parameters(20, {1, 2});
+  lab_.publish_parameters(20, {1, 2});
   centre.write(goals[1]);
   ASSERT_GE(controller_->lists.wait_for(10).size(), 10U);
-  EXPECT_TRUE(heard.now().empty());
+  EXPECT_TRUE(received.now().empty());
 
   controller_->ready.write({.source_id = controller_ready_id(1)});
-  EXPECT_EQ(heard.wait_for(2).size(), 2U);
+  EXPECT_EQ(received.wait_for(2).size(), 2U);
   centre.write(goals[2]);
-  ASSERT_EQ(heard.wait_for(3).size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(text(heard.now()[i]), text(goals[i]));
+  ASSERT_EQ(received.wait_for(3).size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(text(received.now()[i]), text(goals[i]));
   EXPECT_EQ(end_by_stop_symbol(), kExitGood);
 }
 
@@ -454,7 +457,7 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
                                              topics::command<SpeedCurvatureCommand>()};
   Writer<DirectCommand> direct_writer{controller_->participant(), topics::command<DirectCommand>()};
   start(false);
-  lab_.tell_parameters(20, {1, 2});
+  lab_.publish_parameters(20, {1, 2});
   ASSERT_TRUE(observations.wait_for_matched(1, soon()));
   ASSERT_TRUE(paths.reader().wait_for_matched(1, soon()));
   ASSERT_TRUE(speeds.reader().wait_for_matched(1, soon()));
@@ -463,9 +466,10 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
   ASSERT_TRUE(speed_writer.wait_for_matched(1, soon()));
   ASSERT_TRUE(direct_writer.wait_for_matched(1, soon()));
 
-  // Best effort: said again until it is heard. The first one is for a vehicle that is not its own.
+  // Best effort: repeated until it is received. The first one is for a vehicle that is not its
+  // own.
   Signal pause;
-  const auto said_until_heard = [&](auto& writer, auto command, auto& mailbox) {
+  const auto published_until_received = [&](auto& writer, auto command, auto& mailbox) {
     command.vehicle_id = 2;
     writer.write(command);
     command.vehicle_id = 1;
@@ -473,9 +477,11 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
         soon(), std::chrono::milliseconds{20}, [&] { return !mailbox.now().empty(); },
         [&] { writer.write(command); });
   };
-  EXPECT_TRUE(said_until_heard(path_writer, PathTrackingCommand{.speed_mps = 0.5}, paths));
-  EXPECT_TRUE(said_until_heard(speed_writer, SpeedCurvatureCommand{.speed_mps = 0.6}, speeds));
-  EXPECT_TRUE(said_until_heard(direct_writer, DirectCommand{.motor_throttle = 0.1}, directs));
+  EXPECT_TRUE(published_until_received(path_writer, PathTrackingCommand{.speed_mps = 0.5}, paths));
+  EXPECT_TRUE(
+      published_until_received(speed_writer, SpeedCurvatureCommand{.speed_mps = 0.6}, speeds));
+  EXPECT_TRUE(
+      published_until_received(direct_writer, DirectCommand{.motor_throttle = 0.1}, directs));
   EXPECT_TRUE(paths.now().at(0).path.empty());  // an empty path is one, too
   EXPECT_EQ(paths.now().at(0).vehicle_id, 1);
   EXPECT_EQ(speeds.now().at(0).speed_mps, 0.6);

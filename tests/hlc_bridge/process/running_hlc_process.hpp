@@ -39,6 +39,8 @@ class HlcProcessTest : public testing::Test {
 
   explicit HlcProcessTest(HlcProcessOptions options = on_loopback_alone()) {
     options.node_id = "high_level_controller";
+    options.rules = rules_in_real_time(options.transport == Transport::kLoopback, {},
+                                       nanoseconds(options.startup_timeout));
     options.domains = {.lab = domains_.first(), .local = local(), .controller = controllers()};
     process_ = std::make_unique<HlcProcess>(options, make_controller(red_alone(), {1}));
     code_ = std::async(std::launch::async, [this] { return process_->run(); });
@@ -125,7 +127,7 @@ class Operator {
   Mailbox<StopRequest> stop_requests;
 };
 
-/// What the others on the controllers' domain say and hear.
+/// Endpoints of the others on the controllers' domain.
 class Others {
  public:
   explicit Others(int domain)

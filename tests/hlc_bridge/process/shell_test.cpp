@@ -146,7 +146,7 @@ TEST(Shell, RealTimeTicksAreGivenWhenTheClockIsThere) {
   EXPECT_EQ(shell.run(host), 0);
   ASSERT_FALSE(host.ticks.empty());
   EXPECT_GE(host.ticks.front(), begin + kPeriod);
-  EXPECT_TRUE(host.ready.empty()) << "nobody is asked in real time";
+  EXPECT_TRUE(host.ready.empty()) << "no requests in real time";
 }
 
 /// Ticks at 0, 20, 40; the lab control is the test.
@@ -165,7 +165,7 @@ TEST(Shell, LogicalTicksAreGivenWhenTheyAreReleased) {
   Host host;
   TestShell shell{"node", {.decide = tick_thrice, .enough = machine::kOnlyUrgent}, logical()};
   host.on_ready = [&](const ReadyStatus& status) {
-    shell.trigger(status.next_start + 5);  // somebody else's
+    shell.trigger(status.next_start + 5);  // for another vehicle
     shell.trigger(status.next_start);
   };
   EXPECT_EQ(shell.run(host), 0);

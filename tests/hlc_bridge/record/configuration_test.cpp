@@ -73,7 +73,7 @@ TEST(Configuration, ReadsWhatTheScriptWrites) {
 TEST(Configuration, FolderWithoutFlagsIsNamed) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { static_cast<void>(kept_choices(folder.path())); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("flags.yaml: is not there")));
+              ThrowsMessage<std::invalid_argument>(HasSubstr("flags.yaml: missing")));
 }
 
 }  // namespace

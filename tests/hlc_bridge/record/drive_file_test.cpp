@@ -50,7 +50,7 @@ TEST(DriveFile, TimesMustIncrease) {
   put(folder / "d.csv", kHeading + "\n20,0,0,0,0,0,0,0\n20,0,0,0,0,0,0,0\n");
   EXPECT_THAT([&] { (void)read_drive(folder / "d.csv"); },
               ThrowsMessage<std::runtime_error>(
-                  HasSubstr("d.csv:3: t_ns = \"20\", allowed more than in the row before")));
+                  HasSubstr("d.csv:3: t_ns = \"20\", must be larger than in the row before")));
 }
 
 }  // namespace

@@ -124,13 +124,13 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
     return [&] { (void)read_reports(folder / "bad.csv"); };
   };
   EXPECT_THAT(with(",planned,", ",flying,"),
-              ThrowsMessage<std::runtime_error>(
-                  HasSubstr("bad.csv:2: status = \"flying\", allowed standby, planned, fallback")));
+              ThrowsMessage<std::runtime_error>(HasSubstr(
+                  "bad.csv:2: status = \"flying\", must be one of standby, planned, fallback")));
   EXPECT_THAT(with(",optimal,", ",good,"),
               ThrowsMessage<std::runtime_error>(
-                  HasSubstr("quality = \"good\", allowed none, optimal, budget")));
+                  HasSubstr("quality = \"good\", must be one of none, optimal, budget")));
   EXPECT_THAT(with("1,2,", "1,256,"),
-              ThrowsMessage<std::runtime_error>(HasSubstr("id = \"256\", allowed 0 ... 255")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("id = \"256\", must be in 0 ... 255")));
   EXPECT_THAT(with(",3,,", ",3;x,,"),
               ThrowsMessage<std::runtime_error>(HasSubstr("coupled = \"3;x\"")));
   EXPECT_THAT(with(",3,,", ",300,,"),

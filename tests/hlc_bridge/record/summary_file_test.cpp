@@ -50,8 +50,8 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   EXPECT_THAT(keys(vehicle),
               ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
                           "generated_vertices", "expanded_vertices", "planning_time_ms",
-                          "fallback_steps", "deadline_misses", "budget_share", "overlong_plans",
-                          "undrivable_steps", "driven_error_mm"));
+                          "fallback_steps", "deadline_misses", "budget_share",
+                          "plans_exceeding_step", "undrivable_steps", "driven_error_mm"));
   EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["driven_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));

@@ -18,29 +18,29 @@ RunSummary summary_of_two() {
 
 TEST(DrivingFault, WhoKeptToHisAreasAndTouchedNobodyDroveWell) {
   RunSummary summary = summary_of_two();
-  EXPECT_EQ(fault_of(summary), "");
+  EXPECT_EQ(driving_fault(summary), "");
   summary.vehicles[1].deviation_max_m = 0.010;
   summary.vehicles[1].fallback_steps = 3;
-  EXPECT_EQ(fault_of(summary), "");
+  EXPECT_EQ(driving_fault(summary), "");
   EXPECT_EQ(danger_of(summary), "");
 }
 
 TEST(DrivingFault, WhoLeftHisPlanByMoreThanTheMarginButNotHisAreasEndangeredNobody) {
   RunSummary summary = summary_of_two();
   summary.vehicles[1].deviation_max_m = 0.0104;
-  EXPECT_EQ(fault_of(summary),
-            "vehicle 2 was up to 10.4 mm from its plan, farther than the safety margin of 10.0 mm");
+  EXPECT_EQ(
+      driving_fault(summary),
+      "vehicle 2 deviated by up to 10.4 mm from its plan, more than the safety margin of 10.0 mm");
   EXPECT_EQ(danger_of(summary), "");
 }
 
 TEST(DrivingFault, NamesTouchesAndStepsOutsideTheAreas) {
   RunSummary summary = summary_of_two();
-  summary.vehicles[1].astray_steps = 4;
-  EXPECT_EQ(fault_of(summary),
-            "vehicle 2 was outside the areas that it had told the others in 4 steps");
-  EXPECT_EQ(danger_of(summary), fault_of(summary));
+  summary.vehicles[1].steps_outside_announced_area = 4;
+  EXPECT_EQ(driving_fault(summary), "vehicle 2 left its announced areas in 4 steps");
+  EXPECT_EQ(danger_of(summary), driving_fault(summary));
   summary.collisions = 2;
-  EXPECT_EQ(fault_of(summary), "vehicles touched each other 2 times");
+  EXPECT_EQ(driving_fault(summary), "vehicles collided 2 times");
 }
 
 }  // namespace

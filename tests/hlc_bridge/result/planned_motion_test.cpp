@@ -30,7 +30,7 @@ class PlannedMotionTest : public testing::Test {
       report.vehicle = VehicleId{4};
       report.planned_pose = pose;
       report.planned_trim = TrimId{kTrims[k]};
-      report.maneuver = k == 2 ? kOwnStepLabel : "test";
+      report.maneuver = k == 2 ? kSelfLoopLabel : "test";
       rows_.push_back(row);
       if (k + 1 == std::size(kTrims)) break;
       maneuvers_.push_back(automaton_.find({kTrims[k]}, {kTrims[k + 1]}, "test"));
@@ -97,11 +97,11 @@ TEST_F(PlannedMotionTest, ManeuversBetweenTheSameTrimsAreToldApartByTheirLabels)
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), &automaton_.maneuvers.front());
 }
 
-// A car that stands is set down anew, in another equilibrium.
+// The plan of a stationary car is re-anchored, in another equilibrium.
 TEST_F(PlannedMotionTest, StandingIsTheOwnStepWhateverTheNextTrimIs) {
-  rows_[0].record.report.maneuver = kOwnStepLabel;
+  rows_[0].record.report.maneuver = kSelfLoopLabel;
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_),
-            automaton_.find({0}, {0}, kOwnStepLabel));
+            automaton_.find({0}, {0}, kSelfLoopLabel));
 }
 
 TEST_F(PlannedMotionTest, WithoutAPlanOrANextRowThereIsNone) {
@@ -118,7 +118,7 @@ TEST_F(PlannedMotionTest, IsNotKnownOfAManeuverThatTheAutomatonDoesNotHold) {
   EXPECT_THAT([this] { static_cast<void>(motion()); },
               ThrowsMessage<std::runtime_error>(
                   "vehicle 4, step 1: no maneuver from trim 7 to 8 with label 'J1 0.3\\nJ2 0.7', "
-                  "allowed those of the automaton"));
+                  "must be in the automaton"));
 }
 
 TEST_F(PlannedMotionTest, IsNotKnownOfTrimsThatTheAutomatonDoesNotHold) {

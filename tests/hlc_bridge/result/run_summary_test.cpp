@@ -135,7 +135,7 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
     record.report.status = StepStatus::kPlanned;
     record.report.planned_pose = {0.16 * static_cast<double>(k), 0.0, 0.0};
     record.report.planned_trim = TrimId{6};
-    record.report.maneuver = kOwnStepLabel;
+    record.report.maneuver = kSelfLoopLabel;
     reports_.push_back(record);
     for (std::uint64_t tick = 0; tick < 10; ++tick) {
       DrivenSample sample;
@@ -150,15 +150,16 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   EXPECT_NEAR(result.tracking_error_m->max, 0.005, 1e-9);
   EXPECT_NEAR(result.tracking_error_m->mean, 0.005 / (59 * 10 + 1), 1e-9);
   EXPECT_NEAR(result.deviation_max_m.value(), 0.005, 2e-4);
-  EXPECT_EQ(result.astray_steps, 0U);
+  EXPECT_EQ(result.steps_outside_announced_area, 0U);
   reports_.front().report.maneuver = "";  // no plan yet: its pose means nothing
   reports_.front().report.planned_pose = {};
   EXPECT_NEAR(summary().vehicles.at(0).tracking_error_m->max, 0.005, 1e-9);
   reports_.at(30).report.status = StepStatus::kFallback;
   reports_.at(30).report.reason = FallbackReason::kDeviation;
-  EXPECT_EQ(summary().vehicles.at(0).astray_steps, 0U) << "not seen, but not known to be off";
+  EXPECT_EQ(summary().vehicles.at(0).steps_outside_announced_area, 0U)
+      << "not seen, but not known to be off";
   reports_.at(30).report.deviation_m = 0.011;
-  EXPECT_EQ(summary().vehicles.at(0).astray_steps, 1U);
+  EXPECT_EQ(summary().vehicles.at(0).steps_outside_announced_area, 1U);
 }
 
 TEST_F(RunSummaryTest, StepsWhosePlanOrCommandIsNotSentAreCountedAndTold) {
@@ -224,7 +225,7 @@ TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
   EXPECT_DOUBLE_EQ(result.vehicles[0].planning_s->max, 0.064);
   EXPECT_EQ(result.generated_vertices_sum_max, 641U + 642U);
   EXPECT_EQ(result.expanded_vertices_sum_max, 2U * 64U);
-  EXPECT_EQ(result.vehicles[0].overlong_plans, 0U);
+  EXPECT_EQ(result.vehicles[0].plans_exceeding_step, 0U);
   EXPECT_EQ(result.vehicles[0].fallback_steps, 0U);
   EXPECT_EQ(result.vehicles[1].fallback_steps, 2U);
   EXPECT_EQ(result.vehicles[0].deadline_misses, 1U);
@@ -244,7 +245,7 @@ TEST_F(RunSummaryTest, EveryStepThatAControllerSkippedIsADeadlineMissed) {
 
 TEST_F(RunSummaryTest, StepsWithoutPlanningDoNotCountForPlanning) {
   for (std::uint64_t step = 30; step < 60; ++step) {
-    report(1, step).report.status = StepStatus::kDriveOut;
+    report(1, step).report.status = StepStatus::kMinimalRiskStop;
     report(1, step).report.generated = 0;
   }
   const RunSummary result = summary();

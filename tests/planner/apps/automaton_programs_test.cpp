@@ -152,15 +152,15 @@ TEST_F(AutomatonPrograms, BadInputIsOneLineWithExitCode2AndLeavesTheOldFileAlone
                  "cannot be read");
   expect_refused(
       run_program("build_automaton " + path("automaton.yaml") + " --out " + path("x.yaml")),
-      "allowed a configuration");
+      "must be a configuration");
   expect_refused(run_program("build_automaton " + path("car.yaml") + " --out " + path("car.yaml")),
                  "other than the input");
   expect_refused(build("--table " + path("automaton.yaml")), "--table = ");
   expect_refused(build("--table " + path("x.csv") + " --plot " + path("./x.csv")), "--plot = ");
-  expect_refused(build("--table \"\""), "--table = , allowed");
+  expect_refused(build("--table \"\""), "--table = , must be");
   // A pipe stands for every device: one of the machine would be at stake.
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
-  expect_refused(build("--plot " + path("pipe")), "allowed a new or a regular file");
+  expect_refused(build("--plot " + path("pipe")), "must be a new or a regular file");
   fs::remove(path("pipe"));
   expect_refused(run_program("build_automaton /dev/zero --out " + path("x.yaml")),
                  "/dev/zero: cannot be read");
@@ -168,7 +168,7 @@ TEST_F(AutomatonPrograms, BadInputIsOneLineWithExitCode2AndLeavesTheOldFileAlone
   std::string weak = configuration_;
   weak.replace(weak.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 2");
   write("car.yaml", weak);
-  expect_refused(build(), "car.yaml:11: subgraphs[1].trims = (a list), allowed");
+  expect_refused(build(), "car.yaml:11: subgraphs[1].trims = (a list), must be");
   expect_refused(build(), "needs acceleration");
   std::string typing_error = configuration_;
   typing_error.replace(typing_error.find("criteria:"), 9, "criterias:");
@@ -194,10 +194,10 @@ TEST_F(AutomatonPrograms, WhatOnlyTheManeuversShowIsRefusedWithTheKeyThatIsToBla
                     "criteria: [J2, J3, J1]\nsubgraphs:\n"
                     "  - {name: A, label: J1, trims: [1, 3, 4], max_speed_mps: 0.61}\n"),
             begin +
-                ":11: subgraphs[1].max_speed_mps = 0.61, allowed a limit that leaves every trim a "
+                ":11: subgraphs[1].max_speed_mps = 0.61, must be a limit that leaves every trim a "
                 "way from and to standstill; subgraph 'A': no way from trim 3 to a trim of speed "
                 "0\n");
-  const std::string coarse = "intervals = 20, allowed more; maneuver 1 -> 3 (J2): integrated again";
+  const std::string coarse = "intervals = 20, must be more; maneuver 1 -> 3 (J2): integrated again";
   EXPECT_TRUE(
       refusal("step_s: 0.2", "step_s: 10", "--jobs 1").starts_with(begin + ":1: " + coarse));
   EXPECT_TRUE(refusal("step_s: 0.2", "step_s: 10\nintervals: 20", "--jobs 1")
@@ -234,7 +234,7 @@ TEST_F(AutomatonPrograms, ShowRefusesWhatIsStaleEditedOrNoAutomaton) {
   write("other.yaml", other);
   expect_refused(path("automaton.yaml") + " --configuration " + path("other.yaml"), "stale");
   write("car.yaml", other);
-  expect_refused(path("automaton.yaml"), "build it anew: build_automaton " + path("car.yaml"));
+  expect_refused(path("automaton.yaml"), "rebuild it: build_automaton " + path("car.yaml"));
   write("car.yaml", configuration_);
   std::string edited = text_of("automaton.yaml");
   edited.replace(edited.find("width_m: 0.107"), 14, "width_m: 0.100");

@@ -87,7 +87,7 @@ TEST_F(ChooseTrimsProgram, TellsOfSamplesOutsideTheLimitsAndOfReversing) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_NE(outcome.output.find(
                 "choose_trims: drive.csv: 2 of 7 samples are outside the limits (speed up to 90 "
-                "m/s, allowed 3.7; steering up to 0.9 rad, allowed 0.62) and count as at the "
+                "m/s, must be <= 3.7; steering up to 0.9 rad, must be <= 0.62) and count as at the "
                 "limit\n"),
             std::string::npos)
       << outcome.output;
@@ -108,8 +108,8 @@ TEST_F(ChooseTrimsProgram, BadInputIsOneLineAndCode2) {
     EXPECT_NE(outcome.output.find(named), std::string::npos) << outcome.output;
     EXPECT_EQ(outcome.output.find('\n'), outcome.output.size() - 1) << outcome.output;
   };
-  refused(path("letters.csv"), "letters.csv:2: steering_rad = \"left\", allowed a number");
-  refused(path("columns.csv"), "columns.csv:1: columns = a,b, allowed");
+  refused(path("letters.csv"), "letters.csv:2: steering_rad = \"left\", must be a number");
+  refused(path("columns.csv"), "columns.csv:1: columns = a,b, must be");
   refused(path("stands.csv"), "stood for the whole drive");
   refused(path("nowhere.csv"), "nowhere.csv: cannot be read");
   refused(path("stands.csv") + " --count 1", "--count");

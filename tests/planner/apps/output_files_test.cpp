@@ -23,7 +23,7 @@ class OutputFiles : public testing::Test {
   ~OutputFiles() override { fs::current_path(before_); }
 
   /// The message, or "good".
-  static std::string said(const std::vector<OutputFile>& outputs) {
+  static std::string error_text(const std::vector<OutputFile>& outputs) {
     try {
       check_output_files(outputs, {"car.yaml"});
     } catch (const std::invalid_argument& error) {
@@ -37,21 +37,22 @@ class OutputFiles : public testing::Test {
 };
 
 TEST_F(OutputFiles, NewAndRegularFilesAndNoneAreGood) {
-  EXPECT_EQ(said({{"--out", "new.csv"}, {"--plot", folder_ / "old.csv"}, {"--table", {}}}), "good");
+  EXPECT_EQ(error_text({{"--out", "new.csv"}, {"--plot", folder_ / "old.csv"}, {"--table", {}}}),
+            "good");
 }
 
 TEST_F(OutputFiles, WhatCannotBeAFileIsRefused) {
   fs::create_directory("folder");
   fs::create_symlink("old.csv", "link.csv");
-  EXPECT_EQ(said({{"--out", ""}}), "--out = , allowed the name of a file");
-  EXPECT_EQ(said({{"--out", "no/new.csv"}}),
-            "--out = no/new.csv, allowed a file in a folder that exists");
-  EXPECT_EQ(said({{"--out", "old.csv/new.csv"}}),
-            "--out = old.csv/new.csv, allowed a file in a folder that exists");
+  EXPECT_EQ(error_text({{"--out", ""}}), "--out = , must be the name of a file");
+  EXPECT_EQ(error_text({{"--out", "no/new.csv"}}),
+            "--out = no/new.csv, must be a file in an existing folder");
+  EXPECT_EQ(error_text({{"--out", "old.csv/new.csv"}}),
+            "--out = old.csv/new.csv, must be a file in an existing folder");
   for (const char* const other :
        {"folder", "folder/", ".", "link.csv", "/dev/stdout", "/dev/null"}) {
-    EXPECT_EQ(said({{"--out", other}}),
-              "--out = " + std::string(other) + ", allowed a new or a regular file");
+    EXPECT_EQ(error_text({{"--out", other}}),
+              "--out = " + std::string(other) + ", must be a new or a regular file");
   }
 }
 
@@ -59,24 +60,24 @@ TEST_F(OutputFiles, AFolderThatMayNotBeWrittenToIsRefused) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   fs::create_directory("folder");
   fs::permissions("folder", fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_EQ(said({{"--out", "folder/new.csv"}}),
-            "--out = folder/new.csv, allowed a file in a folder that may be written to");
+  EXPECT_EQ(error_text({{"--out", "folder/new.csv"}}),
+            "--out = folder/new.csv, must be a file in a writable folder");
 }
 
 TEST_F(OutputFiles, AnInputIsRefusedUnderAnyName) {
   fs::create_hard_link("car.yaml", "hard.yaml");
   for (const std::string& name : std::vector<std::string>{"car.yaml", "./car.yaml", "hard.yaml",
                                                           (folder_ / "car.yaml").string()}) {
-    EXPECT_EQ(said({{"--out", "new.csv"}, {"--plot", name}}),
-              "--plot = " + name + ", allowed a file other than the input");
+    EXPECT_EQ(error_text({{"--out", "new.csv"}, {"--plot", name}}),
+              "--plot = " + name + ", must be a file other than the input");
   }
 }
 
 TEST_F(OutputFiles, TwoOutputsInOneFileAreRefusedAlsoIfItIsNew) {
   for (const std::string& name :
        std::vector<std::string>{"new.csv", "./new.csv", (folder_ / "new.csv").string()}) {
-    EXPECT_EQ(said({{"--out", "new.csv"}, {"--table", {}}, {"--plot", name}}),
-              "--plot = " + name + ", allowed a file other than that of --out");
+    EXPECT_EQ(error_text({{"--out", "new.csv"}, {"--table", {}}, {"--plot", name}}),
+              "--plot = " + name + ", must be a file other than that of --out");
   }
 }
 

@@ -127,13 +127,13 @@ TEST_F(ProblemPrograms, BadInputIsOneLineAndExitCode2) {
     EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
   }
   EXPECT_THAT(run_program("plan_problem " + unknown).output,
-              HasSubstr("problem.json: start.phi = 0, unknown key, allowed keys x, y, psi, trim"));
+              HasSubstr("problem.json: start.phi = 0, unknown key; known keys: x, y, psi, trim"));
 }
 
 TEST_F(ProblemPrograms, TheNameOfAFileStaysInOneLine) {
   const Outcome outcome = run_program("plan_problem \"$(printf '/no\\nwhere\\033[31m')\"");
   EXPECT_EQ(outcome.output,
-            "plan_problem: /no\\nwhere\\x1b[31m: cannot be read, allowed a JSON file\n");
+            "plan_problem: /no\\nwhere\\x1b[31m: cannot be read, must be a JSON file\n");
 }
 
 TEST_F(ProblemPrograms, ThePlotIsAPictureThatExplainsItself) {
@@ -156,7 +156,7 @@ TEST_F(ProblemPrograms, APictureNeverTakesThePlaceOfItsProblem) {
   const auto size = fs::file_size(problem);
   const Outcome outcome = run_program("plan_problem " + problem + " --plot " + problem);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("allowed a file other than the input"));
+  EXPECT_THAT(outcome.output, HasSubstr("must be a file other than the input"));
   EXPECT_EQ(fs::file_size(problem), size);
 }
 
@@ -172,7 +172,7 @@ TEST_F(ProblemPrograms, NorThatOfTheAutomatonThatIsReadForIt) {
             automaton}) {
     const Outcome outcome = run_program(command);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("allowed a file other than the input"));
+    EXPECT_THAT(outcome.output, HasSubstr("must be a file other than the input"));
     EXPECT_EQ(fs::file_size(automaton), size);
   }
 }
@@ -197,7 +197,7 @@ TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
       "propose_budget " + kLaunch +
       "scenarios/paper_red_alone.yaml --deadline_ms 9 --profile 2022 --engine branch_and_bound");
   EXPECT_EQ(profile.exit_code, 2);
-  EXPECT_THAT(profile.output, HasSubstr("--engine = branch_and_bound with profile 2022, allowed"));
+  EXPECT_THAT(profile.output, HasSubstr("--engine = branch_and_bound with profile 2022, must be"));
 }
 
 TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold) {
@@ -241,7 +241,7 @@ TEST_F(ProblemPrograms, TheOmplExampleRefusesWhatItsObjectiveDoesNotHold) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
   EXPECT_THAT(outcome.output,
-              HasSubstr("problem.json: search.criterion_weights.J2 = 0.5, allowed none"));
+              HasSubstr("problem.json: search.criterion_weights.J2 = 0.5, must be none"));
 }
 
 TEST_F(ProblemPrograms, TheOmplExampleEndsAlsoWhenASearchDoesNot) {

@@ -1,4 +1,4 @@
-// What a program prints is lost on a full device: it says so.
+// Output of a program that is lost on a full device is an error.
 #include <gtest/gtest.h>
 
 #include <string>

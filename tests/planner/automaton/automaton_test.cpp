@@ -31,7 +31,7 @@ TEST(Automaton, FindsATrimsOwnStepUnderEveryLabel) {
   const auto automaton = paper_automaton();
   const Maneuver* step = automaton->find(pi(7), pi(7), "J2");
   ASSERT_NE(step, nullptr);
-  EXPECT_EQ(step->label, kOwnStepLabel);
+  EXPECT_EQ(step->label, kSelfLoopLabel);
   EXPECT_EQ(automaton->find(pi(7), pi(7), "J7"), step);
 }
 

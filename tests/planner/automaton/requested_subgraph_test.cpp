@@ -63,8 +63,8 @@ TEST(SubgraphRequest, ChangesLabelsTrimsEdgesAndSpeed) {
                                    .edges_on = {},
                                    .edges_off = {{trim(6), trim(7)}}});
   EXPECT_EQ(on(*subgraph).size(), 10U);
-  EXPECT_FALSE(subgraph->is_on(trim(2)));
-  EXPECT_FALSE(subgraph->is_on(trim(12)));
+  EXPECT_FALSE(subgraph->is_enabled(trim(2)));
+  EXPECT_FALSE(subgraph->is_enabled(trim(12)));
   std::size_t moves = 0;
   for (const TrimId from : subgraph->trims()) {
     for (const Edge& edge : subgraph->successors(from)) {
@@ -83,8 +83,8 @@ TEST(SubgraphRequest, ChangesLabelsTrimsEdgesAndSpeed) {
       EXPECT_LE(top_speed_mps(*edge.maneuver), 0.6 + 1e-6);
     }
   }
-  EXPECT_TRUE(slow->is_on(trim(4)));
-  EXPECT_FALSE(slow->is_on(trim(7)));
+  EXPECT_TRUE(slow->is_enabled(trim(4)));
+  EXPECT_FALSE(slow->is_enabled(trim(7)));
 }
 
 // The order is that of the declaration: chains go by it.
@@ -98,22 +98,22 @@ TEST(SubgraphRequest, ATrimThatComesBackStandsWhereItWas) {
 }
 
 TEST(SubgraphRequest, RefusesWhatCannotBeInOneLine) {
-  EXPECT_THAT(refusal({.labels = {"J7"}}), HasSubstr("label 'J7', allowed J1, J2, J3"));
+  EXPECT_THAT(refusal({.labels = {"J7"}}), HasSubstr("label 'J7', must be one of J1, J2, J3"));
   EXPECT_THAT(refusal({.labels = {"J1", "J1"}}), HasSubstr("label 'J1' is listed twice"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = 0.3}),
-              HasSubstr("speed limit 0.3 m/s, allowed at least 0.4"));
+              HasSubstr("speed limit 0.3 m/s, must be >= 0.4"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = std::nan("")}), HasSubstr("speed limit nan"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = INFINITY}), HasSubstr("speed limit inf"));
   SubgraphRequest request;
   request.trims_off = {trim(1)};
   EXPECT_THAT(refusal(request), HasSubstr("no trim of speed 0"));
   request.trims_off = {trim(13)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 13, allowed 1 ... 12"));
+  EXPECT_THAT(refusal(request), HasSubstr("trim 13, must be in 1 ... 12"));
   request.trims_off = {trim(3), trim(3)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 3 off: it is off"));
+  EXPECT_THAT(refusal(request), HasSubstr("trim 3 off: must be enabled"));
   request = {};
   request.trims_on = {trim(3)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 3 on: it is on"));
+  EXPECT_THAT(refusal(request), HasSubstr("trim 3 on: must be disabled"));
   request = {};
   request.edges_on = {{trim(2), trim(3)}};
   EXPECT_THAT(refusal(request), HasSubstr("edge 2 -> 3 on"));
@@ -152,12 +152,12 @@ TEST(SubgraphRequest, RandomOnesAreRefusedOrCanBeDriven) {
       const auto subgraph = requested(request);
       ++accepted;
       EXPECT_NO_THROW(check_driving(*subgraph, kHorizonSteps));
-      for (const TrimId one : request.trims_off) EXPECT_FALSE(subgraph->is_on(one));
+      for (const TrimId one : request.trims_off) EXPECT_FALSE(subgraph->is_enabled(one));
       for (const TrimId from : subgraph->trims()) {
         for (const Edge& edge : subgraph->successors(from)) {
-          const bool is_off = std::ranges::find(request.edges_off, TrimPair{from, edge.to}) !=
-                              request.edges_off.end();
-          EXPECT_FALSE(is_off);
+          const bool is_disabled = std::ranges::find(request.edges_off, TrimPair{from, edge.to}) !=
+                                   request.edges_off.end();
+          EXPECT_FALSE(is_disabled);
           EXPECT_TRUE(!request.max_speed_mps ||
                       top_speed_mps(*edge.maneuver) <= *request.max_speed_mps + 1e-6);
           EXPECT_TRUE(request.labels.empty() || edge.to == from ||

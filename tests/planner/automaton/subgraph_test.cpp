@@ -61,7 +61,7 @@ TEST(Subgraph, DConnectsNeighboursOfTheReducedSet) {
     reached.push_back(edge.to);
   }
   EXPECT_EQ(reached, (std::vector<TrimId>{pi(1), pi(2), pi(4), pi(6)}));
-  EXPECT_FALSE(subgraph.is_on(pi(3)));
+  EXPECT_FALSE(subgraph.is_enabled(pi(3)));
 }
 
 TEST(Subgraph, EdgesLeadToTheirManeuversSortedByTarget) {
@@ -73,7 +73,7 @@ TEST(Subgraph, EdgesLeadToTheirManeuversSortedByTarget) {
     for (const Edge& edge : edges) {
       EXPECT_EQ(edge.maneuver->from, trim);
       EXPECT_EQ(edge.maneuver->to, edge.to);
-      EXPECT_EQ(edge.maneuver->label, edge.to == trim ? kOwnStepLabel : "J2");
+      EXPECT_EQ(edge.maneuver->label, edge.to == trim ? kSelfLoopLabel : "J2");
     }
   }
 }
@@ -98,7 +98,7 @@ TEST(Subgraph, RefusesAnEdgeThatTheAutomatonDoesNotHold) {
 TEST(Subgraph, RefusesTrimsThatAreUnknownOrListedTwiceOrNeverStand) {
   SubgraphSpec wrong = spec("B");
   wrong.trims = {pi(1), pi(13)};
-  EXPECT_EQ(refusal(wrong), "subgraph 'B': trim 13, allowed 1 ... 12");
+  EXPECT_EQ(refusal(wrong), "subgraph 'B': trim 13, must be in 1 ... 12");
   wrong.trims = {pi(1), pi(7), pi(1)};
   EXPECT_EQ(refusal(wrong), "subgraph 'B': trim 1 is listed twice");
   wrong.trims = {pi(6), pi(7)};
@@ -113,14 +113,15 @@ TEST(Subgraph, RefusesLabelsAndEdgesThatMakeNoSense) {
   EXPECT_EQ(refusal(wrong), "subgraph 'B': label 'J2' is listed twice");
   wrong = spec("B");
   wrong.off = {{{pi(1), pi(1)}, std::nullopt}};
-  EXPECT_EQ(refusal(wrong), "subgraph 'B': edge 1 -> 1 is off, but standing must be possible");
+  EXPECT_EQ(refusal(wrong), "subgraph 'B': edge 1 -> 1 is disabled, but standing must be possible");
   wrong.off = {{{pi(7), pi(1)}, std::nullopt},
                {{pi(7), pi(6)}, std::nullopt},
                {{pi(7), pi(8)}, std::nullopt}};
   EXPECT_EQ(refusal(wrong), "subgraph 'B': no way from trim 7 to a trim of speed 0");
   wrong = spec("B");
   wrong.edges = {{{pi(3), pi(5)}, {"J2"}}};
-  EXPECT_EQ(refusal(wrong), "subgraph 'B': labels for edge 3 -> 5, which its rule does not give");
+  EXPECT_EQ(refusal(wrong),
+            "subgraph 'B': labels for edge 3 -> 5, which is not an edge of its rule");
 }
 
 TEST(Subgraph, RuleReachableConnectsWhatTheLimitsAllowInOneStep) {
@@ -198,7 +199,7 @@ TEST(Subgraph, BetweenTwoTrimsThereIsOneEdgePerLabelInTheirOrder) {
   const Subgraph subgraph(two_labels(), all_trims({"fast", "slow"}));
   EXPECT_EQ(count_edges(subgraph).maneuvers, 84U);
   EXPECT_EQ(labels_between(subgraph, 7, 8), (Labels{"fast", "slow"}));
-  EXPECT_EQ(labels_between(subgraph, 7, 7), Labels{kOwnStepLabel});
+  EXPECT_EQ(labels_between(subgraph, 7, 7), Labels{kSelfLoopLabel});
 }
 
 TEST(Subgraph, SingleEdgesHaveOtherLabelsOrAreOff) {
@@ -233,7 +234,7 @@ TEST(Subgraph, TheSpeedLimitHoldsAlongManeuvers) {
     }
   }
   EXPECT_EQ(subgraph.trims().size(), 9U);  // without 6, 7, 8
-  EXPECT_FALSE(subgraph.is_on(pi(7)));
+  EXPECT_FALSE(subgraph.is_enabled(pi(7)));
   EXPECT_EQ(labels_between(subgraph, 5, 1), Labels{"slow"});
   EXPECT_EQ(fast, 0U);  // those from or to standstill reach 0.2 + 0.8 m/s, the others more
   EXPECT_EQ(labels_between(subgraph, 4, 5), Labels{"slow"});
@@ -263,7 +264,7 @@ TEST(Subgraph, ATrimThatIsOffHasItsExitEdgesToTheTrimsThatAreOn) {
   }
   EXPECT_EQ(reached, (std::vector<TrimId>{pi(1), pi(2), pi(4)}));
   EXPECT_EQ(subgraph.distance_to_standstill(pi(3)), 1U);
-  EXPECT_EQ(subgraph.starts().size(), 12U);
+  EXPECT_EQ(subgraph.start_trims().size(), 12U);
   EXPECT_EQ(subgraph.trims().size(), 8U);
 }
 
@@ -284,8 +285,8 @@ TEST(Subgraph, WhoIsTooFastDoesNotSpeedUpToSlowDown) {
       test::make_test_subgraph({test::kFast, test::kSlow}, test::kAllTrims, 0.6);
   const auto& trims = limited.automaton().trims;
   std::size_t exits = 0;
-  for (const TrimId trim : limited.starts()) {
-    if (limited.is_on(trim)) continue;
+  for (const TrimId trim : limited.start_trims()) {
+    if (limited.is_enabled(trim)) continue;
     for (const Edge& edge : limited.successors(trim)) {
       ++exits;
       EXPECT_EQ(edge.maneuver->label, test::kSlow.label);
@@ -325,7 +326,7 @@ TEST(Subgraph, ATrimThatIsOffWithoutAWayOutIsNoStart) {
   const Subgraph subgraph(two_labels(), spec);
   EXPECT_TRUE(subgraph.successors(pi(7)).empty());
   EXPECT_EQ(subgraph.distance_to_standstill(pi(7)), Subgraph::kNever);
-  EXPECT_EQ(subgraph.starts().size(), 11U);
+  EXPECT_EQ(subgraph.start_trims().size(), 11U);
 }
 
 TEST(Subgraph, KeepsTheAutomatonAlive) {
@@ -333,7 +334,7 @@ TEST(Subgraph, KeepsTheAutomatonAlive) {
   const std::weak_ptr<const UniversalAutomaton> watch = automaton;
   const Subgraph subgraph(std::move(automaton), spec("B"));
   ASSERT_FALSE(watch.expired());
-  EXPECT_EQ(subgraph.successors(pi(1)).front().maneuver->label, kOwnStepLabel);
+  EXPECT_EQ(subgraph.successors(pi(1)).front().maneuver->label, kSelfLoopLabel);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ SubgraphSpec random_spec(const UniversalAutomaton& automaton, Random& random) {
   for (std::size_t from = 0; from < automaton.trims.size(); ++from) {
     for (std::size_t to = 0; to < automaton.trims.size(); ++to) {
       const bool is_own = from == to;
-      for (const std::string& label : is_own ? std::vector<std::string>{kOwnStepLabel} : labels) {
+      for (const std::string& label : is_own ? std::vector<std::string>{kSelfLoopLabel} : labels) {
         const bool is_held = automaton.find({from}, {to}, label) != nullptr;
         const bool may_go = !is_own || !automaton.trims[from].is_equilibrium();
         if (!is_held || (may_go && toss(random, 0.05))) {
@@ -94,8 +94,8 @@ std::vector<std::unique_ptr<const Subgraph>> random_subgraphs(
   return subgraphs;
 }
 
-bool is_off(const SubgraphSpec& spec, const Maneuver& m) {
-  return std::ranges::any_of(spec.off, [&](const EdgesOff& off) {
+bool is_disabled(const SubgraphSpec& spec, const Maneuver& m) {
+  return std::ranges::any_of(spec.off, [&](const DisabledEdges& off) {
     return off.edge == TrimPair{m.from, m.to} && (!off.label || *off.label == m.label);
   });
 }
@@ -107,14 +107,14 @@ std::vector<std::size_t> exit_distances(const Subgraph& subgraph) {
   for (const TrimId trim : subgraph.trims()) distance[trim.index] = 0;
   for (std::size_t sweep = 0; sweep < automaton.trims.size(); ++sweep) {
     for (const Maneuver& m : automaton.maneuvers) {
-      if (is_off(subgraph.spec(), m)) continue;
+      if (is_disabled(subgraph.spec(), m)) continue;
       distance[m.from.index] = std::min(distance[m.from.index], distance[m.to.index] + 1);
     }
   }
   return distance;
 }
 
-/// What subgraph.hpp says of a subgraph by itself.
+/// The properties of a single subgraph by subgraph.hpp.
 void check_edges(const Subgraph& subgraph) {
   const UniversalAutomaton& automaton = subgraph.automaton();
   const std::vector<std::size_t> exit_distance = exit_distances(subgraph);
@@ -122,7 +122,8 @@ void check_edges(const Subgraph& subgraph) {
     const TrimId trim{i};
     const bool is_equilibrium = automaton.trims[i].is_equilibrium();
     const auto edges = subgraph.successors(trim);
-    const bool is_start = std::ranges::find(subgraph.starts(), trim) != subgraph.starts().end();
+    const bool is_start =
+        std::ranges::find(subgraph.start_trims(), trim) != subgraph.start_trims().end();
     ASSERT_EQ(is_start, !edges.empty());
     ASSERT_EQ(is_start, is_equilibrium || exit_distance[i] < kMaxDistance);
     bool can_stand = false;
@@ -130,11 +131,11 @@ void check_edges(const Subgraph& subgraph) {
     for (const Edge& edge : edges) {
       ASSERT_EQ(edge.maneuver->from, trim);
       ASSERT_EQ(edge.maneuver->to, edge.to);
-      ASSERT_FALSE(is_off(subgraph.spec(), *edge.maneuver));
+      ASSERT_FALSE(is_disabled(subgraph.spec(), *edge.maneuver));
       can_stand = can_stand || edge.to == trim;
       nearest = std::min(nearest, subgraph.distance_to_standstill(edge.to));
-      if (subgraph.is_on(trim)) {
-        ASSERT_TRUE(subgraph.is_on(edge.to));
+      if (subgraph.is_enabled(trim)) {
+        ASSERT_TRUE(subgraph.is_enabled(edge.to));
         if (subgraph.spec().max_speed_mps) {
           ASSERT_LE(top_speed_mps(*edge.maneuver), *subgraph.spec().max_speed_mps);
         }
@@ -183,7 +184,7 @@ void check_rest_is_a_plan(const Subgraph& subgraph, const Drive& plan) {
     ASSERT_TRUE(is_permitted(subgraph, plan.left[j], steps_left));
     --steps_left;
   }
-  const Maneuver* stand = subgraph.automaton().find(plan.end, plan.end, kOwnStepLabel);
+  const Maneuver* stand = subgraph.automaton().find(plan.end, plan.end, kSelfLoopLabel);
   ASSERT_TRUE(is_permitted(subgraph, stand, steps_left));
 }
 
@@ -203,9 +204,9 @@ void check_drive(const UniversalAutomaton& automaton, const Drive& drive) {
 TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
   const std::uint64_t automata = test::num_costly_seeds(50);
   constexpr int kSwitches = 2000;
-  std::uint64_t from_off = 0;
-  std::uint64_t from_far_off = 0;
-  std::uint64_t from_off_equilibrium = 0;
+  std::uint64_t from_disabled = 0;
+  std::uint64_t from_far_disabled = 0;
+  std::uint64_t from_disabled_equilibrium = 0;
   std::uint64_t without_way_out = 0;
   std::uint64_t cut_off_plans = 0;
   for (unsigned seed = 0; seed < automata; ++seed) {
@@ -222,16 +223,16 @@ TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
       const Subgraph& subgraph = *subgraphs[pick(random, subgraphs.size())];
       if (!drive.left.empty()) drive.left.erase(drive.left.begin());
       const TrimId start = drive.trim();
-      const bool is_off = !subgraph.is_on(start);
+      const bool is_disabled = !subgraph.is_enabled(start);
       const bool stands = automaton->trims[start.index].is_equilibrium();
       const std::size_t distance = subgraph.distance_to_standstill(start);
-      from_off_equilibrium += is_off && stands ? 1U : 0U;
+      from_disabled_equilibrium += is_disabled && stands ? 1U : 0U;
       without_way_out += distance == Subgraph::kNever ? 1U : 0U;
       // Whatever is in the way, a search may find nothing.
       const bool finds = distance <= kHorizonSteps && toss(random, 0.6);
       if (finds) {
-        from_off += is_off && !stands ? 1U : 0U;
-        from_far_off += is_off && distance >= 3 ? 1U : 0U;
+        from_disabled += is_disabled && !stands ? 1U : 0U;
+        from_far_disabled += is_disabled && distance >= 3 ? 1U : 0U;
         drive = random_plan(subgraph, start, random);
         fallbacks = 0;
         ASSERT_NO_FATAL_FAILURE(check_rest_is_a_plan(subgraph, drive));
@@ -245,10 +246,10 @@ TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
       ASSERT_TRUE(fallbacks < kHorizonSteps || automaton->trims[start.index].is_equilibrium());
     }
   }
-  // The switches must be hard enough to say something.
-  EXPECT_GT(from_off, 20 * automata);
-  EXPECT_GT(from_far_off, automata);
-  EXPECT_GT(from_off_equilibrium, 20 * automata);
+  // The switches must be hard enough to be informative.
+  EXPECT_GT(from_disabled, 20 * automata);
+  EXPECT_GT(from_far_disabled, automata);
+  EXPECT_GT(from_disabled_equilibrium, 20 * automata);
   EXPECT_GT(without_way_out, 2 * automata / 5);
   EXPECT_GT(cut_off_plans, 20 * automata);
 }

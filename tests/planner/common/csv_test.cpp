@@ -92,9 +92,9 @@ TEST_F(CsvTableTest, RefusesWhatIsNoNumberAndNamesThePlace) {
   const CsvTable csv = table("a,b\n1,2\n1x,-3\n,4\n");
   EXPECT_THAT(
       [&] { (void)csv.number(1, 0); },
-      ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:3: a = \"1x\", allowed a number")));
+      ThrowsMessage<std::runtime_error>(HasSubstr("t.csv:3: a = \"1x\", must be a number")));
   EXPECT_THAT([&] { (void)csv.unsigned_number(1, 1); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("b = \"-3\", allowed a whole number")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("b = \"-3\", must be a whole number")));
   EXPECT_THROW((void)csv.number(2, 0), std::runtime_error);
 }
 
@@ -107,7 +107,7 @@ TEST_F(CsvTableTest, AFileOfAnybodyMayHaveAnyColumnsAndLineEnds) {
   EXPECT_EQ(csv.number(1, 1), 4.0);
   EXPECT_THAT(
       [&] { (void)CsvTable("/dev/zero"); },
-      ThrowsMessage<std::invalid_argument>("/dev/zero: cannot be read, allowed a CSV file"));
+      ThrowsMessage<std::invalid_argument>("/dev/zero: cannot be read, must be a CSV file"));
 }
 
 }  // namespace

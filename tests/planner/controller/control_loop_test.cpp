@@ -47,7 +47,7 @@ TEST_F(TwoLoops, APhaseAwaitsWhatItNeedsAndTheStepEndsWithTheReport) {
   static_cast<void>(first_->proceed());
   static_cast<void>(second_->proceed());
 
-  EXPECT_THAT(first_->awaited().from, IsEmpty()) << "nobody plans before it";
+  EXPECT_THAT(first_->awaited().from, IsEmpty()) << "no vehicle plans before it";
   EXPECT_EQ(second_->awaited().kind, MessageKind::kPrediction);
   EXPECT_THAT(second_->awaited().from, ElementsAre(VehicleId{1}));
   const StepOutput planned = first_->proceed();

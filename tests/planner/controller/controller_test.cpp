@@ -190,7 +190,7 @@ TEST_F(TwoCars, ASilentPredecessorIsMissingNotAbsent) {
   const Traffic t1 = first_->observe(at(101, states_));
   static_cast<void>(second_->observe(at(101, states_)));
   second_->couple(std::vector{t1});
-  const Prediction prediction = second_->plan({});  // nothing heard of its predecessor's plan
+  const Prediction prediction = second_->plan({});  // its predecessor's plan not received
   ASSERT_FALSE(second_->problems().empty());
   for (const std::vector<ConvexPolygon>& areas : second_->problems().back().obstacles_m) {
     EXPECT_THAT(areas, testing::Contains(t1.reachable_area_m));
@@ -335,7 +335,8 @@ TEST_F(Deviation, OfMoreThanHalfTheMarginLetsTheNextPlanStartWhereTheVehicleIs) 
   off.pose.y_m += 0.008;
   const Report report = step(*one_, at(106, {off}));
   EXPECT_EQ(report.status, StepStatus::kPlanned);
-  EXPECT_NEAR(report.planned_pose.y_m, 0.0, 1e-9) << "what was told of the step under way stays";
+  EXPECT_NEAR(report.planned_pose.y_m, 0.0, 1e-9)
+      << "what was announced of the step under way stays";
   EXPECT_NEAR(one_->plan_in_force().pose_at({107}).y_m, 0.008, 1e-9);
   MeasuredVehicle then = following(*one_, 107);
   EXPECT_NEAR(step(*one_, at(107, {then})).deviation_m, 0.0, 1e-9);
@@ -373,12 +374,12 @@ TEST_F(Deviation, BeyondTheBoundItsTrafficTellsWhereTheVehicleReallyCanBe) {
   for (std::uint64_t k = 106; k < 120; ++k) {
     ConvexPolygon beside = planned.during({k});
     for (Point& vertex : beside.vertices_m) vertex.y() += 0.1;
-    for (const OccupiedAreas* told : {&traffic.running, &prediction.areas}) {
-      if (k < told->first.value) continue;
-      EXPECT_TRUE(holds(told->during({k}), planned.during({k}))) << k;
-      EXPECT_TRUE(holds(told->during({k}), beside)) << k;
-      EXPECT_TRUE(holds(told->during({k}), seen_area)) << k;
-      EXPECT_TRUE(holds(traffic.reachable_area_m, told->during({k}))) << k;
+    for (const OccupiedAreas* announced : {&traffic.running, &prediction.areas}) {
+      if (k < announced->first.value) continue;
+      EXPECT_TRUE(holds(announced->during({k}), planned.during({k}))) << k;
+      EXPECT_TRUE(holds(announced->during({k}), beside)) << k;
+      EXPECT_TRUE(holds(announced->during({k}), seen_area)) << k;
+      EXPECT_TRUE(holds(traffic.reachable_area_m, announced->during({k}))) << k;
     }
   }
 }
@@ -413,13 +414,13 @@ TEST(Controller, DrivingOutPlansNothingNewUntilItEnds) {
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
   static_cast<void>(step(*one, at(101, {seen(1, 0.0, 0.0)})));
   const StepIndex end = one->plan_in_force().end();
-  one->set_drives_out(true);
+  one->set_minimal_risk_stop(true);
   for (std::uint64_t k = 102; k < 112; ++k) {
     const Report report = step(*one, at(k, {following(*one, k)}));
-    EXPECT_EQ(report.status, StepStatus::kDriveOut);
+    EXPECT_EQ(report.status, StepStatus::kMinimalRiskStop);
     EXPECT_EQ(one->plan_in_force().end(), end);
   }
-  one->set_drives_out(false);
+  one->set_minimal_risk_stop(false);
   EXPECT_EQ(step(*one, at(112, {following(*one, 112)})).status, StepStatus::kPlanned);
   EXPECT_GT(one->plan_in_force().end(), StepIndex{112});
 }

@@ -30,7 +30,7 @@ SeenAt seen_standing() {
                                          paper_automaton()->identified)}};
 }
 
-OccupiedAreas told(const Plan& plan, const SeenAt& seen = seen_standing()) {
+OccupiedAreas announced(const Plan& plan, const SeenAt& seen = seen_standing()) {
   return areas_with_drift(plan, {10}, seen, *paper_automaton(), kTolerated_m);
 }
 
@@ -47,14 +47,14 @@ TEST(Drift, APlanThatTheVehicleCanFollowKeepsItsAreasToTheBit) {
   for (const auto& trims : {std::vector<std::size_t>{1, 7, 7, 8, 9, 10, 9, 8, 1},
                             std::vector<std::size_t>{1, 7, 6, 5, 4, 3, 3, 4, 1}}) {
     const Plan plan = plan_through(trims);
-    EXPECT_TRUE(are_equal(told(plan), plan.areas_from({10})));
+    EXPECT_TRUE(are_equal(announced(plan), plan.areas_from({10})));
   }
 }
 
 TEST(Drift, AHeldTrimBeyondTheSteeringLimitWidensTheAreasFromThereOn) {
   const Plan plan = plan_through({1, 4, 3, 2, 2, 2, 2, 2, 1});
   const OccupiedAreas planned = plan.areas_from({10});
-  const OccupiedAreas areas = told(plan);
+  const OccupiedAreas areas = announced(plan);
   ASSERT_EQ(areas.areas_m.size(), planned.areas_m.size());
   EXPECT_EQ(areas.areas_m.front(), planned.areas_m.front());
   EXPECT_NE(areas.areas_m.back(), planned.areas_m.back());
@@ -67,7 +67,7 @@ TEST(Drift, AHeldTrimBeyondTheSteeringLimitWidensTheAreasFromThereOn) {
 TEST(Drift, WhereTheVehicleIsPredictedIsHeldWithItsMargin) {
   const UniversalAutomaton& automaton = *paper_automaton();
   const Plan plan = plan_through({1, 12, 12, 12, 12, 12, 12, 12, 1});
-  const OccupiedAreas areas = told(plan);
+  const OccupiedAreas areas = announced(plan);
   double largest_m = 0.0;
   for (const PredictedInstant& instant : predicted_drive(plan, seen_standing(), {20}, automaton)) {
     const double off_m = (instant.pose.position_m() - instant.planned.pose.position_m()).norm();
@@ -84,7 +84,7 @@ TEST(Drift, AVehicleBesideItsPlanIsHeldUntilItIsBack) {
   SeenAt seen = seen_standing();
   seen.pose.y_m += 0.020;
   const OccupiedAreas planned = plan.areas_from({10});
-  const OccupiedAreas areas = told(plan, seen);
+  const OccupiedAreas areas = announced(plan, seen);
   EXPECT_NE(areas.areas_m.front(), planned.areas_m.front());
   EXPECT_EQ(areas.areas_m.back(), planned.areas_m.back());
 }

@@ -67,7 +67,7 @@ TEST_F(DrivableAreaTest, OneThatStandsInItsLanesLooksForAWayOutOnceInEveryHorizo
   DrivableArea area(&once_per_horizon, kHorizon);
   for (std::size_t i = 0; i <= 2 * kHorizon; ++i) stand(area, true);
   EXPECT_EQ(num_looks_, 2);
-  EXPECT_FALSE(area.entry_area()) << "none was found: it may as well wait for somebody";
+  EXPECT_FALSE(area.entry_area()) << "none was found: it may wait for another vehicle";
   found_.area = Corridor{};
   for (std::size_t i = 0; i < kHorizon; ++i) stand(area, true);
   EXPECT_EQ(num_looks_, 3);

@@ -81,7 +81,7 @@ TEST(LaneEntryTest, ACarBesideItsLaneHasAWiderAreaUntilItIsInIt) {
   EXPECT_LT(std::abs(car.pose().y_m), 0.02);
 }
 
-// It crosses no bound there, and could drive along the lane for ever without crossing one.
+// It crosses no bound there, and could drive along the lane forever without crossing one.
 TEST(LaneEntryTest, ACarWhollyBesideItsLaneDrivesIntoIt) {
   Car car(lane(99.0), {1.0, 0.17, 0.0});
   for (int i = 0; i < 25; ++i) EXPECT_EQ(car.step().status, StepStatus::kPlanned);

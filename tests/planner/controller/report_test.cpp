@@ -1,4 +1,4 @@
-// What a report says of the plan in force and of what it was planned on.
+// Content of a report: the plan in force and its subgraph.
 #include "planner/coordination/report.hpp"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST_F(ReportTest, NamesNoManeuverWithoutAPlanAndTheOwnStepOfStandingWhileItStan
   EXPECT_EQ(without.maneuver, "");
   EXPECT_EQ(without.subgraph, "all slow");
   const Report standing = stand_by();
-  EXPECT_EQ(standing.maneuver, kOwnStepLabel);
+  EXPECT_EQ(standing.maneuver, kSelfLoopLabel);
   EXPECT_EQ(standing.subgraph, "all slow");
   controller_->switch_to(with_label("fast"));
   EXPECT_EQ(stand_by().subgraph, "all fast");
@@ -87,7 +87,7 @@ TEST_F(ReportTest, NamesTheManeuverUnderWayNotOneThatWasPlannedInTheStep) {
   start(with_label("slow"));
   static_cast<void>(stand_by());
   const Report first = step();
-  EXPECT_EQ(first.maneuver, kOwnStepLabel);
+  EXPECT_EQ(first.maneuver, kSelfLoopLabel);
   EXPECT_EQ(first.subgraph, "all slow");
   controller_->switch_to(with_label("fast"));
   const Report second = step();
@@ -104,7 +104,7 @@ TEST_F(ReportTest, LeadsFromEveryPlannedPoseToTheNextByTheManeuverThatItNames) {
     SCOPED_TRACE(k);
     if (k % 7 == 0) controller_->switch_to(with_label(k % 2 == 0 ? "fast" : "slow"));
     // Driven to its end and from there on again.
-    controller_->set_drives_out(k % 12 >= 6);
+    controller_->set_minimal_risk_stop(k % 12 >= 6);
     const Report next = k % 5 == 4 ? step_too_late() : step();
     const Maneuver* const maneuver =
         automaton_->find(report.planned_trim, next.planned_trim, report.maneuver);
@@ -115,7 +115,7 @@ TEST_F(ReportTest, LeadsFromEveryPlannedPoseToTheNextByTheManeuverThatItNames) {
     driven.insert(report.maneuver);
     report = next;
   }
-  EXPECT_EQ(driven, (std::set<std::string>{"fast", "slow", kOwnStepLabel}));
+  EXPECT_EQ(driven, (std::set<std::string>{"fast", "slow", kSelfLoopLabel}));
 }
 
 /// A lane along y = 0, `half_width_m` on either side.

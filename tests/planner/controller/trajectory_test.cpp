@@ -11,7 +11,7 @@ constexpr double kInterval_s = 0.05;
 constexpr double kStep_s = 0.2;
 
 const Maneuver& edge(std::size_t from, std::size_t to) {
-  return *paper_automaton()->find(pi(from), pi(to), from == to ? kOwnStepLabel : "J2");
+  return *paper_automaton()->find(pi(from), pi(to), from == to ? kSelfLoopLabel : "J2");
 }
 
 Plan driving_plan() {

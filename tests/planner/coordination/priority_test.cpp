@@ -32,7 +32,7 @@ TEST(Priority, PredecessorsAreTheCoupledVehiclesThatPlanEarlier) {
   EXPECT_EQ(predecessors(graph, {4}), std::vector<VehicleId>{});
 }
 
-// The directed coupling has no cycle, so nobody waits for somebody who waits for him.
+// The directed coupling has no cycle, so no two vehicles wait for each other.
 TEST(Priority, EveryPredecessorIsOnALowerLevel) {
   for (unsigned seed = 0; seed < test::num_seeds(200); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -16,12 +16,12 @@ namespace {
 
 TEST(AutomatonBuilder, BuildsEveryTrimsStepAnd50ManeuversForThePaper) {
   const auto automaton = paper_automaton();
-  std::size_t own_steps = 0;
+  std::size_t self_loops = 0;
   std::size_t maneuvers = 0;
   for (const Maneuver& maneuver : automaton->maneuvers) {
-    ++(maneuver.from == maneuver.to ? own_steps : maneuvers);
+    ++(maneuver.from == maneuver.to ? self_loops : maneuvers);
   }
-  EXPECT_EQ(own_steps, 12U);
+  EXPECT_EQ(self_loops, 12U);
   EXPECT_EQ(maneuvers, 50U);  // 42 of the chain, 8 more for D
   for (const auto& [from, to] : {std::pair{2U, 4U}, {4U, 6U}, {8U, 10U}, {10U, 12U}}) {
     EXPECT_NE(automaton->find(pi(from), pi(to), "J2"), nullptr);
@@ -102,7 +102,7 @@ TEST(AutomatonBuilder, EveryManeuverOfTheShippedConfigurationObeysItsRulesAndIsO
   for (const Maneuver& maneuver : automaton.maneuvers) {
     SCOPED_TRACE(testing::Message() << maneuver.label << ", " << maneuver.from.index + 1 << " -> "
                                     << maneuver.to.index + 1);
-    EXPECT_EQ(fault_of(maneuver, automaton), "");
+    EXPECT_EQ(validate(maneuver, automaton), "");
     if (maneuver.from == maneuver.to) continue;
     // Started where it is, the solver finds nothing to change.
     SolverOptions options;
@@ -349,7 +349,7 @@ TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
                  "slow.yaml: maneuver 1 -> 5 (J2): speed 0 -> 0.7 m/s in 0.2 s needs acceleration "
-                 "3.5 m/s^2, allowed 3 m/s^2; shortest feasible duration 0.233333 s");
+                 "3.5 m/s^2, must be <= 3 m/s^2; shortest feasible duration 0.233333 s");
   }
 }
 

@@ -129,10 +129,10 @@ TEST(AutomatonConfiguration, TheIdentifiedVehicleCanBeChanged) {
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: {slip_gain_rad: 0.3}"),
             "no error");
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: {slip_gain: 0.3}").substr(0, 60),
-            "FILE:1: vehicle.identified.slip_gain = 0.3, unknown key, all");
+            "FILE:1: vehicle.identified.slip_gain = 0.3, unknown key; kno");
   EXPECT_EQ(
       message("width_m: 0.107", "width_m: 0.107, identified: {path_speed_steering: 0.3}"),
-      "FILE:1: vehicle.identified.path_speed_steering = 0.3, allowed a number >= -1 and <= 0");
+      "FILE:1: vehicle.identified.path_speed_steering = 0.3, must be a number >= -1 and <= 0");
 }
 
 TEST(AutomatonConfiguration, AVehicleOfWhichNothingIsIdentifiedDrivesAsTheModelDoes) {
@@ -147,7 +147,7 @@ TEST(AutomatonConfiguration, AVehicleOfWhichNothingIsIdentifiedDrivesAsTheModelD
     EXPECT_NEAR(yaw_minus_heading_rad(delta, c.vehicle, c.identified), 0.0, 0.01);
   }
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: ideal"),
-            "FILE:1: vehicle.identified = ideal, allowed kinematic");
+            "FILE:1: vehicle.identified = ideal, must be kinematic");
 }
 
 constexpr const char* kTrims =
@@ -168,12 +168,12 @@ TEST(AutomatonConfiguration, ALabelMayBeAPointOfAFront) {
     return message(list, "criteria: [J2, {name: middle, " + entry + "}]");
   };
   EXPECT_EQ(refused("minimise: J1, bound: J1, share: 0.5"),
-            "FILE:12: criteria[2].bound = J1, allowed another criterion than `minimise`");
+            "FILE:12: criteria[2].bound = J1, must be another criterion than `minimise`");
   EXPECT_EQ(refused("minimise: J1, bound: J2, share: 1"),
-            "FILE:12: criteria[2].share = 1, allowed a number between 0 and 1; the ends of the "
+            "FILE:12: criteria[2].share = 1, must be a number between 0 and 1; the ends of the "
             "front are the criteria alone");
   EXPECT_EQ(refused("minimise: J1, bound: J2, share: 0.5, weights: {J1: 1}"),
-            "FILE:12: criteria[2].weights = (a map), unknown key, allowed keys name, minimise, "
+            "FILE:12: criteria[2].weights = (a map), unknown key; known keys: name, minimise, "
             "bound, share");
 }
 
@@ -199,7 +199,7 @@ TEST(AutomatonConfiguration, TheFrictionCircleLimitsTheTrims) {
   EXPECT_EQ(message("steering_max_rad: 0.62\ntrims:\n  - {speed_mps: 0, steering_rad: 0}",
                     "steering_max_rad: 0.62\n  friction_mps2: 1.2\ntrims:\n"
                     "  - {speed_mps: 0.8, steering_rad: 0.3}"),
-            "FILE:10: trims[1].speed_mps = 0.8, allowed less with this steering: the friction "
+            "FILE:10: trims[1].speed_mps = 0.8, must be less with this steering: the friction "
             "circle is exceeded");
 }
 
@@ -211,9 +211,10 @@ TEST(AutomatonConfiguration, RefusesNumbersThatNoVehicleHas) {
                                                {"steering_rate_radps", "6.2", "10000"},
                                                {"speed_max_mps", "3.7", "1000"},
                                                {"step_s", "0.2", "100"}}) {
-    const std::string said = message(key + ": " + value, key + ": 1e5");
-    EXPECT_NE(said.find(key + " = 1e5, allowed a number > 0 and <= " + allowed), std::string::npos)
-        << said;
+    const std::string error_text = message(key + ": " + value, key + ": 1e5");
+    EXPECT_NE(error_text.find(key + " = 1e5, must be a number > 0 and <= " + allowed),
+              std::string::npos)
+        << error_text;
   }
 }
 
@@ -241,54 +242,54 @@ TEST(AutomatonConfiguration, KnowsWhereItsKeysStand) {
 
 TEST(AutomatonConfiguration, RefusesAGridThatIsNone) {
   const std::string allowed =
-      "allowed a list of {speed_mps, steering_rad}, one of speed 0 among them, or, with "
+      "must be a list of {speed_mps, steering_rad}, one of speed 0 among them, or, with "
       "limits.speed_min_mps = 0, a grid {speeds_mps, steering_rad}";
   EXPECT_EQ(message(kTrims, "trims: many\n"), "FILE:8: trims = many, " + allowed);
   EXPECT_EQ(message(kTrims, ""), "FILE:1: trims is missing, " + allowed);
   EXPECT_EQ(message(kTrims, "trims: {speeds_mps: [0.8, 0.4], steering_rad: [0]}\n"),
-            "FILE:8: trims.speeds_mps[2] = 0.4, allowed numbers that increase");
+            "FILE:8: trims.speeds_mps[2] = 0.4, must be larger than the number before");
   EXPECT_EQ(message(kTrims, "trims: {speeds_mps: [0], steering_rad: [0]}\n"),
-            "FILE:8: trims.speeds_mps[1] = 0, allowed a number > 0 and <= 3.7");
+            "FILE:8: trims.speeds_mps[1] = 0, must be a number > 0 and <= 3.7");
   EXPECT_EQ(message(kTrims, "trims: {speeds_mps: [], steering_rad: [0]}\n"),
-            "FILE:8: trims.speeds_mps = (a list), allowed at least one number");
+            "FILE:8: trims.speeds_mps = (a list), must be a list with at least one number");
 }
 
 TEST(AutomatonConfiguration, RefusesWhatIsWrongNamingLineKeyValueAndRule) {
   EXPECT_EQ(message("acceleration_mps2: 12", "acceleration_mps2: -12"),
-            "FILE:3: limits.acceleration_mps2 = -12, allowed a number > 0 and <= 10000");
+            "FILE:3: limits.acceleration_mps2 = -12, must be a number > 0 and <= 10000");
   EXPECT_EQ(message("acceleration_mps2: 12", "acceleration_mps2: fast"),
-            "FILE:3: limits.acceleration_mps2 = fast, allowed a number > 0 and <= 10000");
+            "FILE:3: limits.acceleration_mps2 = fast, must be a number > 0 and <= 10000");
   EXPECT_EQ(message("speed_max_mps: 3.7", "speed_max_mps: 0"),
-            "FILE:6: limits.speed_max_mps = 0, allowed a number > 0 and <= 1000");
+            "FILE:6: limits.speed_max_mps = 0, must be a number > 0 and <= 1000");
   EXPECT_EQ(message("speed_min_mps: 0", "speed_min_mps: -1"),
-            "FILE:5: limits.speed_min_mps = -1, allowed a number >= 0 and <= 1000");
+            "FILE:5: limits.speed_min_mps = -1, must be a number >= 0 and <= 1000");
   EXPECT_EQ(message("steering_max_rad: 0.62", "steering_max_rad: 1.6"),
-            "FILE:7: limits.steering_max_rad = 1.6, allowed a number > 0 and <= 1.5");
+            "FILE:7: limits.steering_max_rad = 1.6, must be a number > 0 and <= 1.5");
   EXPECT_EQ(
       message("steering_max_rad: 0.62", "steering_max_rad: 0.62\n  jerk: 1"),
-      "FILE:8: limits.jerk = 1, unknown key, allowed keys acceleration_mps2, steering_rate_radps, "
+      "FILE:8: limits.jerk = 1, unknown key; known keys: acceleration_mps2, steering_rate_radps, "
       "speed_min_mps, speed_max_mps, steering_max_rad, friction_mps2, curvature_max_per_m");
   EXPECT_EQ(message("step_s: 0.2", "step_s: 0"),
-            "FILE:11: step_s = 0, allowed a number > 0 and <= 100");
+            "FILE:11: step_s = 0, must be a number > 0 and <= 100");
   EXPECT_EQ(message("step_s: 0.2\n", ""),
-            "FILE:1: step_s is missing, allowed a number > 0 and <= 100");
+            "FILE:1: step_s is missing, must be a number > 0 and <= 100");
   EXPECT_EQ(message("step_s: 0.2", "step_s: 0.2\nintervals: 5"),
-            "FILE:12: intervals = 5, allowed a whole number >= 10 and <= 1000");
+            "FILE:12: intervals = 5, must be a whole number >= 10 and <= 1000");
   EXPECT_EQ(message("rear_axle_to_cg_m: 0.075", "rear_axle_to_cg_m: 0.2"),
-            "FILE:1: vehicle.rear_axle_to_cg_m = 0.2, allowed a number >= 0 and <= 0.15");
+            "FILE:1: vehicle.rear_axle_to_cg_m = 0.2, must be a number >= 0 and <= 0.15");
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, safety_margin_m: -0.1"),
-            "FILE:1: vehicle.safety_margin_m = -0.1, allowed a number >= 0 and <= 100");
+            "FILE:1: vehicle.safety_margin_m = -0.1, must be a number >= 0 and <= 100");
 }
 
 TEST(AutomatonConfiguration, RefusesTrimsOutsideTheLimitsTwiceOrWithoutStandstill) {
   EXPECT_EQ(message("speed_mps: 0.8, steering_rad: 0", "speed_mps: 4, steering_rad: 0"),
-            "FILE:10: trims[2].speed_mps = 4, allowed a number >= 0 and <= 3.7");
+            "FILE:10: trims[2].speed_mps = 4, must be a number >= 0 and <= 3.7");
   EXPECT_EQ(message("speed_mps: 0.8, steering_rad: 0", "speed_mps: 0.8, steering_rad: -0.7"),
-            "FILE:10: trims[2].steering_rad = -0.7, allowed a number >= -0.62 and <= 0.62");
+            "FILE:10: trims[2].steering_rad = -0.7, must be a number >= -0.62 and <= 0.62");
   EXPECT_EQ(message("speed_mps: 0.8, steering_rad: 0", "speed_mps: 0, steering_rad: 0"),
-            "FILE:10: trims[2] = (a map), allowed trims that differ from each other");
+            "FILE:10: trims[2] = (a map), must be different from the other trims");
   EXPECT_EQ(message("speed_mps: 0, steering_rad: 0", "speed_mps: 0.4, steering_rad: 0"),
-            "FILE:8: trims = (a list), allowed at least one trim of speed 0");
+            "FILE:8: trims = (a list), must be a list with at least one trim of speed 0");
 }
 
 TEST(AutomatonConfiguration, ReadsWeightedSums) {
@@ -312,22 +313,21 @@ TEST(AutomatonConfiguration, RefusesBadWeightedSums) {
     return message("[J2]", "[J2, " + sum + "]").substr(0, 90);
   };
   EXPECT_EQ(refusal("{name: J1, weights: {J1: 1}}"),
-            std::string("FILE:12: criteria[2].name = J1, allowed one line of text, a name of its "
-                        "own: neither empty, "
-                        "nor 'trim', nor a criterion's")
+            std::string("FILE:12: criteria[2].name = J1, must be one line of text and "
+                        "unique: neither empty, nor 'trim', nor a criterion's")
                 .substr(0, 90));
   EXPECT_EQ(refusal("{name: x, weights: {J1: -1}}"),
-            "FILE:12: criteria[2].weights.J1 = -1, allowed a number >= 0");
+            "FILE:12: criteria[2].weights.J1 = -1, must be a number >= 0");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 0}}"),
-            "FILE:12: criteria[2].weights = (a map), allowed at least one weight > 0");
+            "FILE:12: criteria[2].weights = (a map), must be a map with at least one weight > 0");
   EXPECT_EQ(refusal("{name: x, weights: {J7: 1}}").substr(0, 54),
-            "FILE:12: criteria[2].weights.J7 = 1, unknown key, allo");
+            "FILE:12: criteria[2].weights.J7 = 1, unknown key; know");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 1}, normalised: true}"),
-            "FILE:12: criteria[2].normalised = true, allowed false with a single weight > 0");
+            "FILE:12: criteria[2].normalised = true, must be false with a single weight > 0");
   EXPECT_EQ(refusal("{name: x, weights: {J1: 1, J2: 0}, normalised: true}"),
-            "FILE:12: criteria[2].normalised = true, allowed false with a single weight > 0");
+            "FILE:12: criteria[2].normalised = true, must be false with a single weight > 0");
   EXPECT_EQ(refusal("{name: \"x\\ny\", weights: {J1: 1}}").substr(0, 69),
-            "FILE:12: criteria[2].name = x\\ny, allowed one line of text, a name of");
+            "FILE:12: criteria[2].name = x\\ny, must be one line of text and unique");
 }
 
 TEST(AutomatonConfiguration, ReadsAllThatASubgraphCanSay) {
@@ -366,10 +366,10 @@ horizon_steps: 4
 TEST(AutomatonConfiguration, RefusesTrimsThatDoNotHangTogetherOrCannotStopWithinTheHorizon) {
   const std::string off = "trims: all, off: [{from: 1, to: 2}]}";
   EXPECT_EQ(message("trims: all}", off),
-            "FILE:14: subgraphs[1].trims = all, allowed trims that hang together: no edges lead "
+            "FILE:14: subgraphs[1].trims = all, must be connected trims: no edges lead "
             "from trim 1 to trim 2");
   EXPECT_EQ(message("trims: all}", "trims: all, off: [{from: 2, to: 1}]}"),
-            "FILE:14: subgraphs[1].trims = all, allowed trims that reach a trim of speed 0 within "
+            "FILE:14: subgraphs[1].trims = all, must be trims that reach a trim of speed 0 within "
             "the horizon of 8 steps; trim 2 never reaches it");
   // Ten trims of rising speed, each within one step of its neighbours alone.
   std::string text = kGood;
@@ -387,7 +387,7 @@ TEST(AutomatonConfiguration, RefusesTrimsThatDoNotHangTogetherOrCannotStopWithin
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "FILE:22: subgraphs[1].trims = all, allowed trims that reach a trim of speed 0 "
+                 "FILE:22: subgraphs[1].trims = all, must be trims that reach a trim of speed 0 "
                  "within the horizon of 8 steps; trim 10 needs 9 steps");
   }
   text += "horizon_steps: 9\n";
@@ -399,17 +399,18 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
     return message("trims: all}", "trims: all, " + more + "}");
   };
   EXPECT_EQ(refusal("labels: [J2]"),
-            "FILE:14: subgraphs[1].label = J2, allowed either `label` or `labels`");
-  EXPECT_EQ(refusal("rule: ring"), "FILE:14: subgraphs[1].rule = ring, allowed chain, reachable");
+            "FILE:14: subgraphs[1].label = J2, must be given without `labels`");
+  EXPECT_EQ(refusal("rule: ring"),
+            "FILE:14: subgraphs[1].rule = ring, must be one of chain, reachable");
   EXPECT_EQ(refusal("max_speed_mps: -1"),
-            "FILE:14: subgraphs[1].max_speed_mps = -1, allowed a number >= 0");
+            "FILE:14: subgraphs[1].max_speed_mps = -1, must be a number >= 0");
   EXPECT_EQ(refusal("off: [{from: 1, to: 3}]"),
-            "FILE:14: subgraphs[1].off[1].to = 3, allowed a whole number >= 1 and <= 2");
+            "FILE:14: subgraphs[1].off[1].to = 3, must be a whole number >= 1 and <= 2");
   EXPECT_EQ(refusal("off: [{from: 1, to: 1}]"),
-            "FILE:14: subgraphs[1].off[1].to = 1, allowed an edge other than standing, which must "
+            "FILE:14: subgraphs[1].off[1].to = 1, must be an edge other than standing, which must "
             "be possible");
   EXPECT_EQ(refusal("off: [{from: 1, to: 2, label: J1}]"),
-            "FILE:14: subgraphs[1].off[1].label = J1, allowed J2");
+            "FILE:14: subgraphs[1].off[1].label = J1, must be J2");
   // Out of a trim that is on, only what the rule gives can be off ...
   std::string text = kGood;
   text.replace(text.find("[J2]"), 4, "[J2, J3]");
@@ -427,13 +428,13 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
   };
   const std::string all = "rule: reachable, trims: all, ";
   EXPECT_EQ(message_of(all + "off: [{from: 1, to: 3}]"),
-            "FILE:15: subgraphs[1].off[1].to = 3, allowed a trim that the rule connects with "
+            "FILE:15: subgraphs[1].off[1].to = 3, must be a trim that the rule connects with "
             "`from`");
   EXPECT_EQ(message_of("trims: [1, 2], off: [{from: 2, to: 3}]"),
-            "FILE:15: subgraphs[1].off[1].to = 3, allowed a trim that the rule connects with "
+            "FILE:15: subgraphs[1].off[1].to = 3, must be a trim that the rule connects with "
             "`from`");
   EXPECT_EQ(message_of("trims: all, off: [{from: 1, to: 2, label: J3}]"),
-            "FILE:15: subgraphs[1].off[1].label = J3, allowed J2");
+            "FILE:15: subgraphs[1].off[1].label = J3, must be J2");
   EXPECT_EQ(message_of("trims: all, off: [{from: 1, to: 2, label: J3}], edges: [{from: 1, to: 2, "
                        "labels: [J2, J3]}]"),
             "no error");
@@ -441,10 +442,11 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
   EXPECT_EQ(message_of("trims: [1, 2], off: [{from: 3, to: 1, label: J3}]"), "no error");
   EXPECT_EQ(message_of(all + "max_speed_mps: 1, off: [{from: 3, to: 1, label: J3}]"), "no error");
   EXPECT_EQ(refusal("edges: [{from: 2, to: 2, labels: [J2]}]"),
-            "FILE:14: subgraphs[1].edges[1].to = 2, allowed a trim that the rule connects with "
+            "FILE:14: subgraphs[1].edges[1].to = 2, must be a trim that the rule connects with "
             "`from`");
-  EXPECT_EQ(refusal("edges: [{from: 1, to: 2, labels: []}]"),
-            "FILE:14: subgraphs[1].edges[1].labels = (a list), allowed at least one label");
+  EXPECT_EQ(
+      refusal("edges: [{from: 1, to: 2, labels: []}]"),
+      "FILE:14: subgraphs[1].edges[1].labels = (a list), must be a list with at least one label");
 }
 
 TEST(AutomatonConfiguration, ARunNeedsTheLabelsOfItsSubgraphAlone) {
@@ -457,27 +459,28 @@ TEST(AutomatonConfiguration, ARunNeedsTheLabelsOfItsSubgraphAlone) {
 }
 
 TEST(AutomatonConfiguration, RefusesUnknownCriteriaAndBadSubgraphs) {
-  EXPECT_EQ(message("criteria: [J2]", "criteria: [J0]"),
-            "FILE:12: criteria[1] = J0, allowed J1, J2, J3, comfort, energy, stopping_distance, "
-            "travel_time");
+  EXPECT_EQ(
+      message("criteria: [J2]", "criteria: [J0]"),
+      "FILE:12: criteria[1] = J0, must be one of J1, J2, J3, comfort, energy, stopping_distance, "
+      "travel_time");
   EXPECT_EQ(message("criteria: [J2]", "criteria: []"),
-            "FILE:12: criteria = (a list), allowed at least one criterion");
+            "FILE:12: criteria = (a list), must be a list with at least one criterion");
   EXPECT_EQ(message("criteria: [J2]", "criteria: [J2, J2]"),
-            "FILE:12: criteria[2] = J2, allowed each criterion once");
-  EXPECT_EQ(message("label: J2", "label: J1"), "FILE:14: subgraphs[1].label = J1, allowed J2");
+            "FILE:12: criteria[2] = J2, must be unique");
+  EXPECT_EQ(message("label: J2", "label: J1"), "FILE:14: subgraphs[1].label = J1, must be J2");
   for (const std::string name : {"\"\"", "\"two\\nlines\""}) {
     EXPECT_EQ(message("name: B", "name: " + name).substr(0, 24), "FILE:14: subgraphs[1].na");
   }
   EXPECT_EQ(message("trims: all", "trims: some"),
-            "FILE:14: subgraphs[1].trims = some, allowed all");
+            "FILE:14: subgraphs[1].trims = some, must be all");
   EXPECT_EQ(message("trims: all", "trims: [1, 3]"),
-            "FILE:14: subgraphs[1].trims[2] = 3, allowed a whole number >= 1 and <= 2");
+            "FILE:14: subgraphs[1].trims[2] = 3, must be a whole number >= 1 and <= 2");
   EXPECT_EQ(message("trims: all", "trims: [1, 2, 1]"),
-            "FILE:14: subgraphs[1].trims[3] = 1, allowed each trim once");
+            "FILE:14: subgraphs[1].trims[3] = 1, must be unique");
   EXPECT_EQ(message("trims: all", "trims: [2]"),
-            "FILE:14: subgraphs[1].trims = (a list), allowed a list that holds a trim of speed 0");
+            "FILE:14: subgraphs[1].trims = (a list), must be a list with a trim of speed 0");
   EXPECT_EQ(message("trims: all}", "trims: all}\n  - {name: B, label: J2, trims: all}"),
-            "FILE:15: subgraphs[2].name = B, allowed a name that no other subgraph has");
+            "FILE:15: subgraphs[2].name = B, must be a name that no other subgraph has");
 }
 
 }  // namespace

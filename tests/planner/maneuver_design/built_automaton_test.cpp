@@ -37,7 +37,8 @@ class BuiltAutomaton : public testing::Test {
     return content.str();
   }
 
-  /// What is said to the file with one piece replaced; with `forged`, the hash is made to fit.
+  /// What is error_text to the file with one piece replaced; with `forged`, the hash is made to
+  /// fit.
   [[nodiscard]] std::string refusal(const std::string& piece, const std::string& replacement,
                                     bool forged) const {
     std::string edited = text();
@@ -133,21 +134,22 @@ TEST_F(BuiltAutomaton, LeavesNothingBesideTheFile) {
 }
 
 TEST_F(BuiltAutomaton, AnEditedFileIsRefusedWithTheCommandThatBuildsItAnew) {
-  const std::string said = refusal("length_m: 0.22", "length_m: 0.21", false);
-  EXPECT_EQ(said.substr(0, 26), "DIR/automaton.yaml:2: sha2");
-  EXPECT_NE(said.find("allowed the hash of the file's other lines: it was edited or damaged; build "
-                      "it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
+  const std::string error_text = refusal("length_m: 0.22", "length_m: 0.21", false);
+  EXPECT_EQ(error_text.substr(0, 26), "DIR/automaton.yaml:2: sha2");
+  EXPECT_NE(error_text.find("must be the hash of the file's other lines: it was edited or damaged; "
+                            "rebuild it: build_automaton DIR/car.yaml --out DIR/automaton.yaml"),
             std::string::npos)
-      << said;
+      << error_text;
 }
 
 TEST_F(BuiltAutomaton, AStaleFileIsRefusedWithTheCommandThatBuildsItAnew) {
   std::string changed = configuration_text_;
   changed.replace(changed.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 11");
   write("car.yaml", changed);
-  EXPECT_EQ(refusal(),
-            "DIR/automaton.yaml: stale, built from another state of DIR/car.yaml, allowed what it "
-            "says now; build it anew: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
+  EXPECT_EQ(
+      refusal(),
+      "DIR/automaton.yaml: stale, built from another state of DIR/car.yaml, must be built from its "
+      "current state; rebuild it: build_automaton DIR/car.yaml --out DIR/automaton.yaml");
   fs::remove(folder_ / "car.yaml");
   EXPECT_EQ(refusal(), "accepted");
 }
@@ -173,7 +175,7 @@ TEST_F(BuiltAutomaton, TheConfigurationOfWhichItIsLiesBesideIt) {
     static_cast<void>(read_configuration_of(path_));
     FAIL() << "there is none";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("its configuration car.yaml is not beside it"),
+    EXPECT_NE(std::string(error.what()).find("configuration car.yaml not found in its folder"),
               std::string::npos)
         << error.what();
   }
@@ -215,7 +217,7 @@ TEST_F(BuiltAutomaton, EveryValueOfTheConfigurationCounts) {
 
 TEST_F(BuiltAutomaton, AnotherVersionIsRefusedWhateverItsKeysAre) {
   const std::string message =
-      "DIR/automaton.yaml:1: automaton_schema = 2, allowed 1; build the file anew from its "
+      "DIR/automaton.yaml:1: automaton_schema = 2, must be 1; rebuild the file from its "
       "configuration: build_automaton CONFIG.yaml --out DIR/automaton.yaml";
   EXPECT_EQ(refusal("automaton_schema: 1", "automaton_schema: 2", true), message);
   write("automaton.yaml", "automaton_schema: 2\nbuilt_from: another.yaml\n");
@@ -230,38 +232,38 @@ TEST_F(BuiltAutomaton, WhatTheVehicleCannotDriveIsRefusedEvenWithAHashThatFits) 
     return all.substr(table, all.find('\n', table) - table);
   };
   EXPECT_NE(refusal(line_after("inputs: |"), "      13 0", true)
-                .find("1 -> 2: it accelerates by 13 m/s^2, more than the limit"),
+                .find("1 -> 2: acceleration = 13 m/s^2, exceeds the limit"),
             std::string::npos);
 }
 
-// Each thing that `fault_of` promises, spoiled in a maneuver that is good.
+// Each thing that `validate` promises, spoiled in a maneuver that is good.
 TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
   const UniversalAutomaton& automaton = *file_.automaton;
   for (const Maneuver& good : automaton.maneuvers) {
-    ASSERT_EQ(fault_of(good, automaton), "");
+    ASSERT_EQ(validate(good, automaton), "");
     const auto fault = [&](auto spoil) {
       Maneuver spoiled = good;
       spoil(spoiled);
-      return fault_of(spoiled, automaton);
+      return validate(spoiled, automaton);
     };
-    EXPECT_EQ(fault([](Maneuver& m) { m.duration_s = 0.3; }), "its duration is not the step");
+    EXPECT_EQ(fault([](Maneuver& m) { m.duration_s = 0.3; }), "duration must be the step");
     EXPECT_NE(fault([](Maneuver& m) { m.states.pop_back(); }), "");
     EXPECT_EQ(fault([](Maneuver& m) { m.states.front().pose.x_m = 1e-6; }),
-              "it does not begin at the origin");
+              "begin must be the origin");
     EXPECT_EQ(fault([](Maneuver& m) { m.states.front().speed_mps += 1e-6; }),
-              "it does not begin in its trim");
+              "begin must be its trim");
     EXPECT_EQ(fault([](Maneuver& m) { m.states.back().steering_rad += 1e-6; }),
-              "it does not end in its trim");
+              "end must be its trim");
     EXPECT_EQ(fault([](Maneuver& m) { m.displacement.x_m += 1e-9; }),
-              "its displacement is not its last pose");
+              "displacement must be the last pose");
     EXPECT_NE(fault([](Maneuver& m) { m.inputs[3].steering_rate_radps = 6.3; }), "");
     EXPECT_NE(fault([](Maneuver& m) { m.states[3].speed_mps = 3.8; }), "");
     EXPECT_NE(fault([](Maneuver& m) { m.states[3].steering_rad = -0.63; }), "");
     EXPECT_EQ(fault([](Maneuver& m) { m.states[3].pose.y_m += 1e-5; }),
-              "integrated again, it does not meet its state 4");
+              "integrated again, does not meet state 4");
     if (good.from != good.to) {
       EXPECT_EQ(fault([](Maneuver& m) { m.inputs[3].acceleration_mps2 *= 0.98; }),
-                "integrated again, it does not meet its state 5");
+                "integrated again, does not meet state 5");
     }
     const auto shrink = [](ConvexPolygon& area) {
       Point middle = Point::Zero();
@@ -270,9 +272,9 @@ TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
       }
       for (Point& p : area.vertices_m) p = middle + 0.99 * (p - middle);
     };
-    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.swept_area_m); }).find("its swept area"),
+    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.swept_area_m); }).find("swept area"),
               std::string::npos);
-    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.lane_area_m); }).find("its lane area"),
+    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.lane_area_m); }).find("lane area"),
               std::string::npos);
     EXPECT_NE(fault([&](Maneuver& m) { m.swept_area_m = {}; }), "");
   }
@@ -285,13 +287,13 @@ TEST_F(BuiltAutomaton, AFileThatLacksWhatItsSubgraphsNeedIsRefused) {
   lacking.automaton = std::make_shared<const UniversalAutomaton>(automaton);
   write_automaton_file(lacking, path_);
   EXPECT_NE(
-      refusal().find("what the maneuvers allow: subgraph 'both': the automaton holds no edge"),
+      refusal().find("possible with the maneuvers: subgraph 'both': the automaton holds no edge"),
       std::string::npos)
       << refusal();
   automaton.maneuvers.erase(automaton.maneuvers.begin());
   lacking.automaton = std::make_shared<const UniversalAutomaton>(automaton);
   write_automaton_file(lacking, path_);
-  EXPECT_NE(refusal().find("the own step of every trim; that of trim 1 is missing"),
+  EXPECT_NE(refusal().find("the self-loop of every trim; that of trim 1 is missing"),
             std::string::npos);
 }
 

@@ -32,7 +32,7 @@ TEST(Criteria, AnUnknownNameIsRefusedWithTheKnownOnes) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "criterion = J0, allowed J1, J2, J3, comfort, energy, stopping_distance, "
+                 "criterion = J0, must be one of J1, J2, J3, comfort, energy, stopping_distance, "
                  "travel_time");
   }
 }

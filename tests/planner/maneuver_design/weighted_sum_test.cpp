@@ -47,7 +47,7 @@ TEST(NormalisedSum, RefusesARangeThatIsNotPositive) {
     (void)normalised_sum(terms(1.0, 1.0), {{0.0, 1.0}, {2.0, 2.0}});
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "range of criterion 2 = 0.000000, allowed above 0");
+    EXPECT_STREQ(error.what(), "range of criterion 2 = 0.000000, must be > 0");
   }
 }
 

@@ -53,7 +53,7 @@ class DrivenController {
   }
   [[nodiscard]] StepIndex next_step() const { return {now_.value + 1}; }
 
-  /// A step in which these others are heard.
+  /// A step with messages from these others.
   Report step(const std::vector<Traffic>& traffic = {},
               const std::vector<Prediction>& predictions = {}) {
     ++now_.value;

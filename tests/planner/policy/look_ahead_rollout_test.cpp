@@ -69,7 +69,7 @@ TEST(LookAheadRollout, WhoStandsPaysForTheWayNotDriven) {
   DrivenController car;
   static_cast<void>(car.step());
   DrivenController stands;
-  stands->set_drives_out(true);
+  stands->set_minimal_risk_stop(true);
   static_cast<void>(stands.step());
   EXPECT_NEAR(cost_m2(*stands, of_steps(4)), 4.0 * kWay_m * kWay_m, 1e-12);
   EXPECT_LT(cost_m2(*car, of_steps(4)), 4.0 * kWay_m * kWay_m);

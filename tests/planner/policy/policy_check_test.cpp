@@ -46,9 +46,9 @@ TEST(PolicyCheck, WhatCannotBeIsRefusedWithItsReason) {
                         .policies = {TimePolicySettings{.changes = {{0.0, kSlowLabel}}}}}),
             "");
   EXPECT_THAT(refusal_of({.policies = {TimePolicySettings{.changes = {{0.0, {{"J7"}}}}}}}),
-              testing::HasSubstr("label 'J7', allowed fast, slow"));
+              testing::HasSubstr("label 'J7', must be one of fast, slow"));
   EXPECT_THAT(refusal_of({.zones = {zone(0.5), zone(0.2)}}),
-              testing::HasSubstr("in the zone of 0.2 m/s: speed limit 0.2 m/s, allowed at least"));
+              testing::HasSubstr("in the zone of 0.2 m/s: speed limit 0.2 m/s, must be >="));
 }
 
 // The automaton of tests holds no criteria.

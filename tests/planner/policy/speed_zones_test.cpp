@@ -48,7 +48,7 @@ TEST(SpeedZones, AClosedPathIsLookedAtBeyondItsEnd) {
   EXPECT_EQ(limit_on(std::vector{zone(0.1, 0.4, 0.4)}, round, 15.8, 0.5), 0.4);
 }
 
-// What limit_on says at every centimetre holds for every place in between, to a centimetre.
+// The values of limit_on at every centimetre hold for every place in between, to a centimetre.
 TEST(SpeedZones, NoPlaceInAZoneIsComeToWithoutItsLimit) {
   for (std::uint64_t seed = 1; seed <= test::num_seeds(200); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -88,8 +88,8 @@ TEST(Route, GapOfFiveMillimetresIsClosedAndALargerOneIsRefused) {
       build_route(map_of({first, straight(2, 1.0049, 1.5, 0.0)}), {1, 2}, false).path.length_m(),
       1.5, 1e-12);
   EXPECT_THAT(error_of(map_of({first, straight(2, 1.006, 1.5, 0.0)}), {1, 2}, false),
-              AllOf(HasSubstr("lanelet 2 begins 6.0 mm from the end of lanelet 1"),
-                    HasSubstr("at most 5.0 mm")));
+              AllOf(HasSubstr("from the end of lanelet 1 to the begin of lanelet 2 = 6.0 mm"),
+                    HasSubstr("must be <= 5.0 mm")));
 }
 
 TEST(Route, CircuitMustClose) {
@@ -102,7 +102,7 @@ TEST(Route, CircuitMustClose) {
   const Route route = build_route(map, {1, 2}, true);
   EXPECT_TRUE(route.path.is_closed());
   EXPECT_NEAR(route.path.length_m(), 2.0, 1e-12);
-  EXPECT_THAT(error_of(map, {1}, true), HasSubstr("lanelet 1 begins 1000.0 mm from the end of"));
+  EXPECT_THAT(error_of(map, {1}, true), HasSubstr("to the begin of lanelet 1 = 1000.0 mm"));
 }
 
 TEST(Route, RefusesUnknownLaneletsAndEmptyRoutes) {

@@ -108,8 +108,8 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
   }
 }
 
-// Both live, see each other standing and hear nothing: nobody may take the other for an obstacle
-// that stands for good, or both drive off at once.
+// Both are alive, see each other standing and receive nothing: neither may consider the other a
+// standing obstacle, or both drive off at once.
 TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
   for (unsigned seed = 0; seed < test::num_costly_seeds(3); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -125,8 +125,8 @@ TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
   }
 }
 
-// One vehicle hears everything and is heard by nobody: the others may take it for a standing
-// obstacle only when it has agreed to nothing new for long enough.
+// One vehicle receives everything and the others receive nothing from it: the others may take it
+// for a standing obstacle only when it has agreed to nothing new for long enough.
 TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
   for (std::uint8_t mute = 1; mute <= 3; ++mute) {
     for (std::uint64_t from = 2; from < 8; ++from) {
@@ -154,7 +154,7 @@ TEST(Loss, WithoutLossTheStrictRuleNeverFallsBack) {
   }
 }
 
-// The control for the tests above: the authors' rule trusts that all hear of a fallback, so
+// The control for the tests above: the authors' rule assumes that all receive a fallback, so
 // outcomes must not get lost.
 TEST(Loss, TheAgreedRuleLetsPlansMeetIfOutcomesAreLost) {
   bool met = false;

@@ -79,30 +79,32 @@ TEST(LabFile, ItsCurvaturesAreThoseOfTheIdentifiedVehicleAtFullSteering) {
 }
 
 TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
-  const auto said = [](const std::string& from, const std::string& to) {
+  const auto error_text = [](const std::string& from, const std::string& to) {
     const TemporaryFolder folder;
     const std::string file = changed_file(folder, kLabFile, from, to);
     return error_of([&] { static_cast<void>(read_lab(file, 0.2)); });
   };
-  EXPECT_THAT(said("curvature_min_per_m: -3.960", "curvature_min_per_m: 3.960"),
-              AllOf(HasSubstr(":5: curvature_min_per_m = 3.960"), HasSubstr("allowed")));
-  EXPECT_THAT(said("point_interval_s: 0.025", "point_interval_s: 0.03"),
-              HasSubstr("point_interval_s = 0.03, allowed what divides the automaton's step of "
+  EXPECT_THAT(error_text("curvature_min_per_m: -3.960", "curvature_min_per_m: 3.960"),
+              AllOf(HasSubstr(":5: curvature_min_per_m = 3.960"), HasSubstr("must be")));
+  EXPECT_THAT(error_text("point_interval_s: 0.025", "point_interval_s: 0.03"),
+              HasSubstr("point_interval_s = 0.03, must be a divisor of the automaton's step of "
                         "0.2 s"));
-  EXPECT_THAT(said("x_max_m: 4.5", "x_max_m: -4.5"), HasSubstr("area.x_max_m = -4.5"));
-  EXPECT_THAT(said("y_max_m: 4.0", "y_top_m: 4.0"), HasSubstr("y_max_m"));
-  EXPECT_THAT(said("area:", "speed: 3\narea:"), HasSubstr("speed"));
+  EXPECT_THAT(error_text("x_max_m: 4.5", "x_max_m: -4.5"), HasSubstr("area.x_max_m = -4.5"));
+  EXPECT_THAT(error_text("y_max_m: 4.0", "y_top_m: 4.0"), HasSubstr("y_max_m"));
+  EXPECT_THAT(error_text("area:", "speed: 3\narea:"), HasSubstr("speed"));
 }
 
 TEST(Lab, ThePapersAutomatonIsRefusedWithTheTrimThatIsTooTight) {
   const TemporaryFolder folder;
   const std::string file = changed_file(folder, kFolder + "scenarios/lab_three_cars.yaml",
                                         "automata/lab.yaml", "automata/paper.yaml");
-  const std::string said = error_of([&] { static_cast<void>(read_scenario({.file = file})); });
-  EXPECT_THAT(said,
-              AllOf(HasSubstr("automata/paper.yaml: subgraph B, trim 2: curvature = -4.31"),
-                    HasSubstr(" 1/m, allowed -3.96 ... 4.316 by "), EndsWith("labs/cpm_lab.yaml")));
-  EXPECT_EQ(said.find('\n'), std::string::npos);
+  const std::string error_text =
+      error_of([&] { static_cast<void>(read_scenario({.file = file})); });
+  EXPECT_THAT(
+      error_text,
+      AllOf(HasSubstr("automata/paper.yaml: subgraph B, trim 2: curvature = -4.31"),
+            HasSubstr(" 1/m, must be in -3.96 ... 4.316 by "), EndsWith("labs/cpm_lab.yaml")));
+  EXPECT_EQ(error_text.find('\n'), std::string::npos);
 }
 
 TEST(Lab, AnAutomatonIsRefusedForAManeuverWhoseTrimsCanBeDriven) {
@@ -119,26 +121,26 @@ TEST(Lab, AnAutomatonIsRefusedForAManeuverWhoseTrimsCanBeDriven) {
 TEST(Lab, EachBoundCountsForAutomata) {
   const Subgraph& subgraph = *lab_scenario().subgraph;
   const LabLimits lab = *lab_scenario().lab;
-  EXPECT_EQ(lab_fault_of(subgraph, lab), "");
+  EXPECT_EQ(validate_for_lab(subgraph, lab), "");
   LabLimits left = lab;
   left.curvature_max_per_m = 3.0;
-  EXPECT_THAT(lab_fault_of(subgraph, left), HasSubstr("trim 11: curvature = 3.0"));
+  EXPECT_THAT(validate_for_lab(subgraph, left), HasSubstr("trim 11: curvature = 3.0"));
   LabLimits right = lab;
   right.curvature_min_per_m = -3.0;
-  EXPECT_THAT(lab_fault_of(subgraph, right), HasSubstr("trim 2: curvature = -3.5"));
+  EXPECT_THAT(validate_for_lab(subgraph, right), HasSubstr("trim 2: curvature = -3.5"));
   LabLimits slow = lab;
   slow.acceleration_max_mps2 = 3.9;
-  EXPECT_THAT(lab_fault_of(subgraph, slow), HasSubstr("acceleration = "));
+  EXPECT_THAT(validate_for_lab(subgraph, slow), HasSubstr("acceleration = "));
   LabLimits exact = lab;
   exact.velocity_mismatch_max_mps = 1e-5;
-  EXPECT_THAT(lab_fault_of(subgraph, exact), HasSubstr("differ by "));
+  EXPECT_THAT(validate_for_lab(subgraph, exact), HasSubstr("differ by "));
 }
 
 /// A plan from somewhere, of random edges, standing at the end.
 Plan random_plan(const Subgraph& subgraph, std::mt19937_64& random, std::size_t steps) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const TrimId standstill = subgraph.standstill();
-  const Maneuver& stand = *subgraph.automaton().find(standstill, standstill, kOwnStepLabel);
+  const Maneuver& stand = *subgraph.automaton().find(standstill, standstill, kSelfLoopLabel);
   std::vector<const Maneuver*> maneuvers;
   TrimId at = standstill;
   for (std::size_t left = steps; left > 0; --left) {
@@ -187,7 +189,7 @@ Report first_step(const Scenario& scenario) {
   const Prediction prediction = controller->plan({});
   const Report report = controller->commit({}, {});
   EXPECT_EQ(prediction.is_new, report.status == StepStatus::kPlanned)
-      << "what is not driven is not told";
+      << "a plan that is not driven is not announced";
   return report;
 }
 

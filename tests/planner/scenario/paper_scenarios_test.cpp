@@ -29,7 +29,7 @@ struct Course {
   double mean_error_mm{};
   std::uint64_t max_generated{};
   int fallbacks{};
-  int steps_changed{};  ///< steps in which another vehicle changed somebody's plan
+  int steps_changed{};  ///< steps in which another vehicle changed a vehicle's plan
 };
 
 /// All steps of the scenario; `look` sees each.
@@ -143,7 +143,7 @@ TEST_P(PaperScenario, ThreeCarsMeetOftenAndNobodyFallsBack) {
   EXPECT_NEAR(*course.lap_s, *alone.lap_s, allowed_s);
 }
 
-// From other starts, too: nobody's plans meet, and hardly ever does somebody fall back.
+// From other starts, too: no plans meet, and fallbacks are rare.
 TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
   const Scenario shipped = read("paper_three_cars");
   std::size_t fallbacks = 0;
@@ -248,9 +248,9 @@ TEST(Fallback, ACarThatCameToStandInACornerOfItsLanesIsLedOut) {
       return (to_m - from_m).norm();
     };
     static_cast<void>(steps(start));
-    controller.set_drives_out(true);
+    controller.set_minimal_risk_stop(true);
     static_cast<void>(steps(12));
-    controller.set_drives_out(false);
+    controller.set_minimal_risk_stop(false);
     static_cast<void>(steps(14));
     EXPECT_GT(steps(6), 0.3);
   }

@@ -76,32 +76,32 @@ policies:
 
 TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"none: {}", "policy 'none', allowed any other name"},
+      {"none: {}", "policy 'none', must be another name"},
       {"a: {zones: [{x_m: [2, 1], y_m: [0, 1], max_speed_mps: 0.5}]}",
-       "x_m[2] = 1, allowed a number > 2"},
+       "x_m[2] = 1, must be a number > 2"},
       {"a: {zones: [{x_m: [2], y_m: [0, 1], max_speed_mps: 0.5}]}", "two numbers, [from, to]"},
       {"a: {zones: [{x_m: [1, 2], y_m: [0, 1], max_speed_mps: 0.2}]}",
-       "policies.a = (a map): in the zone of 0.2 m/s: speed limit 0.2 m/s, allowed at least 0.4"},
-      {"a: {rules: [{weather: {}}]}", "policies.a.rules[1] = (a map), allowed a map of one key"},
+       "policies.a = (a map): in the zone of 0.2 m/s: speed limit 0.2 m/s, must be >= 0.4"},
+      {"a: {rules: [{weather: {}}]}", "policies.a.rules[1] = (a map), must be a map of one key"},
       {"a: {rules: [{time: []}]}", "at least one entry"},
       {"a: {rules: [{time: [{from_s: 2, request: {}}, {from_s: 1, request: {}}]}]}",
-       "from_s = 1, allowed a number > 2"},
+       "from_s = 1, must be a number > 2"},
       {"a: {rules: [{time: [{from_s: 2, request: {labels: [J9]}}]}]}",
-       "policies.a = (a map): label 'J9', allowed fast, slow"},
+       "policies.a = (a map): label 'J9', must be one of fast, slow"},
       {"a: {rules: [{time: [{from_s: 2, request: {label: J9}}]}]}", "label"},
       {"a: {rules: [{time: [{from_s: 2, request: {trims_off: [13]}}]}]}",
-       "trim 13, allowed 1 ... 12"},
+       "trim 13, must be in 1 ... 12"},
       {"a: {rules: [{battery: {below_v: 7, back_above_v: 6, request: {}}}]}", "back_above_v = 6"},
       {"a: {rules: [{look_ahead: {candidates: [{}], max_expansions: 10}}]}", "2 ... 100 requests"},
       {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}]}}]}", "max_expansions"},
       {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 2501}}]}",
-       "max_expansions = 2501, allowed 1 ... 2500"},
+       "max_expansions = 2501, must be in 1 ... 2500"},
       {"a: {rules: [{look_ahead: {candidates: [{}, {labels: [slow]}], max_expansions: 9, "
        "criterion_weights: {J2: 1}}}]}",
-       "criterion_weights: J2, allowed"},
-      {"a: {rules: [{time: [], situation: {}}]}", "allowed a map of one key"},
+       "criterion_weights: J2, must be one of"},
+      {"a: {rules: [{time: [], situation: {}}]}", "must be a map of one key"},
       {"a: {rules: [{time: [{from_s: 2, request: {labels: []}}]}]}",
-       "labels = (a list), allowed at least one"},
+       "labels = (a list), must be a list with at least one"},
       {"a: {min_stay_s: 2}", "at least one"},
       {"a: {min_stay_s: -1}", "min_stay_s = -1"},
   };
@@ -127,7 +127,7 @@ TEST(PolicyFile, TheScenariosPolicyHoldsUnlessAnotherIsChosen) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "--policy = zones, allowed none, look_ahead, mixed, situation, time, zone, "
+                 "--policy = zones, must be one of none, look_ahead, mixed, situation, time, zone, "
                  "zone_look_ahead");
   }
 }
@@ -155,7 +155,7 @@ policies:
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("policies.without_3")));
 }
 
-// Where it should be nobody would slow down.
+// At the right place no car would slow down.
 TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
   const std::string folder = test::source_folder() + "/launch_scripts/";
   std::ifstream shipped(folder + "scenarios/reconfiguration.yaml");
@@ -176,7 +176,7 @@ TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("policies.mixed.zones[1].x_m"));
-    EXPECT_THAT(error.what(), HasSubstr("allowed a zone that a route comes through"));
+    EXPECT_THAT(error.what(), HasSubstr("must be a zone that a route passes"));
   }
 }
 

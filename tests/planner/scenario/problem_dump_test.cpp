@@ -1,4 +1,4 @@
-// Every decision of a run can be solved again alone, from its file.
+// Every planning step of a run can be replayed from its file.
 #include "planner/scenario/problem_dump.hpp"
 
 #include <gtest/gtest.h>
@@ -67,14 +67,14 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
   }
   Rollout rollout(std::move(controllers), starts);
   std::map<std::string, Decision> decisions;  // by the begin of the file's name
-  std::size_t num_joining = 0;
+  std::size_t num_lane_entries = 0;
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     for (const Report& report : rollout.step()) {
       Decision decision{.report = report, .trims = {}};
       for (const auto& controller : rollout.controllers()) {
         if (controller->options().vehicle != report.vehicle) continue;
         dump.write(*controller);
-        num_joining += controller->entry_problems().size();
+        num_lane_entries += controller->entry_problems().size();
         for (std::size_t j = 0; j < scenario.horizon_steps; ++j) {
           if (report.status != StepStatus::kPlanned) break;
           decision.trims.push_back(
@@ -96,7 +96,7 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
   for (const fs::path& path : files) {
     SCOPED_TRACE(path.filename());
     const ProblemFile file = read_problem_file(path, scenario.subgraph);
-    if (path.stem().string().find("_joining_") != std::string::npos) {
+    if (path.stem().string().find("_lane_entry_") != std::string::npos) {
       EXPECT_NE(solved(file, reachable, file.search.engine).status, SearchStatus::kFallback);
       continue;
     }
@@ -126,9 +126,9 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
     EXPECT_EQ(count.second, decisions.at(step).report.expanded) << step;
   }
   EXPECT_EQ(with_incumbent, scenario.profile.name == "2022" ? 0U : num_searches);
-  EXPECT_EQ(files.size(), num_searches + num_joining);
+  EXPECT_EQ(files.size(), num_searches + num_lane_entries);
   const bool has_lanes = !scenario.vehicles.front().corridor.bounds().empty();
-  EXPECT_EQ(num_joining > 0, has_lanes) << "cars set out without a problem";
+  EXPECT_EQ(num_lane_entries > 0, has_lanes) << "cars departed without a problem";
   if (GetParam().tolerated_drift_share < 0.0) {
     EXPECT_GT(num_searches, counts.size()) << "steps with a second search";
   }
@@ -164,8 +164,9 @@ TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
     const ProblemDump dump("/proc/nowhere", "paper.yaml", {});
     FAIL() << "made";
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "--dump-problems = /proc/nowhere, allowed a folder that can be made and written to");
+    EXPECT_EQ(
+        std::string(error.what()),
+        "--dump-problems = /proc/nowhere, must be a folder that can be created and written to");
   }
 }
 

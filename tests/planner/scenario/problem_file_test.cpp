@@ -63,7 +63,7 @@ class ProblemFileTest : public testing::Test {
     return text.replace(at, from.size(), to);
   }
 
-  /// What reading says; nothing if it is good.
+  /// The error of reading; empty without error.
   [[nodiscard]] std::string error_of(const std::string& text) const {
     put(text);
     try {
@@ -181,52 +181,52 @@ TEST_F(ProblemFileTest, AnotherAutomatonMayTakeThePlaceOfTheNamedOne) {
 
 TEST_F(ProblemFileTest, ErrorsNamePlaceValueAndWhatIsAllowed) {
   EXPECT_THAT(error_with(R"("y": 2)", R"("y": "2")"),
-              HasSubstr(R"(problem.json: start.y = "2", allowed a number)"));
+              HasSubstr(R"(problem.json: start.y = "2", must be a number)"));
   EXPECT_THAT(error_with(R"("y": 2)", R"("z": 2)"),
-              HasSubstr("problem.json: start.z = 2, unknown key, allowed keys x, y, psi, trim"));
+              HasSubstr("problem.json: start.z = 2, unknown key; known keys: x, y, psi, trim"));
   EXPECT_THAT(error_with(R"(, "psi": 0)", ""), HasSubstr("start.psi is missing"));
   EXPECT_THAT(error_with(R"("corridor")", R"("corridors")"),
               HasSubstr("corridors = [[[0,1],[9,1]]], unknown key"));
   EXPECT_THAT(error_with(R"("trim": 7)", R"("trim": 0)"),
-              HasSubstr("start.trim = 0, allowed a whole number >= 1 and <= 12"));
+              HasSubstr("start.trim = 0, must be a whole number >= 1 and <= 12"));
   EXPECT_THAT(error_with(R"("trim": 7)", R"("trim": 13)"), HasSubstr("start.trim = 13"));
   EXPECT_THAT(error_with(R"("trim": 7)", R"("trim": 6.5)"), HasSubstr("start.trim = 6.5"));
   EXPECT_THAT(error_with(R"("step_s": 0.2)", R"("step_s": 0.25)"),
-              HasSubstr("step_s = 0.25, allowed 0.2, the automaton's"));
+              HasSubstr("step_s = 0.25, must be one of 0.2, the automaton's"));
   EXPECT_THAT(error_with(", [1.48, 2]]", "]"),
-              HasSubstr("reference has 2 entries, allowed one per step, 3 of them"));
+              HasSubstr("reference has 2 entries, must have one per step, 3 of them"));
   EXPECT_THAT(error_with("[1.48, 2]", "[1.48, 2, 0]"),
-              HasSubstr("reference[2] has 3 entries, allowed [x, y]"));
+              HasSubstr("reference[2] has 3 entries, must have [x, y]"));
   EXPECT_THAT(error_with("[1, 0.8,", "[-1, 0.8,"),
-              HasSubstr("reference_speed[0] = -1, allowed a number >= 0"));
+              HasSubstr("reference_speed[0] = -1, must be a number >= 0"));
   EXPECT_THAT(error_with("[[], [], [", "[[], ["), HasSubstr("obstacles has 2 entries"));
   EXPECT_THAT(error_with(R"("horizon_steps": 3)", R"("horizon_steps": 65)"),
-              HasSubstr("horizon_steps = 65, allowed a whole number >= 1 and <= 64"));
+              HasSubstr("horizon_steps = 65, must be a whole number >= 1 and <= 64"));
   EXPECT_THAT(error_with(R"("horizon_steps": 3)", R"("horizon_steps": 3.0)"),
               HasSubstr("horizon_steps = 3.0"));
   EXPECT_THAT(error_with("[[0, 1], [9, 1]]", "[[0, 1], [9, 1], [9, 2]]"),
-              HasSubstr("corridor[0] has 3 entries, allowed [[x1, y1], [x2, y2]]"));
+              HasSubstr("corridor[0] has 3 entries, must have [[x1, y1], [x2, y2]]"));
   EXPECT_THAT(error_with(R"("subgraph": "B")", R"("subgraph": "Z")"),
-              HasSubstr(R"(subgraph = "Z", allowed B)"));
+              HasSubstr(R"(subgraph = "Z", must be one of B)"));
   EXPECT_THAT(error_with(R"("corridor")", R"("subgraph": "B", "corridor")"),
-              HasSubstr(R"(problem.json: subgraph = "B", allowed once; the key is there twice)"));
+              HasSubstr(R"(problem.json: subgraph = "B", must be unique)"));
   EXPECT_THAT(error_with("\"psi\": 0", R"("psi": 0, "x": 1)"),
-              HasSubstr("problem.json: start.x = 1, allowed once; the key is there twice"));
+              HasSubstr("problem.json: start.x = 1, must be unique"));
   EXPECT_THAT(
       error_with("\"corridor\"", R"("incumbent": [{}, {"trim": 1, "trim": 2}], "corridor")"),
-      HasSubstr("problem.json: incumbent[1].trim = 2, allowed once; the key is there twice"));
+      HasSubstr("problem.json: incumbent[1].trim = 2, must be unique"));
   EXPECT_THAT(error_with(R"("corridor")", R"("search": {"engine": "fast"}, "corridor")"),
-              HasSubstr(R"(search.engine = "fast", allowed branch_and_bound, best_first)"));
+              HasSubstr(R"(search.engine = "fast", must be one of branch_and_bound, best_first)"));
   EXPECT_THAT(error_with(R"("corridor")", R"("search": {"max_expansions": 0}, "corridor")"),
-              HasSubstr("search.max_expansions = 0, allowed a whole number >= 1"));
+              HasSubstr("search.max_expansions = 0, must be a whole number >= 1"));
   EXPECT_THAT(
       error_with(R"("corridor")", R"("search": {"criterion_weights": {"J9": 1}}, "corridor")"),
-      HasSubstr("search.criterion_weights.J9 = 1, allowed criteria of the automaton's"));
+      HasSubstr("search.criterion_weights.J9 = 1, must be criteria of the automaton's"));
   EXPECT_THAT(
       error_with(R"("corridor")", R"("search": {"criterion_weights": {"J2": -1}}, "corridor")"),
-      HasSubstr("search.criterion_weights.J2 = -1, allowed a number >= 0 and <= 1e+09"));
+      HasSubstr("search.criterion_weights.J2 = -1, must be a number >= 0 and <= 1e+09"));
   EXPECT_THAT(error_with(R"("corridor")", R"("avoids_steering_limit": 1, "corridor")"),
-              HasSubstr("avoids_steering_limit = 1, allowed true or false"));
+              HasSubstr("avoids_steering_limit = 1, must be true or false"));
 }
 
 TEST_F(ProblemFileTest, ErrorsOfPolygonsSayWhatIsWrong) {
@@ -256,7 +256,7 @@ TEST_F(ProblemFileTest, ErrorsOfAnIncumbentNameTheManeuver) {
   EXPECT_EQ(incumbent("[" + trim + "," + trim + "," + stop + "]"), "");
   EXPECT_THAT(incumbent("[" + trim + "," + stop + "]"), HasSubstr("incumbent has 2 entries"));
   EXPECT_THAT(incumbent("[" + trim + "," + stop + R"(, {"trim": 9, "label": "J1"}])"),
-              HasSubstr("incumbent[2] = {\"trim\":9,\"label\":\"J1\"}, allowed a maneuver of the "
+              HasSubstr("incumbent[2] = {\"trim\":9,\"label\":\"J1\"}, must be a maneuver of the "
                         "automaton from trim 1"));
 }
 
@@ -270,16 +270,16 @@ TEST_F(ProblemFileTest, WhatIsNoJsonIsNamedWithItsPlace) {
     const std::string error = error_of(text);
     EXPECT_THAT(error,
                 AllOf(HasSubstr("problem.json: parse error at line "),
-                      EndsWith(", allowed one JSON object (RFC 8259)"), Not(HasSubstr("\n"))));
+                      EndsWith(", must be one JSON object (RFC 8259)"), Not(HasSubstr("\n"))));
     EXPECT_LT(error.size(), 400 + file_.string().size());
   }
-  EXPECT_THAT(error_of("[1]"), HasSubstr("problem.json: [1], allowed an object"));
+  EXPECT_THAT(error_of("[1]"), HasSubstr("problem.json: [1], must be an object"));
   std::filesystem::remove(file_);
   EXPECT_THROW(static_cast<void>(read_problem_file(file_, subgraph_b())), std::invalid_argument);
 }
 
 TEST_F(ProblemFileTest, ANumberThatNoDoubleHoldsIsNamedWithItsPlace) {
-  const std::string allowed = ", allowed a finite number";
+  const std::string allowed = ", must be a finite number";
   EXPECT_THAT(error_with("\"y\": 2", "\"y\": 1e999"),
               EndsWith("problem.json: line 6: start.y = 1e999" + allowed));
   EXPECT_THAT(error_with("\"step_s\": 0.2", "\"step_s\": -1e999\n"),
@@ -300,19 +300,19 @@ TEST_F(ProblemFileTest, ANumberThatNoDoubleHoldsIsNamedWithItsPlace) {
 
 TEST_F(ProblemFileTest, KeysAndValuesWithControlCharactersStayInOneLine) {
   EXPECT_THAT(error_with("step_s", "ste\\np\\u001b[31m"),
-              HasSubstr("ste\\np\\x1b[31m = 0.2, unknown key, allowed keys automaton"));
+              HasSubstr("ste\\np\\x1b[31m = 0.2, unknown key; known keys: automaton"));
   EXPECT_THAT(error_with("\"y\": 2", "\"y\": \"\\n\\u001b\""),
-              HasSubstr(R"(start.y = "\n\u001b", allowed)"));
+              HasSubstr(R"(start.y = "\n\u001b", must be)"));
 }
 
 TEST_F(ProblemFileTest, ListsWithinListsWithinListsAreRefused) {
   const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
   EXPECT_THAT(error_with("\"B\"", deep),
               AllOf(HasSubstr("problem.json: subgraph[0][0]"),
-                    HasSubstr("[0]...: lists or objects within each other, allowed 100 at most")));
+                    HasSubstr("[0]...: too deeply nested, must be <= 100 levels")));
   const auto lists = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   EXPECT_THAT(error_of(lists(101)), HasSubstr("problem.json: [0][0]"));
-  EXPECT_THAT(error_of(lists(100)), HasSubstr(", allowed an object"));
+  EXPECT_THAT(error_of(lists(100)), HasSubstr(", must be an object"));
 }
 
 TEST_F(ProblemFileTest, AnAutomatonThatIsNoneIsNamedWithTheKey) {
@@ -325,7 +325,7 @@ TEST_F(ProblemFileTest, AnAutomatonThatIsNoneIsNamedWithTheKey) {
       ADD_FAILURE() << name;
     } catch (const std::invalid_argument& error) {
       EXPECT_THAT(error.what(), AllOf(HasSubstr("problem.json: automaton = \"" + name + "\""),
-                                      HasSubstr(", allowed ")));
+                                      HasSubstr(", must be ")));
     }
   }
 }
@@ -360,7 +360,7 @@ TEST_F(ProblemFileTest, AHeadingIsLimitedLikeTheProblemsOwn) {
   EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1000000.1"),
               EndsWith("a number >= -1e+06 and <= 1e+06"));
   EXPECT_THAT(error_with("\"psi\": 0", "\"psi\": 1e17"),
-              HasSubstr("start.psi = 1e+17, allowed a number >= -1e+06 and <= 1e+06"));
+              HasSubstr("start.psi = 1e+17, must be a number >= -1e+06 and <= 1e+06"));
 }
 
 TEST_F(ProblemFileTest, DamagedFilesAreRefusedInOneLineOrRead) {

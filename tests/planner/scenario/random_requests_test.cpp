@@ -53,7 +53,7 @@ std::shared_ptr<const Subgraph> random_subgraph(const Subgraph& base, std::size_
 }
 
 /// The same cars, of which none was asked.
-struct Twin {
+struct Counterpart {
   Rollout without;
   std::size_t asked;
   std::size_t steps_left;
@@ -71,11 +71,11 @@ void drive(const Scenario& three_cars, std::uint64_t seed, Drive& sums) {
   const Subgraph& base = *three_cars.subgraph;
   Random random(seed);
   Rollout rollout = make_rollout(with_random_starts(three_cars, seed));
-  std::vector<Twin> twins;
+  std::vector<Counterpart> counterparts;
   for (std::size_t k = 0; k < 150; ++k) {
     if (k > 2 && draw(random, 2) == 0) {
       const std::size_t asked = draw(random, 2);
-      twins.push_back({rollout.clone(), asked, three_cars.horizon_steps + 1});
+      counterparts.push_back({rollout.clone(), asked, three_cars.horizon_steps + 1});
       rollout.controllers()[asked]->switch_to(
           random_subgraph(base, three_cars.horizon_steps, random));
       ++sums.requests;
@@ -91,15 +91,16 @@ void drive(const Scenario& three_cars, std::uint64_t seed, Drive& sums) {
       const Plan& plan = controller.plan_in_force();
       EXPECT_TRUE(base.automaton().trims[plan.trim_at(plan.end()).index].is_equilibrium());
     }
-    for (Twin& twin : twins) {
-      const std::vector<Report> otherwise = twin.without.step();
-      --twin.steps_left;
-      const bool is_infeasible = reports[twin.asked].reason == FallbackReason::kInfeasible &&
-                                 otherwise[twin.asked].reason != FallbackReason::kInfeasible;
-      const bool is_switch = twin.steps_left == three_cars.horizon_steps;
+    for (Counterpart& counterpart : counterparts) {
+      const std::vector<Report> otherwise = counterpart.without.step();
+      --counterpart.steps_left;
+      const bool is_infeasible = reports[counterpart.asked].reason == FallbackReason::kInfeasible &&
+                                 otherwise[counterpart.asked].reason != FallbackReason::kInfeasible;
+      const bool is_switch = counterpart.steps_left == three_cars.horizon_steps;
       (is_switch ? sums.infeasible_by_switch : sums.infeasible_later) += is_infeasible ? 1U : 0U;
     }
-    std::erase_if(twins, [](const Twin& twin) { return twin.steps_left == 0; });
+    std::erase_if(counterparts,
+                  [](const Counterpart& counterpart) { return counterpart.steps_left == 0; });
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 const std::string kFolder = test::source_folder() + "/launch_scripts/";
 
-/// Writes a scenario that is good but for `change`, and returns what reading it says.
+/// Writes a scenario that is valid except for `change`, and returns the error of reading it.
 class ScenarioErrors : public testing::Test {
  protected:
   std::string error_of(const std::string& from, const std::string& to) {
@@ -49,16 +49,16 @@ TEST_F(ScenarioErrors, AnUnknownKeyIsNamedWithItsLine) {
 TEST_F(ScenarioErrors, AnUnknownEngineIsNamedWithThoseThereAre) {
   EXPECT_THAT(error_of("horizon_steps: 8", "engine: fast"),
               AllOf(HasSubstr(".yaml:7: engine = fast"),
-                    HasSubstr("allowed branch_and_bound, best_first")));
+                    HasSubstr("must be one of branch_and_bound, best_first")));
 }
 
 TEST_F(ScenarioErrors, CriterionWeightsAreOfTheAutomatonsCriteriaAndNotNegative) {
   EXPECT_EQ(error_of("horizon_steps: 8", "criterion_weights: {J1: 0.5, J2: 0}"), "");
   EXPECT_THAT(
       error_of("horizon_steps: 8", "criterion_weights: {J9: 0.5}"),
-      HasSubstr(".yaml:7: criterion_weights.J9 = 0.5, allowed criteria of the automaton's"));
+      HasSubstr(".yaml:7: criterion_weights.J9 = 0.5, must be criteria of the automaton's"));
   EXPECT_THAT(error_of("horizon_steps: 8", "criterion_weights: {J2: -0.5}"),
-              HasSubstr(".yaml:7: criterion_weights.J2 = -0.5, allowed"));
+              HasSubstr(".yaml:7: criterion_weights.J2 = -0.5, must be"));
 }
 
 TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
@@ -67,12 +67,12 @@ TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
 
 TEST_F(ScenarioErrors, AnUnknownLaneletIsNamedWithItsPlace) {
   EXPECT_THAT(error_of("[1, 2, 3, 4, 5,", "[1, 2, 3, 4, 999,"),
-              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1[5] = 999, allowed"));
+              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1[5] = 999, must be"));
 }
 
 TEST_F(ScenarioErrors, ARouteThatDoesNotCloseIsNamed) {
   EXPECT_THAT(error_of("7, 8, 9, 10]", "7, 8, 9]"),
-              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1 = (a list), allowed"));
+              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1 = (a list), must be"));
 }
 
 TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
@@ -82,7 +82,7 @@ TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
 
 TEST_F(ScenarioErrors, StartPosesThatOverlapAreNamed) {
   EXPECT_THAT(error_of("name: blue, route: blue", "name: blue, route: red"),
-              AllOf(HasSubstr(".yaml:13: vehicles[2].start_m = 0.0, allowed"),
+              AllOf(HasSubstr(".yaml:13: vehicles[2].start_m = 0.0, must be"),
                     HasSubstr("those of vehicles 1 and 2 do")));
 }
 
@@ -92,7 +92,7 @@ TEST_F(ScenarioErrors, AnIdAboveThirtyIsRefused) {
 
 TEST_F(ScenarioErrors, AnIdThatIsTakenTwiceIsRefused) {
   EXPECT_THAT(error_of("id: 2", "id: 1"),
-              HasSubstr(".yaml:13: vehicles[2].id = 1, allowed every id once"));
+              HasSubstr(".yaml:13: vehicles[2].id = 1, must be unique"));
 }
 
 TEST_F(ScenarioErrors, AMissingMapIsNamed) {
@@ -134,9 +134,9 @@ TEST_F(ScenarioErrors, AStartMayBeBesideThePathAndTurned) {
                      "route: green, start_m: 1.5, start_left_m: 0.1, start_turned_rad: 0.3"),
             "");
   EXPECT_THAT(error_of("start_m: 1.5", "start_m: 1.5, start_left_m: 11"),
-              HasSubstr("start_left_m = 11, allowed"));
+              HasSubstr("start_left_m = 11, must be"));
   EXPECT_THAT(error_of("start_m: 1.5", "start_m: 1.5, start_turned_rad: 4"),
-              HasSubstr("start_turned_rad = 4, allowed"));
+              HasSubstr("start_turned_rad = 4, must be"));
 }
 
 /// A controller that sees its vehicle standing there.
@@ -157,8 +157,8 @@ TEST(Scenario, AVehicleTakesItsOwnRouteAndOneThatIsNotNamedTheRouteThatItFits) {
     EXPECT_TRUE(controller_at(scenario, vehicle.id, pose)->fits_route());
     const auto guest = controller_at(scenario, {17}, pose);
     EXPECT_TRUE(guest->fits_route());
-    EXPECT_LE(misfit_m(*guest->placement()),
-              misfit_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
+    EXPECT_LE(placement_cost_m(*guest->placement()),
+              placement_cost_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
     EXPECT_EQ(guest->routes().size(), 3U);
   }
   const Pose green = measured_start(scenario, scenario.vehicles[2]);
@@ -207,11 +207,11 @@ TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
   using testing::ThrowsMessage;
   EXPECT_THAT(read(three_cars("2022", "branch_and_bound")),
               ThrowsMessage<std::invalid_argument>(
-                  HasSubstr("--engine = branch_and_bound with profile 2022, allowed best_first")));
-  EXPECT_THAT(
-      read(three_cars("default", "fast")),
-      ThrowsMessage<std::invalid_argument>("--engine = fast, allowed branch_and_bound, best_first, "
-                                           "ompl_branch_and_bound, ompl_best_first"));
+                  HasSubstr("--engine = branch_and_bound with profile 2022, must be best_first")));
+  EXPECT_THAT(read(three_cars("default", "fast")),
+              ThrowsMessage<std::invalid_argument>(
+                  "--engine = fast, must be one of branch_and_bound, best_first, "
+                  "ompl_branch_and_bound, ompl_best_first"));
 }
 
 }  // namespace

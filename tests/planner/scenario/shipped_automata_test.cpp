@@ -29,7 +29,7 @@ TEST_P(ShippedAutomaton, Drives) {
   const Scenario scenario = read_scenario(
       {.file = kScenarios + GetParam().scenario + ".yaml", .subgraph = GetParam().subgraph});
   for (const Maneuver& maneuver : scenario.subgraph->automaton().maneuvers) {
-    ASSERT_EQ(fault_of(maneuver, scenario.subgraph->automaton()), "");
+    ASSERT_EQ(validate(maneuver, scenario.subgraph->automaton()), "");
   }
   std::vector<std::unique_ptr<Controller>> controllers;
   std::vector<Pose> starts;

@@ -178,11 +178,11 @@ TEST_F(SwitchingAutomata, TheOneBeforeStaysAsLongAsThePlanHasManeuversOfIt) {
 
 TEST_F(SwitchingAutomata, APlanThatIsDrivenToItsEndStandsOnItsOwn) {
   switch_to("stuck");
-  controller().set_drives_out(true);
+  controller().set_minimal_risk_stop(true);
   for (int k = 0; k < 12; ++k) static_cast<void>(step());
   EXPECT_GT(rollout_->next_step(), controller().plan_in_force().end());
   EXPECT_TRUE(drives_other(rollout_->next_step()));
-  controller().set_drives_out(false);
+  controller().set_minimal_risk_stop(false);
   switch_to("B");
   for (int k = 0; k < 3; ++k) {
     EXPECT_FALSE(watched_.expired());

@@ -15,7 +15,7 @@ constexpr std::size_t kHorizonSteps = 8;
 
 class CollisionCheckTest : public testing::Test {
  protected:
-  [[nodiscard]] const Maneuver& own_step(TrimId trim) const {
+  [[nodiscard]] const Maneuver& self_loop(TrimId trim) const {
     return *subgraph_.automaton().find(trim, trim, test::kTestLabel);
   }
 
@@ -109,13 +109,13 @@ TEST_F(CollisionCheckTest, AnObstacleCountsInItsOwnStepOnly) {
   problem.obstacles_m[2] = {small_square(start.position_m(), 0.05)};
   check_.prepare(problem);
   for (std::size_t step = 1; step <= kHorizonSteps; ++step) {
-    EXPECT_EQ(check_.is_free(own_step(subgraph_.standstill()), step, to_frame(start)), step != 3);
+    EXPECT_EQ(check_.is_free(self_loop(subgraph_.standstill()), step, to_frame(start)), step != 3);
   }
 }
 
 TEST_F(CollisionCheckTest, TheMarginKeepsObstaclesAwayButNotTheBoundary) {
   // The margin of 10 mm begins at half the width, 53.5 mm.
-  const Maneuver& standing = own_step(subgraph_.standstill());
+  const Maneuver& standing = self_loop(subgraph_.standstill());
   const auto is_free_beside = [&](double y_m, bool as_obstacle) {
     HorizonProblem problem = problem_from({}, subgraph_.standstill());
     if (as_obstacle) {

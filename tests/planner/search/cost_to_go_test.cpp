@@ -120,7 +120,7 @@ class CostToGoTest : public testing::TestWithParam<Automaton> {
     const std::vector<std::size_t>& starts =
         GetParam().starts.empty() ? GetParam().trims : GetParam().starts;
     const TrimId trim{starts[number % starts.size()] - 1};
-    return subgraph_.is_on(trim) || !GetParam().starts.empty() ? trim : subgraph_.standstill();
+    return subgraph_.is_enabled(trim) || !GetParam().starts.empty() ? trim : subgraph_.standstill();
   }
   /// Calls `visit(vertex, seed)` with vertices of all kinds that can still stand in time.
   template <class Visit>

@@ -63,7 +63,7 @@ TEST(EdgeCosts, PlansOfAllEnginesCostLeastWithTheManeuversOwnCriteria) {
     ASSERT_EQ(slow.status, result.status);
     if (!truth.feasible) continue;
     ++feasible;
-    ASSERT_EQ(test::fault_of(result, subgraph, problem, options.criterion_weights), "");
+    ASSERT_EQ(test::validate(result, subgraph, problem, options.criterion_weights), "");
     ASSERT_NEAR(result.cost, truth.cost, 1e-9);
     ASSERT_NEAR(slow.cost, truth.cost, 1e-9);
     problem.incumbent = truth.maneuvers;
@@ -124,7 +124,7 @@ TEST(EdgeCosts, WhatTheRestCostsAtLeastIsExactAndNeverTooMuch) {
     std::mt19937_64 random(seed);
     const Subgraph subgraph = make_subgraph(random);
     const EdgeCosts costs(subgraph, random_weights(random), kMaxSteps);
-    for (const TrimId trim : subgraph.starts()) {
+    for (const TrimId trim : subgraph.start_trims()) {
       for (std::size_t steps = subgraph.distance_to_standstill(trim); steps <= 3; ++steps) {
         const double truth = least_sum(costs, subgraph, trim, steps);
         EXPECT_LE(costs.to_go(trim, steps), truth);
@@ -159,11 +159,11 @@ std::string refusal_of(const std::vector<PlanningWeight>& weights) {
 
 TEST(EdgeCosts, RefusesUnknownCriteriaAndWeightsThatAreNone) {
   EXPECT_EQ(refusal_of({{"effort", 0.0}}), "");
-  EXPECT_EQ(refusal_of({{"J7", 1.0}}), "criterion_weights: J7, allowed progress, effort");
-  EXPECT_THAT(refusal_of({{"effort", -0.5}}), testing::HasSubstr("allowed numbers from 0 to 1e9"));
-  EXPECT_THAT(refusal_of({{"effort", 1.1e9}}), testing::HasSubstr("allowed numbers from 0 to 1e9"));
+  EXPECT_EQ(refusal_of({{"J7", 1.0}}), "criterion_weights: J7, must be one of progress, effort");
+  EXPECT_THAT(refusal_of({{"effort", -0.5}}), testing::HasSubstr("must be in 0 ... 1e9"));
+  EXPECT_THAT(refusal_of({{"effort", 1.1e9}}), testing::HasSubstr("must be in 0 ... 1e9"));
   EXPECT_THAT(refusal_of({{"effort", std::numeric_limits<double>::quiet_NaN()}}),
-              testing::HasSubstr("allowed numbers from 0"));
+              testing::HasSubstr("must be in 0 ..."));
 }
 
 }  // namespace

@@ -34,10 +34,10 @@ class SearchBudget : public testing::TestWithParam<Kind> {
                                .max_expansions = max_expansions});
   }
 
-  /// As fault_of, for a path that need not be optimal.
+  /// As validate, for a path that need not be optimal.
   [[nodiscard]] std::string fault(SearchResult result, const HorizonProblem& problem) const {
     result.status = SearchStatus::kOptimal;
-    return test::fault_of(result, subgraph_, problem);
+    return test::validate(result, subgraph_, problem);
   }
 
   /// Some free path that ends in standstill: the best one towards another reference.

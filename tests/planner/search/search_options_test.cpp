@@ -24,12 +24,12 @@ TEST(SearchOptions, EveryNameLeadsBackToWhatItNames) {
 }
 
 TEST(SearchOptions, AnUnknownNameIsRefusedWithThoseThereAre) {
-  EXPECT_THAT(
-      [] { static_cast<void>(engine_from_name("fast")); },
-      ThrowsMessage<std::invalid_argument>("engine = fast, allowed branch_and_bound, best_first"));
+  EXPECT_THAT([] { static_cast<void>(engine_from_name("fast")); },
+              ThrowsMessage<std::invalid_argument>(
+                  "engine = fast, must be one of branch_and_bound, best_first"));
   EXPECT_THAT([] { static_cast<void>(cost_to_go_from_name("")); },
               ThrowsMessage<std::invalid_argument>(
-                  "cost_to_go = , allowed reachable, straight_line, 2022"));
+                  "cost_to_go = , must be one of reachable, straight_line, 2022"));
 }
 
 TEST(SearchOptions, BranchAndBoundSearchesWithTheReachableCostToGoOnly) {

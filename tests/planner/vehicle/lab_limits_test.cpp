@@ -171,7 +171,7 @@ TEST(LabLimits, AFaultIsToldWithValueAndBound) {
   ASSERT_TRUE(fault);
   EXPECT_THAT(to_text(*fault, kCpmLab),
               testing::AllOf(testing::StartsWith("curvature = 4.3"),
-                             testing::EndsWith(" 1/m, allowed -3.96 ... 4.316")));
+                             testing::EndsWith(" 1/m, must be in -3.96 ... 4.316")));
 }
 
 }  // namespace

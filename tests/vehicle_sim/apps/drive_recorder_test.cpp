@@ -74,7 +74,7 @@ TEST_F(DriveRecorderTest, OfACarThatIsStartedAgainTheWholeDriveIsThere) {
   EXPECT_EQ(read_drive(file).size(), 1U);
 }
 
-// Else a drive would end where the disk was full, and nobody would know.
+// Otherwise a full disk would truncate a drive silently.
 TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsAnError) {
   const std::filesystem::path file = folder_ / "drive.csv";
   DriveRecorder recorder(file);

@@ -1,4 +1,4 @@
-// `evaluate --sweep`: files, resumption, bad input.
+// `evaluate --sweep`: files, resumption, invalid input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST_F(EvaluateSweep, GoesOnWhereItWasInterrupted) {
   std::filesystem::remove(out_ / "sweep.csv");
   const Outcome again = sweep(settings);
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs already driven"));
   EXPECT_EQ(read_text(out_ / "sweep.csv"), csv);
   EXPECT_THAT(read_text(out_ / "tables.csv"), HasSubstr("\npaper_red_alone,drivable,lanes,B,1,1,"));
 }

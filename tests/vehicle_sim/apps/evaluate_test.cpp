@@ -1,4 +1,4 @@
-// The evaluation program: files, resumption, bad input.
+// The evaluation program: files, resumption, invalid input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
   std::filesystem::remove(out_ / "results.json");
   const Outcome again = evaluate("");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("2 of 4 runs already driven"));
   EXPECT_EQ(timeless(results()), whole);
 }
 
@@ -89,7 +89,7 @@ TEST_F(Evaluate, RefusesAFolderThatHoldsSomethingElseAndLeavesItAlone) {
   put(out_ / "thesis.tex", "text");
   const Outcome outcome = evaluate("");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("holds something else"));
+  EXPECT_THAT(outcome.output, HasSubstr("contains other files"));
   EXPECT_EQ(text_of(out_ / "thesis.tex"), "text");
   EXPECT_FALSE(std::filesystem::exists(out_ / "runs.jsonl"));
 }
@@ -161,7 +161,7 @@ TEST_F(Evaluate, RefusesAFolderInWhichSomebodyElseWrote) {
   put(out_ / "figures", "a file");
   const Outcome no_folder = evaluate("--figures error");
   EXPECT_EQ(no_folder.exit_code, 2);
-  EXPECT_THAT(no_folder.output, HasSubstr("figures is no folder"));
+  EXPECT_THAT(no_folder.output, HasSubstr("figures must be a folder"));
   EXPECT_EQ(text_of(out_ / "figures"), "a file");
 }
 
@@ -184,7 +184,7 @@ TEST_F(Evaluate, DrawsTheFiguresThatAreAskedForAlsoLater) {
   EXPECT_FALSE(std::filesystem::exists(out_ / "figures"));
   const Outcome later = evaluate("--figures scenario,paths");
   EXPECT_EQ(later.exit_code, 0) << later.output;
-  EXPECT_THAT(later.output, HasSubstr("4 of 4 runs are there already"));
+  EXPECT_THAT(later.output, HasSubstr("4 of 4 runs already driven"));
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(out_ / "figures")) {
     files.insert(entry.path().filename());
@@ -212,11 +212,11 @@ TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
   EXPECT_THAT(done.output, HasSubstr("2 runs, 1 failed"));
   const nlohmann::json runs = results()["runs"];
   ASSERT_EQ(runs.size(), 2U);
-  EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("outside the areas"));
+  EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("left its announced areas"));
   EXPECT_EQ(runs[0]["subgraph"], "effort");
   EXPECT_TRUE(runs[1]["failure"].is_null());
   EXPECT_THAT(text_of(out_ / "table.md"),
-              HasSubstr("Failed: subgraph effort, start 0: vehicle 1 was outside the areas"));
+              HasSubstr("Failed: subgraph effort, start 0: vehicle 1 left its announced areas"));
 }
 
 TEST_F(Evaluate, AMapThatCannotBeReadIsBadInput) {
@@ -245,7 +245,7 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--scenario nowhere", "--scenario = nowhere"},
                                        {"--subgraphs Z", "Z"},
                                        {"--subgraphs B,D,B", "--subgraphs = B twice"},
-                                       {"--policies zone", "--policies = zone, allowed those of"},
+                                       {"--policies zone", "--policies = zone, must be one of"},
                                        {"--policies zone,zone", "--policies = zone twice"},
                                        {"--profile 2022,2022", "--profile = 2022 twice"},
                                        {"--scenario circle,circle", "--scenario = circle twice"},
@@ -255,9 +255,9 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--noise_seed 99999999999999999999999", "--noise_seed"},
                                        {"--figures path", "--figures"},
                                        {"--figures distance --scenario paper_red_alone",
-                                        "--figures = distance, allowed with a scenario of several"},
+                                        "--figures = distance requires a scenario of several"},
                                        {"--figures paths --pareto_configuration x.yaml",
-                                        "--pareto_configuration = x.yaml, allowed with"},
+                                        "--pareto_configuration = x.yaml requires"},
                                        {"--unheard_of", "unheard_of"}}) {
     const Outcome outcome =
         run_program(std::string("evaluate --out ") + out_.string() + kScenarios + " " + flags);
@@ -299,7 +299,7 @@ TEST_F(EvaluatePolicies, AreInRecordsAndTablesAndWeighedAgainstTheFixedSubgraphs
   EXPECT_THAT(text_of(out_ / "table.md"),
               HasSubstr("| | J2 | comfort | policy zone | policy situation |"));
   EXPECT_THAT(text_of(out_ / "table.csv"), HasSubstr(",default,J2,zone,generated_max,1,"));
-  // 20 steps are no lap: nobody competes.
+  // 20 steps are no lap: no row competes.
   const std::string tradeoff = text_of(out_ / "tradeoff.md");
   EXPECT_THAT(tradeoff, HasSubstr("| policy zone | - |"));
   EXPECT_THAT(done.output, HasSubstr(tradeoff));
@@ -315,7 +315,7 @@ TEST_F(EvaluatePolicies, GoOnWhereTheyWereInterruptedInTheirOwnFolderOnly) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.output, HasSubstr("(there: policies [])"));
   EXPECT_EQ(text_of(out_ / "runs.jsonl"), without);
-  EXPECT_THAT(drive("").output, HasSubstr("1 of 1 runs are there already"));
+  EXPECT_THAT(drive("").output, HasSubstr("1 of 1 runs already driven"));
 
   std::filesystem::remove_all(out_);
   ASSERT_EQ(drive("--policies zone").exit_code, 0);
@@ -327,7 +327,7 @@ TEST_F(EvaluatePolicies, GoOnWhereTheyWereInterruptedInTheirOwnFolderOnly) {
   put(out_ / "runs.jsonl", lines.substr(0, cut + 40));
   const Outcome again = drive("--policies zone");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_THAT(again.output, HasSubstr("1 of 2 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("1 of 2 runs already driven"));
   EXPECT_EQ(timeless(results()), whole);
   EXPECT_THAT(drive("").output, HasSubstr("(there: policies [\"zone\"])"));
 }
@@ -384,7 +384,7 @@ TEST_F(Evaluate, KeepsRunFoldersAlsoOfRunsThatAreThereAlready) {
   EXPECT_EQ(timeless(results()), without);
   std::filesystem::remove_all(out_ / "runs" / "2");
   const Outcome again = evaluate("--keep_runs");
-  EXPECT_THAT(again.output, HasSubstr("3 of 4 runs are there already"));
+  EXPECT_THAT(again.output, HasSubstr("3 of 4 runs already driven"));
   EXPECT_TRUE(std::filesystem::exists(out_ / "runs" / "2" / "run.json"));
 }
 
@@ -397,7 +397,7 @@ TEST_F(Evaluate, ARunFolderThatCannotBeWrittenIsNoFailureOfTheRun) {
   const Outcome failed = run_program("evaluate --keep_runs --scenario paper_red_alone --steps 20" +
                                      kScenarios + " --out " + out_.string());
   EXPECT_EQ(failed.exit_code, 3) << failed.output;
-  EXPECT_THAT(failed.output, HasSubstr("runs/0: cannot be made"));
+  EXPECT_THAT(failed.output, HasSubstr("runs/0: cannot be created"));
   EXPECT_EQ(results(), before);
 }
 
@@ -426,7 +426,7 @@ TEST_F(Evaluate, ExportRefusesWhatIsNoRunFolder) {
   std::filesystem::remove(run / "vehicle_1.csv");
   refused(run, "vehicle 1: no record of what it drove");
   std::filesystem::remove_all(run / "configuration");
-  refused(run, "flags.yaml: is not there");
+  refused(run, "flags.yaml: missing");
 }
 
 TEST_F(Evaluate, WhatIsPrintedOnAFullDeviceIsAnOutputThatCannotBeWritten) {

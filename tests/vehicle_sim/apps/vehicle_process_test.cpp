@@ -30,7 +30,7 @@ ParticipantOptions participant(const std::string& name, int domain) {
           .domain_id = domain,
           .role = DomainRole::kLab,
           .transport = Transport::kLoopback,
-          .logical_time = true,
+          .lease = kLogicalTime.lease,
           .discovery_server = std::nullopt};
 }
 
@@ -81,7 +81,7 @@ class Lab {
       const bool is_asked = signal_.wait_until(
           deadline, [this] { return is_closed_ || ready_ || !requests_.empty(); });
       if (!is_asked || signal_.locked([this] { return ready_.has_value(); })) {
-        return is_asked && is_heard();
+        return is_asked && is_received();
       }
       for (const std::string& name :
            signal_.locked([this] { return std::exchange(requests_, {}); })) {
@@ -107,7 +107,7 @@ class Lab {
     signal_.post([this] { is_closed_ = true; });
   }
   /// The vehicle has matched this lab when it is ready, but not yet the other way round.
-  [[nodiscard]] bool is_heard() const {
+  [[nodiscard]] bool is_received() const {
     const auto deadline = Clock::now() + seconds(60);
     return trigger_writer_.wait_for_matched(1, deadline) &&
            command_writer_.wait_for_matched(1, deadline);
@@ -148,13 +148,14 @@ class VehicleProcessTest : public testing::Test {
     return {.vehicle = {.vehicle_id = kId, .start = kStart},
             .transport = Transport::kLoopback,
             .lab_domain = domain_.first(),
-            .logical_time = true,
+            .time = kLogicalTime,
+            .rules = machine::logical_rules(),
             .startup_timeout = seconds(60)};
   }
 
   void TearDown() override {
     if (process_) {
-      process_->stop();  // else a failed test would wait for its run for ever
+      process_->stop();  // else a failed test would wait for its run forever
     }
   }
 
@@ -234,7 +235,7 @@ TEST_F(VehicleProcessTest, GoesOnWithoutAnswerWhenTheMiddlewareIsLost) {
   ASSERT_TRUE(lab_control->answer_until_ready({kId}));
   ASSERT_TRUE(lab_control->release_tick(0));
   lab_control->release(kVehiclePeriod);
-  // Both leave together: the wait for the answer ends, and then there is no clock any more.
+  // Both leave together: the wait for the answer ends, and then there is no clock.
   lab_control.reset();
   EXPECT_EQ(exit_code(), kExitDied);
 }
@@ -267,7 +268,7 @@ TEST_F(VehicleProcessTest, VehicleThatIsNotActiveIsBadInput) {
 }
 
 TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
-  start(options());  // nobody answers
+  start(options());  // no replies
   process_->stop();
   EXPECT_EQ(exit_code(), kExitGood);
 }
@@ -275,7 +276,8 @@ TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
 TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
   Lab lab(domain_.first());
   VehicleProcessOptions real = options();
-  real.logical_time = false;
+  real.time = kRealTime;
+  real.rules = machine::real_rules(kVehicleStays);
   start(real);
   const std::vector<VehicleState> states = lab.states(10);
   ASSERT_GE(states.size(), 10U);
@@ -283,7 +285,7 @@ TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
     EXPECT_EQ(state.create_stamp % kVehiclePeriod, 0U);
     EXPECT_EQ(state.pose, kStart);
   }
-  ASSERT_TRUE(lab.is_heard());
+  ASSERT_TRUE(lab.is_received());
   lab.stop();
   EXPECT_EQ(exit_code(), kExitGood);
 }

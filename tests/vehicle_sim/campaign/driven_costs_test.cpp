@@ -32,7 +32,7 @@ class DrivenCostsTest : public testing::Test {
       report.vehicle = VehicleId{id};
       report.step = StepIndex{kFirstStep + k};
       report.planned_trim = TrimId{kTrims[k]};
-      report.maneuver = k == 1 ? kOwnStepLabel : test::kTestLabel;
+      report.maneuver = k == 1 ? kSelfLoopLabel : test::kTestLabel;
       rows_.push_back(row);
     }
     // Also before the start and after the end.

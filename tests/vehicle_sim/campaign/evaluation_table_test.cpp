@@ -42,12 +42,12 @@ TEST(EvaluationTable, TellsErrorsOfDrivenPositionsApart) {
 
 TEST(EvaluationTable, FailedRunsAreCountedAndLeftOut) {
   RunFigures failed = run("B", 99.0, 99.0);
-  failed.failure = "somebody died";
+  failed.failure = "a process died";
   failed.start = 7;
   const std::string table = evaluation_markdown({run("B", 15.0, 20.0), failed}, {});
   EXPECT_THAT(table, HasSubstr("| Starts, good / failed | 1 / 1 |"));
   EXPECT_THAT(table, Not(HasSubstr("99.0")));
-  EXPECT_THAT(table, HasSubstr("\nFailed: subgraph B, start 7: somebody died\n"));
+  EXPECT_THAT(table, HasSubstr("\nFailed: subgraph B, start 7: a process died\n"));
 }
 
 TEST(EvaluationTable, SaysWhereTheWallTimeWent) {
@@ -102,12 +102,12 @@ TEST(EvaluationTable, APolicyHasAColumnOfItsOwnAndNoneOfThePaper) {
   RunFigures switched = run("B", 17.0, 10.0);
   switched.policy = "zones, fast";
   RunFigures failed = switched;
-  failed.failure = "somebody died";
+  failed.failure = "a process died";
   const std::vector<RunFigures> runs{run("B", 15.0, 20.0), switched, failed};
   const std::string table = evaluation_markdown(runs, {});
   EXPECT_THAT(table, HasSubstr("| | B | paper | policy zones, fast | paper |"));
   EXPECT_THAT(table, HasSubstr("| Time for one lap [s] | 15.00 | 15.8 | 17.00 | |"));
-  EXPECT_THAT(table, HasSubstr("\nFailed: policy zones, fast, start 0: somebody died\n"));
+  EXPECT_THAT(table, HasSubstr("\nFailed: policy zones, fast, start 0: a process died\n"));
   EXPECT_THAT(evaluation_csv(runs), HasSubstr("\npaper_three_cars,2022,B,\"zones, fast\",lap_s,1,"
                                               "17.000000,17.000000,17.000000,\n"));
 }

@@ -42,7 +42,7 @@ void expect_tracked(const std::string& name, std::uint64_t steps) {
       EXPECT_LE(vehicle.tracking_error_m->mean, kMean_m) << vehicle.name;
       EXPECT_LE(vehicle.tracking_error_m->max, kMax_m) << vehicle.name;
       EXPECT_EQ(vehicle.undrivable_steps, 0U) << vehicle.name;
-      EXPECT_EQ(vehicle.astray_steps, 0U) << vehicle.name;
+      EXPECT_EQ(vehicle.steps_outside_announced_area, 0U) << vehicle.name;
       std::cout << name << (noise_seed ? ", noise" : "") << ": " << vehicle.name << " mean "
                 << 1e3 * vehicle.tracking_error_m->mean << " mm, max "
                 << 1e3 * vehicle.tracking_error_m->max << " mm, fallback steps "

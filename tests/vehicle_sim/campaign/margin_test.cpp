@@ -234,7 +234,7 @@ TEST(Margin, TheAreasThatAControllerTellsHoldItsVehicleAtEveryTick) {
   EXPECT_GT(all.deviation_m, 2.0 * margin_m());
   std::printf(
       "%llu drives: %zu steps at the limit, %zu without a new plan; farthest from the plan "
-      "%.1f mm, without the limit %.1f mm; never outside the areas told\n",
+      "%.1f mm, without the limit %.1f mm; never outside the announced areas\n",
       static_cast<unsigned long long>(6 * seeds), all.steps_at_limit, all.fallback_steps,
       1e3 * all.deviation_m, 1e3 * largest_without_limit_m);
 }

@@ -52,7 +52,7 @@ TEST(PaperDistance, ACellThatCannotBeFilledOrIsFarOffCountsAFactorOfTen) {
   stuck.generated_max = 1e6;
   EXPECT_NEAR(paper_distance({stuck})->mean_square, 2.0 * most / 4.0, 1e-12);
   RunFigures failed = papers_run();
-  failed.failure = "somebody died";
+  failed.failure = "a process died";
   EXPECT_NEAR(paper_distance({failed})->mean_square, most, 1e-12);
 }
 

@@ -74,11 +74,11 @@ TEST(Policies, WhatTheScenarioDoesNotHaveIsRefusedWithWhatItHas) {
         Campaign(plan({}, {"zone", "zones"}));
       },
       ThrowsMessage<std::invalid_argument>(
-          AllOf(HasSubstr("--policies = zones, allowed those of " + kScenario),
+          AllOf(HasSubstr("--policies = zones, must be one of " + kScenario),
                 HasSubstr(": look_ahead, mixed, situation, time, zone, zone_look_ahead"))));
   EXPECT_THAT([] { Campaign(plan({}, {"none"})); },
               ThrowsMessage<std::invalid_argument>(
-                  AllOf(HasSubstr("--policies = none, allowed"), HasSubstr("--subgraphs"))));
+                  AllOf(HasSubstr("--policies = none, must be one of"), HasSubstr("--subgraphs"))));
   CampaignPlan without = plan({}, {"zone"});
   without.scenarios = {test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"};
   EXPECT_THAT([&] { Campaign{without}; },

@@ -170,9 +170,8 @@ TEST(Sweep, FlyingLapIsNotFaultedForWhatWasBefore) {
     return touched;
   };
   EXPECT_EQ(result_of(touch(3), std::nullopt, kFlyingStep).fault, "");
-  EXPECT_EQ(result_of(touch(3), std::nullopt).fault, "vehicles touched each other 1 times");
-  EXPECT_EQ(result_of(touch(15), std::nullopt, kFlyingStep).fault,
-            "vehicles touched each other 1 times");
+  EXPECT_EQ(result_of(touch(3), std::nullopt).fault, "vehicles collided 1 times");
+  EXPECT_EQ(result_of(touch(15), std::nullopt, kFlyingStep).fault, "vehicles collided 1 times");
 }
 
 TEST(SweepReport, CsvHasOneRowPerRunWithItsSettings) {
@@ -369,7 +368,7 @@ TEST(TrimsFront, NamesTheSmallestChoiceWithoutLossAndThePlaceOfD) {
   EXPECT_THAT(text, HasSubstr("3 of 4 choices drive a lap"));
   EXPECT_THAT(text, HasSubstr("| 7 | 1 2 4 6 7 8 10 12 | 19.00 | 16.00 | 0 | smallest, not less"));
   EXPECT_THAT(text, HasSubstr("trims of D: on the front; number 1 of 1"));
-  EXPECT_THAT(text, HasSubstr("trims of B: 1 choices beat it"));
+  EXPECT_THAT(text, HasSubstr("trims of B: 1 choices dominate it"));
   EXPECT_THAT(text, Not(HasSubstr("| 5.00 |")));
 }
 

@@ -1,4 +1,4 @@
-// How well the simulated vehicle drives what it is told: plant, follower and command rules
+// How well the simulated vehicle follows its commands: plant, follower and command rules
 // together.
 #include <gtest/gtest.h>
 

@@ -31,7 +31,7 @@ TEST(Tradeoff, HasARowPerFixedSubgraphAndPolicyWithMediansOverTheStartsWithALap)
   RunFigures stuck = run("A", "none", 0.0, 100.0);
   stuck.lap_s.reset();
   RunFigures failed = run("A", "none", 1.0, 100.0);
-  failed.failure = "somebody died";
+  failed.failure = "a process died";
   const std::string table =
       tradeoff_markdown({run("A", "none", 15.0, 3.0), stuck, failed, run("A", "none", 16.0, 1.0),
                          run("A", "none", 20.0, 2.0), run("A", "zone", 17.0, 1.0)});

@@ -97,7 +97,7 @@ TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
       drive_experiment(scenario, {.steps = 15, .gains = scaled(FollowerGains{}, 0.0)});
   const Drive& drive = experiment.drives.at(scenario.vehicles.front().id.value);
   EXPECT_EQ(drive.back().pose, drive.front().pose);
-  // So the cars are outside what their controllers tell, and that is no good drive.
+  // So the cars are outside the announced areas, which is a driving fault.
   Scenario three_cars = scenario_of("paper_three_cars");
   three_cars.steps = 15;
   const DrivenRun run = drive_run(three_cars, {.gains = scaled(FollowerGains{}, 0.0)});

@@ -24,15 +24,15 @@ double outside_m(const ConvexPolygon& area, const ConvexPolygon::Vertices& point
   return result;
 }
 
-/// What a controller told at the beginning of a step.
-struct Told {
+/// What a controller announced at the beginning of a step.
+struct Announced {
   Plan plan;  ///< that the step began with
   ConvexPolygon area_m;
 };
 
-std::size_t steps_at_limit(const std::map<std::uint64_t, Told>& told,
+std::size_t steps_at_limit(const std::map<std::uint64_t, Announced>& announced,
                            const UniversalAutomaton& automaton) {
-  return static_cast<std::size_t>(std::ranges::count_if(told, [&](const auto& one) {
+  return static_cast<std::size_t>(std::ranges::count_if(announced, [&](const auto& one) {
     const auto& [step, what] = one;
     const auto is_at_limit = [&](TrimId trim) {
       return is_at_steering_limit(automaton.trims[trim.index], automaton.vehicle,
@@ -42,11 +42,12 @@ std::size_t steps_at_limit(const std::map<std::uint64_t, Told>& told,
   }));
 }
 
-void compare(const Drive& drive, Nanoseconds period, const std::map<std::uint64_t, Told>& told,
+void compare(const Drive& drive, Nanoseconds period,
+             const std::map<std::uint64_t, Announced>& announced,
              const UniversalAutomaton& automaton, Stray& stray) {
   for (const DrivenSample& sample : drive) {
-    const auto now = told.find(sample.t / period);
-    if (now == told.end()) continue;
+    const auto now = announced.find(sample.t / period);
+    if (now == announced.end()) continue;
     const auto& [step, what] = *now;
     const double since_s = 1e-9 * static_cast<double>(sample.t - step * period);
     const State planned = what.plan.state_at({step}, since_s, automaton.vehicle);
@@ -67,12 +68,12 @@ void compare(const Drive& drive, Nanoseconds period, const std::map<std::uint64_
 Stray drive(const Scenario& scenario, std::optional<std::uint64_t> noise_seed,
             const std::function<bool()>& is_late) {
   Stray stray;
-  std::map<std::uint64_t, Told> told;
+  std::map<std::uint64_t, Announced> announced;
   ConvexPolygon reachable_m;
   JointStepRules rules;
   rules.on_traffic = [&](const Controller& controller, const Traffic& traffic) {
-    told.emplace(traffic.step.value,
-                 Told{controller.plan_in_force(), traffic.running.during(traffic.step)});
+    announced.emplace(traffic.step.value,
+                      Announced{controller.plan_in_force(), traffic.running.during(traffic.step)});
     reachable_m = traffic.reachable_area_m;
   };
   rules.is_late = [&](const Controller&) { return is_late(); };
@@ -85,9 +86,9 @@ Stray drive(const Scenario& scenario, std::optional<std::uint64_t> noise_seed,
   const Experiment experiment = drive_experiment(
       scenario, {.steps = scenario.steps, .noise_seed = noise_seed, .rules = rules});
   const UniversalAutomaton& automaton = scenario.subgraph->automaton();
-  compare(experiment.drives.at(scenario.vehicles.front().id.value), experiment.facts.period, told,
-          automaton, stray);
-  stray.steps_at_limit = steps_at_limit(told, automaton);
+  compare(experiment.drives.at(scenario.vehicles.front().id.value), experiment.facts.period,
+          announced, automaton, stray);
+  stray.steps_at_limit = steps_at_limit(announced, automaton);
   stray.fallback_steps = static_cast<std::size_t>(std::ranges::count_if(
       experiment.reports,
       [](const ReportRecord& record) { return record.report.status == StepStatus::kFallback; }));

@@ -9,12 +9,13 @@
 /// How far a vehicle strays from its plan in a whole run (vehicle_sim/closed_loop/experiment.hpp).
 namespace hlc::controlled_loop {
 
-/// How far one vehicle strayed from what its controller planned and told the others.
+/// Deviation of one vehicle from its controller's plan and announced areas.
 struct Stray {
   double deviation_m{};          ///< largest footprint_deviation_m at any tick
-  double outside_m{};            ///< farthest that the footprint stuck out of the areas told
+  double outside_m{};            ///< farthest that the footprint stuck out of the announced areas
   std::uint64_t outside_tick{};  ///< when that was
-  double beyond_reach_m{};  ///< farthest that a prediction stuck out of the reachable area told
+  double
+      beyond_reach_m{};  ///< farthest that a prediction stuck out of the announced reachable area
   std::size_t steps_at_limit{};  ///< steps begun or ended in a trim at the steering limit
   std::size_t fallback_steps{};
 };

@@ -1,4 +1,4 @@
-// The vehicle's life cycle in memory: the test is the clock, the network and everybody else.
+// The vehicle's life cycle in memory: the test is the clock, the network and all other processes.
 #include "vehicle_sim/vehicle/vehicle_machine.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ std::vector<Kind> of(const std::vector<VehicleMachine::Action>& actions) {
   return found;
 }
 
-VehiclePresence everybody() {
+VehiclePresence all_present() {
   const std::set<std::string> middlewares{middleware_name(kId), middleware_name(kId + 1)};
   return {.lab = {.alive = {kLabControlName, middleware_name(kId), controller_name(kId)}},
           .state_readers = {2, middlewares},
@@ -44,7 +44,7 @@ VehiclePresence everybody() {
 }
 
 VehiclePresence without(const std::string& name) {
-  VehiclePresence presence = everybody();
+  VehiclePresence presence = all_present();
   presence.lab.alive.erase(name);
   presence.lab.lost.insert(name);
   return presence;
@@ -71,14 +71,14 @@ class LogicalVehicle : public testing::Test {
     has_begun_ = true;
     return advance();
   }
-  void tell_parameters(const std::vector<std::int32_t>& ids = {kId, kId + 1}) {
+  void publish_parameters(const std::vector<std::int32_t>& ids = {kId, kId + 1}) {
     vehicle_.on(Parameter{kPeriodParameter, kPeriod / kNanosecondsPerMillisecond});
     vehicle_.on(Parameter{kActiveIdsParameter, ids});
   }
   /// Until it wants its first tick.
   void prepare() {
-    vehicle_.on(everybody());
-    tell_parameters();
+    vehicle_.on(all_present());
+    publish_parameters();
     EXPECT_THAT(advance(), IsEmpty());
     ASSERT_EQ(vehicle_.wake_up().run, 0U);
   }
@@ -99,15 +99,15 @@ class LogicalVehicle : public testing::Test {
 TEST_F(LogicalVehicle, LearnsTheParametersAndWaitsForEverybodyBeforeItsFirstTick) {
   EXPECT_EQ(of<ParameterRequest>(advance()).size(), 2U);
   EXPECT_EQ(vehicle_.awaited(), 1U);
-  tell_parameters();
-  VehiclePresence presence = everybody();
+  publish_parameters();
+  VehiclePresence presence = all_present();
   presence.state_readers.names.erase(middleware_name(kId + 1));
   vehicle_.on(presence);
   EXPECT_THAT(advance(), IsEmpty());
   EXPECT_EQ(vehicle_.wake_up().run, std::nullopt);
   wall_ = vehicle_.wake_up().wall.value();
   EXPECT_THAT(of<LogLine>(advance()), ElementsAre(machine::info("waiting for middleware_4")));
-  vehicle_.on(everybody());
+  vehicle_.on(all_present());
   EXPECT_THAT(advance(), IsEmpty()) << "time has not begun";
   EXPECT_EQ(vehicle_.wake_up().run, 0U);
   EXPECT_EQ(of<VehicleState>(release()).size(), 1U);
@@ -116,17 +116,17 @@ TEST_F(LogicalVehicle, LearnsTheParametersAndWaitsForEverybodyBeforeItsFirstTick
 }
 
 TEST_F(LogicalVehicle, WhoDoesNotAppearInTimeIsMissed) {
-  tell_parameters();
+  publish_parameters();
   static_cast<void>(advance());
   wall_ += 30 * kNanosecondsPerSecond;
-  EXPECT_THAT(of<LogLine>(advance()),
-              ElementsAre(machine::error(
-                  "not there within 30 s: lab_control, middleware_3, middleware_4")));
+  EXPECT_THAT(
+      of<LogLine>(advance()),
+      ElementsAre(machine::error("missing after 30 s: lab_control, middleware_3, middleware_4")));
   EXPECT_EQ(vehicle_.exit_code(), kExitMissing);
 }
 
 TEST_F(LogicalVehicle, AVehicleThatIsNotActiveIsBadInput) {
-  tell_parameters({1, 2});
+  publish_parameters({1, 2});
   EXPECT_THAT(
       of<LogLine>(advance()),
       ElementsAre(machine::error("--vehicle_id=3 is not among the active_vehicle_ids: 1, 2")));
@@ -177,8 +177,8 @@ TEST_F(LogicalVehicle, AmongTheLabsProgramsNobodyIsWaitedForBeforeTheFirstComman
   VehicleMachineOptions lab = options(machine::logical_rules());
   lab.is_among_lab_programs = true;
   vehicle_ = VehicleMachine(lab);
-  tell_parameters();
-  VehiclePresence presence = everybody();
+  publish_parameters();
+  VehiclePresence presence = all_present();
   presence.state_readers = {1, {"middleware of the lab"}};
   presence.command_writers = {1, {"middleware of the lab"}};
   vehicle_.on(presence);
@@ -217,7 +217,7 @@ TEST_F(LogicalVehicle, WithoutTheLabControlItEndsOnceItsTickIsDone) {
   vehicle_.on(answer_to(kListOffset));
   auto actions = advance();
   EXPECT_EQ(of<VehicleState>(actions).size(), 1U);
-  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control is gone")));
+  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control lost")));
   EXPECT_EQ(vehicle_.exit_code(), kExitDied);
 }
 
@@ -279,21 +279,21 @@ TEST_F(RealVehicle, DrivesItsPlanToTheEndBeforeItLeavesWithoutTheLabControl) {
   }
   EXPECT_GE(t, kVehicleStays);
   EXPECT_EQ(vehicle_.exit_code(), kExitDied);
-  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control is gone")));
+  EXPECT_THAT(of<LogLine>(actions), ElementsAre(machine::error("lab_control lost")));
 }
 
 TEST_F(RealVehicle, ALabControlThatIsBackInTimeIsFollowedOn) {
   static_cast<void>(advance_at(0));
   vehicle_.on(without(kLabControlName));
   static_cast<void>(advance_at(kTick));
-  vehicle_.on(everybody());
+  vehicle_.on(all_present());
   static_cast<void>(advance_at(2 * kTick));
   static_cast<void>(advance_at(2 * kVehicleStays));
   EXPECT_EQ(vehicle_.exit_code(), std::nullopt);
 }
 
 TEST_F(RealVehicle, OneThatKeepsRunningListensAgainAfterTheStop) {
-  VehicleMachineOptions keeps = options(machine::real_rules(machine::kForEver));
+  VehicleMachineOptions keeps = options(machine::real_rules(machine::kForever));
   keeps.keep_running = true;
   vehicle_ = VehicleMachine(keeps);
   vehicle_.on(without(kLabControlName));

@@ -176,9 +176,10 @@ TEST(ManeuverSolver, NamesTheBoundThatMakesAPairInfeasibleAndTheShortestDuration
   ManeuverSolution solution = solve(problem, effort);
   EXPECT_EQ(solution.status, ManeuverStatus::kInfeasible);
   EXPECT_NEAR(solution.shortest_duration_s, 0.23, 1e-12);
-  EXPECT_EQ(solution.reason,
-            "speed 0 -> 2.3 m/s in 0.2 s needs acceleration 11.5 m/s^2, allowed 10 m/s^2; shortest "
-            "feasible duration 0.23 s");
+  EXPECT_EQ(
+      solution.reason,
+      "speed 0 -> 2.3 m/s in 0.2 s needs acceleration 11.5 m/s^2, must be <= 10 m/s^2; shortest "
+      "feasible duration 0.23 s");
   EXPECT_TRUE(solution.inputs.empty());
 
   problem.duration_s = 0.24;
@@ -188,12 +189,12 @@ TEST(ManeuverSolver, NamesTheBoundThatMakesAPairInfeasibleAndTheShortestDuration
   solution = solve(problem, effort);
   EXPECT_EQ(solution.status, ManeuverStatus::kInfeasible);
   EXPECT_NEAR(solution.shortest_duration_s, 0.31, 1e-12);
-  EXPECT_NE(solution.reason.find("needs steering rate 2.58333 rad/s, allowed 2 rad/s"),
+  EXPECT_NE(solution.reason.find("needs steering rate 2.58333 rad/s, must be <= 2 rad/s"),
             std::string::npos);
 
   problem.to.speed_mps = 4.0;
   solution = solve(problem, effort);
-  EXPECT_NE(solution.reason.find("speed of a trim = 4 m/s, allowed 0 ... 3.7 m/s"),
+  EXPECT_NE(solution.reason.find("speed of a trim = 4 m/s, must be in 0 ... 3.7 m/s"),
             std::string::npos);
   EXPECT_TRUE(std::isinf(solution.shortest_duration_s));
 }

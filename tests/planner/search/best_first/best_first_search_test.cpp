@@ -32,8 +32,8 @@ HorizonProblem standing_problem(const Subgraph& subgraph, std::size_t horizon_st
 
 /// A subgraph, what it can reach, and a search on it.
 struct Searcher {
-  explicit Searcher(Subgraph switched_on, SearchOptions options = {})
-      : subgraph(std::move(switched_on)),
+  explicit Searcher(Subgraph enabled, SearchOptions options = {})
+      : subgraph(std::move(enabled)),
         reachable(subgraph, kMaxSteps),
         engine(subgraph, reachable, options) {}
 
@@ -76,7 +76,7 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
       ASSERT_TRUE(result.maneuvers.empty() && result.poses.empty()) << "seed " << seed;
       continue;
     }
-    ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "") << "seed " << seed;
+    ASSERT_EQ(test::validate(result, searcher.subgraph, problem), "") << "seed " << seed;
     ASSERT_NEAR(result.cost, truth.cost, 1e-9) << "seed " << seed;
 
     HorizonProblem open = problem;
@@ -86,7 +86,7 @@ TEST_P(BestFirstSearchOptimality, AgreesWithTryingEveryPath) {
       ++obstructed;
     }
   }
-  // The problems must be hard enough to say something.
+  // The problems must be hard enough to be informative.
   EXPECT_GE(infeasible, 1 + problems / 50);
   EXPECT_GE(obstructed, problems / 10);
 }
@@ -118,7 +118,7 @@ TEST(BestFirstSearch, OfTwoLabelsTheBetterIsTakenInEachStep) {
     std::mt19937_64 random(seed);
     const HorizonProblem problem = test::random_free_problem(searcher.subgraph, 6, random);
     const SearchResult result = searcher.search(problem);
-    ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+    ASSERT_EQ(test::validate(result, searcher.subgraph, problem), "");
     const double alone = std::min(slow.search(problem).cost, fast.search(problem).cost);
     ASSERT_LE(result.cost, alone + 1e-9);
     better += result.cost < alone - 1e-6 ? 1U : 0U;
@@ -139,13 +139,13 @@ TEST(BestFirstSearch, FromATrimThatIsOffItAgreesWithTryingEveryPath) {
     std::mt19937_64 random(seed);
     HorizonProblem problem = test::random_problem(searcher.subgraph, 5, random);
     problem.start_trim = {std::vector<std::size_t>{2, 4, 6, 8, 10}.at(seed % 5)};
-    ASSERT_FALSE(searcher.subgraph.is_on(problem.start_trim));
+    ASSERT_FALSE(searcher.subgraph.is_enabled(problem.start_trim));
     const auto truth = test::exhaustive_search(searcher.subgraph, problem);
     const SearchResult result = searcher.search(problem);
     ASSERT_EQ(result.status == SearchStatus::kOptimal, truth.feasible);
     if (!truth.feasible) continue;
     ++feasible;
-    ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+    ASSERT_EQ(test::validate(result, searcher.subgraph, problem), "");
     ASSERT_NEAR(result.cost, truth.cost, 1e-9);
   }
   EXPECT_GE(feasible, 20U);
@@ -186,7 +186,7 @@ TEST(BestFirstSearch, OfTwoPathsOfEqualCostTheFirstGeneratedWins) {
       }
       problem.obstacles_m.assign(horizon_steps, {box(0.55, 0.65, -half_width_m, half_width_m)});
       const SearchResult result = searcher.search(problem);
-      ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+      ASSERT_EQ(test::validate(result, searcher.subgraph, problem), "");
       for (const Pose& pose : result.poses) {
         EXPECT_LE(pose.y_m, 0.0);
       }
@@ -295,7 +295,7 @@ TEST(BestFirstSearch, AVehicleThatStandsBetweenObstaclesStandsOn) {
   problem.obstacles_m.assign(8, {box(1.0 + x_m, 1.5, 1.0, 3.0), box(0.5, 1.0 - x_m, 1.0, 3.0),
                                  box(0.5, 1.5, 2.0 + y_m, 3.0), box(0.5, 1.5, 1.0, 2.0 - y_m)});
   const SearchResult result = searcher.search(problem);
-  ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+  ASSERT_EQ(test::validate(result, searcher.subgraph, problem), "");
   for (const Pose& pose : result.poses) {
     EXPECT_EQ(pose, problem.start);
   }
@@ -311,7 +311,7 @@ TEST(BestFirstSearch, HeadingRunsOnBeyondPi) {
     problem.reference_m[j] = 0.25 * Point{std::cos(turned_rad), std::sin(turned_rad)};
   }
   const SearchResult result = searcher.search(problem);
-  ASSERT_EQ(test::fault_of(result, searcher.subgraph, problem), "");
+  ASSERT_EQ(test::validate(result, searcher.subgraph, problem), "");
   EXPECT_GT(result.poses.back().heading_rad, 3.2);
 }
 
@@ -359,7 +359,7 @@ TEST(BestFirstSearch, The2022CostToGoFindsAValidPathThatMayCostMore) {
     if (is_proven) {
       ASSERT_EQ(found.cost, best.cost) << "seed " << seed;
     }
-    ASSERT_EQ(test::fault_of(found, subgraph, problem), "") << "seed " << seed;
+    ASSERT_EQ(test::validate(found, subgraph, problem), "") << "seed " << seed;
     ASSERT_GE(found.cost, best.cost - 1e-9) << "seed " << seed;
     suboptimal += found.cost > best.cost + 1e-6 ? 1U : 0U;
     bounded += found.lower_bound > 0.5 * best.cost ? 1U : 0U;

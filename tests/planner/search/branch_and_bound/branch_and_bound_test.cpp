@@ -50,9 +50,8 @@ Subgraph make_subgraph(const Case& param) {
 
 /// A subgraph, what it can reach, and all engines on it.
 struct Engines {
-  explicit Engines(Subgraph switched_on, SearchOptions options = {},
-                   std::size_t max_steps = kMaxSteps)
-      : subgraph(std::move(switched_on)),
+  explicit Engines(Subgraph enabled, SearchOptions options = {}, std::size_t max_steps = kMaxSteps)
+      : subgraph(std::move(enabled)),
         reachable(subgraph, max_steps),
         fast(subgraph, reachable, options),
         avx2(subgraph, reachable, options, Instructions::kAvx2),
@@ -73,7 +72,7 @@ HorizonProblem problem_of(const Case& param, const Subgraph& subgraph, std::uint
   problem.avoids_steering_limit = seed % 4 == 0;
   if (!param.starts.empty()) {
     problem.start_trim = {param.starts[seed % param.starts.size()] - 1};
-  } else if (!subgraph.is_on(problem.start_trim)) {
+  } else if (!subgraph.is_enabled(problem.start_trim)) {
     problem.start_trim = subgraph.standstill();
   }
   return problem;
@@ -101,7 +100,7 @@ TEST_P(BranchAndBoundOptimality, AgreesWithBestFirstAndWithTryingEveryPath) {
       continue;
     }
     ++feasible;
-    ASSERT_EQ(test::fault_of(result, engines.subgraph, problem), "");
+    ASSERT_EQ(test::validate(result, engines.subgraph, problem), "");
     ASSERT_NEAR(result.cost, truth.cost, 1e-9);
     ASSERT_NEAR(result.cost, plain.cost, 1e-9);
     ASSERT_EQ(result.lower_bound, result.cost);
@@ -146,7 +145,7 @@ TEST(BranchAndBound, AgreesWithBestFirstOnLongHorizons) {
     expect_same(engines.portable.search(problem, never_stop), result);
     if (result.status != SearchStatus::kOptimal) continue;
     ++feasible;
-    ASSERT_EQ(test::fault_of(result, engines.subgraph, problem), "");
+    ASSERT_EQ(test::validate(result, engines.subgraph, problem), "");
   }
   EXPECT_GE(feasible, 50U);
 }
@@ -172,7 +171,7 @@ std::size_t compare_horizons(const Subgraph& subgraph, const std::vector<std::si
     expect_same(engines.portable.search(problem, never_stop), result);
     if (result.status != SearchStatus::kOptimal) continue;
     ++solved;
-    EXPECT_EQ(test::fault_of(result, engines.subgraph, problem), "");
+    EXPECT_EQ(test::validate(result, engines.subgraph, problem), "");
   }
   return solved;
 }

@@ -261,7 +261,7 @@ TEST_P(BranchAndBoundCollision, ObstaclesThatBeginAlikeAreTwo) {
   problem.obstacles_m[0] = {beside, beside};
   engine.prepare(problem);
   const Maneuver& standing =
-      *subgraph.automaton().find(subgraph.standstill(), subgraph.standstill(), kOwnStepLabel);
+      *subgraph.automaton().find(subgraph.standstill(), subgraph.standstill(), kSelfLoopLabel);
   EXPECT_TRUE(engine.is_free(standing, 1, to_frame(Pose{})));
   problem.obstacles_m[0] = {beside, across};
   engine.prepare(problem);

@@ -64,7 +64,7 @@ HorizonProblem random_case(const Subgraph& subgraph, std::size_t horizon_steps,
   HorizonProblem problem = test::pick(random, 2) == 0
                                ? test::random_problem(subgraph, horizon_steps, random)
                                : test::random_free_problem(subgraph, horizon_steps, random);
-  problem.start_trim = subgraph.starts()[test::pick(random, subgraph.starts().size())];
+  problem.start_trim = subgraph.start_trims()[test::pick(random, subgraph.start_trims().size())];
   problem.avoids_steering_limit = test::pick(random, 4) == 0;
   const std::size_t kind = test::pick(random, 3);
   if (kind == 1) {
@@ -244,7 +244,7 @@ TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
     const std::size_t i = test::pick(random, edges.size());
     const Maneuver* const last = subgraph.automaton().find(
         edges[i].to, subgraph.standstill(),
-        edges[i].to == subgraph.standstill() ? kOwnStepLabel : test::kTestLabel);
+        edges[i].to == subgraph.standstill() ? kSelfLoopLabel : test::kTestLabel);
     ASSERT_NE(last, nullptr);
     const Pose seen = compose(edges[i].maneuver->displacement, last->displacement);
     const double distance_m = std::pow(10.0, test::uniform(random, -3.0, 2.6));

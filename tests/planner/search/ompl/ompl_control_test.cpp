@@ -26,7 +26,7 @@ class OmplControlTest : public testing::Test {
   ReachableSets reachable_{subgraph_, kSteps};
 };
 
-/// What the path of controls says about the automaton: that each of its steps is an edge that a
+/// What the path of controls means for the automaton: that each of its steps is an edge that a
 /// plan may take and that is free.
 void expect_plan(const oc::PathControl& path, const HorizonProblem& problem,
                  const Subgraph& subgraph, const ReachableSets& reachable) {

@@ -1,4 +1,4 @@
-#include "planner/search/prepared_obstacles.hpp"
+#include "planner/search/branch_and_bound/prepared_obstacles.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,12 +7,12 @@
 namespace hlc::branch_and_bound {
 namespace {
 
-// The kernel reads corners and boundaries as they lie in memory.
+// The kernel reads corners and boundaries directly from memory.
 static_assert(sizeof(Point) == 2 * sizeof(double));
 static_assert(sizeof(Segment) == 4 * sizeof(double) && std::is_standard_layout_v<Segment>);
 
-/// As many as PieceData of a polygon with so many corners. Each but the last takes kNextPiece of
-/// the triangles at its first corner.
+/// Number of PieceData for a polygon with this many corners. Each except the last takes kNextPiece
+/// of the triangles at its first corner.
 std::size_t pieces_of(std::size_t corners) { return (corners - 2 + kNextPiece - 1) / kNextPiece; }
 
 template <class T>
@@ -75,7 +75,7 @@ void PreparedObstacles::list_polygons() {
     for (std::size_t number = 0; number < areas_m.size(); ++number) {
       const auto& corners_m = areas_m[number].vertices_m;
       const std::size_t size = corners_m.size();
-      assert(size == 0 || size >= 3);
+      assert(size == 0 || size >= 3);  // per obstacle of every problem
       if (size < 3) continue;
       polygons_[num_polygons_++] = {corners_m.front().data(), static_cast<std::uint32_t>(size),
                                     static_cast<std::uint32_t>(step),

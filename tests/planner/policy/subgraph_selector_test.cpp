@@ -1,10 +1,10 @@
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/planner/policy/driven_controller.hpp"
 
-namespace hlc::subgraph_choice_test {
+namespace hlc::subgraph_selector_test {
 namespace {
 
 using test::DrivenController;
@@ -22,48 +22,48 @@ SpeedZone zone(double min_x_m, double max_x_m, double max_speed_mps) {
 
 constexpr StepIndex kStart{101};
 
-class SubgraphChoiceTest : public testing::Test {
+class SubgraphSelectorTest : public testing::Test {
  protected:
-  void use(const ReconfigurationSettings& settings) { choice_.emplace(*car_, settings); }
+  void use(const ReconfigurationSettings& settings) { selector_.emplace(*car_, settings); }
 
   /// One step with the choice before and after; the name of what was planned on.
   std::string drive(std::optional<double> battery_v = {}) {
-    static_cast<void>(choice_->begin_step(*car_, car_.next_step(), kStart, battery_v));
+    static_cast<void>(selector_->begin_step(*car_, car_.next_step(), kStart, battery_v));
     std::string name = car_->subgraph().spec().name;
-    choice_->end_step(*car_, car_.step());
+    selector_->end_step(*car_, car_.step());
     return name;
   }
 
   void ask(const SubgraphRequest& request) {
-    choice_->ask(std::make_shared<const PreparedChoice>(choice_->base(), request,
-                                                        choice_->limits_mps(), 8, SearchOptions{}));
+    selector_->ask(std::make_shared<const PreparedChoice>(
+        selector_->base(), request, selector_->limits_mps(), 8, SearchOptions{}));
   }
 
   DrivenController car_;
-  std::optional<SubgraphChoice> choice_;
+  std::optional<SubgraphSelector> selector_;
 };
 
-TEST_F(SubgraphChoiceTest, WithoutZonesAndPoliciesItStaysAsItIs) {
+TEST_F(SubgraphSelectorTest, WithoutZonesAndPoliciesItStaysAsItIs) {
   use({});
   const auto subgraph = car_->prepared_subgraph().subgraph;
   for (int k = 0; k < 5; ++k) {
-    EXPECT_FALSE(choice_->begin_step(*car_, car_.next_step(), kStart, 1.0));
-    choice_->end_step(*car_, car_.step());
+    EXPECT_FALSE(selector_->begin_step(*car_, car_.next_step(), kStart, 1.0));
+    selector_->end_step(*car_, car_.step());
   }
   EXPECT_EQ(car_->prepared_subgraph().subgraph, subgraph);
 }
 
-TEST_F(SubgraphChoiceTest, APolicyIsAskedInTheFirstStep) {
+TEST_F(SubgraphSelectorTest, APolicyIsAskedInTheFirstStep) {
   use({.policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
-  EXPECT_FALSE(choice_->begin_step(*car_, car_.next_step(), {}, {})) << "it has not begun";
+  EXPECT_FALSE(selector_->begin_step(*car_, car_.next_step(), {}, {})) << "it has not begun";
   EXPECT_EQ(drive(), "slow, label fast");
 }
 
 // Also for a controller that comes back into a run.
-TEST_F(SubgraphChoiceTest, TimeCountsFromTheExperimentsFirstStepOn) {
+TEST_F(SubgraphSelectorTest, TimeCountsFromTheExperimentsFirstStepOn) {
   use({.policies = {TimePolicySettings{.changes = {{1.0, kFastLabel}}}}});
   for (int k = 0; k < 3; ++k) {
-    static_cast<void>(choice_->begin_step(*car_, car_.next_step(), {}, {}));
+    static_cast<void>(selector_->begin_step(*car_, car_.next_step(), {}, {}));
     static_cast<void>(car_.step());
   }
   EXPECT_EQ(drive(), "slow");  // 3 steps after it
@@ -71,7 +71,7 @@ TEST_F(SubgraphChoiceTest, TimeCountsFromTheExperimentsFirstStepOn) {
   EXPECT_EQ(drive(), "slow, label fast");
 }
 
-TEST_F(SubgraphChoiceTest, OfSeveralPoliciesTheFirstWithAnOpinionCounts) {
+TEST_F(SubgraphSelectorTest, OfSeveralPoliciesTheFirstWithAnOpinionCounts) {
   use({.policies = {BatteryPolicySettings{
                         .below_v = 7.0, .back_above_v = 7.0, .request = {.max_speed_mps = 0.6}},
                     TimePolicySettings{.changes = {{0.0, kFastLabel}}}},
@@ -82,7 +82,7 @@ TEST_F(SubgraphChoiceTest, OfSeveralPoliciesTheFirstWithAnOpinionCounts) {
 }
 
 // A policy that changes its mind in every step.
-TEST_F(SubgraphChoiceTest, WhatAPolicyAskedForStaysAWhile) {
+TEST_F(SubgraphSelectorTest, WhatAPolicyAskedForStaysAWhile) {
   use({.policies = {BatteryPolicySettings{
            .below_v = 7.0, .back_above_v = 7.0, .request = kFastLabel}},
        .min_stay_s = 1.0});
@@ -98,7 +98,7 @@ TEST_F(SubgraphChoiceTest, WhatAPolicyAskedForStaysAWhile) {
 }
 
 // A weak battery need not wait until the road has been open for long enough.
-TEST_F(SubgraphChoiceTest, APolicyBeforeTheOneThatChoseNeedNotWait) {
+TEST_F(SubgraphSelectorTest, APolicyBeforeTheOneThatChoseNeedNotWait) {
   use({.policies = {BatteryPolicySettings{
                         .below_v = 7.0, .back_above_v = 7.0, .request = kFastLabel},
                     TimePolicySettings{.changes = {{0.0, {.max_speed_mps = 0.7}}}}},
@@ -109,17 +109,17 @@ TEST_F(SubgraphChoiceTest, APolicyBeforeTheOneThatChoseNeedNotWait) {
   EXPECT_EQ(drive(8.0), "slow, at most 0.7 m/s");
 }
 
-TEST_F(SubgraphChoiceTest, TheOperatorWinsOverPoliciesUntilHeGivesTheVehicleBack) {
+TEST_F(SubgraphSelectorTest, TheOperatorWinsOverPoliciesUntilHeGivesTheVehicleBack) {
   use({.policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
   EXPECT_EQ(drive(), "slow, label fast");
   ask({.max_speed_mps = 0.6});
   EXPECT_EQ(drive(), "slow, at most 0.6 m/s");
   EXPECT_EQ(drive(), "slow, at most 0.6 m/s");
-  choice_->ask(nullptr);
+  selector_->ask(nullptr);
   EXPECT_EQ(drive(), "slow, label fast");
 }
 
-TEST_F(SubgraphChoiceTest, AZonesLimitIsLaidOnWhateverIsAskedFor) {
+TEST_F(SubgraphSelectorTest, AZonesLimitIsLaidOnWhateverIsAskedFor) {
   use({.zones = {zone(-1.0, 100.0, 0.5)},
        .policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
   EXPECT_EQ(drive(), "slow, at most 0.5 m/s") << "with fast maneuvers it cannot be held";
@@ -133,7 +133,7 @@ TEST_F(SubgraphChoiceTest, AZonesLimitIsLaidOnWhateverIsAskedFor) {
 
 // Alone, on a straight road: as fast as ever before the zone and behind it, never too fast in it.
 // Fast maneuvers outrun their trims.
-TEST_F(SubgraphChoiceTest, NoCarIsTooFastInAZone) {
+TEST_F(SubgraphSelectorTest, NoCarIsTooFastInAZone) {
   const SpeedZone slow = zone(2.0, 4.0, 0.4);
   use({.zones = {slow},
        .policies = {TimePolicySettings{.changes = {{0.0, {.labels = {"slow", "fast"}}}}}}});
@@ -156,23 +156,23 @@ TEST_F(SubgraphChoiceTest, NoCarIsTooFastInAZone) {
 }
 
 // Where it is in a fallback is not where it planned last.
-TEST_F(SubgraphChoiceTest, AZoneIsSeenFromWhereTheCarIsAlsoWhenNothingNewIsPlanned) {
+TEST_F(SubgraphSelectorTest, AZoneIsSeenFromWhereTheCarIsAlsoWhenNothingNewIsPlanned) {
   use({.zones = {zone(1.5, 3.0, 0.4)}});
   for (int k = 0; k < 6; ++k) static_cast<void>(drive());
   const double before_m = car_->plan_in_force().pose_at(car_.next_step()).x_m;
-  ASSERT_LT(before_m + choice_->zone_ahead_m(), 1.5);
-  car_->set_drives_out(true);
+  ASSERT_LT(before_m + selector_->zone_ahead_m(), 1.5);
+  car_->set_minimal_risk_stop(true);
   bool is_seen = false;
   for (int k = 0; k < 8; ++k) {
     const std::string name = drive();
     const double x_m = car_->plan_in_force().pose_at({car_.next_step().value - 1}).x_m;
-    EXPECT_EQ(name != "slow", x_m + choice_->zone_ahead_m() >= 1.5) << x_m;
+    EXPECT_EQ(name != "slow", x_m + selector_->zone_ahead_m() >= 1.5) << x_m;
     is_seen = is_seen || name != "slow";
   }
   EXPECT_TRUE(is_seen);
 }
 
-TEST_F(SubgraphChoiceTest, ALookAheadTakesWhatARolloutCostsLeast) {
+TEST_F(SubgraphSelectorTest, ALookAheadTakesWhatARolloutCostsLeast) {
   const LookAheadSettings settings{.candidates = {kSlowLabel, kFastLabel},
                                    .steps = 4,
                                    .criterion_weights = {{"fast", 10.0}},
@@ -182,7 +182,7 @@ TEST_F(SubgraphChoiceTest, ALookAheadTakesWhatARolloutCostsLeast) {
   EXPECT_EQ(drive(), "slow, label slow");
 }
 
-TEST_F(SubgraphChoiceTest, ALookAheadSeesWhatALimitCosts) {
+TEST_F(SubgraphSelectorTest, ALookAheadSeesWhatALimitCosts) {
   use({.policies = {LookAheadSettings{.candidates = {{.max_speed_mps = 0.5}, kSlowLabel},
                                       .steps = 4,
                                       .max_expansions = 10'000}},
@@ -191,8 +191,8 @@ TEST_F(SubgraphChoiceTest, ALookAheadSeesWhatALimitCosts) {
   EXPECT_EQ(drive(), "slow, label slow");
 }
 
-// Two candidates that are the same: rounding must not decide every step anew.
-TEST_F(SubgraphChoiceTest, ALookAheadKeepsItsChoiceUnlessAnotherGains) {
+// Two candidates that are the same: rounding must not decide in every step.
+TEST_F(SubgraphSelectorTest, ALookAheadKeepsItsChoiceUnlessAnotherGains) {
   use({.policies = {LookAheadSettings{.candidates = {{.max_speed_mps = 0.8}, kSlowLabel},
                                       .steps = 4,
                                       .max_expansions = 10'000}},
@@ -202,13 +202,13 @@ TEST_F(SubgraphChoiceTest, ALookAheadKeepsItsChoiceUnlessAnotherGains) {
   for (int k = 0; k < 30; ++k) EXPECT_EQ(drive(), first);
 }
 
-TEST_F(SubgraphChoiceTest, WhileTheOperatorHasAskedNothingIsRolledOut) {
+TEST_F(SubgraphSelectorTest, WhileTheOperatorHasAskedNothingIsRolledOut) {
   use({.policies = {LookAheadSettings{
            .candidates = {kSlowLabel, kFastLabel}, .steps = 4, .max_expansions = 10'000}}});
-  EXPECT_TRUE(choice_->looks_ahead());
+  EXPECT_TRUE(selector_->looks_ahead());
   ask(kFastLabel);
-  EXPECT_FALSE(choice_->looks_ahead());
+  EXPECT_FALSE(selector_->looks_ahead());
 }
 
 }  // namespace
-}  // namespace hlc::subgraph_choice_test
+}  // namespace hlc::subgraph_selector_test

@@ -13,15 +13,15 @@ namespace hlc::branch_and_bound {
 
 /// Memory for the obstacles and the boundary of one problem, for the kernel of BranchAndBound.
 ///
-/// The kernel leaves out what lies beyond one of the half-planes of TableStore::reach for the step:
-/// no edge of a plan can meet it in that step. Eight boundary segments in a row are left out if
-/// they lie beyond one in every step. Equal obstacles of a step, one after the other, are one.
+/// The kernel drops what lies beyond one of the half-planes of TableStore::reach for the step: no
+/// edge of a plan can meet it in that step. Eight consecutive boundary segments are dropped if they
+/// lie beyond one in every step. Equal consecutive obstacles of a step are merged.
 class PreparedObstacles {
  public:
   explicit PreparedObstacles(const TableStore& tables) : tables_(tables) {}
 
-  /// Lists the problem's obstacles and boundary in `plan` and gives it memory for what the kernel
-  /// keeps of them. Valid until the next call.
+  /// Lists the problem's obstacles and boundary in `plan` and gives the plan memory for the
+  /// kernel's remaining part. Valid until the next call.
   /// @param problem  must stay unchanged as long as the plan is used
   void list(const HorizonProblem& problem, Plan& plan);
 
@@ -31,7 +31,7 @@ class PreparedObstacles {
     return &near_blocks_[depth * most_in_step_];
   }
 
-  /// What an obstacle or a segment of the plan is in the problem.
+  /// The obstacle or segment of the problem for one of the plan.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
     const PolygonData& polygon = polygons_[obstacles_[item].polygon];
     return problem_->obstacles_m[polygon.step][polygon.number];

@@ -1,4 +1,4 @@
-// Cars that nobody placed to the millimetre: whole closed loops from starts beside and askew in the
+// Cars with inaccurate initial poses: whole closed loops from starts beside and askew in the
 // lane.
 #include "planner/controller/lane_entry.hpp"
 
@@ -18,7 +18,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc::joining_test {
+namespace hlc::lane_entry_runs_test {
 namespace {
 
 /// Where cars stand: everywhere where one is to be driven (placement.hpp), and some way beyond.
@@ -91,7 +91,7 @@ struct Joined {
   double driven_m{};
   std::size_t widened_steps{};  ///< steps with an area that leads into the lanes
   std::size_t without_plan{};   ///< steps without a new plan
-  std::size_t off_route{};      ///< of them: it says that it cannot get onto its route
+  std::size_t off_route{};      ///< of them: reported as unable to get onto the route
 };
 
 /// Drives, and looks at every tick of every car.
@@ -161,14 +161,14 @@ std::pair<double, double> usual_error_m(const Scenario& cars, std::size_t vehicl
 }
 
 /// At the edge of the map with its front towards it, or too askew between narrow bounds, a car has
-/// no room to turn: it says so and stands.
-bool stands_and_says_so(const Joined& joined) {
+/// no room to turn: it reports this and stands.
+bool stands_off_route(const Joined& joined) {
   return joined.off_route == kSteps && joined.driven_m < 1e-6;
 }
 
-class Joining : public testing::TestWithParam<std::string> {};
+class LaneEntry : public testing::TestWithParam<std::string> {};
 
-TEST_P(Joining, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
+TEST_P(LaneEntry, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
   const Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   Joined all;
@@ -182,7 +182,7 @@ TEST_P(Joining, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
     const Scenario scenario = with_offsets(only(cars, vehicle), seed);
     RunSummary summary;
     const Joined joined = drive(scenario, summary).at(scenario.vehicles.front().id);
-    if (stands_and_says_so(joined)) {
+    if (stands_off_route(joined)) {
       ++cannot;
       continue;
     }
@@ -208,7 +208,7 @@ TEST_P(Joining, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
       1e3 * most_m);
 }
 
-TEST_P(Joining, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
+TEST_P(LaneEntry, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
   const Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   std::size_t cannot = 0;
@@ -219,7 +219,7 @@ TEST_P(Joining, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
     RunSummary summary;
     for (const auto& [id, joined] : drive(scenario, summary)) {
       SCOPED_TRACE("vehicle " + std::to_string(id.value));
-      if (stands_and_says_so(joined)) {
+      if (stands_off_route(joined)) {
         ++cannot;
         continue;
       }
@@ -232,7 +232,7 @@ TEST_P(Joining, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
   EXPECT_LE(cannot, 3 * seeds / 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Joining, testing::Values("paper_three_cars", "lab_three_cars"),
+INSTANTIATE_TEST_SUITE_P(All, LaneEntry, testing::Values("paper_three_cars", "lab_three_cars"),
                          [](const auto& one) { return one.param; });
 
 TEST(Fitting, ACarThatFitsNoRouteHoldsUpTheStartAndSaysSo) {
@@ -248,4 +248,4 @@ TEST(Fitting, ACarThatFitsNoRouteHoldsUpTheStartAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace hlc::joining_test
+}  // namespace hlc::lane_entry_runs_test

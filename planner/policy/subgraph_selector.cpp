@@ -1,4 +1,4 @@
-#include "planner/policy/subgraph_choice.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 
 #include <algorithm>
 
@@ -9,15 +9,15 @@
 namespace hlc {
 namespace {
 
-/// Times are multiples of a step, which a double does not hold.
+/// Times are multiples of a step, which a double does not represent exactly.
 constexpr double kStepRounding_s = 1e-6;
-/// Beside those in which a vehicle slows down: see the header.
+/// Added to the steps in which a vehicle slows down: see the header.
 constexpr std::size_t kStepsUntilItSlowsDown = 3;
 
 }  // namespace
 
-SubgraphChoice::SubgraphChoice(const Controller& controller,
-                               const ReconfigurationSettings& settings)
+SubgraphSelector::SubgraphSelector(const Controller& controller,
+                                   const ReconfigurationSettings& settings)
     : base_(controller.prepared_subgraph()),
       zones_(settings.zones),
       limits_mps_(hlc::limits_mps(zones_)),
@@ -32,25 +32,25 @@ SubgraphChoice::SubgraphChoice(const Controller& controller,
   for (const PolicySettings& one : settings.policies) policies_.push_back(make_policy(one));
 }
 
-void SubgraphChoice::see_zones_for(const PreparedChoice& choice) {
+void SubgraphSelector::see_zones_for(const PreparedChoice& choice) {
   const auto steps = static_cast<double>(choice.steps_to_slow_down() + kStepsUntilItSlowsDown);
   zone_ahead_m_ = std::max(zone_ahead_m_, steps * step_s_ * choice.top_speed_mps());
 }
 
-void SubgraphChoice::ask(std::shared_ptr<const PreparedChoice> request) {
+void SubgraphSelector::ask(std::shared_ptr<const PreparedChoice> request) {
   operator_ = std::move(request);
   if (operator_) see_zones_for(*operator_);
 }
 
-const PreparedChoice& SubgraphChoice::prepared(const SubgraphRequest& request) const {
+const PreparedChoice& SubgraphSelector::prepared(const SubgraphRequest& request) const {
   const auto found =
       std::ranges::find(choices_, request, [](const auto& one) { return one.first; });
   HLC_DEMAND(found != choices_.end() && "policies name all that they may ask for");
   return found->second;
 }
 
-std::optional<double> SubgraphChoice::limit_for(const Controller& controller,
-                                                StepIndex step) const {
+std::optional<double> SubgraphSelector::limit_for(const Controller& controller,
+                                                  StepIndex step) const {
   if (zones_.empty() || !controller.has_plan()) return std::nullopt;
   const std::optional<double> s_m =
       controller.path_s_m_of(controller.plan_in_force().pose_at(step).position_m());
@@ -58,46 +58,46 @@ std::optional<double> SubgraphChoice::limit_for(const Controller& controller,
   return limit_on(zones_, controller.route().path, *s_m, zone_ahead_m_);
 }
 
-void SubgraphChoice::let_policies_choose(StepIndex step, StepIndex start,
-                                         std::optional<double> battery_v) {
+void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
+                                           std::optional<double> battery_v) {
   const auto seconds_since = [&](StepIndex then) {
     return step_s_ * static_cast<double>(step.value - std::min(step, then).value);
   };
   const PolicyView view{
       .time_s = seconds_since(start), .last = last_ ? &*last_ : nullptr, .battery_v = battery_v};
-  SubgraphRequest wished;
+  SubgraphRequest proposed;
   counts_ = kNoPolicyCounts;
-  for (std::size_t i = 0; i < policies_.size(); ++i) {  // all are asked: they remember
-    const std::optional<SubgraphRequest> wish = policies_[i]->wish(view);
-    if (!wish || counts_ != kNoPolicyCounts) continue;
-    wished = *wish;
+  for (std::size_t i = 0; i < policies_.size(); ++i) {  // all are called: they have a state
+    const std::optional<SubgraphRequest> proposal = policies_[i]->propose(view);
+    if (!proposal || counts_ != kNoPolicyCounts) continue;
+    proposed = *proposal;
     counts_ = i;
   }
-  if (wished == wished_) return;
+  if (proposed == proposed_) return;
   const bool has_stayed =
-      !wished_since_ || seconds_since(*wished_since_) + kStepRounding_s >= min_stay_s_;
-  if (!has_stayed && counts_ >= wished_by_) return;
-  wished_ = wished;
-  wished_by_ = counts_;
-  wished_since_ = step;
+      !proposed_since_ || seconds_since(*proposed_since_) + kStepRounding_s >= min_stay_s_;
+  if (!has_stayed && counts_ >= proposed_by_) return;
+  proposed_ = proposed;
+  proposed_by_ = counts_;
+  proposed_since_ = step;
 }
 
-bool SubgraphChoice::begin_step(Controller& controller, StepIndex step,
-                                std::optional<StepIndex> start, std::optional<double> battery_v) {
+bool SubgraphSelector::begin_step(Controller& controller, StepIndex step,
+                                  std::optional<StepIndex> start, std::optional<double> battery_v) {
   if (start) let_policies_choose(step, *start, battery_v);
-  const PreparedChoice& choice = operator_ ? *operator_ : prepared(wished_);
+  const PreparedChoice& choice = operator_ ? *operator_ : prepared(proposed_);
   const PreparedSubgraph& next = choice.under(limit_for(controller, step));
   if (next.subgraph == controller.prepared_subgraph().subgraph) return false;
   controller.switch_to(next);
   return true;
 }
 
-bool SubgraphChoice::looks_ahead() const {
+bool SubgraphSelector::looks_ahead() const {
   return !operator_ && std::ranges::any_of(policies_, &Policy::looks_ahead);
 }
 
-void SubgraphChoice::end_step(const Controller& controller, const Report& report,
-                              bool may_look_ahead) {
+void SubgraphSelector::end_step(const Controller& controller, const Report& report,
+                                bool may_look_ahead) {
   last_ = report;
   if (operator_ || !may_look_ahead) return;
   const auto limited = [this](const SubgraphRequest& request,
