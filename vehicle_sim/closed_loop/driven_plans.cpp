@@ -28,27 +28,53 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
 
 void DrivenPlans::published(const Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
-  if (!has_newest_plan(car) && !car.mistaken_since) car.mistaken_since = traffic.step;
+  if (has_newest_plan(car)) return;
+  car.is_mistaken = true;
+  if (traffic.step.value >= car.missed_since.value + 2) {
+    car.out_of_reach_until = traffic.step.value * period_ + kAfterwards;
+  }
 }
 
 void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   Car& car = cars_[report.vehicle];
   if (report.status == StepStatus::kPlanned) {
-    Agreed agreed{.number = ++car.num_agreed, .step = report.step, .areas = std::nullopt};
+    if (has_newest_plan(car)) car.missed_since = report.step;
+    Agreed agreed{.number = ++car.num_agreed,
+                  .end = in_force->end(),
+                  .last_pose = in_force->pose_at(in_force->end()),
+                  .areas = std::nullopt};
     if (car.predicted && car.predicted->step == report.step) agreed.areas = car.predicted->areas;
     car.agreed = std::make_shared<const Agreed>(std::move(agreed));
-  } else if (in_force != nullptr && is_anchored(*in_force) &&
-             car.agreed->step != in_force->first()) {
-    car.agreed = std::make_shared<const Agreed>(Agreed{.number = car.num_agreed,
-                                                       .step = in_force->first(),
-                                                       .areas = in_force->areas_from(report.step)});
+  } else if (in_force != nullptr) {
+    car.agreed = kept_plan(car, report, *in_force);
   }
   if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
-    car.mistaken_since.reset();
+    car.is_mistaken = false;
   }
   for (Sent& sent : car.sent) {
     if (!sent.plan) sent.plan = car.agreed;
   }
+}
+
+/// The plan in force where nothing new has been agreed: the same as before, an older one that the
+/// vehicle was seen on, or one that has been anchored anew. The last one needs no command: what is
+/// received already counts as received.
+DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& report,
+                                               const Plan& in_force) {
+  const Pose& last_pose = in_force.pose_at(in_force.end());
+  const auto is_same = [&](const AgreedPlan& plan) {
+    return plan && plan->end == in_force.end() && plan->last_pose == last_pose;
+  };
+  if (is_same(car.agreed)) return car.agreed;
+  const auto found = std::ranges::find_if(car.sent, is_same, &Sent::plan);
+  if (found != car.sent.end()) return found->plan;
+  const AgreedPlan received = plan_of(car, car.newest_valid);
+  Agreed anchored{.number = received ? received->number : car.num_agreed,
+                  .end = in_force.end(),
+                  .last_pose = last_pose,
+                  .areas = std::nullopt};
+  if (report.status != StepStatus::kStandby) anchored.areas = in_force.areas_from(report.step);
+  return std::make_shared<const Agreed>(std::move(anchored));
 }
 
 void DrivenPlans::received(const TrajectoryCommand& command) {
@@ -83,7 +109,7 @@ bool DrivenPlans::is_out_of_reach(VehicleId vehicle, Nanoseconds at) const {
 }
 
 bool DrivenPlans::is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const {
-  return car.follows != 0 && car.driven && car.driven->areas && !car.mistaken_since &&
+  return car.follows != 0 && car.driven && car.driven->areas && !car.is_mistaken &&
          !is_out_of_reach(vehicle, tick);
 }
 
@@ -98,8 +124,8 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   });
   const bool changes = follows != car.follows;
   car.follows = follows;
-  if (has_newest_plan(car)) car.mistaken_since.reset();
-  const bool is_lost = car.mistaken_since && tick / period_ > car.mistaken_since->value;
+  if (has_newest_plan(car)) car.is_mistaken = false;
+  const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
   if (is_lost || has_dropped_plan(car, tick)) car.out_of_reach_until = tick + kAfterwards;
   judge_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;

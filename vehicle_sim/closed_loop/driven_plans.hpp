@@ -24,14 +24,15 @@ namespace hlc::closed_loop {
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid.
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
-/// from its traffic on until its vehicle has received the plan in force, if that was agreed in a
-/// step before and the controller does not report a deviation: the others rely on a plan that is
+/// about its vehicle if it publishes traffic while the vehicle has not received the plan in force,
+/// which was agreed in a step before, and reports no deviation: the others rely on a plan that is
 /// not driven. A vehicle is *out of reach*
-///   * while its controller is mistaken, from the second step after the plan was agreed on;
+///   * while its controller is mistaken, from the second step after the first plan that it has not
+///     received;
 ///   * while it has dropped its command before the end of the plan, since nothing newer has come;
 ///   * when its process dies;
-/// and for kAfterwards longer: so long others may drive what they have agreed to meanwhile. Only
-/// what the vehicle has not received counts: commands that it has it must follow.
+/// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
+/// the vehicle has not received counts: commands that it has it must follow.
 class DrivenPlans {
  public:
   static constexpr Nanoseconds kAfterwards = 2 * kNanosecondsPerSecond;
@@ -55,8 +56,9 @@ class DrivenPlans {
   /// A plan as its vehicle has announced it, or to stand where it stands.
   struct Agreed {
     std::uint64_t number{};
-    StepIndex step;
-    std::optional<OccupiedAreas> areas;
+    StepIndex end;  ///< this and the last pose tell plans apart
+    Pose last_pose;
+    std::optional<OccupiedAreas> areas;  ///< none: not known to anybody
   };
   using AgreedPlan = std::shared_ptr<const Agreed>;
   struct Sent {
@@ -67,7 +69,8 @@ class DrivenPlans {
     std::optional<Prediction> predicted;
     AgreedPlan agreed{std::make_shared<const Agreed>()};
     std::uint64_t num_agreed{};
-    std::optional<StepIndex> mistaken_since;
+    StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
+    bool is_mistaken{};
     std::deque<Sent> sent;  ///< the newest last
     bool is_told_to_stand{};
     std::vector<std::pair<Nanoseconds, Nanoseconds>>
@@ -80,6 +83,8 @@ class DrivenPlans {
 
   [[nodiscard]] static AgreedPlan plan_of(const Car& car, Nanoseconds create);
   [[nodiscard]] static bool has_newest_plan(const Car& car);
+  [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const Report& report,
+                                            const Plan& in_force);
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] bool is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
   void judge_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
