@@ -72,7 +72,8 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& rep
   Agreed anchored{.number = received ? received->number : car.num_agreed,
                   .end = in_force.end(),
                   .last_pose = last_pose,
-                  .areas = std::nullopt};
+                  .areas = std::nullopt,
+                  .is_anchored = true};
   if (report.status != StepStatus::kStandby) anchored.areas = in_force.areas_from(report.step);
   return std::make_shared<const Agreed>(std::move(anchored));
 }
@@ -152,6 +153,7 @@ void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& v
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_judged(other, its, tick)) continue;
+    if (car.driven->is_anchored && its.driven->is_anchored) continue;
     const StepIndex from = std::max({now, areas.first, its.driven->areas->first});
     if (are_free(areas, *its.driven->areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {

@@ -19,8 +19,9 @@ namespace hlc::closed_loop {
 
 /// Which plan each vehicle truly drives: the one whose command it follows. What is judged:
 ///
-/// * **driven**: whenever a vehicle changes over to another plan, the plans driven by any two
-///   vehicles are free of each other from then on, until both stand.
+/// * **driven**: whenever a vehicle changes over to another plan, it is free of the plans that the
+///   others drive from then on, until both stand. (Where two vehicles stand, about which nobody has
+///   agreed, is a matter of footprints.)
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid.
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
@@ -59,6 +60,7 @@ class DrivenPlans {
     StepIndex end;  ///< this and the last pose tell plans apart
     Pose last_pose;
     std::optional<OccupiedAreas> areas;  ///< none: not known to anybody
+    bool is_anchored{};
   };
   using AgreedPlan = std::shared_ptr<const Agreed>;
   struct Sent {

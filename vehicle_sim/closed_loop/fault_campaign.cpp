@@ -22,18 +22,6 @@ constexpr Nanoseconds kLastFault = 14 * kNanosecondsPerSecond;
 constexpr Nanoseconds kLastFaultOnCircle = 7 * kNanosecondsPerSecond;
 constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
 
-/// More cars on the same routes.
-Scenario crowded(const Scenario& scenario, std::size_t cars) {
-  Scenario result = scenario;
-  for (std::size_t i = scenario.vehicles.size(); i < cars; ++i) {
-    ScenarioVehicle vehicle = scenario.vehicles[i % scenario.vehicles.size()];
-    vehicle.id = {static_cast<std::uint8_t>(i + 1)};
-    vehicle.name += "_" + std::to_string(i + 1);
-    result.vehicles.push_back(std::move(vehicle));
-  }
-  return result;
-}
-
 FaultStyle any_style(SeededRandom& random) {
   constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst, FaultStyle::kLossy,
                                FaultStyle::kRestart, FaultStyle::kBorder};
@@ -41,6 +29,17 @@ FaultStyle any_style(SeededRandom& random) {
 }
 
 }  // namespace
+
+Scenario crowded(Scenario scenario, std::size_t cars) {
+  const std::size_t routes = scenario.vehicles.size();
+  for (std::size_t i = routes; i < cars; ++i) {
+    ScenarioVehicle vehicle = scenario.vehicles[i % routes];
+    vehicle.id = {static_cast<std::uint8_t>(i + 1)};
+    vehicle.name += "_" + std::to_string(i + 1);
+    scenario.vehicles.push_back(std::move(vehicle));
+  }
+  return scenario;
+}
 
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
   const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";

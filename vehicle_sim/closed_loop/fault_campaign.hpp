@@ -36,6 +36,10 @@ struct Shrunk {
   FaultRunResult result;
 };
 
+/// The scenario with so many cars, the further ones on the same routes; for random starts.
+/// @pre vehicles are numbered from 1
+[[nodiscard]] Scenario crowded(Scenario scenario, std::size_t cars);
+
 /// Runs with faults, one for each seed. A seed chooses
 ///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
 ///   three

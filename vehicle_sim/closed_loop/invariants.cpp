@@ -35,13 +35,18 @@ void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pos
   }
   while (car.end() < tick) car.poses.push_back(car.poses.back());
   if (tick >= car.end()) car.poses.push_back(pose);
-  if (is_unreachable) car.unreachable_until = tick + 1;
+  if (is_unreachable) car.excuse(tick, tick + 1);
+}
+
+void FootprintsCheck::Car::excuse(std::uint64_t from, std::uint64_t until) {
+  if (from > excused_until) excused_from = from;
+  excused_until = until;
 }
 
 void FootprintsCheck::died(std::uint8_t vehicle, std::uint64_t unreachable_ticks) {
   Car& car = cars_.at(vehicle);
   car.has_ended = true;
-  car.unreachable_until = car.end() + unreachable_ticks;
+  car.excuse(car.end(), car.end() + unreachable_ticks);
 }
 
 void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
@@ -60,8 +65,7 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
         if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) continue;
         const double gap_m =
             distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
-        const bool is_excused =
-            *next_ < std::max(a->second.unreachable_until, b->second.unreachable_until);
+        const bool is_excused = a->second.is_excused(*next_) || b->second.is_excused(*next_);
         if (!is_excused) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
         if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second || is_excused) continue;
         violations.push_back({.at = at,

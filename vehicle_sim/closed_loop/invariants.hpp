@@ -29,7 +29,7 @@ class FootprintsCheck {
   FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
 
   /// @param tick           number of the vehicles' tick
-  /// @param is_unreachable  the vehicle is beyond what anybody can answer for
+  /// @param is_unreachable  no controller can be held responsible for where the vehicle is
   void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose,
               bool is_unreachable = false);
   /// Its process has ended, and it stands.
@@ -45,12 +45,17 @@ class FootprintsCheck {
  private:
   struct Car {
     Pose start;
-    std::uint64_t first{};    ///< tick of poses[0]
-    std::vector<Pose> poses;  ///< of the ticks since then
-    std::uint64_t unreachable_until{};
+    std::uint64_t first{};         ///< tick of poses[0]
+    std::vector<Pose> poses;       ///< of the ticks since then
+    std::uint64_t excused_from{};  ///< ticks for which no controller is responsible; the last ones
+    std::uint64_t excused_until{};
     bool has_ended{};
     [[nodiscard]] std::uint64_t end() const { return first + poses.size(); }
     [[nodiscard]] const Pose& at(std::uint64_t tick) const;
+    void excuse(std::uint64_t from, std::uint64_t until);
+    [[nodiscard]] bool is_excused(std::uint64_t tick) const {
+      return tick >= excused_from && tick < excused_until;
+    }
   };
 
   Footprint footprint_;
