@@ -59,6 +59,13 @@ bool HlcCore::may_stand_by(const Observation& observation) const {
          has_settled(controller_->options().vehicle);
 }
 
+bool HlcCore::drives_former_plan(const Observation& observation) const {
+  constexpr double kDriving_mps = 0.2;
+  const MeasuredVehicle* vehicle = own(observation);
+  return !controller_->has_plan() && vehicle != nullptr &&
+         std::abs(vehicle->speed_mps) > kDriving_mps;
+}
+
 bool HlcCore::begins(const VehicleStateList& list, const Observation& observation, StartRule rule,
                      const std::optional<Nanoseconds>& trigger) {
   if (has_begun_ || !controller_->has_plan() || !controller_->fits_route()) return has_begun_;

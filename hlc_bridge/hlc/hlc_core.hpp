@@ -56,6 +56,10 @@ class HlcCore {
   /// (SettledStates). Once commanded to stand, it is commanded so as long as it is not seen moving.
   [[nodiscard]] bool may_stand_by(const Observation& observation) const;
 
+  /// Under kTogether: there is no plan yet, and the vehicle drives what a former controller has
+  /// left it. (No noise measures a standing vehicle that fast.)
+  [[nodiscard]] bool drives_former_plan(const Observation& observation) const;
+
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and
   ///   * under kTogether (`trigger` has no meaning then) every active vehicle has a usable state in

@@ -202,8 +202,9 @@ bool HlcMachine::prepare(const Instant& now) {
 }
 
 bool HlcMachine::may_stand_by() const {
-  return rules_.start == StartRule::kTogether ||
-         (!life_.readiness().yields_to_duplicate() && core_.may_stand_by(current_.observation));
+  const Observation& observation = current_.observation;
+  if (rules_.start == StartRule::kTogether) return !core_.drives_former_plan(observation);
+  return !life_.readiness().yields_to_duplicate() && core_.may_stand_by(observation);
 }
 
 bool HlcMachine::step(const Instant& now) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <utility>
 
 namespace hlc::closed_loop {
 namespace {
@@ -35,16 +37,38 @@ TEST(FaultPlan, FaultsLieInTheirTimeAndAreOfTheKindsAskedFor) {
   }
 }
 
-TEST(FaultPlan, EveryKindComesSoonerOrLaterAndVehiclesAreNeverKilled) {
+TEST(FaultPlan, EveryKindComesSoonerOrLaterAndEveryKindOfProcessIsKilledAndFrozen) {
   std::set<FaultKind> kinds;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  std::set<std::pair<FaultKind, std::string>> held_up;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     for (const Fault& fault : draw_faults(seed, settings_of(all_fault_kinds()))) {
       kinds.insert(fault.kind);
       const bool holds_up = fault.kind == FaultKind::kKill || fault.kind == FaultKind::kFreeze;
-      EXPECT_FALSE(holds_up && fault.process.starts_with("vehicle")) << to_string(fault);
+      if (holds_up) held_up.emplace(fault.kind, fault.process);
     }
   }
   EXPECT_EQ(kinds.size(), all_fault_kinds().size());
+  EXPECT_EQ(held_up.size(), 2U * (1 + 3 * 3)) << "lab control, and three processes per vehicle";
+}
+
+TEST(FaultPlan, EveryStyleKeepsToTheTimeAndTheKinds) {
+  const std::vector kinds{FaultKind::kLose, FaultKind::kKill, FaultKind::kRepeat};
+  FaultPlanSettings settings = settings_of(kinds);
+  settings.first = kNanosecondsPerSecond;
+  for (const FaultStyle style : {FaultStyle::kScattered, FaultStyle::kBurst, FaultStyle::kLossy,
+                                 FaultStyle::kRestart, FaultStyle::kBorder}) {
+    settings.style = style;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const std::vector<Fault> faults = draw_faults(seed, settings);
+      EXPECT_TRUE(std::ranges::is_sorted(faults, {}, &Fault::begin));
+      for (const Fault& fault : faults) {
+        EXPECT_GE(fault.begin, settings.first) << to_string(fault);
+        EXPECT_LT(fault.begin, fault.end) << to_string(fault);
+        EXPECT_LE(fault.end, settings.last) << to_string(fault);
+        EXPECT_TRUE(std::ranges::count(kinds, fault.kind) == 1) << to_string(fault);
+      }
+    }
+  }
 }
 
 TEST(FaultPlan, NobodyIsKilledWhileItStandsStill) {

@@ -68,17 +68,37 @@ TEST_F(Footprints, OfWhoHasNotBegunOrHasEndedStand) {
   EXPECT_EQ(violations_.size(), 1U);
 }
 
+TEST_F(Footprints, OfAVehicleThatIsOutOfReachOrHasJustDiedMayTouch) {
+  check_.driven(2, 5, {.x_m = 1.0});
+  check_.driven(1, 5, {.x_m = 0.0});
+  check_.driven(1, 6, {.x_m = 0.9}, true);
+  check_.driven(2, 6, {.x_m = 1.0});
+  check_.judge(0, violations_);
+  EXPECT_TRUE(violations_.empty());
+  EXPECT_NEAR(check_.smallest_distance_m(), 0.8, 1e-9);
+}
+
+TEST_F(Footprints, OfADeadVehicleCountAfterAWhile) {
+  check_.driven(2, 5, {.x_m = 1.0});
+  check_.driven(1, 5, {.x_m = 0.0});
+  check_.died(2, 3);
+  check_.driven(1, 9, {.x_m = 0.0});
+  check_.driven(1, 10, {.x_m = 0.9});
+  check_.judge(0, violations_);
+  EXPECT_EQ(violations_.size(), 1U);
+}
+
 TEST(Plans, ThatMeetAreToldWhenTheSecondComesIntoForce) {
   PlansCheck check(8);
   Violations violations;
   check.predicted(standing_at(kOne, 10, 0.0));
   check.predicted(standing_at(kTwo, 10, 0.1));
-  check.reported(report_of(kOne, 10, StepStatus::kPlanned), 0, violations);
-  check.reported(report_of(kTwo, 10, StepStatus::kFallback, FallbackReason::kConflict), 0,
+  check.reported(report_of(kOne, 10, StepStatus::kPlanned), nullptr, 0, violations);
+  check.reported(report_of(kTwo, 10, StepStatus::kFallback, FallbackReason::kConflict), nullptr, 0,
                  violations);
   EXPECT_TRUE(violations.empty());
   check.predicted(standing_at(kTwo, 11, 0.1));
-  check.reported(report_of(kTwo, 11, StepStatus::kPlanned), 0, violations);
+  check.reported(report_of(kTwo, 11, StepStatus::kPlanned), nullptr, 0, violations);
   EXPECT_EQ(violations.size(), 1U);
 }
 
@@ -87,14 +107,14 @@ TEST(Plans, OfWhoIsOffItsPlanOrSilentForLongAreLeftOut) {
     PlansCheck check(8);
     Violations violations;
     check.predicted(standing_at(kOne, 10, 0.0));
-    check.reported(report_of(kOne, 10, StepStatus::kPlanned), 0, violations);
+    check.reported(report_of(kOne, 10, StepStatus::kPlanned), nullptr, 0, violations);
     const std::uint64_t step = is_off ? 12 : 23;
     if (is_off) {
-      check.reported(report_of(kOne, 11, StepStatus::kFallback, FallbackReason::kDeviation), 0,
-                     violations);
+      check.reported(report_of(kOne, 11, StepStatus::kFallback, FallbackReason::kDeviation),
+                     nullptr, 0, violations);
     }
     check.predicted(standing_at(kTwo, step, 0.1));
-    check.reported(report_of(kTwo, step, StepStatus::kPlanned), 0, violations);
+    check.reported(report_of(kTwo, step, StepStatus::kPlanned), nullptr, 0, violations);
     EXPECT_TRUE(violations.empty());
   }
 }

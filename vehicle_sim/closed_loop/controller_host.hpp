@@ -32,7 +32,10 @@ class ControllerHost : public Host {
                       {TopicId::kSystemTrigger},
                       {TopicId::kStateList, vehicle}}};
   }
-  void attach(const ProcessPlace& place, const HlcMachine& /*machine*/) { set_place(place); }
+  void attach(const ProcessPlace& place, const HlcMachine& machine) {
+    set_place(place);
+    machine_ = &machine;
+  }
 
   template <class Process>
   void receive(std::size_t topic, const Message& message, Process& process) {
@@ -72,18 +75,23 @@ class ControllerHost : public Host {
             .stop_request_readers = readers(kStopRequests).size()};
   }
 
-  void perform(const Traffic& traffic) const { publish(kTraffic, traffic); }
+  void perform(const Traffic& traffic) const {
+    place().observer->on_traffic(traffic);
+    publish(kTraffic, traffic);
+  }
   void perform(const Prediction& prediction) const {
     place().observer->on_prediction(prediction);
     publish(kPredictions, prediction);
   }
   void perform(const Outcome& outcome) const { publish(kOutcomes, outcome); }
   void perform(const TrajectoryCommand& command) const {
-    place().observer->on_command(place().node, command);
+    place().observer->on_command(command);
     publish(kCommands, command);
   }
   void perform(const ReportRecord& record) const {
-    place().observer->on_report(place().node, record);
+    const Controller& controller = machine_->controller();
+    place().observer->on_report(record,
+                                controller.has_plan() ? &controller.plan_in_force() : nullptr);
     publish(kReports, record);
   }
   void perform(const ReadyStatus& status) const { publish(kReady, status); }
@@ -112,6 +120,8 @@ class ControllerHost : public Host {
     kTriggers,
     kLists
   };
+
+  const HlcMachine* machine_{};
 };
 
 }  // namespace hlc::closed_loop

@@ -17,43 +17,59 @@ constexpr std::size_t kFewestCars = 3;
 constexpr std::size_t kMostCars = 8;
 
 /// Faults of a run in real time come while cars drive, some already at the start; a run in logical
-/// time lasts some seconds of true time only.
-constexpr Nanoseconds kLastFault = 20 * kNanosecondsPerSecond;
+/// time lasts some seconds of true time only. On the circle all have met and stand by then.
+constexpr Nanoseconds kLastFault = 14 * kNanosecondsPerSecond;
+constexpr Nanoseconds kLastFaultOnCircle = 7 * kNanosecondsPerSecond;
 constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
+
+FaultStyle any_style(SeededRandom& random) {
+  constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst, FaultStyle::kLossy,
+                               FaultStyle::kRestart, FaultStyle::kBorder};
+  return kStyles[random.below(kStyles.size())];
+}
 
 }  // namespace
 
+Scenario crowded(Scenario scenario, std::size_t cars) {
+  const std::size_t routes = scenario.vehicles.size();
+  for (std::size_t i = routes; i < cars; ++i) {
+    ScenarioVehicle vehicle = scenario.vehicles[i % routes];
+    vehicle.id = {static_cast<std::uint8_t>(i + 1)};
+    vehicle.name += "_" + std::to_string(i + 1);
+    scenario.vehicles.push_back(std::move(vehicle));
+  }
+  return scenario;
+}
+
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
   const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";
-  const bool is_any = settings_.cars == 0;
+  const Scenario paper =
+      read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
   for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
-    if (is_any || settings_.cars == cars) {
-      circles_.emplace(cars, read_scenario({.file = circle, .cars = cars}));
-    }
-  }
-  if (is_any || settings_.cars == 3) {
-    paper_ = read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
+    if (settings_.cars != 0 && settings_.cars != cars) continue;
+    scenarios_.emplace(cars, Scenarios{.circle = read_scenario({.file = circle, .cars = cars}),
+                                       .paper = crowded(paper, cars)});
   }
 }
 
 FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   SeededRandom random(mixed(seed, 7));
   FaultCase the_case{.seed = seed};
-  auto circle = circles_.begin();
-  std::advance(circle, static_cast<std::ptrdiff_t>(random.below(circles_.size())));
-  if (paper_ && random.chance(0.5)) {
-    the_case.scenario = with_random_starts(*paper_, random.next());
-  } else {
-    the_case.scenario = circle->second;
-  }
+  auto chosen = scenarios_.begin();
+  std::advance(chosen, static_cast<std::ptrdiff_t>(random.below(scenarios_.size())));
+  const bool is_paper = random.chance(0.7);
+  the_case.scenario =
+      is_paper ? with_random_starts(chosen->second.paper, random.next()) : chosen->second.circle;
   FaultRunSettings& run = the_case.run;
   run.lab.seed = seed;
-  run.lab.is_logical = random.chance(0.25);
+  run.lab.is_logical = random.chance(0.2);
   // Logical time is for one machine.
   run.lab.transport =
       !run.lab.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
-  FaultPlanSettings plan{.kinds = settings_.kinds,
-                         .last = run.lab.is_logical ? kLastLogicalFault : kLastFault};
+  FaultPlanSettings plan{.style = any_style(random),
+                         .kinds = settings_.kinds,
+                         .last = is_paper ? kLastFault : kLastFaultOnCircle};
+  if (run.lab.is_logical) plan.last = kLastLogicalFault;
   for (const ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
     plan.vehicle_ids.push_back(vehicle.id.value);
   }
@@ -102,17 +118,20 @@ void FaultTotals::add(const FaultRunResult& result) {
   if (!result.violations.empty()) ++failed;
   car_steps += result.car_steps;
   planned += result.planned;
+  unreachable += result.unreachable;
   smallest_distance_m = std::min(smallest_distance_m, result.smallest_distance_m);
 }
 
 std::string describe(const FaultTotals& totals) {
-  std::array<char, 160> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "%llu runs, %llu failed, %llu car-steps, %llu with a new plan, cars came as close as %.3f m",
-      static_cast<unsigned long long>(totals.runs), static_cast<unsigned long long>(totals.failed),
-      static_cast<unsigned long long>(totals.car_steps),
-      static_cast<unsigned long long>(totals.planned), totals.smallest_distance_m);
+  std::array<char, 240> text{};
+  std::snprintf(text.data(), text.size(),
+                "%llu runs, %llu failed, %llu car-steps, %llu with a new plan, %llu out of reach, "
+                "cars came as close as %.3f m",
+                static_cast<unsigned long long>(totals.runs),
+                static_cast<unsigned long long>(totals.failed),
+                static_cast<unsigned long long>(totals.car_steps),
+                static_cast<unsigned long long>(totals.planned),
+                static_cast<unsigned long long>(totals.unreachable), totals.smallest_distance_m);
   return text.data();
 }
 

@@ -36,11 +36,16 @@ struct Shrunk {
   FaultRunResult result;
 };
 
+/// The scenario with so many cars, the further ones on the same routes; for random starts.
+/// @pre vehicles are numbered from 1
+[[nodiscard]] Scenario crowded(Scenario scenario, std::size_t cars);
+
 /// Runs with faults, one for each seed. A seed chooses
-///   * the scenario: cars on a circle that all drive to the other side, or (three cars) the paper's
-///     map with random starts;
-///   * real time or (one in four) logical time, the endpoints of the lab or of loopback;
-///   * the faults (draw_faults), and every delay.
+///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
+///   three
+///     routes, which merge and cross, from random starts;
+///   * real time or (one in five) logical time, the endpoints of the lab or of loopback;
+///   * the faults (draw_faults) and their distribution in time, and every delay.
 /// Scenarios are read and automata built once; then any number of threads may run.
 class FaultCampaign {
  public:
@@ -58,8 +63,11 @@ class FaultCampaign {
 
  private:
   FaultCampaignSettings settings_;
-  std::map<std::size_t, Scenario> circles_;  ///< by number of cars
-  std::optional<Scenario> paper_;            ///< three cars
+  struct Scenarios {
+    Scenario circle;
+    Scenario paper;
+  };
+  std::map<std::size_t, Scenarios> scenarios_;  ///< by number of cars
 };
 
 /// Sums over many runs.
@@ -68,6 +76,7 @@ struct FaultTotals {
   std::uint64_t failed{};
   std::uint64_t car_steps{};
   std::uint64_t planned{};
+  std::uint64_t unreachable{};
   double smallest_distance_m{1e9};
   void add(const FaultRunResult& result);
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "hlc_bridge/messages/node_names.hpp"
 #include "vehicle_sim/closed_loop/seeded_random.hpp"
@@ -29,13 +30,100 @@ class Draw {
 
   std::vector<Fault> faults() {
     std::vector<Fault> faults;
-    const std::size_t count = 1 + random_.below(settings_.most_faults);
-    for (std::size_t i = 0; i < count; ++i) add(faults);
+    switch (settings_.style) {
+      case FaultStyle::kScattered:
+        scatter(1 + random_.below(settings_.most_faults), faults);
+        break;
+      case FaultStyle::kBurst:
+        window_ = any_window(1500 * kMs);
+        scatter(3 + random_.below(6), faults);
+        break;
+      case FaultStyle::kLossy:
+        add_losses(faults);
+        scatter(random_.below(3), faults);
+        break;
+      case FaultStyle::kRestart:
+        for (std::size_t i = 1 + random_.below(3); i > 0; --i) add_restart(faults);
+        break;
+      case FaultStyle::kBorder:
+        window_ = any_window(3000 * kMs);
+        for (std::size_t i = 2 + random_.below(4); i > 0; --i) add_at_border(faults);
+        scatter(random_.below(2), faults);
+        break;
+    }
     std::ranges::stable_sort(faults, {}, &Fault::begin);
     return faults;
   }
 
  private:
+  struct Window {
+    Nanoseconds from{};
+    Nanoseconds until{};
+  };
+
+  void scatter(std::size_t count, std::vector<Fault>& faults) {
+    for (std::size_t i = 0; i < count; ++i) add(faults);
+  }
+
+  /// In which faults begin; at the start nobody drives yet.
+  Window any_window(Nanoseconds length) {
+    const Nanoseconds span = settings_.last - settings_.first;
+    const Nanoseconds from = settings_.first + std::min(2000 * kMs, span / 4);
+    const Nanoseconds room = settings_.last - from;
+    const Nanoseconds lasts = std::min(length, room / 2);
+    const Nanoseconds begin = from + random_.below(room - lasts + 1);
+    return {.from = begin, .until = begin + lasts};
+  }
+
+  /// Of all links, or of those of one process.
+  void add_losses(std::vector<Fault>& faults) {
+    for (std::size_t i = 1 + random_.below(2); i > 0; --i) {
+      Fault fault{.kind = random_.chance(0.7) ? FaultKind::kLose : FaultKind::kWithhold,
+                  .begin = settings_.first,
+                  .end = settings_.last};
+      if (!is_asked_for(fault.kind)) continue;
+      if (random_.chance(0.6)) {
+        (random_.chance(0.5) ? fault.process : fault.peer) = any_process(true, false);
+      }
+      fault.share = 0.1 + 0.2 * random_.share();
+      faults.push_back(fault);
+    }
+  }
+
+  void add_restart(std::vector<Fault>& faults) {
+    const std::string process = any_process(random_.chance(0.2), random_.chance(0.2));
+    const Window when = any_window(duration(20 * kMs, 3000 * kMs));
+    Fault death{.kind = FaultKind::kKill, .begin = when.from, .end = when.until};
+    death.process = process;
+    if (is_asked_for(death.kind) && !excludes_any(death, faults)) faults.push_back(death);
+    Fault loss{.kind = random_.chance(0.5) ? FaultKind::kWithhold : FaultKind::kCut};
+    if (!is_asked_for(loss.kind)) return;
+    loss.begin = when.from - std::min(when.from - settings_.first, random_.below(1000 * kMs));
+    loss.end = std::min(when.until + random_.below(3000 * kMs), settings_.last);
+    do {
+      loss.process = random_.chance(0.3) ? std::string{} : any_process(false, false);
+    } while (loss.process == process);
+    loss.peer = process;
+    loss.share = random_.chance(0.5) ? 1.0 : random_.share();
+    faults.push_back(loss);
+  }
+
+  void add_at_border(std::vector<Fault>& faults) {
+    constexpr std::array kKindsThere{FaultKind::kDelay, FaultKind::kRepeat, FaultKind::kReorder};
+    Fault fault{.kind = kKindsThere[random_.below(kKindsThere.size())]};
+    if (!is_asked_for(fault.kind)) return;
+    set_time(fault);
+    set_way(fault);
+    fault.share = random_.chance(0.2) ? 1.0 : random_.share();
+    const Nanoseconds steps = (1 + random_.below(2)) * 200 * kMs;
+    fault.amount = static_cast<std::int64_t>(random_.between(steps - 20 * kMs, steps + 20 * kMs));
+    faults.push_back(fault);
+  }
+
+  [[nodiscard]] bool is_asked_for(FaultKind kind) const {
+    return std::ranges::count(settings_.kinds, kind) > 0;
+  }
+
   void add(std::vector<Fault>& faults) {
     Fault fault{.kind = settings_.kinds[random_.below(settings_.kinds.size())]};
     set_time(fault);
@@ -66,7 +154,8 @@ class Draw {
     const Nanoseconds lasts = std::min(
         is_process ? duration(10 * kMs, 8000 * kMs) : duration(50 * kMs, 6000 * kMs), span);
     fault.begin = settings_.first + random_.below(span - lasts + 1);
-    fault.end = fault.begin + lasts;
+    if (window_) fault.begin = window_->from + random_.below(window_->until - window_->from + 1);
+    fault.end = std::min(fault.begin + lasts, settings_.last);
   }
 
   std::string any_process(bool with_vehicles, bool with_lab_control) {
@@ -83,8 +172,8 @@ class Draw {
   }
 
   void set_process(Fault& fault) {
-    const bool is_clock = sets_clock(fault.kind);
-    fault.process = any_process(is_clock, is_clock || fault.kind == FaultKind::kFreeze);
+    const bool with_vehicles = sets_clock(fault.kind) || random_.chance(0.3);
+    fault.process = any_process(with_vehicles, true);
   }
 
   void set_way(Fault& fault) {
@@ -141,6 +230,7 @@ class Draw {
 
   SeededRandom random_;
   const FaultPlanSettings& settings_;
+  std::optional<Window> window_;
 };
 
 std::string seconds(Nanoseconds time) {

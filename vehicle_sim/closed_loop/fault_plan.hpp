@@ -42,7 +42,17 @@ struct Fault {
 /// "2.150 s ... 3.200 s: cut middleware_1 -> vehicle_raspberry_1"
 [[nodiscard]] std::string to_string(const Fault& fault);
 
+/// How the faults of a run lie in time.
+enum class FaultStyle : std::uint8_t {
+  kScattered,  ///< anywhere in the run
+  kBurst,      ///< three to eight that begin within 1.5 s
+  kLossy,      ///< links that lose 10 ... 30 % all the time, and some scattered faults
+  kRestart,    ///< processes that are killed and come back soon, while messages to them are lost
+  kBorder,     ///< messages that are stale, come twice or overtake others by about a step or two
+};
+
 struct FaultPlanSettings {
+  FaultStyle style{};
   std::vector<std::uint8_t> vehicle_ids;
   std::vector<FaultKind> kinds;                  ///< of which faults are drawn; empty: none are
   Nanoseconds first{};                           ///< no fault begins earlier
@@ -53,11 +63,12 @@ struct FaultPlanSettings {
 /// Faults of a seed, at least one, by time of their begin. Faults of one process that exclude each
 /// other (killed while frozen) are left out.
 ///
-/// Distribution: processes are killed or suspended for 10 ms ... 8 s, networks are disturbed for 50
-/// ms ... 6 s, cuts separate two processes, or one from all, in one direction or both. Clocks of
-/// controllers and middlewares are set by up to 300 ms, which is more than a step; those of the
-/// vehicles by up to 2 ms only: a vehicle whose clock differs from the others' is not where its
-/// plan predicts, and only the safety margin (10 mm) covers the difference.
+/// Distribution: processes (controllers, middlewares, vehicles, lab control) are killed or
+/// suspended for 10 ms ... 8 s, networks are disturbed for 50 ms ... 6 s, cuts separate two
+/// processes, or one from all, in one direction or both. Clocks of controllers and middlewares are
+/// set by up to 300 ms, which is more than a step; those of the vehicles by up to 2 ms only: a
+/// vehicle whose clock differs from the others' is not where its plan predicts, and only the safety
+/// margin (10 mm) covers the difference.
 [[nodiscard]] std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& settings);
 
 /// The end of the last one; 0 without faults.

@@ -1,14 +1,10 @@
 #include "vehicle_sim/closed_loop/fault_run.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdio>
-#include <map>
 #include <optional>
 #include <utility>
 
-#include "vehicle_sim/closed_loop/seeded_random.hpp"
+#include "vehicle_sim/closed_loop/run_judges.hpp"
 #include "vehicle_sim/closed_loop/simulated_lab.hpp"
 
 namespace hlc::closed_loop {
@@ -23,27 +19,6 @@ constexpr Nanoseconds kLogicalPatience = 180 * kNanosecondsPerSecond;
 constexpr Nanoseconds kCheckPeriod = 100 * kNanosecondsPerMillisecond;
 /// A process with more turns in a check period waits for a past event.
 constexpr std::uint64_t kMostTurns = 2'000;
-
-Footprint footprint_of(const Scenario& scenario) {
-  return scenario.subgraph->automaton().vehicle.footprint;
-}
-
-std::map<std::uint8_t, Pose> starts_of(const Scenario& scenario) {
-  std::map<std::uint8_t, Pose> starts;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
-    starts[vehicle.id.value] = measured_start(scenario, vehicle);
-  }
-  return starts;
-}
-
-std::string report_line(const Report& report) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "vehicle %d, step %llu: %s, %s, at (%.3f, %.3f)",
-                int{report.vehicle.value}, static_cast<unsigned long long>(report.step.value),
-                to_string(report.status), to_string(report.reason), report.planned_pose.x_m,
-                report.planned_pose.y_m);
-  return text.data();
-}
 
 Disturbance disturbance_of(const Fault& fault) {
   const auto amount = static_cast<Nanoseconds>(std::max<std::int64_t>(fault.amount, 0));
@@ -104,103 +79,6 @@ void finish(const Fault& fault, SimulatedLab& lab) {
   }
 }
 
-/// Everything that is checked and hashed during the run.
-class Judges final : public RunObserver {
- public:
-  Judges(const Scenario& scenario, Nanoseconds calm_from, const Trace& trace)
-      : footprints_(footprint_of(scenario), starts_of(scenario)),
-        plans_(scenario.horizon_steps),
-        planning_(calm_from),
-        trace_(trace) {}
-
-  /// Whose time and names are meant; before anything happens.
-  void attach(SimulatedLab& lab) { lab_ = &lab; }
-
-  void on_log(NodeId node, const machine::LogLine& line) override {
-    const std::string& name = lab_->name(node);
-    reasons_.log(name, line, lab_->now());
-    for (const char letter : line.text) add_to_hash(static_cast<unsigned char>(letter));
-    trace([&] { return name + ": " + line.text; });
-  }
-  void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) override {
-    footprints_.driven(vehicle, (time + kVehiclePeriod / 2) / kVehiclePeriod, sample.pose);
-    reasons_.driven(name_of({.role = Role::kVehicle, .vehicle = vehicle}),
-                    sample.command_create != 0, lab_->now());
-    last_poses_[vehicle] = sample.pose;
-    add_to_hash(std::bit_cast<std::uint64_t>(sample.pose.x_m));
-    add_to_hash(std::bit_cast<std::uint64_t>(sample.pose.y_m));
-    add_to_hash(sample.command_create);
-  }
-  void on_prediction(const Prediction& prediction) override { plans_.predicted(prediction); }
-  void on_report(NodeId /*node*/, const ReportRecord& record) override {
-    const Report& report = record.report;
-    ++result_.car_steps;
-    if (report.status == StepStatus::kPlanned) ++result_.planned;
-    planning_.report(record, lab_->now());
-    plans_.reported(report, lab_->now(), result_.violations);
-    add_to_hash(report.step.value);
-    add_to_hash(static_cast<std::uint64_t>(report.status));
-    add_to_hash(std::bit_cast<std::uint64_t>(report.cost_m2));
-    trace([&] { return report_line(report); });
-  }
-  void on_command(NodeId /*node*/, const TrajectoryCommand& command) override {
-    add_to_hash(command.create_stamp);
-  }
-
-  void changed(const Seat& seat) {
-    if (!seat.exit_code) {
-      reasons_.started(seat.name);
-      return trace([&] { return seat.name + " starts"; });
-    }
-    trace([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
-    reasons_.ended(seat.name, *seat.exit_code, lab_->now(), result_.violations);
-    if (seat.key.role == Role::kVehicle) footprints_.ended(seat.key.vehicle);
-    add_to_hash(static_cast<std::uint64_t>(*seat.exit_code));
-  }
-  void report_violation(const std::string& text) {
-    if (!std::exchange(has_violation_, true)) {
-      result_.violations.push_back({.at = lab_->now(), .check = "waits", .text = text});
-    }
-  }
-  void judge_ticks() {
-    footprints_.judge(lab_->now(), result_.violations);
-    reasons_.judge(lab_->now(), result_.violations);
-  }
-  void judge_planning(const std::vector<std::uint8_t>& able) {
-    planning_.judge(able, lab_->now(), result_.violations);
-  }
-
-  /// Somebody has planned.
-  [[nodiscard]] bool has_begun() const { return result_.planned > 0; }
-
-  template <class Line>
-  void trace(Line line) const {
-    if (trace_) trace_(lab_->now(), line());
-  }
-  [[nodiscard]] std::optional<Pose> pose_of(std::uint8_t vehicle) const {
-    const auto last = last_poses_.find(vehicle);
-    return last == last_poses_.end() ? std::nullopt : std::optional(last->second);
-  }
-  [[nodiscard]] FaultRunResult result() {
-    judge_ticks();
-    result_.smallest_distance_m = footprints_.smallest_distance_m();
-    return std::move(result_);
-  }
-
- private:
-  void add_to_hash(std::uint64_t value) { result_.hash = mixed(result_.hash ^ value, lab_->now()); }
-
-  FootprintsCheck footprints_;
-  PlansCheck plans_;
-  ReasonsCheck reasons_;
-  PlanningCheck planning_;
-  const Trace& trace_;
-  const SimulatedLab* lab_{};
-  std::map<std::uint8_t, Pose> last_poses_;
-  FaultRunResult result_;
-  bool has_violation_{};
-};
-
 class FaultRun {
  public:
   FaultRun(const Scenario& scenario, const FaultRunSettings& settings, const Trace& trace)
@@ -236,6 +114,7 @@ class FaultRun {
   void change(const Fault& fault, bool begins) {
     judges_.trace([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
     begins ? begin(fault, lab_) : finish(fault, lab_);
+    if (begins && fault.kind == FaultKind::kKill) judges_.killed(lab_.seat(fault.process));
   }
 
   void check() {
@@ -278,6 +157,7 @@ class FaultRun {
     const bool is_complete_lab =
         std::ranges::all_of(lab_.seats(), [](const Seat& seat) { return seat.process != nullptr; });
     if (!lab_.seats().front().process || !(is_complete_lab || judges_.has_begun())) return able;
+    if (!judges_.has_begun() && may_lose_start()) return able;
     for (const Seat& seat : lab_.seats()) {
       const std::uint8_t id = seat.key.vehicle;
       const bool is_complete = std::ranges::all_of(
@@ -285,6 +165,13 @@ class FaultRun {
       if (seat.key.role == Role::kVehicle && is_complete) able.push_back(id);
     }
     return able;
+  }
+
+  /// Nobody begins if the start trigger is lost for good.
+  [[nodiscard]] bool may_lose_start() const {
+    return std::ranges::any_of(settings_.faults, [](const Fault& fault) {
+      return fault.kind == FaultKind::kWithhold || fault.kind == FaultKind::kKill;
+    });
   }
 
   void interrupt() {
@@ -302,7 +189,7 @@ class FaultRun {
 
   const FaultRunSettings& settings_;
   Nanoseconds calm_from_;
-  Judges judges_;
+  RunJudges judges_;
   SimulatedLab lab_;
   std::optional<Nanoseconds> interrupted_at_;
   bool is_planning_judged_{};

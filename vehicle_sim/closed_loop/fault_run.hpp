@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/fault_plan.hpp"
-#include "vehicle_sim/closed_loop/invariants.hpp"
 #include "vehicle_sim/closed_loop/process_factory.hpp"
+#include "vehicle_sim/closed_loop/run_judges.hpp"
 
 namespace hlc::closed_loop {
 
@@ -18,17 +16,6 @@ struct FaultRunSettings {
   /// Real time: duration of the run after the last fault; longer than PlanningCheck::kPatience.
   Nanoseconds calm{6 * kNanosecondsPerSecond};
 };
-
-struct FaultRunResult {
-  Violations violations;
-  std::uint64_t hash{};          ///< of all reports, drives and log lines, with their times
-  std::uint64_t car_steps{};     ///< number of reported control steps
-  std::uint64_t planned{};       ///< of them with a new plan
-  double smallest_distance_m{};  ///< between driven footprints
-};
-
-/// A line of the trace. @param at  true time since the beginning of the run
-using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 
 /// A whole run of the scenario with faults, in memory: the machines of all its processes, each with
 /// clocks of its own, connected by a simulated network.

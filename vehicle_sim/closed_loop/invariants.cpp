@@ -26,7 +26,8 @@ const Pose& FootprintsCheck::Car::at(std::uint64_t tick) const {
   return tick < end() ? poses[tick - first] : poses.back();
 }
 
-void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose) {
+void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose,
+                             bool is_unreachable) {
   Car& car = cars_.at(vehicle);
   if (car.poses.empty()) {
     car.first = tick;
@@ -34,6 +35,18 @@ void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pos
   }
   while (car.end() < tick) car.poses.push_back(car.poses.back());
   if (tick >= car.end()) car.poses.push_back(pose);
+  if (is_unreachable) car.excuse(tick, tick + 1);
+}
+
+void FootprintsCheck::Car::excuse(std::uint64_t from, std::uint64_t until) {
+  if (from > excused_until) excused_from = from;
+  excused_until = until;
+}
+
+void FootprintsCheck::died(std::uint8_t vehicle, std::uint64_t unreachable_ticks) {
+  Car& car = cars_.at(vehicle);
+  car.has_ended = true;
+  car.excuse(car.end(), car.end() + unreachable_ticks);
 }
 
 void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
@@ -52,8 +65,9 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
         if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) continue;
         const double gap_m =
             distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
-        smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
-        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second) continue;
+        const bool is_excused = a->second.is_excused(*next_) || b->second.is_excused(*next_);
+        if (!is_excused) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
+        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second || is_excused) continue;
         violations.push_back({.at = at,
                               .check = "footprints",
                               .text = "vehicles " + std::to_string(a->first) + " and " +
@@ -70,13 +84,17 @@ bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
   return now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
 }
 
-void PlansCheck::reported(const Report& report, Nanoseconds at, Violations& violations) {
+void PlansCheck::reported(const Report& report, const Plan* in_force, Nanoseconds at,
+                          Violations& violations) {
   const VehicleId vehicle = report.vehicle;
-  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
-    in_force_.erase(vehicle);
-  }
   const auto before = in_force_.find(vehicle);
-  if (before != in_force_.end()) before->second.last_report = report.step;
+  if (before != in_force_.end()) {
+    before->second.last_report = report.step;
+    if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby ||
+        (report.status != StepStatus::kPlanned && in_force != nullptr && is_anchored(*in_force))) {
+      in_force_.erase(before);
+    }
+  }
   const auto predicted = predicted_.find(vehicle);
   if (report.status != StepStatus::kPlanned || predicted == predicted_.end() ||
       predicted->second.step != report.step) {

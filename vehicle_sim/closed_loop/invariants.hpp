@@ -12,19 +12,13 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "planner/coordination/messages.hpp"
+#include "planner/coordination/plan.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/geometry/pose.hpp"
+#include "vehicle_sim/closed_loop/violation.hpp"
 
 /// Invariants of a run under any faults, each as a small checker that is notified of events.
 namespace hlc::closed_loop {
-
-/// A violated invariant.
-struct Violation {
-  Nanoseconds at{};   ///< true time since the begin of the run
-  std::string check;  ///< "footprints", "plans", "waits", "reasons", "planning"
-  std::string text;   ///< one line
-};
-using Violations = std::vector<Violation>;
 
 /// Driven footprints (without margin) never touch.
 ///
@@ -34,9 +28,15 @@ class FootprintsCheck {
  public:
   FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
 
-  /// @param tick  number of the vehicles' tick
-  void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose);
+  /// @param tick           number of the vehicles' tick
+  /// @param is_unreachable  no controller can be held responsible for where the vehicle is
+  void driven(std::uint8_t vehicle, std::uint64_t tick, const Pose& pose,
+              bool is_unreachable = false);
+  /// Its process has ended, and it stands.
   void ended(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = true; }
+  /// It stands at once, wherever it is: for so long no controller can be held responsible.
+  void died(std::uint8_t vehicle, std::uint64_t unreachable_ticks);
+  void came_back(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = false; }
   /// Checks the ticks that all have driven by now.
   void judge(Nanoseconds at, Violations& violations);
   /// Smallest distance so far [m].
@@ -45,11 +45,17 @@ class FootprintsCheck {
  private:
   struct Car {
     Pose start;
-    std::uint64_t first{};    ///< tick of poses[0]
-    std::vector<Pose> poses;  ///< of the ticks since then
+    std::uint64_t first{};         ///< tick of poses[0]
+    std::vector<Pose> poses;       ///< of the ticks since then
+    std::uint64_t excused_from{};  ///< ticks for which no controller is responsible; the last ones
+    std::uint64_t excused_until{};
     bool has_ended{};
     [[nodiscard]] std::uint64_t end() const { return first + poses.size(); }
     [[nodiscard]] const Pose& at(std::uint64_t tick) const;
+    void excuse(std::uint64_t from, std::uint64_t until);
+    [[nodiscard]] bool is_excused(std::uint64_t tick) const {
+      return tick >= excused_from && tick < excused_until;
+    }
   };
 
   Footprint footprint_;
@@ -59,6 +65,9 @@ class FootprintsCheck {
   std::set<std::pair<std::uint8_t, std::uint8_t>> touched_;
   double smallest_distance_m_{1e9};
 };
+
+/// The plan to stand where the vehicle stands, which nobody has agreed to.
+[[nodiscard]] inline bool is_anchored(const Plan& plan) { return plan.first() == plan.end(); }
 
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
 /// changes. A plan is given by the areas that its vehicle has announced (Prediction::areas, with
@@ -73,13 +82,13 @@ class FootprintsCheck {
 ///
 /// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives
 /// areas that no other vehicle agreed to (rule 4 of plan_in_force.hpp): it is ignored until its
-/// next new plan.
+/// next new plan. So is one whose plan has been anchored anew.
 class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
 
   void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
-  void reported(const Report& report, Nanoseconds at, Violations& violations);
+  void reported(const Report& report, const Plan* in_force, Nanoseconds at, Violations& violations);
 
  private:
   using Pair = std::pair<VehicleId, VehicleId>;

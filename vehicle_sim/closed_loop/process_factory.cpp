@@ -16,6 +16,7 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr Nanoseconds kStartupTimeout = 30 * kNanosecondsPerSecond;
+constexpr std::uint64_t kEndless = 1'000'000;
 constexpr Nanoseconds kProgressInterval = 60 * kNanosecondsPerSecond;
 
 template <class Host>
@@ -36,6 +37,7 @@ LabControlMachine lab_control(const Scenario& scenario, const LabSettings& setti
     return {std::make_unique<LogicalRun>(std::move(run)), kProgressInterval};
   }
   run.on_death = OnDeath::kContinue;
+  run.steps = kEndless;
   return {std::make_unique<RealTimeRun>(std::move(run)), kProgressInterval};
 }
 

@@ -27,7 +27,7 @@ struct LabSettings {
   std::uint64_t seed{};
   bool is_logical{};
   Transport transport{};
-  std::uint64_t steps{100};  ///< of the run
+  std::uint64_t steps{100};  ///< of the run in logical time; in real time it is interrupted
 };
 
 /// Creates the processes of a scenario's run, each as its program would: machine, rules, endpoints.

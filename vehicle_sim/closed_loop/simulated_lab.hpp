@@ -52,6 +52,8 @@ class SimulatedLab {
 
   /// True time since the begin.
   [[nodiscard]] Nanoseconds now() const;
+  /// What an exact clock shows.
+  [[nodiscard]] Nanoseconds true_time() const { return now_; }
   /// `step` returns this number at that time.
   void set_alarm(Nanoseconds at, std::uint32_t number);
   /// Executes the next event; the number of an alarm if it is one. @pre an alarm is set

@@ -16,6 +16,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/result/run_record.hpp"
+#include "planner/coordination/plan.hpp"
 #include "vehicle_sim/closed_loop/simulated_clock.hpp"
 #include "vehicle_sim/closed_loop/simulated_network.hpp"
 
@@ -28,10 +29,15 @@ class RunObserver {
   virtual void on_log(NodeId node, const machine::LogLine& line) = 0;
   /// @param time  of the sample, true in real time, of the run in logical time
   virtual void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) = 0;
+  virtual void on_traffic(const Traffic& traffic) = 0;
   /// The plan of a step; the report shows whether it came into force.
   virtual void on_prediction(const Prediction& prediction) = 0;
-  virtual void on_report(NodeId node, const ReportRecord& record) = 0;
-  virtual void on_command(NodeId node, const TrajectoryCommand& command) = 0;
+  /// @param in_force  the plan after the step; nullptr: none
+  virtual void on_report(const ReportRecord& record, const Plan* in_force) = 0;
+  virtual void on_command(const TrajectoryCommand& command) = 0;
+  /// By a vehicle.
+  virtual void on_received(const TrajectoryCommand& command) = 0;
+  virtual void on_stop_symbol(std::uint8_t vehicle) = 0;
 };
 
 /// The environment of a process.

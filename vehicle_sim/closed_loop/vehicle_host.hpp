@@ -30,6 +30,7 @@ class VehicleHost : public Host {
   void receive(std::size_t topic, const Message& message, Process& process) {
     switch (topic) {
       case kCommands:
+        place().observer->on_received(std::get<TrajectoryCommand>(message));
         return process.post(std::get<TrajectoryCommand>(message));
       case kParameters:
         return process.post(std::get<Parameter>(message));
@@ -38,7 +39,9 @@ class VehicleHost : public Host {
     }
     const auto& trigger = std::get<SystemTrigger>(message);
     process.trigger(trigger.next_start);
-    if (trigger.next_start == kStopSymbol) process.post_urgent(trigger);
+    if (trigger.next_start != kStopSymbol) return;
+    place().observer->on_stop_symbol(vehicle_);
+    process.post_urgent(trigger);
   }
 
   [[nodiscard]] VehiclePresence presence() const {

@@ -409,6 +409,63 @@ TEST_F(Deviation, TheMeasurementIsComparedWithThePlanOfItsOwnTime) {
   EXPECT_NEAR(step(*one_, at(106, {old})).deviation_m, 0.0, 1e-9);
 }
 
+bool holds_all(const OccupiedAreas& announced, const OccupiedAreas& areas, std::uint64_t from) {
+  for (std::uint64_t k = from; k < from + 12; ++k) {
+    if (!contains(announced.during({k}), areas.during({k}), 1e-9)) return false;
+  }
+  return true;
+}
+
+TEST_F(Deviation, OfACarThatIsNotSeenEveryPlanIsAnnouncedThatItMayStillDrive) {
+  const OccupiedAreas before = one_->plan_in_force().areas_from({106});
+  static_cast<void>(step(*one_, at(106, {following(*one_, 106)})));
+  const OccupiedAreas last = one_->plan_in_force().areas_from({107});
+  Observation unseen = at(107, {});
+  unseen.active = {{1}};
+  const Traffic traffic = one_->observe(unseen);
+  EXPECT_TRUE(one_->is_vehicle_lost());
+  EXPECT_TRUE(holds_all(traffic.running, before, 107)) << "its last command may have been lost";
+  EXPECT_TRUE(holds_all(traffic.running, last, 107));
+  // It may have stopped where it was seen, or anywhere on its way since.
+  EXPECT_TRUE(contains(traffic.running.during({112}), before.during({106}), 1e-9));
+  EXPECT_TRUE(contains(traffic.running.final_area_m, before.during({108}), 1e-9));
+}
+
+TEST_F(Deviation, SeenAgainOnAnOlderPlanThatOneIsInForceAgain) {
+  const Plan older = one_->plan_in_force();
+  static_cast<void>(step(*one_, at(106, {following(*one_, 106)})));
+  const Plan newer = one_->plan_in_force();
+  ASSERT_NE(older.pose_at(older.end()), newer.pose_at(newer.end()));
+  for (std::uint64_t k = 107; k < 120; ++k) {
+    Observation unseen = at(k, {});
+    unseen.active = {{1}};
+    EXPECT_EQ(step(*one_, unseen).reason, FallbackReason::kDeviation);
+    EXPECT_TRUE(one_->is_vehicle_lost());
+  }
+  const Pose stood = older.pose_at(older.end());
+  const Report report = step(*one_, at(120, {seen(1, stood.x_m, stood.y_m)}));
+  EXPECT_FALSE(one_->is_vehicle_lost());
+  EXPECT_EQ(report.status, StepStatus::kPlanned);
+  EXPECT_EQ(report.planned_pose, stood);
+}
+
+TEST_F(Deviation, SeenOnNoPlanItIsLostUntilItStands) {
+  const Plan plan = one_->plan_in_force();
+  for (std::uint64_t k = 106; k < plan.end().value + 3; ++k) {
+    Observation unseen = at(k, {});
+    unseen.active = {{1}};
+    static_cast<void>(step(*one_, unseen));
+  }
+  const Pose end = plan.pose_at(plan.end());
+  const std::uint64_t k = plan.end().value + 3;
+  EXPECT_EQ(step(*one_, at(k, {seen(1, end.x_m, end.y_m + 0.1, 0.3)})).reason,
+            FallbackReason::kDeviation);
+  EXPECT_TRUE(one_->is_vehicle_lost());
+  const Report report = step(*one_, at(k + 1, {seen(1, end.x_m, end.y_m + 0.1)}));
+  EXPECT_FALSE(one_->is_vehicle_lost());
+  EXPECT_NEAR(report.planned_pose.y_m, end.y_m + 0.1, 1e-9);
+}
+
 TEST(Controller, DrivingOutPlansNothingNewUntilItEnds) {
   const auto one = controller(1);
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));

@@ -1,0 +1,103 @@
+#include "vehicle_sim/closed_loop/driven_plans.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planner/geometry/footprint.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr VehicleId kFirst{1};
+constexpr VehicleId kSecond{2};
+constexpr Nanoseconds kDrivenPeriod = 200 * kNanosecondsPerMillisecond;
+
+OccupiedAreas area_at(std::uint64_t first, double x_m) {
+  return {.first = {first},
+          .final_area_m = footprint_area({.length_m = 0.2, .width_m = 0.2}, {.x_m = x_m})};
+}
+
+/// Vehicles whose controllers agree in step k to stand somewhere, and command so.
+class Driven : public testing::Test {
+ protected:
+  void agree(VehicleId vehicle, std::uint64_t step, double x_m) {
+    driven_.published({.vehicle = vehicle, .step = {step}});
+    driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
+    driven_.commanded(command(vehicle, step));
+    const Plan plan({step}, {.x_m = x_m}, standstill_);
+    driven_.reported({.vehicle = vehicle, .step = {step}, .status = StepStatus::kPlanned}, &plan);
+  }
+  static TrajectoryCommand command(VehicleId vehicle, std::uint64_t step) {
+    return {.vehicle_id = vehicle.value,
+            .create_stamp = step * kDrivenPeriod + 1,
+            .valid_after_stamp = step * kDrivenPeriod + 1,
+            .points = {{}}};
+  }
+  void receive(VehicleId vehicle, std::uint64_t step) { driven_.received(command(vehicle, step)); }
+  void drive(VehicleId vehicle, std::uint64_t step, std::uint64_t command_of) {
+    driven_.driven(vehicle, step * kDrivenPeriod + kVehiclePeriod, command_of * kDrivenPeriod + 1,
+                   violations_);
+  }
+
+  Maneuver standstill_;
+  DrivenPlans driven_{8, kDrivenPeriod};
+  Violations violations_;
+};
+
+TEST_F(Driven, PlansOfTwoVehiclesThatMeetAreViolations) {
+  agree(kFirst, 10, 0.0);
+  receive(kFirst, 10);
+  drive(kFirst, 10, 10);
+  agree(kSecond, 10, 0.1);
+  EXPECT_TRUE(violations_.empty()) << "it does not drive it";
+  receive(kSecond, 10);
+  drive(kSecond, 10, 10);
+  ASSERT_EQ(violations_.size(), 1U);
+  EXPECT_EQ(violations_.front().check, "driven");
+}
+
+TEST_F(Driven, APlanThatWasNotReceivedIsNotDriven) {
+  agree(kFirst, 10, 0.0);
+  receive(kFirst, 10);
+  drive(kFirst, 10, 10);
+  agree(kFirst, 11, 1.0);
+  agree(kSecond, 11, 0.1);
+  receive(kSecond, 11);
+  drive(kSecond, 11, 11);
+  EXPECT_EQ(violations_.size(), 1U) << "one still drives its plan of step 10";
+}
+
+TEST_F(Driven, AVehicleIsOutOfReachOnceItsControllerIsMistakenAboutIt) {
+  agree(kFirst, 10, 0.0);
+  receive(kFirst, 10);
+  drive(kFirst, 10, 10);
+  agree(kFirst, 11, 1.0);
+  drive(kFirst, 11, 10);
+  EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod));
+  driven_.published({.vehicle = kFirst, .step = {12}});
+  drive(kFirst, 12, 10);
+  EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod));
+  drive(kFirst, 13, 10);
+  EXPECT_TRUE(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod));
+  agree(kSecond, 13, 0.1);
+  receive(kSecond, 13);
+  drive(kSecond, 13, 13);
+  EXPECT_TRUE(violations_.empty());
+  receive(kFirst, 11);
+  drive(kFirst, 13, 11);
+  EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod + 2 * DrivenPlans::kAfterwards));
+}
+
+TEST_F(Driven, AVehicleFollowsTheNewestCommandThatItHas) {
+  for (std::uint64_t step = 10; step < 12; ++step) {
+    agree(kFirst, step, 0.0);
+    receive(kFirst, step);
+  }
+  drive(kFirst, 11, 11);
+  EXPECT_TRUE(violations_.empty());
+  drive(kFirst, 11, 10);
+  ASSERT_EQ(violations_.size(), 1U);
+  EXPECT_EQ(violations_.front().check, "commands");
+}
+
+}  // namespace
+}  // namespace hlc::closed_loop

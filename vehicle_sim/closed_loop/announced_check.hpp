@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "planner/coordination/messages.hpp"
+#include "planner/coordination/report.hpp"
+#include "planner/geometry/footprint.hpp"
+#include "vehicle_sim/closed_loop/violation.hpp"
+
+namespace hlc::closed_loop {
+
+/// Within 0.5 s of any fault every vehicle drives only what its controller has agreed and
+/// announced, and stands when that has run out. In every tick:
+///
+/// * **announced**: the driven footprint (without margin) lies in what the controller has announced
+///   for this step, last of all, in its traffic or with its new plan; never outside for 0.5 s. What
+///   a controller has announced before it died or was cut off holds on, and so does the plan before
+///   (the command of the last one may have been lost).
+/// * **stands**: a vehicle moves only within kPlanLasts of its controller's last new plan.
+class AnnouncedCheck {
+ public:
+  static constexpr Nanoseconds kPatience = kNanosecondsPerSecond / 2;
+  /// Horizon and step under way, braking, and the patience.
+  static constexpr Nanoseconds kPlanLasts = 3'200 * kNanosecondsPerMillisecond;
+  static constexpr double kMoving_mps = 0.1;
+
+  AnnouncedCheck(const Footprint& footprint, Nanoseconds period)
+      : footprint_(footprint), period_(period) {}
+
+  void published(const Traffic& traffic);
+  void predicted(const Prediction& prediction) { cars_[prediction.vehicle].predicted = prediction; }
+  void reported(const Report& report, Nanoseconds at);
+  /// @param tick  its time
+  void driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
+              Violations& violations);
+  /// It is not judged until something new is announced of it. @param tick  now
+  void forgive(VehicleId vehicle, Nanoseconds tick) {
+    Car& car = cars_[vehicle];
+    car.running.reset();
+    car.agreed.reset();
+    car.before.reset();
+    car.outside_since.reset();
+    car.last_plan = tick;
+  }
+
+ private:
+  struct Car {
+    std::optional<OccupiedAreas> running;  ///< of the last traffic
+    std::optional<OccupiedAreas> agreed;   ///< of a plan since then
+    std::optional<OccupiedAreas> before;   ///< of the plan before that
+    std::optional<Prediction> predicted;
+    std::optional<Nanoseconds> outside_since;
+    Nanoseconds last_plan{};
+    bool is_reported{};
+    bool runs_on{};
+  };
+
+  [[nodiscard]] bool is_inside(const Car& car, StepIndex step, const Pose& pose) const;
+
+  Footprint footprint_;
+  Nanoseconds period_;
+  std::map<VehicleId, Car> cars_;
+};
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,171 @@
+#include "vehicle_sim/closed_loop/driven_plans.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "planner/coordination/commit.hpp"
+#include "vehicle_sim/closed_loop/invariants.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, copy included
+
+}  // namespace
+
+void DrivenPlans::commanded(const TrajectoryCommand& command) {
+  Car& car = cars_[{command.vehicle_id}];
+  car.is_told_to_stand = command.points.empty();
+  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) return;  // the copy
+  car.sent.push_back({.create = command.create_stamp, .plan = nullptr});
+  if (car.sent.size() > kKeptCommands) car.sent.pop_front();
+}
+
+bool DrivenPlans::has_newest_plan(const Car& car) {
+  const AgreedPlan newest = plan_of(car, car.newest_valid);
+  return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
+}
+
+void DrivenPlans::published(const Traffic& traffic) {
+  Car& car = cars_[traffic.vehicle];
+  if (has_newest_plan(car)) return;
+  car.is_mistaken = true;
+  if (traffic.step.value >= car.missed_since.value + 2) {
+    car.out_of_reach_until = traffic.step.value * period_ + kAfterwards;
+  }
+}
+
+void DrivenPlans::reported(const Report& report, const Plan* in_force) {
+  Car& car = cars_[report.vehicle];
+  if (report.status == StepStatus::kPlanned) {
+    if (has_newest_plan(car)) car.missed_since = report.step;
+    Agreed agreed{.number = ++car.num_agreed,
+                  .end = in_force->end(),
+                  .last_pose = in_force->pose_at(in_force->end()),
+                  .areas = std::nullopt};
+    if (car.predicted && car.predicted->step == report.step) agreed.areas = car.predicted->areas;
+    car.agreed = std::make_shared<const Agreed>(std::move(agreed));
+  } else if (in_force != nullptr) {
+    car.agreed = kept_plan(car, report, *in_force);
+  }
+  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
+    car.is_mistaken = false;
+  }
+  for (Sent& sent : car.sent) {
+    if (!sent.plan) sent.plan = car.agreed;
+  }
+}
+
+/// The plan in force where nothing new has been agreed: the same as before, an older one that the
+/// vehicle was seen on, or one that has been anchored anew. The last one needs no command: what is
+/// received already counts as received.
+DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& report,
+                                               const Plan& in_force) {
+  const Pose& last_pose = in_force.pose_at(in_force.end());
+  const auto is_same = [&](const AgreedPlan& plan) {
+    return plan && plan->end == in_force.end() && plan->last_pose == last_pose;
+  };
+  if (is_same(car.agreed)) return car.agreed;
+  const auto found = std::ranges::find_if(car.sent, is_same, &Sent::plan);
+  if (found != car.sent.end()) return found->plan;
+  const AgreedPlan received = plan_of(car, car.newest_valid);
+  Agreed anchored{.number = received ? received->number : car.num_agreed,
+                  .end = in_force.end(),
+                  .last_pose = last_pose,
+                  .areas = std::nullopt,
+                  .is_anchored = true};
+  if (report.status != StepStatus::kStandby) anchored.areas = in_force.areas_from(report.step);
+  return std::make_shared<const Agreed>(std::move(anchored));
+}
+
+void DrivenPlans::received(const TrajectoryCommand& command) {
+  Car& car = cars_[{command.vehicle_id}];
+  car.received.emplace_back(command.valid_after_stamp, command.create_stamp);
+}
+
+void DrivenPlans::died(VehicleId vehicle, Nanoseconds at) {
+  Car& car = cars_[vehicle];
+  car.out_of_reach_until = at + kAfterwards;
+  car.driven = nullptr;
+  car.follows = 0;
+  car.received.clear();
+}
+
+DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create) {
+  const auto found = std::ranges::find(car.sent, create, &Sent::create);
+  return found == car.sent.end() ? nullptr : found->plan;
+}
+
+bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
+  const AgreedPlan newest = plan_of(car, car.newest_valid);
+  if (car.follows != 0 || car.is_told_to_stand || !newest || !newest->areas) return false;
+  const bool has_run_out =
+      tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
+  return !has_run_out && tick >= car.newest_valid + kCommandLifetime;
+}
+
+bool DrivenPlans::is_out_of_reach(VehicleId vehicle, Nanoseconds at) const {
+  const auto car = cars_.find(vehicle);
+  return car != cars_.end() && at < car->second.out_of_reach_until;
+}
+
+bool DrivenPlans::is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const {
+  return car.follows != 0 && car.driven && car.driven->areas && !car.is_mistaken &&
+         !is_out_of_reach(vehicle, tick);
+}
+
+void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows,
+                         Violations& violations) {
+  Car& car = cars_[vehicle];
+  std::erase_if(car.received, [&](const std::pair<Nanoseconds, Nanoseconds>& command) {
+    const auto& [valid_after, create] = command;
+    if (valid_after > tick) return false;
+    car.newest_valid = std::max(car.newest_valid, create);
+    return true;
+  });
+  const bool changes = follows != car.follows;
+  car.follows = follows;
+  if (has_newest_plan(car)) car.is_mistaken = false;
+  const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
+  if (is_lost || has_dropped_plan(car, tick)) car.out_of_reach_until = tick + kAfterwards;
+  judge_order(vehicle, car, tick, violations);
+  if (!changes || follows == 0) return;
+  const AgreedPlan plan = plan_of(car, follows);
+  if (!plan || plan == car.driven) return;
+  car.driven = plan;
+  judge_pairs(vehicle, tick, violations);
+}
+
+void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
+                              Violations& violations) {
+  if (car.follows == 0) return;
+  if (car.follows >= car.newest_valid || !disobeyed_.insert(vehicle).second) return;
+  violations.push_back({.at = tick,
+                        .check = "commands",
+                        .text = "vehicle " + std::to_string(vehicle.value) +
+                                " follows an older command than it has received"});
+}
+
+void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
+  const Car& car = cars_.at(vehicle);
+  if (!is_judged(vehicle, car, tick)) return;
+  const OccupiedAreas& areas = *car.driven->areas;
+  const StepIndex now{tick / period_};
+  for (const auto& [other, its] : cars_) {
+    if (other == vehicle || !is_judged(other, its, tick)) continue;
+    if (car.driven->is_anchored && its.driven->is_anchored) continue;
+    const StepIndex from = std::max({now, areas.first, its.driven->areas->first});
+    if (are_free(areas, *its.driven->areas, from, horizon_steps_) ||
+        !met_.insert(std::minmax(vehicle, other)).second) {
+      continue;
+    }
+    violations.push_back({.at = tick,
+                          .check = "driven",
+                          .text = "vehicles " + std::to_string(other.value) + " and " +
+                                  std::to_string(vehicle.value) +
+                                  " drive plans that meet from step " + std::to_string(from.value) +
+                                  " on"});
+  }
+}
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/messages/messages.hpp"
+#include "planner/coordination/messages.hpp"
+#include "planner/coordination/plan.hpp"
+#include "planner/coordination/report.hpp"
+#include "vehicle_sim/closed_loop/violation.hpp"
+
+namespace hlc::closed_loop {
+
+/// Which plan each vehicle truly drives: the one whose command it follows. What is judged:
+///
+/// * **driven**: whenever a vehicle changes over to another plan, it is free of the plans that the
+///   others drive from then on, until both stand. (Where two vehicles stand, about which nobody has
+///   agreed, is a matter of footprints.)
+/// * **commands**: a vehicle follows the newest command that it has received and that is valid.
+///
+/// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
+/// about its vehicle if it publishes traffic while the vehicle has not received the plan in force,
+/// which was agreed in a step before, and reports no deviation: the others rely on a plan that is
+/// not driven. A vehicle is *out of reach*
+///   * while its controller is mistaken, from the second step after the first plan that it has not
+///     received;
+///   * while it has dropped its command before the end of the plan, since nothing newer has come;
+///   * when its process dies;
+/// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
+/// the vehicle has not received counts: commands that it has it must follow.
+class DrivenPlans {
+ public:
+  static constexpr Nanoseconds kAfterwards = 2 * kNanosecondsPerSecond;
+
+  DrivenPlans(std::size_t horizon_steps, Nanoseconds period)
+      : horizon_steps_(horizon_steps), period_(period) {}
+
+  void predicted(const Prediction& prediction) { cars_[prediction.vehicle].predicted = prediction; }
+  void published(const Traffic& traffic);
+  void commanded(const TrajectoryCommand& command);
+  /// What was commanded before in the same step is of the plan in force after it.
+  void reported(const Report& report, const Plan* in_force);
+  void received(const TrajectoryCommand& command);
+  /// @param follows  create_stamp of the command that is followed; 0: none
+  void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
+  void died(VehicleId vehicle, Nanoseconds at);
+
+  [[nodiscard]] bool is_out_of_reach(VehicleId vehicle, Nanoseconds at) const;
+
+ private:
+  /// A plan as its vehicle has announced it, or to stand where it stands.
+  struct Agreed {
+    std::uint64_t number{};
+    StepIndex end;  ///< this and the last pose tell plans apart
+    Pose last_pose;
+    std::optional<OccupiedAreas> areas;  ///< none: not known to anybody
+    bool is_anchored{};
+  };
+  using AgreedPlan = std::shared_ptr<const Agreed>;
+  struct Sent {
+    Nanoseconds create{};
+    AgreedPlan plan;
+  };
+  struct Car {
+    std::optional<Prediction> predicted;
+    AgreedPlan agreed{std::make_shared<const Agreed>()};
+    std::uint64_t num_agreed{};
+    StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
+    bool is_mistaken{};
+    std::deque<Sent> sent;  ///< the newest last
+    bool is_told_to_stand{};
+    std::vector<std::pair<Nanoseconds, Nanoseconds>>
+        received;                ///< valid from, create; not yet valid
+    Nanoseconds newest_valid{};  ///< create, of those received
+    Nanoseconds follows{};
+    AgreedPlan driven;
+    Nanoseconds out_of_reach_until{};
+  };
+
+  [[nodiscard]] static AgreedPlan plan_of(const Car& car, Nanoseconds create);
+  [[nodiscard]] static bool has_newest_plan(const Car& car);
+  [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const Report& report,
+                                            const Plan& in_force);
+  [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
+  [[nodiscard]] bool is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
+  void judge_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
+  void judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations);
+
+  std::size_t horizon_steps_;
+  Nanoseconds period_;
+  std::map<VehicleId, Car> cars_;
+  std::set<std::pair<VehicleId, VehicleId>> met_;
+  std::set<VehicleId> disobeyed_;
+};
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,159 @@
+#include "vehicle_sim/closed_loop/run_judges.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "vehicle_sim/closed_loop/seeded_random.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+const UniversalAutomaton& automaton_of(const Scenario& scenario) {
+  return scenario.subgraph->automaton();
+}
+
+Nanoseconds period_of(const Scenario& scenario) {
+  return static_cast<Nanoseconds>(std::llround(1e9 * automaton_of(scenario).step_s));
+}
+
+std::map<std::uint8_t, Pose> starts_of(const Scenario& scenario) {
+  std::map<std::uint8_t, Pose> starts;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    starts[vehicle.id.value] = measured_start(scenario, vehicle);
+  }
+  return starts;
+}
+
+std::string report_line(const Report& report) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "vehicle %d, step %llu: %s, %s, at (%.3f, %.3f)",
+                int{report.vehicle.value}, static_cast<unsigned long long>(report.step.value),
+                to_string(report.status), to_string(report.reason), report.planned_pose.x_m,
+                report.planned_pose.y_m);
+  return text.data();
+}
+
+std::string follows_line(std::uint8_t vehicle, Nanoseconds create, Nanoseconds period) {
+  const std::string name = "vehicle " + std::to_string(vehicle);
+  if (create == 0) return name + " follows nothing";
+  return name + " follows the command of step " + std::to_string(create / period);
+}
+
+}  // namespace
+
+RunJudges::RunJudges(const Scenario& scenario, Nanoseconds calm_from, const Trace& trace)
+    : period_(period_of(scenario)),
+      footprints_(automaton_of(scenario).vehicle.footprint, starts_of(scenario)),
+      plans_(scenario.horizon_steps),
+      driven_(scenario.horizon_steps, period_),
+      announced_(automaton_of(scenario).vehicle.footprint, period_),
+      planning_(calm_from),
+      trace_(trace) {}
+
+void RunJudges::on_log(NodeId node, const machine::LogLine& line) {
+  const std::string& name = lab_->name(node);
+  reasons_.log(name, line, lab_->now());
+  for (const char letter : line.text) add_to_hash(static_cast<unsigned char>(letter));
+  trace([&] { return name + ": " + line.text; });
+}
+
+void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) {
+  const Nanoseconds number = (time + kVehiclePeriod / 2) / kVehiclePeriod;
+  const Nanoseconds tick = number * kVehiclePeriod;
+  const VehicleId id{vehicle};
+  Last& last = last_[vehicle];
+  if (std::exchange(last.follows, sample.command_create) != sample.command_create) {
+    trace([&] { return follows_line(vehicle, sample.command_create, period_); });
+  }
+  if (!stopped_.contains(vehicle)) {
+    driven_.driven(id, tick, sample.command_create, result_.violations);
+    if (driven_.is_out_of_reach(id, tick)) announced_.forgive(id, tick);
+    announced_.driven(id, tick, sample.pose, sample.speed_mps, result_.violations);
+  }
+  footprints_.driven(vehicle, number, sample.pose,
+                     stopped_.contains(vehicle) || driven_.is_out_of_reach(id, tick));
+  reasons_.driven(name_of({.role = Role::kVehicle, .vehicle = vehicle}), sample.command_create != 0,
+                  lab_->now());
+  last.pose = sample.pose;
+  last.tick = tick;
+  add_to_hash(std::bit_cast<std::uint64_t>(sample.pose.x_m));
+  add_to_hash(std::bit_cast<std::uint64_t>(sample.pose.y_m));
+  add_to_hash(sample.command_create);
+}
+
+void RunJudges::on_prediction(const Prediction& prediction) {
+  plans_.predicted(prediction);
+  driven_.predicted(prediction);
+  announced_.predicted(prediction);
+}
+
+void RunJudges::on_report(const ReportRecord& record, const Plan* in_force) {
+  const Report& report = record.report;
+  ++result_.car_steps;
+  if (report.status == StepStatus::kPlanned) ++result_.planned;
+  if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_)) ++result_.unreachable;
+  planning_.report(record, lab_->now());
+  plans_.reported(report, in_force, lab_->now(), result_.violations);
+  driven_.reported(report, in_force);
+  announced_.reported(report, report.step.value * period_);
+  add_to_hash(report.step.value);
+  add_to_hash(static_cast<std::uint64_t>(report.status));
+  add_to_hash(std::bit_cast<std::uint64_t>(report.cost_m2));
+  trace([&] { return report_line(report); });
+}
+
+void RunJudges::on_command(const TrajectoryCommand& command) {
+  driven_.commanded(command);
+  add_to_hash(command.create_stamp);
+}
+
+void RunJudges::killed(const Seat& seat) {
+  if (seat.key.role != Role::kVehicle || seat.process) return;
+  footprints_.died(seat.key.vehicle, DrivenPlans::kAfterwards / kVehiclePeriod);
+  const Nanoseconds tick = last_[seat.key.vehicle].tick;
+  driven_.died({seat.key.vehicle}, tick);
+  announced_.forgive({seat.key.vehicle}, tick);
+}
+
+void RunJudges::changed(const Seat& seat) {
+  if (!seat.exit_code) {
+    reasons_.started(seat.name);
+    if (seat.key.role == Role::kVehicle) footprints_.came_back(seat.key.vehicle);
+    return trace([&] { return seat.name + " starts"; });
+  }
+  trace([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
+  reasons_.ended(seat.name, *seat.exit_code, lab_->now(), result_.violations);
+  if (seat.key.role == Role::kVehicle) footprints_.ended(seat.key.vehicle);
+  add_to_hash(static_cast<std::uint64_t>(*seat.exit_code));
+}
+
+void RunJudges::report_violation(const std::string& text) {
+  if (!std::exchange(has_violation_, true)) {
+    result_.violations.push_back({.at = lab_->now(), .check = "waits", .text = text});
+  }
+}
+
+void RunJudges::judge_ticks() {
+  footprints_.judge(lab_->now(), result_.violations);
+  reasons_.judge(lab_->now(), result_.violations);
+}
+
+std::optional<Pose> RunJudges::pose_of(std::uint8_t vehicle) const {
+  const auto last = last_.find(vehicle);
+  return last == last_.end() ? std::nullopt : std::optional(last->second.pose);
+}
+
+FaultRunResult RunJudges::result() {
+  judge_ticks();
+  result_.smallest_distance_m = footprints_.smallest_distance_m();
+  return std::move(result_);
+}
+
+void RunJudges::add_to_hash(std::uint64_t value) {
+  result_.hash = mixed(result_.hash ^ value, lab_->now());
+}
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "vehicle_sim/closed_loop/announced_check.hpp"
+#include "vehicle_sim/closed_loop/driven_plans.hpp"
+#include "vehicle_sim/closed_loop/invariants.hpp"
+#include "vehicle_sim/closed_loop/simulated_lab.hpp"
+
+namespace hlc::closed_loop {
+
+/// A line for whoever looks on. @param at  true time since the begin of the run
+using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
+
+struct FaultRunResult {
+  Violations violations;
+  std::uint64_t hash{};          ///< of all that was reported, driven and logged, and when
+  std::uint64_t car_steps{};     ///< control steps that were reported
+  std::uint64_t planned{};       ///< of them with a new plan
+  std::uint64_t unreachable{};   ///< of them of a vehicle out of reach (DrivenPlans)
+  double smallest_distance_m{};  ///< between driven footprints
+};
+
+/// Everything that is judged and hashed while a run goes on.
+class RunJudges final : public RunObserver {
+ public:
+  RunJudges(const Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
+
+  /// Whose time and names are meant; before anything happens.
+  void attach(SimulatedLab& lab) { lab_ = &lab; }
+
+  void on_log(NodeId node, const machine::LogLine& line) override;
+  void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) override;
+  void on_traffic(const Traffic& traffic) override {
+    driven_.published(traffic);
+    announced_.published(traffic);
+  }
+  void on_prediction(const Prediction& prediction) override;
+  void on_report(const ReportRecord& record, const Plan* in_force) override;
+  void on_command(const TrajectoryCommand& command) override;
+  void on_received(const TrajectoryCommand& command) override { driven_.received(command); }
+  /// From now on it brakes at once, wherever it is and whoever is near: it is not judged any more.
+  void on_stop_symbol(std::uint8_t vehicle) override { stopped_.insert(vehicle); }
+
+  void killed(const Seat& seat);
+  /// It has begun or ended.
+  void changed(const Seat& seat);
+  void report_violation(const std::string& text);
+  void judge_ticks();
+  void judge_planning(const std::vector<std::uint8_t>& able) {
+    planning_.judge(able, lab_->now(), result_.violations);
+  }
+
+  /// Somebody has planned.
+  [[nodiscard]] bool has_begun() const { return result_.planned > 0; }
+  [[nodiscard]] std::optional<Pose> pose_of(std::uint8_t vehicle) const;
+  [[nodiscard]] FaultRunResult result();
+
+  template <class Line>
+  void trace(Line line) const {
+    if (trace_) trace_(lab_->now(), line());
+  }
+
+ private:
+  void add_to_hash(std::uint64_t value);
+
+  Nanoseconds period_;
+  FootprintsCheck footprints_;
+  PlansCheck plans_;
+  DrivenPlans driven_;
+  AnnouncedCheck announced_;
+  ReasonsCheck reasons_;
+  PlanningCheck planning_;
+  const Trace& trace_;
+  const SimulatedLab* lab_{};
+  struct Last {
+    Nanoseconds tick{};
+    Pose pose;
+    Nanoseconds follows{};
+  };
+  std::map<std::uint8_t, Last> last_;
+  std::set<std::uint8_t> stopped_;
+  FaultRunResult result_;
+  bool has_violation_{};
+};
+
+}  // namespace hlc::closed_loop

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/messages/time_grid.hpp"
+
+namespace hlc::closed_loop {
+
+/// Something that must not be.
+struct Violation {
+  Nanoseconds at{};   ///< true time since the begin of the run
+  std::string check;  ///< name of the rule
+  std::string text;   ///< one line
+};
+using Violations = std::vector<Violation>;
+
+}  // namespace hlc::closed_loop
