@@ -73,8 +73,8 @@ TEST(FoundFault, Seed5515AVehicleThatMissesCommandsButIsSeenIsOutOfReach) {
   EXPECT_GT(result.unreachable, 0U);
 }
 
-/// A controller that starts in the middle of a run in logical time told its vehicle to stand where
-/// it drove.
+/// A controller that starts in the middle of a run in logical time commanded its vehicle to stand
+/// where it drove.
 TEST(FoundFault, Seed1178InLogicalTimeARestartedControllerLeavesAMovingVehicleAlone) {
   run(paper(4, 0xb8dce3bc18d8e17),
       {.seed = 1178, .is_logical = true, .transport = Transport::kLoopback},

@@ -25,7 +25,8 @@ void AnnouncedCheck::reported(const Report& report, Nanoseconds at) {
 bool AnnouncedCheck::is_inside(const Car& car, StepIndex step, const Pose& pose) const {
   constexpr double kRounding_m = 1e-4;
   const ConvexPolygon area = footprint_area(footprint_, pose);
-  if (step < car.running->first) return true;  // made up for later: that is not known any more
+  if (step < car.running->first)
+    return true;  // replaced by a later plan: the area is no longer known
   for (const auto* announced : {&car.agreed, &car.running, &car.before}) {
     if (*announced && (*announced)->first <= step &&
         contains((*announced)->during(step), area, kRounding_m)) {

@@ -15,7 +15,7 @@ constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, co
 
 void DrivenPlans::commanded(const TrajectoryCommand& command) {
   Car& car = cars_[{command.vehicle_id}];
-  car.is_told_to_stand = command.points.empty();
+  car.is_commanded_to_stand = command.points.empty();
   if (!car.sent.empty() && car.sent.back().create == command.create_stamp) return;  // the copy
   car.sent.push_back({.create = command.create_stamp, .plan = nullptr});
   if (car.sent.size() > kKeptCommands) car.sent.pop_front();
@@ -57,8 +57,8 @@ void DrivenPlans::reported(const Report& report, const Plan* in_force) {
 }
 
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
-/// vehicle was seen on, or one that has been anchored anew. The last one needs no command: what is
-/// received already counts as received.
+/// vehicle was seen on, or one that has been anchored where it stands. The last one needs no
+/// command: what is received already counts as received.
 DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& report,
                                                const Plan& in_force) {
   const Pose& last_pose = in_force.pose_at(in_force.end());
@@ -98,7 +98,7 @@ DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create)
 
 bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
   const AgreedPlan newest = plan_of(car, car.newest_valid);
-  if (car.follows != 0 || car.is_told_to_stand || !newest || !newest->areas) return false;
+  if (car.follows != 0 || car.is_commanded_to_stand || !newest || !newest->areas) return false;
   const bool has_run_out =
       tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
   return !has_run_out && tick >= car.newest_valid + kCommandLifetime;

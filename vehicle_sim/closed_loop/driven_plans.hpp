@@ -57,7 +57,7 @@ class DrivenPlans {
   /// A plan as its vehicle has announced it, or to stand where it stands.
   struct Agreed {
     std::uint64_t number{};
-    StepIndex end;  ///< this and the last pose tell plans apart
+    StepIndex end;  ///< with the last pose, the identity of a plan
     Pose last_pose;
     std::optional<OccupiedAreas> areas;  ///< none: not known to anybody
     bool is_anchored{};
@@ -74,7 +74,7 @@ class DrivenPlans {
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
     bool is_mistaken{};
     std::deque<Sent> sent;  ///< the newest last
-    bool is_told_to_stand{};
+    bool is_commanded_to_stand{};
     std::vector<std::pair<Nanoseconds, Nanoseconds>>
         received;                ///< valid from, create; not yet valid
     Nanoseconds newest_valid{};  ///< create, of those received

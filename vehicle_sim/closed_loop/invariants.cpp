@@ -59,15 +59,7 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
   for (; *next_ < end; ++*next_) {
     for (auto a = cars_.begin(); a != cars_.end(); ++a) {
       for (auto b = std::next(a); b != cars_.end(); ++b) {
-        const Pose& pose_a = a->second.at(*next_);
-        const Pose& pose_b = b->second.at(*next_);
-        const double centres_m = std::hypot(pose_a.x_m - pose_b.x_m, pose_a.y_m - pose_b.y_m);
-        if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) continue;
-        const double gap_m =
-            distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
-        const bool is_excused = a->second.is_excused(*next_) || b->second.is_excused(*next_);
-        if (!is_excused) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
-        if (gap_m > 0.0 || !touched_.insert({a->first, b->first}).second || is_excused) continue;
+        if (!touches_first_time(*a, *b, *next_)) continue;
         violations.push_back({.at = at,
                               .check = "footprints",
                               .text = "vehicles " + std::to_string(a->first) + " and " +
@@ -76,6 +68,19 @@ void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
       }
     }
   }
+}
+
+bool FootprintsCheck::touches_first_time(const Cars::value_type& a, const Cars::value_type& b,
+                                         std::uint64_t tick) {
+  const Pose& pose_a = a.second.at(tick);
+  const Pose& pose_b = b.second.at(tick);
+  const double centres_m = std::hypot(pose_a.x_m - pose_b.x_m, pose_a.y_m - pose_b.y_m);
+  if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) return false;
+  const double gap_m =
+      distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
+  const bool is_excused = a.second.is_excused(tick) || b.second.is_excused(tick);
+  if (!is_excused) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
+  return gap_m <= 0.0 && touched_.insert({a.first, b.first}).second && !is_excused;
 }
 
 // --- plans --------------------------------------------------------------------------------------

@@ -57,10 +57,14 @@ class FootprintsCheck {
       return tick >= excused_from && tick < excused_until;
     }
   };
+  using Cars = std::map<std::uint8_t, Car>;
+
+  [[nodiscard]] bool touches_first_time(const Cars::value_type& a, const Cars::value_type& b,
+                                        std::uint64_t tick);
 
   Footprint footprint_;
   double circumradius_m_;
-  std::map<std::uint8_t, Car> cars_;
+  Cars cars_;
   std::optional<std::uint64_t> next_;  ///< next tick to check
   std::set<std::pair<std::uint8_t, std::uint8_t>> touched_;
   double smallest_distance_m_{1e9};
@@ -82,7 +86,7 @@ class FootprintsCheck {
 ///
 /// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives
 /// areas that no other vehicle agreed to (rule 4 of plan_in_force.hpp): it is ignored until its
-/// next new plan. So is one whose plan has been anchored anew.
+/// next new plan. So is one whose plan has been anchored where it stands.
 class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}

@@ -45,7 +45,7 @@ class RunJudges final : public RunObserver {
   void on_report(const ReportRecord& record, const Plan* in_force) override;
   void on_command(const TrajectoryCommand& command) override;
   void on_received(const TrajectoryCommand& command) override { driven_.received(command); }
-  /// From now on it brakes at once, wherever it is and whoever is near: it is not judged any more.
+  /// From now on it brakes at once, wherever it is and whoever is near: it is no longer judged.
   void on_stop_symbol(std::uint8_t vehicle) override { stopped_.insert(vehicle); }
 
   void killed(const Seat& seat);
