@@ -49,13 +49,17 @@ void FootprintsCheck::died(std::uint8_t vehicle, std::uint64_t unreachable_ticks
   car.excuse(car.end(), car.end() + unreachable_ticks);
 }
 
+std::uint64_t FootprintsCheck::all_driven_until() const {
+  std::optional<std::uint64_t> end;
+  for (const auto& [vehicle, car] : cars_) {
+    if (!car.has_ended && !car.poses.empty()) end = std::min(end.value_or(car.end()), car.end());
+  }
+  return end.value_or(0);
+}
+
 void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
   if (!next_) return;
-  std::uint64_t end = ~std::uint64_t{0};
-  for (const auto& [vehicle, car] : cars_) {
-    if (!car.has_ended && !car.poses.empty()) end = std::min(end, car.end());
-  }
-  if (end == ~std::uint64_t{0}) return;
+  const std::uint64_t end = all_driven_until();
   for (; *next_ < end; ++*next_) {
     for (auto a = cars_.begin(); a != cars_.end(); ++a) {
       for (auto b = std::next(a); b != cars_.end(); ++b) {

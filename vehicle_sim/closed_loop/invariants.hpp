@@ -59,6 +59,8 @@ class FootprintsCheck {
   };
   using Cars = std::map<std::uint8_t, Car>;
 
+  /// The tick before which every vehicle that drives has driven; 0 if none does.
+  [[nodiscard]] std::uint64_t all_driven_until() const;
   [[nodiscard]] bool touches_first_time(const Cars::value_type& a, const Cars::value_type& b,
                                         std::uint64_t tick);
 
