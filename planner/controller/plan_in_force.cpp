@@ -120,6 +120,21 @@ bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const 
   });
 }
 
+/// `way` and the areas in which a disturbed vehicle can be during the step.
+ConvexPolygon PlanInForce::with_step(ConvexPolygon way, StepIndex step) const {
+  std::vector<ConvexPolygon> areas{std::move(way)};
+  const auto add = [&](const Plan& plan, const OccupiedAreas& announced) {
+    if (step < announced.first || step < plan.first()) return;
+    areas.push_back(driven_or_braked_area(plan, announced, step, automaton_->vehicle));
+  };
+  for (const ReplacedPlans::Former* one : replaced_.doubtful()) add(one->plan, one->announced);
+  if (!outside_area_m_.empty()) {
+    add(plan_, announced_);
+    if (step >= moved_->first()) add(*moved_, moved_->areas_from(step));
+  }
+  return convex_hull(areas);
+}
+
 /// The areas of the other plans that may be driven grow from step to step: the vehicle may have
 /// stopped anywhere on the way.
 OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
@@ -132,27 +147,16 @@ OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
     areas.areas_m.push_back(announced_.during(step));
   }
   if (outside_area_m_.empty() && former.empty()) return areas;
-  const VehicleParameters& vehicle = automaton_->vehicle;
   ConvexPolygon way = outside_area_m_;
-  const auto add_to_way = [&](const Plan& plan, const OccupiedAreas& announced, StepIndex step) {
-    if (step < announced.first || step < plan.first()) return;
-    way = convex_hull(std::vector{way, driven_or_braked_area(plan, announced, step, vehicle)});
-  };
-  const auto drive_on = [&](StepIndex step) {
-    for (const ReplacedPlans::Former* one : former) add_to_way(one->plan, one->announced, step);
-    if (!outside_area_m_.empty()) {
-      add_to_way(plan_, announced_, step);
-      if (step >= moved_->first()) add_to_way(*moved_, moved_->areas_from(step), step);
-    }
-  };
-  for (StepIndex step = seen_.step; step < from; ++step.value) drive_on(step);
+  for (StepIndex step = seen_.step; step < from; ++step.value) {
+    way = with_step(std::move(way), step);
+  }
   for (StepIndex step = from; step < end; ++step.value) {
-    drive_on(step);
+    way = with_step(std::move(way), step);
     ConvexPolygon& area = areas.areas_m[step.value - from.value];
     area = convex_hull(std::vector{area, way});
   }
-  drive_on(end);
-  areas.final_area_m = convex_hull(std::vector{areas.final_area_m, way});
+  areas.final_area_m = convex_hull(std::vector{areas.final_area_m, with_step(std::move(way), end)});
   return areas;
 }
 

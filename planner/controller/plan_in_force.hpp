@@ -124,6 +124,7 @@ class PlanInForce {
   void replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
 
  private:
+  [[nodiscard]] ConvexPolygon with_step(ConvexPolygon way, StepIndex step) const;
   [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
                                          double reserve_m = 0.0) const;
   [[nodiscard]] double deviation_from(const Plan& plan) const;
