@@ -10,7 +10,7 @@ usage: run_lab.sh [flags]      (every flag also as --name=value)
 Installs what is missing, builds, drives three cars for 30 s, prints the result table.
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
                           (default paper_three_cars; also paper_red_alone, circle)
-  --profile NAME          default: every plan optimal, safe under loss of messages
+  --profile NAME          default: every plan optimal, safe under loss of messages between controllers
                           2022: the rules that produced the paper's numbers
   --engine NAME           search engine: branch_and_bound (default profile) or best_first (profile 2022); the same called
                           through OMPL's planner interface: ompl_branch_and_bound, ompl_best_first
