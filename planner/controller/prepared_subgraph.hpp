@@ -9,8 +9,6 @@
 
 namespace hlc {
 
-struct SearchTables;
-
 /// A subgraph with everything that planning on it needs, so that a switch costs hardly more than a
 /// planner (Controller::switch_to). It never changes: it can be made in advance on any thread, and
 /// shared by controllers.

@@ -1,30 +1,14 @@
 #pragma once
 
-#include <compare>
-#include <cstdint>
 #include <vector>
 
 #include "planner/automaton/trim_id.hpp"
+#include "planner/coordination/ids.hpp"
 #include "planner/geometry/polygon.hpp"
 #include "planner/geometry/pose.hpp"
 
 /// What controllers publish in one control step, as plain data.
 namespace hlc {
-
-struct VehicleId {
-  std::uint8_t value{};
-  friend auto operator<=>(const VehicleId&, const VehicleId&) = default;
-};
-
-/// The lab numbers its vehicles 1 ... 30.
-inline constexpr std::uint8_t kMaxVehicleId = 30;
-
-/// Number k = t_now / period of the control step, from the time stamp and never from a count of
-/// receipts, so equal numbers mean the same instant in every controller. t(k) = k * period.
-struct StepIndex {
-  std::uint64_t value{};
-  friend auto operator<=>(const StepIndex&, const StepIndex&) = default;
-};
 
 /// Area that a vehicle occupies under one plan, step by step, in the map's frame; safety margin
 /// included.

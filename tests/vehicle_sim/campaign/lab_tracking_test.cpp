@@ -58,7 +58,7 @@ TEST(LabTracking, TheCarsOfTheRedRouteAndThoseItMeetsKeepToTheirCommands) {
 TEST(LabTracking, TheCarsOnTheCircleKeepToTheirCommands) { expect_tracked("lab_circle", 60); }
 
 /// The lab's circle of 1 m, at a trim's speed, points as our commands have them.
-closed_loop::Mission circle(double speed_mps, Nanoseconds interval) {
+driven_vehicle::Mission circle(double speed_mps, Nanoseconds interval) {
   const auto at = [speed_mps](Nanoseconds t) {
     const double angle =
         speed_mps * std::max(0.0, 1e-9 * static_cast<double>(t) - 1.0);  // stands for 1 s
@@ -70,10 +70,10 @@ closed_loop::Mission circle(double speed_mps, Nanoseconds interval) {
   };
   return {.points =
               [at, interval](std::uint64_t step) {
-                const Nanoseconds begin = step * closed_loop::kPeriod;
+                const Nanoseconds begin = step * driven_vehicle::kPeriod;
                 std::vector<TrajectoryPoint> points;
                 for (Nanoseconds t = begin < interval ? 0 : begin - interval;
-                     t <= begin + 2'200 * closed_loop::kMillisecond; t += interval) {
+                     t <= begin + 2'200 * driven_vehicle::kMillisecond; t += interval) {
                   points.push_back(at(t));
                 }
                 return points;
@@ -92,14 +92,14 @@ TEST(LabTracking, TheLabsCircleIsKeptToAtEveryTrimsSpeed) {
                                 .gains = {},
                                 .vehicle = {}});
       const auto samples =
-          closed_loop::drive(vehicle, circle(speed_mps, 25 * closed_loop::kMillisecond),
-                             30'000 * closed_loop::kMillisecond);
-      const closed_loop::TrackingError error =
-          closed_loop::tracking_error(samples, 2'000 * closed_loop::kMillisecond);
+          driven_vehicle::drive(vehicle, circle(speed_mps, 25 * driven_vehicle::kMillisecond),
+                                30'000 * driven_vehicle::kMillisecond);
+      const driven_vehicle::TrackingError error =
+          driven_vehicle::tracking_error(samples, 2'000 * driven_vehicle::kMillisecond);
       EXPECT_LE(error.mean_m, kMean_m) << speed_mps;
       EXPECT_LE(error.max_m, kMax_m) << speed_mps;
       std::cout << "circle at " << speed_mps << " m/s" << (noise_seed ? ", noise" : "") << ": "
-                << closed_loop::to_string(error) << '\n';
+                << driven_vehicle::to_string(error) << '\n';
     }
   }
 }

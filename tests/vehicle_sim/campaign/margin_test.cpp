@@ -16,9 +16,9 @@
 namespace hlc::margin_test {
 namespace {
 
-using closed_loop::kMillisecond;
-using closed_loop::Sample;
-using closed_loop::TrimWalk;
+using driven_vehicle::kMillisecond;
+using driven_vehicle::Sample;
+using driven_vehicle::TrimWalk;
 using Trims = std::vector<std::size_t>;
 
 const Pose kStart{.x_m = 2.25, .y_m = 2.0, .heading_rad = 0.4};
@@ -51,7 +51,7 @@ Largest walked(const Trims& trims, std::uint64_t seed,
       {.vehicle_id = 1, .start = mapped(kStart, 0.0), .noise_seed = noise_seed});
   Largest largest;
   for (const Sample& sample :
-       closed_loop::drive(vehicle, walk.mission(), walk.end() + 1'000 * kMillisecond)) {
+       driven_vehicle::drive(vehicle, walk.mission(), walk.end() + 1'000 * kMillisecond)) {
     const State planned = walk.state_at(sample.t);
     const Pose& driven = sample.tick.driven.pose;
     const double yaw_rad = mapped(planned.pose, planned.steering_rad).heading_rad;

@@ -13,13 +13,13 @@
 namespace hlc::tracking_quality_test {
 namespace {
 
-using closed_loop::drive;
-using closed_loop::kMillisecond;
-using closed_loop::Mission;
-using closed_loop::Sample;
-using closed_loop::tracking_error;
-using closed_loop::TrackingError;
-using closed_loop::TrimWalk;
+using driven_vehicle::drive;
+using driven_vehicle::kMillisecond;
+using driven_vehicle::Mission;
+using driven_vehicle::Sample;
+using driven_vehicle::tracking_error;
+using driven_vehicle::TrackingError;
+using driven_vehicle::TrimWalk;
 
 const Pose kStart{.x_m = 2.25, .y_m = 2.0, .heading_rad = 0.4};
 
@@ -33,7 +33,7 @@ TrackingError walked(const std::vector<std::size_t>& trims, std::uint64_t seed,
   SimulatedVehicle vehicle = vehicle_at(kStart, noise_seed);
   const std::vector<Sample> samples =
       drive(vehicle, walk.mission(), walk.end() + 1'000 * kMillisecond);
-  return tracking_error(samples, TrimWalk::kFirstStep * closed_loop::kPeriod);
+  return tracking_error(samples, TrimWalk::kFirstStep * driven_vehicle::kPeriod);
 }
 
 /// The lab's test: a circle of 1 m at 1 m/s, points every `interval`, from a standing start.
@@ -48,7 +48,7 @@ Mission lab_circle(Nanoseconds interval) {
   };
   return {.points =
               [at, interval](std::uint64_t step) {
-                const Nanoseconds begin = step * closed_loop::kPeriod / interval * interval;
+                const Nanoseconds begin = step * driven_vehicle::kPeriod / interval * interval;
                 std::vector<TrajectoryPoint> points;
                 for (Nanoseconds t = begin; t <= begin + 3'000 * kMillisecond; t += interval) {
                   points.push_back(at(t));

@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-namespace hlc::closed_loop {
+namespace hlc::driven_vehicle {
 namespace {
 
 constexpr Nanoseconds kGrid = 10 * kMillisecond;
@@ -151,4 +151,4 @@ Mission TrimWalk::mission() const {
           .planned = [this](Nanoseconds t) { return state_at(t).pose.position_m(); }};
 }
 
-}  // namespace hlc::closed_loop
+}  // namespace hlc::driven_vehicle

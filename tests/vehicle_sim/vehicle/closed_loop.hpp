@@ -9,7 +9,7 @@
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 /// A simulated vehicle driven by commands as a controller sends them.
-namespace hlc::closed_loop {
+namespace hlc::driven_vehicle {
 
 inline constexpr Nanoseconds kMillisecond = 1'000'000;
 inline constexpr Nanoseconds kPeriod = 200 * kMillisecond;
@@ -82,4 +82,4 @@ class TrimWalk {
   std::uint64_t seed_;
 };
 
-}  // namespace hlc::closed_loop
+}  // namespace hlc::driven_vehicle

@@ -11,11 +11,11 @@
 namespace hlc::simulated_vehicle_test {
 namespace {
 
-using closed_loop::drive;
-using closed_loop::kMillisecond;
-using closed_loop::Mission;
-using closed_loop::Sample;
-using closed_loop::TrimWalk;
+using driven_vehicle::drive;
+using driven_vehicle::kMillisecond;
+using driven_vehicle::Mission;
+using driven_vehicle::Sample;
+using driven_vehicle::TrimWalk;
 
 const Pose kStart{.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.4};
 

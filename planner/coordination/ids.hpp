@@ -1,0 +1,24 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+/// What vehicles and control steps are called, by everybody.
+namespace hlc {
+
+struct VehicleId {
+  std::uint8_t value{};
+  friend auto operator<=>(const VehicleId&, const VehicleId&) = default;
+};
+
+/// The lab numbers its vehicles 1 ... 30.
+inline constexpr std::uint8_t kMaxVehicleId = 30;
+
+/// Number k = t_now / period of the control step, from the time stamp and never from a count of
+/// receipts, so equal numbers mean the same instant in every controller. t(k) = k * period.
+struct StepIndex {
+  std::uint64_t value{};
+  friend auto operator<=>(const StepIndex&, const StepIndex&) = default;
+};
+
+}  // namespace hlc
