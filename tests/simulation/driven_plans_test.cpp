@@ -11,7 +11,7 @@ constexpr VehicleId kFirst{1};
 constexpr VehicleId kSecond{2};
 constexpr Nanoseconds kDrivenPeriod = 200 * kNanosecondsPerMillisecond;
 
-OccupiedAreas area_at(std::uint64_t first, double x_m) {
+coordination::OccupiedAreas area_at(std::uint64_t first, double x_m) {
   return {.first = {first},
           .final_area_m = footprint_area({.length_m = 0.2, .width_m = 0.2}, {.x_m = x_m})};
 }
@@ -23,8 +23,9 @@ class Driven : public testing::Test {
     driven_.published({.vehicle = vehicle, .step = {step}});
     driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
     driven_.commanded(command(vehicle, step));
-    const Plan plan({step}, {.x_m = x_m}, standstill_);
-    driven_.reported({.vehicle = vehicle, .step = {step}, .status = StepStatus::kPlanned}, &plan);
+    const coordination::Plan plan({step}, {.x_m = x_m}, standstill_);
+    driven_.reported(
+        {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);
   }
   static TrajectoryCommand command(VehicleId vehicle, std::uint64_t step) {
     return {.vehicle_id = vehicle.value,
@@ -38,7 +39,7 @@ class Driven : public testing::Test {
                    violations_);
   }
 
-  Maneuver standstill_;
+  automaton::Maneuver standstill_;
   DrivenPlans driven_{8, kDrivenPeriod};
   Violations violations_;
 };

@@ -26,7 +26,7 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
   return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
 }
 
-void DrivenPlans::published(const Traffic& traffic) {
+void DrivenPlans::published(const coordination::Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
   if (has_newest_plan(car)) return;
   car.is_mistaken = true;
@@ -35,9 +35,9 @@ void DrivenPlans::published(const Traffic& traffic) {
   }
 }
 
-void DrivenPlans::reported(const Report& report, const Plan* in_force) {
+void DrivenPlans::reported(const coordination::Report& report, const coordination::Plan* in_force) {
   Car& car = cars_[report.vehicle];
-  if (report.status == StepStatus::kPlanned) {
+  if (report.status == coordination::StepStatus::kPlanned) {
     if (has_newest_plan(car)) car.missed_since = report.step;
     Agreed agreed{.number = ++car.num_agreed,
                   .end = in_force->end(),
@@ -48,7 +48,8 @@ void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   } else if (in_force != nullptr) {
     car.agreed = kept_plan(car, report, *in_force);
   }
-  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
+  if (report.reason == coordination::FallbackReason::kDeviation ||
+      report.status == coordination::StepStatus::kStandby) {
     car.is_mistaken = false;
   }
   for (Sent& sent : car.sent) {
@@ -59,8 +60,8 @@ void DrivenPlans::reported(const Report& report, const Plan* in_force) {
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
 /// vehicle was seen on, or one that has been anchored where it stands. The last one needs no
 /// command: what is received already counts as received.
-DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& report,
-                                               const Plan& in_force) {
+DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const coordination::Report& report,
+                                               const coordination::Plan& in_force) {
   const Pose& last_pose = in_force.pose_at(in_force.end());
   const auto is_same = [&](const AgreedPlan& plan) {
     return plan && plan->end == in_force.end() && plan->last_pose == last_pose;
@@ -74,7 +75,8 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& rep
                   .last_pose = last_pose,
                   .areas = std::nullopt,
                   .is_anchored = true};
-  if (report.status != StepStatus::kStandby) anchored.areas = in_force.areas_from(report.step);
+  if (report.status != coordination::StepStatus::kStandby)
+    anchored.areas = in_force.areas_from(report.step);
   return std::make_shared<const Agreed>(std::move(anchored));
 }
 
@@ -149,13 +151,13 @@ void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
 void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
   const Car& car = cars_.at(vehicle);
   if (!is_judged(vehicle, car, tick)) return;
-  const OccupiedAreas& areas = *car.driven->areas;
+  const coordination::OccupiedAreas& areas = *car.driven->areas;
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_judged(other, its, tick)) continue;
     if (car.driven->is_anchored && its.driven->is_anchored) continue;
     const StepIndex from = std::max({now, areas.first, its.driven->areas->first});
-    if (are_free(areas, *its.driven->areas, from, horizon_steps_) ||
+    if (coordination::are_free(areas, *its.driven->areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }

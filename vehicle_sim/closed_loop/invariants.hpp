@@ -73,7 +73,9 @@ class FootprintsCheck {
 };
 
 /// The plan to stand where the vehicle stands, which nobody has agreed to.
-[[nodiscard]] inline bool is_anchored(const Plan& plan) { return plan.first() == plan.end(); }
+[[nodiscard]] inline bool is_anchored(const coordination::Plan& plan) {
+  return plan.first() == plan.end();
+}
 
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
 /// changes. A plan is given by the areas that its vehicle has announced (Prediction::areas, with
@@ -93,20 +95,23 @@ class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
 
-  void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
-  void reported(const Report& report, const Plan* in_force, Nanoseconds at, Violations& violations);
+  void predicted(const coordination::Prediction& prediction) {
+    predicted_[prediction.vehicle] = prediction;
+  }
+  void reported(const coordination::Report& report, const coordination::Plan* in_force,
+                Nanoseconds at, Violations& violations);
 
  private:
   using Pair = std::pair<VehicleId, VehicleId>;
 
   struct InForce {
-    OccupiedAreas areas;
+    coordination::OccupiedAreas areas;
     StepIndex last_report;
   };
   [[nodiscard]] bool has_run_out(const InForce& plan, StepIndex now) const;
 
   std::size_t horizon_steps_;
-  std::map<VehicleId, Prediction> predicted_;
+  std::map<VehicleId, coordination::Prediction> predicted_;
   std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;
 };
