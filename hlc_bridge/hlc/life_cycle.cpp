@@ -59,7 +59,7 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
     actions.info("waiting: " + readiness_.missing());
   }
-  if (readiness_.is_ready() && !rules_.answers_every_list && list_notice_.is_due(wall)) {
+  if (readiness_.is_ready() && rules_.logs_missing_lists && list_notice_.is_due(wall)) {
     const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
     actions.warn("waiting: no state list from " + middleware_.name() + " for " +
                  std::to_string(silence / kNanosecondsPerSecond) + " s");
@@ -109,7 +109,7 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
     return earlier(wake, std::min(peers_notice_.next(), *began_at_ + startup_timeout_ + 1));
   }
   if (repeats_ready_) wake = earlier(wake, next_ready_at_);
-  return rules_.answers_every_list ? wake : earlier(wake, list_notice_.next());
+  return rules_.logs_missing_lists ? earlier(wake, list_notice_.next()) : wake;
 }
 
 }  // namespace hlc::high_level_controller
