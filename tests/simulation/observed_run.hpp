@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,10 @@ class ObservedRun final : private RunObserver {
   void restart(const std::string& process) { lab_.restart(lab_.seat(process)); }
   void freeze(const std::string& process) { lab_.freeze(lab_.seat(process)); }
   void thaw(const std::string& process) { lab_.thaw(lab_.seat(process)); }
+  /// It hangs while its participants stay: from now on nobody receives anything of it.
+  void silence(const std::string& process) {
+    lab_.network().add(Disturbance{.from = process, .withheld = 1.0});
+  }
   void interrupt(const std::string& process) { lab_.interrupt(lab_.seat(process)); }
 
   /// What an exact clock shows: vehicles and controllers count by it in real time.
@@ -45,15 +51,21 @@ class ObservedRun final : private RunObserver {
   [[nodiscard]] const std::vector<ReportRecord>& reports() const { return reports_; }
   /// Exit codes of the processes that have ended by themselves, last.
   [[nodiscard]] const std::map<std::string, int>& exit_codes() const { return exit_codes_; }
-  /// All processes have ended by themselves, except for those.
-  [[nodiscard]] bool have_all_ended(std::size_t except = 0) {
-    return exit_codes_.size() + except == lab_.seats().size();
+  /// All processes have ended by themselves, except perhaps for that one.
+  [[nodiscard]] bool have_all_ended(const std::string& except = "") {
+    return std::ranges::all_of(lab_.seats(), [&](const Seat& seat) {
+      return seat.name == except || exit_codes_.contains(seat.name);
+    });
   }
   struct Line {
     Nanoseconds tick{};  ///< newest one then
     machine::LogLine line;
   };
   [[nodiscard]] const std::vector<Line>& log(const std::string& process) { return log_[process]; }
+  /// "" if there is none.
+  [[nodiscard]] std::string last_line(const std::string& process) {
+    return log(process).empty() ? "" : log(process).back().line.text;
+  }
   [[nodiscard]] bool has_logged(const std::string& process, const std::string& text) const;
   /// Newest tick when the stop symbol reached the first vehicle.
   [[nodiscard]] std::optional<Nanoseconds> stopped_at() const { return stopped_at_; }

@@ -44,10 +44,10 @@ class FaultyRun {
   }
   [[nodiscard]] Nanoseconds fault() const { return records_.fault; }
 
-  /// The lab control is interrupted, and the run ends. @param except  processes that stay
-  void end(std::size_t except) {
+  /// The lab control is interrupted, and the run ends. @param dead  process that does not
+  void end(const std::string& dead = "") {
     run.interrupt(kLabControlName);
-    EXPECT_TRUE(run.comes_to([&] { return run.have_all_ended(except); }, kPatience));
+    EXPECT_TRUE(run.comes_to([&] { return run.have_all_ended(dead); }, kPatience));
     EXPECT_EQ(run.violations(), "");
     test::expect_nobody_was_touched(run);
   }
@@ -90,7 +90,7 @@ TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) 
       test::expect_victim_stands(records);
       test::expect_others_keep_clear(records, one.run.scenario(), test::kForever);
       if (!fault.is_killed) one.run.thaw(fault.process);  // it finds the run over, or goes on
-      one.end(fault.is_killed ? 1 : 0);
+      one.end(fault.is_killed ? fault.process : "");
       EXPECT_EQ(one.run.exit_codes().at(kLabControlName), kExitInterrupted);
     }
   }
@@ -126,7 +126,7 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
     const test::FaultRecords records = one.records();
     test::expect_victim_drives_only_its_last_plan(records, goes_on);
     test::expect_others_keep_clear(records, one.run.scenario(), goes_on);
-    one.end(0);
+    one.end();
   }
 }
 
@@ -149,7 +149,7 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
     const test::FaultRecords records = one.records();
     test::expect_victim_drives_only_its_last_plan(records, goes_on);
     test::expect_others_keep_clear(records, one.run.scenario(), goes_on);
-    one.end(0);
+    one.end();
   }
 }
 
@@ -162,7 +162,8 @@ TEST(LastingFault, OfAVehicleHurtsNobodyAndIsNamed) {
     one.run.pass(6 * kSecond);
     EXPECT_TRUE(one.run.has_logged(kLabControlName, vehicle_name(2) + " died"));
     one.run.interrupt(kLabControlName);
-    EXPECT_TRUE(one.run.comes_to([&] { return one.run.have_all_ended(1); }, kPatience));
+    EXPECT_TRUE(
+        one.run.comes_to([&] { return one.run.have_all_ended(vehicle_name(2)); }, kPatience));
     EXPECT_EQ(one.run.violations(), "");
   }
 }
@@ -171,7 +172,7 @@ TEST(LastingFault, OfTheLabControlLetsAllStandBeforeTheyLeave) {
   FaultyRun one("paper_three_cars", Transport::kLoopback, 1);
   ASSERT_TRUE(one.drives_near_another({2}));
   one.strike(kLabControlName, true);
-  EXPECT_TRUE(one.run.comes_to([&] { return one.run.have_all_ended(1); }, kPatience));
+  EXPECT_TRUE(one.run.comes_to([&] { return one.run.have_all_ended(kLabControlName); }, kPatience));
   EXPECT_THAT(one.run.exit_codes(), testing::Each(testing::Pair(testing::_, kExitDied)));
   EXPECT_EQ(one.run.violations(), "");
   test::expect_nobody_was_touched(one.run);

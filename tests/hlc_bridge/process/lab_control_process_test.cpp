@@ -156,7 +156,7 @@ TEST_F(LabControlTest, TellsControllersAndOperatorWhatHappensAndRecordsIt) {
   EXPECT_TRUE(repeat_until([&] { return recorded().size() == 3; }, [] {}));
   controller = nullptr;
   EXPECT_THAT(operators_log.wait_for(1).at(0).content, HasSubstr("high_level_controller_7 died"));
-  process_->interrupt();  // else the others would drive out
+  process_->interrupt();  // else the others would make their minimal-risk stop first
   EXPECT_EQ(exit_code(), kExitDied);
   EXPECT_EQ(recorded().size(), 3U);
   EXPECT_EQ(facts().exit_code, kExitDied);
