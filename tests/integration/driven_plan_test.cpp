@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/integration/run_reports.hpp"
+#include "tests/integration/run_processes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {

@@ -6,8 +6,8 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 #include "hlc_bridge/result/run_description.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "tests/integration/driven_plan.hpp"
-#include "tests/integration/run_processes.hpp"
 
 /// What the system promises of every car that a fault affects, as tests ask for it.
 namespace hlc::test {
@@ -37,9 +37,11 @@ inline void expect_stands_in_time(const result::Drive& drive, std::uint8_t vehic
   EXPECT_LE(*since, fault + kStandingTime) << "vehicle " << int{vehicle};
 }
 
-/// No driven footprints touch, of cars that have all been seen. @param ended  see driven_encounters
-inline void expect_nobody_was_touched(const RunProcesses& run,
-                                      const std::set<std::uint8_t>& ended = {}) {
+/// No driven footprints touch, of cars that have all been seen.
+/// @param run    with scenario() and drives()
+/// @param ended  see driven_encounters
+template <class Run>
+void expect_nobody_was_touched(const Run& run, const std::set<std::uint8_t>& ended = {}) {
   const auto vehicles = result::describe(run.scenario(), std::nullopt).vehicles;
   const result::Drives drives = run.drives();
   for (const result::VehicleDescription& vehicle : vehicles) {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "hlc_bridge/record/drive_file.hpp"
-#include "tests/integration/run_reports.hpp"
+#include "hlc_bridge/record/report_file.hpp"
 
 namespace hlc::test {
 namespace {
@@ -50,6 +50,12 @@ std::filesystem::path RunProcesses::log_file(const std::string& name) const {
 
 std::filesystem::path RunProcesses::commands_file(const std::string& recorder) const {
   return folder_ / (recorder + kCommandsFiles);
+}
+
+std::vector<ReportRecord> reports_so_far(const std::filesystem::path& run_folder) {
+  const std::filesystem::path file = run_folder / "reports.csv";
+  if (read_text(file).find('\n') == std::string::npos) return {};
+  return record::read_reports(file);
 }
 
 std::vector<ReportRecord> RunProcesses::reports() const { return reports_so_far(folder_); }

@@ -14,6 +14,9 @@
 
 namespace hlc::test {
 
+/// Of a run that is under way; none while there is no file with a heading.
+[[nodiscard]] std::vector<ReportRecord> reports_so_far(const std::filesystem::path& run_folder);
+
 /// The programs of one run, each known by its name, and the folder that they write to. Running
 /// ones end with this object.
 class RunProcesses {

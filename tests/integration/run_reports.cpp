@@ -1,18 +1,8 @@
 #include "tests/integration/run_reports.hpp"
 
 #include <algorithm>
-#include <string>
-
-#include "hlc_bridge/record/report_file.hpp"
-#include "tests/support/child_process.hpp"
 
 namespace hlc::test {
-
-std::vector<ReportRecord> reports_so_far(const std::filesystem::path& run_folder) {
-  const std::filesystem::path file = run_folder / "reports.csv";
-  if (read_text(file).find('\n') == std::string::npos) return {};
-  return record::read_reports(file);
-}
 
 std::optional<coordination::Report> last_report(const std::vector<ReportRecord>& records,
                                                 VehicleId vehicle) {

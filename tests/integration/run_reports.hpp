@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -9,9 +8,6 @@
 
 /// What the controllers of a run reported.
 namespace hlc::test {
-
-/// Of a run that is under way; none while there is no file with a heading.
-[[nodiscard]] std::vector<ReportRecord> reports_so_far(const std::filesystem::path& run_folder);
 
 [[nodiscard]] std::optional<coordination::Report> last_report(
     const std::vector<ReportRecord>& records, VehicleId vehicle);

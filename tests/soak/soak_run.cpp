@@ -16,7 +16,7 @@
 #include "tests/integration/driven_plan.hpp"
 #include "tests/integration/lab_network.hpp"
 #include "tests/integration/lab_processes.hpp"
-#include "tests/integration/run_reports.hpp"
+#include "tests/integration/run_processes.hpp"
 #include "tests/support/own_shared_memory.hpp"
 #include "tests/support/standstill_watch.hpp"
 

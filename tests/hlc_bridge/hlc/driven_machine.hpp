@@ -58,8 +58,12 @@ class DrivenMachine {
  public:
   explicit DrivenMachine(const HlcRules& rules, std::uint8_t vehicle = 1, double y_m = 0.0,
                          policy::ReconfigurationSettings reconfiguration = {})
+      : DrivenMachine(rules, controller::east_bound::controller(vehicle, y_m),
+                      std::move(reconfiguration)) {}
+  DrivenMachine(const HlcRules& rules, std::unique_ptr<controller::Controller> controller,
+                policy::ReconfigurationSettings reconfiguration = {})
       : machine_({.rules = rules, .reconfiguration = std::move(reconfiguration)},
-                 controller::east_bound::controller(vehicle, y_m)),
+                 std::move(controller)),
         rules_(rules) {}
 
   [[nodiscard]] const HlcMachine& machine() const { return machine_; }
@@ -184,6 +188,13 @@ inline void start(DrivenMachine& one,
   one.pass(CommandCopies::kPause);
   one.on(SystemTrigger{.next_start = one.now().run});
   one.forget();
+}
+
+/// Of the reports since they were taken last.
+inline coordination::StepStatus last_status(DrivenMachine& one) {
+  const std::vector<ReportRecord> records = one.take<ReportRecord>();
+  EXPECT_FALSE(records.empty());
+  return records.empty() ? coordination::StepStatus::kStandby : records.back().report.status;
 }
 
 }  // namespace hlc::high_level_controller::driven_machine

@@ -1,9 +1,11 @@
-// When the machine of a controller is ready, begins, goes on without the others, and ends.
+// When the machine of a controller is ready, begins, and ends.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/hlc/driven_machine.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::high_level_controller::hlc_machine_life_cycle_test {
 namespace {
@@ -12,12 +14,6 @@ using namespace driven_machine;
 using controller::east_bound::seen;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-coordination::StepStatus last_status(DrivenMachine& one) {
-  const std::vector<ReportRecord> records = one.take<ReportRecord>();
-  EXPECT_THAT(records, testing::Not(IsEmpty()));
-  return records.empty() ? coordination::StepStatus::kStandby : records.back().report.status;
-}
 
 coordination::Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
   coordination::Traffic traffic;
@@ -39,6 +35,11 @@ TEST(HlcMachineReady, SaysSoEveryHalfSecondUntilTheStartOnceItsVehicleMayBeToldT
   EXPECT_TRUE(one.has_logged("ready; waiting for the start trigger"));
   one.pass(kSecond);
   EXPECT_THAT(one.take<ReadyStatus>(), SizeIs(2));
+  for (int i = 0; i < 5; ++i) one.next_list(standing());
+  EXPECT_THAT(one.take<ReportRecord>(), testing::Each(testing::Truly([](const auto& record) {
+                return record.report.status == coordination::StepStatus::kStandby;
+              })));
+  one.take<ReadyStatus>();
   one.on(SystemTrigger{.next_start = 1});
   one.pass(kSecond);
   EXPECT_THAT(one.take<ReadyStatus>(), IsEmpty());
@@ -54,6 +55,22 @@ TEST(HlcMachineReady, WaitsForAllWhoAreToReceiveWhatItPublishesAndNamesThem) {
   EXPECT_TRUE(one.has_logged("waiting: missing: high_level_controller_2"));
   one.on(peers({2}));
   EXPECT_THAT(one.take<ReadyStatus>(), SizeIs(1));
+}
+
+TEST(HlcMachineReady, SaysThatItsVehicleFitsNoRouteAndIsNotReadyUntilItDoes) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
+  const Pose start = scenario::measured_start(scenario, scenario.vehicles.front());
+  DrivenMachine one(real_time(), scenario::make_controller(scenario, {1}));
+  one.on(peers());
+  for (int i = 0; i < 20; ++i) {
+    one.next_list({{.vehicle = {1}, .pose = compose(start, {0.0, 0.0, 1.5})}});
+  }
+  EXPECT_TRUE(one.has_logged("fits no route: nearest is red"));
+  EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty())) << "to stand";
+  EXPECT_THAT(one.take<ReadyStatus>(), IsEmpty());
+  for (int i = 0; i < 10; ++i) one.next_list({{.vehicle = {1}, .pose = start}});
+  EXPECT_THAT(one.take<ReadyStatus>(), testing::Not(IsEmpty()));
 }
 
 TEST(HlcMachineReady, LeavesAfterTheStartupTimeoutAndSaysWhoIsMissing) {
@@ -170,6 +187,28 @@ TEST(HlcMachineStart, JoinsARunningExperimentByTheOthersTraffic) {
   EXPECT_TRUE(one.has_logged("joining the running experiment"));
 }
 
+TEST(HlcMachineStart, JoinsARunningExperimentOnceItsVehicleStands) {
+  DrivenMachine one(real_time());
+  std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0, 0.5), seen(2, 0.0, 5.0)};
+  const auto next_list = [&] {
+    one.on(traffic_of(2, one.step() + 1));
+    one.next_list(both);
+  };
+  one.on(peers({2}));
+  for (int i = 0; i < 20; ++i) next_list();
+  EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty()) << "it drives what it was left";
+  EXPECT_THAT(one.take<ReportRecord>(), IsEmpty());
+  both[0].speed_mps = 0.0;
+  for (int i = 0; i < 12; ++i) next_list();
+  one.pass(kPeriod / 2);
+  const std::vector<ReportRecord> records = one.take<ReportRecord>();
+  ASSERT_THAT(records, testing::Not(IsEmpty()));
+  EXPECT_EQ(records.front().report.status, coordination::StepStatus::kStandby);
+  EXPECT_TRUE(std::ranges::any_of(records, [](const ReportRecord& record) {
+    return record.report.status == coordination::StepStatus::kPlanned;
+  }));
+}
+
 TEST(HlcMachineStart, JoinsARunningExperimentByWhatTheLabControlSays) {
   DrivenMachine one(real_time());
   one.on(peers());
@@ -177,82 +216,6 @@ TEST(HlcMachineStart, JoinsARunningExperimentByWhatTheLabControlSays) {
   stand(one);
   EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
   EXPECT_TRUE(one.has_logged("joining the running experiment"));
-}
-
-// --- losses --------------------------------------------------------------------------------------
-
-HlcPeers without_middleware() {
-  HlcPeers result = peers();
-  result.command_readers = 0;
-  result.local.lost = {middleware_name(1)};
-  return result;
-}
-
-TEST(HlcMachineLoss, PlansOnWhenItsMiddlewareIsBack) {
-  DrivenMachine one(real_time());
-  one.on(peers());
-  start(one);
-  one.next_list(standing());
-  one.on(without_middleware());
-  EXPECT_TRUE(one.has_logged("middleware_1 lost"));
-  one.pass(30 * kSecond);
-  EXPECT_FALSE(one.exit_code());
-  EXPECT_TRUE(one.has_logged("waiting: no state list from middleware_1 for"));
-  one.on(peers());
-  EXPECT_TRUE(one.has_logged("middleware_1 is back"));
-  one.forget();
-  one.next_list(standing());
-  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
-}
-
-TEST(HlcMachineLoss, LeavesWhenItsMiddlewareStaysAway) {
-  DrivenMachine one(real_time());
-  one.on(peers());
-  start(one);
-  one.on(without_middleware());
-  one.pass(30 * kSecond + 1);
-  EXPECT_EQ(one.exit_code(), kExitDied);
-}
-
-TEST(HlcMachineLoss, LeavesWithoutItsMiddlewareAtOnceWhenEverybodyDrivesOutOrTimeStandsStill) {
-  DrivenMachine one(real_time());
-  one.on(peers());
-  start(one);
-  one.on(RunState{.phase = RunPhase::kMinimalRiskStop});
-  EXPECT_FALSE(one.exit_code());
-  one.on(without_middleware());
-  EXPECT_EQ(one.exit_code(), kExitDied);
-
-  DrivenMachine other(logical_time());
-  other.on(peers());
-  other.next_list(standing());
-  other.on(without_middleware());
-  EXPECT_EQ(other.exit_code(), kExitDied);
-}
-
-TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
-  DrivenMachine one(real_time());
-  one.on(peers());
-  start(one);
-  HlcPeers alone = peers();
-  alone.lab = {.alive = {}, .lost = {kLabControlName}};
-  one.on(alone);
-  EXPECT_TRUE(one.has_logged("lab_control lost"));
-  one.next_list(standing());
-  EXPECT_EQ(last_status(one), coordination::StepStatus::kMinimalRiskStop);
-  one.on(peers());
-  EXPECT_TRUE(one.has_logged("lab_control is back"));
-  one.next_list(standing());
-  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
-
-  alone.lab.lost = {};  // the lab's own bears no name of ours, but reads stop requests
-  alone.stop_request_readers = 0;
-  one.on(alone);
-  one.pass(machine::LabControlWatch::kGap);
-  one.next_list(standing());
-  EXPECT_EQ(last_status(one), coordination::StepStatus::kMinimalRiskStop);
-  one.pass(kControllerStays);
-  EXPECT_EQ(one.exit_code(), kExitDied);
 }
 
 // --- the end -------------------------------------------------------------------------------------

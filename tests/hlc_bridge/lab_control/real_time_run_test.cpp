@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/messages/node_names.hpp"
-#include "tests/hlc_bridge/lab_control/simulated_lab.hpp"
+#include "tests/hlc_bridge/lab_control/timer_names.hpp"
 
 namespace hlc::lab_control::real_time_run_test {
 namespace {

@@ -1,5 +1,4 @@
-// The vehicle's process against a stand-in for lab control and middleware, over DDS on the
-// loopback.
+// What the process adds to the machine: its endpoints, ticks by trigger or clock.
 #include "vehicle_sim/apps/vehicle_process.hpp"
 
 #include <gtest/gtest.h>
@@ -34,9 +33,10 @@ dds::ParticipantOptions participant(const std::string& name, int domain) {
           .discovery_server = std::nullopt};
 }
 
-/// From `begin` on along x with 2 m/s^2 up to 0.5 m/s.
-TrajectoryPoint planned(Nanoseconds t, Nanoseconds begin = 1'000 * kMillisecond) {
-  const double s = t < begin ? 0.0 : 1e-9 * static_cast<double>(t - begin);
+/// From 1 s on along x with 2 m/s^2 up to 0.5 m/s.
+TrajectoryPoint planned(Nanoseconds t) {
+  constexpr Nanoseconds kBegin = 1'000 * kMillisecond;
+  const double s = t < kBegin ? 0.0 : 1e-9 * static_cast<double>(t - kBegin);
   const bool accelerates = s < 0.25;
   return {.t = t,
           .x_m = kStart.x_m + (accelerates ? s * s : 0.5 * s - 0.0625),
@@ -44,20 +44,20 @@ TrajectoryPoint planned(Nanoseconds t, Nanoseconds begin = 1'000 * kMillisecond)
           .vx_mps = accelerates ? 2.0 * s : 0.5};
 }
 
-TrajectoryCommand command_at(Nanoseconds list, Nanoseconds motion_begin = 1'000 * kMillisecond) {
+TrajectoryCommand command_at(Nanoseconds list) {
   TrajectoryCommand command{
       .vehicle_id = kId, .create_stamp = list, .valid_after_stamp = list, .points = {}};
   const Nanoseconds begin = list / kPeriod * kPeriod;
   for (Nanoseconds t = begin; t <= begin + 2'000 * kMillisecond; t += 50 * kMillisecond) {
-    command.points.push_back(planned(t, motion_begin));
+    command.points.push_back(planned(t));
   }
   return command;
 }
 
-/// Lab control and middleware of one vehicle, driven by the test's thread.
-class Lab {
+/// The endpoints of lab control and middleware of one vehicle.
+class LabEndpoints {
  public:
-  explicit Lab(int domain)
+  explicit LabEndpoints(int domain)
       : lab_control_(participant(kLabControlName, domain), [this] { signal_.notify(); }),
         middleware_(participant(middleware_name(kId), domain), [this] { signal_.notify(); }),
         trigger_writer_(lab_control_, dds::topics::system_trigger()),
@@ -76,20 +76,16 @@ class Lab {
                       }) {}
 
   /// Answers what the vehicle asks until it asks for its first tick; false if that does not come.
-  [[nodiscard]] bool answer_until_ready(const std::vector<std::int32_t>& active_ids) {
-    const auto deadline = Clock::now() + seconds(60);
-    while (!signal_.locked([this] { return is_closed_; })) {
-      const bool is_asked = signal_.wait_until(
-          deadline, [this] { return is_closed_ || ready_ || !requests_.empty(); });
-      if (!is_asked || signal_.locked([this] { return ready_.has_value(); })) {
-        return is_asked && is_received();
-      }
+  [[nodiscard]] bool answer_until_ready() {
+    const auto is_asked = [this] { return ready_ || !requests_.empty(); };
+    while (signal_.wait_until(Clock::now() + seconds(60), is_asked)) {
+      if (signal_.locked([this] { return ready_.has_value(); })) return is_received();
       for (const std::string& name :
            signal_.locked([this] { return std::exchange(requests_, {}); })) {
         if (name == "middleware_period_ms") {
           parameter_writer_.write({.name = name, .value = std::uint64_t{kPeriod / kMillisecond}});
         } else if (name == "active_vehicle_ids") {
-          parameter_writer_.write({.name = name, .value = active_ids});
+          parameter_writer_.write({.name = name, .value = std::vector<std::int32_t>{kId}});
         }
       }
     }
@@ -103,10 +99,6 @@ class Lab {
                                          [&] { return ready_ && ready_->next_start > t; });
   }
 
-  /// Ends answer_until_ready in another thread.
-  void close() {
-    signal_.post([this] { is_closed_ = true; });
-  }
   /// The vehicle has matched this lab when it is ready, but not yet the other way round.
   [[nodiscard]] bool is_received() const {
     const auto deadline = Clock::now() + seconds(60);
@@ -115,7 +107,6 @@ class Lab {
   }
   void stop() { trigger_writer_.write({.next_start = kStopSymbol}); }
   void command(const TrajectoryCommand& command) { command_writer_.write(command); }
-  void release(Nanoseconds t) { trigger_writer_.write({.next_start = t}); }
 
   [[nodiscard]] std::vector<VehicleState> states(std::size_t count) {
     static_cast<void>(
@@ -128,7 +119,6 @@ class Lab {
 
  private:
   time::Signal signal_;
-  bool is_closed_{};
   std::vector<std::string> requests_;
   std::optional<ReadyStatus> ready_;
   std::vector<VehicleState> states_;
@@ -180,9 +170,9 @@ class VehicleProcessTest : public testing::Test {
 };
 
 TEST_F(VehicleProcessTest, DrivesInLogicalTimeUntilTheStopAndBrakesForOneSecond) {
-  Lab lab(domain_.first());
+  LabEndpoints lab(domain_.first());
   start(options());
-  ASSERT_TRUE(lab.answer_until_ready({kId}));
+  ASSERT_TRUE(lab.answer_until_ready());
   EXPECT_EQ(lab.ready().source_id, "vehicle_raspberry_3");
   EXPECT_EQ(lab.ready().next_start, 0U);
 
@@ -216,67 +206,8 @@ TEST_F(VehicleProcessTest, DrivesInLogicalTimeUntilTheStopAndBrakesForOneSecond)
   EXPECT_NEAR(states.back().speed_mps, 0.0, 0.05);
 }
 
-TEST_F(VehicleProcessTest, WaitsForTheAnswerToTheLastList) {
-  Lab lab(domain_.first());
-  start(options());
-  ASSERT_TRUE(lab.answer_until_ready({kId}));
-  ASSERT_TRUE(lab.release_tick(0));
-  lab.release(kVehiclePeriod);
-  lab.command(command_at(kListOffset, 100 * kMillisecond));
-  // The command asks for motion that the throttle of this very tick has to begin.
-  const std::vector<VehicleState> states = lab.states(2);
-  ASSERT_EQ(states.size(), 2U);
-  EXPECT_GT(states[1].motor_throttle, 0.0);
-  process_->stop();
-  EXPECT_EQ(exit_code(), kExitGood);
-}
-
-TEST_F(VehicleProcessTest, GoesOnWithoutAnswerWhenTheMiddlewareIsLost) {
-  auto lab_control = std::make_unique<Lab>(domain_.first());
-  start(options());
-  ASSERT_TRUE(lab_control->answer_until_ready({kId}));
-  ASSERT_TRUE(lab_control->release_tick(0));
-  lab_control->release(kVehiclePeriod);
-  // Both leave together: the wait for the answer ends, and then there is no clock.
-  lab_control.reset();
-  EXPECT_EQ(exit_code(), kExitDied);
-}
-
-TEST_F(VehicleProcessTest, LabControlThatDoesNotAnswerIsMissed) {
-  VehicleProcessOptions impatient = options();
-  impatient.startup_timeout = seconds(1);
-  start(impatient);
-  EXPECT_EQ(exit_code(), kExitMissing);
-}
-
-TEST_F(VehicleProcessTest, MiddlewareOfAnotherActiveVehicleIsMissed) {
-  Lab lab(domain_.first());
-  VehicleProcessOptions impatient = options();
-  impatient.startup_timeout = seconds(5);
-  start(impatient);
-  auto answering = std::async(std::launch::async, [&] {
-    return lab.answer_until_ready({kId, kId + 1});
-  });
-  EXPECT_EQ(exit_code(), kExitMissing);
-  lab.close();
-}
-
-TEST_F(VehicleProcessTest, VehicleThatIsNotActiveIsBadInput) {
-  Lab lab(domain_.first());
-  start(options());
-  auto answering = std::async(std::launch::async, [&] { return lab.answer_until_ready({1, 2}); });
-  EXPECT_EQ(exit_code(), kExitBadInput);
-  lab.close();
-}
-
-TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
-  start(options());  // no replies
-  process_->stop();
-  EXPECT_EQ(exit_code(), kExitGood);
-}
-
 TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
-  Lab lab(domain_.first());
+  LabEndpoints lab(domain_.first());
   VehicleProcessOptions real = options();
   real.time = machine::kRealTime;
   real.rules = machine::real_rules(kVehicleStays);

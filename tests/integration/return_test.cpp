@@ -1,5 +1,5 @@
-// Where a run begins: cars that stand beside their lanes or fit none, and a controller that comes
-// back into a run that is under way. What is asserted is what the vehicles drove.
+// A controller or a middleware that comes back into a run that is under way: one run of each. What
+// is asserted is what the vehicles drove. More of it: tests/simulation/return_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,33 +7,21 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "hlc_bridge/messages/time_grid.hpp"
-#include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/time/real_time.hpp"
 #include "planner/coordination/missing.hpp"
 #include "tests/integration/fault_rules.hpp"
 #include "tests/integration/lab_processes.hpp"
 #include "tests/integration/run_reports.hpp"
-#include "tests/support/folders.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-const std::string kScripts = test::source_folder() + "/launch_scripts/";
 constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr double kStanding_mps = coordination::MissingVehicleRules{}.standing_speed_mps;
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  ASSERT_NE(text.find(from), std::string::npos) << from;
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-}
 
 double way_m(const result::Drive& drive) {
   double way_m = 0.0;
@@ -42,65 +30,6 @@ double way_m(const result::Drive& drive) {
   }
   return way_m;
 }
-
-/// The paper's red car, started elsewhere.
-class Start : public testing::Test {
- protected:
-  std::string red_car(const std::string& start) {
-    std::string text = read_text(kScripts + "scenarios/paper_red_alone.yaml");
-    replace_all(text, "../", kScripts);
-    replace_all(text, "start_m: 0.0", start);
-    const std::filesystem::path file = folder_ / "red.yaml";
-    put(file, text);
-    return file;
-  }
-
-  TemporaryFolder folder_;
-};
-
-TEST_F(Start, ACarBesideItsLaneDrivesOntoItsReference) {
-  const std::string file = red_car("start_m: 1.0, start_left_m: 0.09, start_turned_rad: 0.3");
-  LabProcesses lab({.scenario = file, .steps = 40});
-  lab.start_all();
-  ASSERT_THAT(lab.still_running_after(60s), testing::IsEmpty());
-  EXPECT_EQ(lab["lab_control"].wait_for(0ms), 0) << lab.log("lab_control");
-  const result::Drive drive = record::read_drive(record::drive_file(lab.folder(), 1));
-  const road::ReferencePath path = scenario::read_scenario({.file = file}).vehicles.front().path;
-  const auto error_m = [&path](const result::DrivenSample& sample) {
-    return path.project(sample.pose.position_m()).distance_m;
-  };
-  EXPECT_NEAR(error_m(drive.front()), 0.09, 0.001);
-  EXPECT_GT(way_m(drive), 4.0);
-  double last_error_m = 0.0;
-  for (std::size_t i = drive.size() / 2; i < drive.size(); ++i) {
-    last_error_m = std::max(last_error_m, error_m(drive[i]));
-  }
-  EXPECT_LT(last_error_m, 0.07) << "as on every lap";
-  EXPECT_NE(lab.log("high_level_controller_1").find("selects route"), std::string::npos);
-}
-
-TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
-  LabProcesses lab({.scenario = red_car("start_m: 1.0, start_left_m: 0.5"),
-                    .steps = 10,
-                    .simulated_time = false,
-                    .startup_timeout_s = 12});
-  lab.start_all();
-  ASSERT_THAT(lab.still_running_after(60s), testing::IsEmpty());
-  EXPECT_EQ(lab["lab_control"].wait_for(0ms), 3);
-  EXPECT_NE(lab.log("lab_control").find("not ready: middleware_1"), std::string::npos)
-      << lab.log("lab_control");
-  const std::string log = lab.log("high_level_controller_1");
-  EXPECT_NE(log.find("fits no route: nearest is"), std::string::npos) << log;
-  EXPECT_NE(log.find("mm beyond the lanes (must be <= 150 mm)"), std::string::npos) << log;
-  EXPECT_LT(way_m(record::read_drive(record::drive_file(lab.folder(), 1))), 1e-6);
-}
-
-struct Setting {
-  std::string name;
-  std::string scenario;
-  std::string transport;
-};
-void PrintTo(const Setting& one, std::ostream* out) { *out << one.name; }
 
 /// A run in real time that goes on after a death, until it is interrupted.
 class ReturningRun {
@@ -184,51 +113,24 @@ class ReturningRun {
   static constexpr auto kPatience = 60s;
 };
 
-class Return : public testing::TestWithParam<Setting> {};
-
-TEST_P(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
+// As in the lab: its transport, automaton and commands.
+TEST(Return, OfAControllerLetsItsCarDriveOnAmongOthers) {
   constexpr VehicleId kVictim{2};
-  ReturningRun run(GetParam().scenario, GetParam().transport);
+  ReturningRun run("lab_three_cars", "lab");
   ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", kVictim));
   run.expect_good_end();
   EXPECT_LE(run.steps_until_it_plans(kVictim), 2 * kNanosecondsPerSecond / kPeriod);
 }
 
 // Its controller keeps running without it, and answers it again.
-TEST_P(Return, OfAMiddlewareLetsItsCarDriveOn) {
-  ReturningRun run(GetParam().scenario, GetParam().transport);
+TEST(Return, OfAMiddlewareLetsItsCarDriveOn) {
+  ReturningRun run("paper_three_cars", "loopback");
   const std::string controller = "high_level_controller_2";
   ASSERT_NO_FATAL_FAILURE(
       run.kill_and_start_again("middleware", {2}, {{controller, "middleware_2 lost"}}));
   run.expect_good_end();
   EXPECT_NE(run.lab.log(controller).find("middleware_2 is back"), std::string::npos)
       << run.lab.log(controller);
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Return,
-                         testing::Values(Setting{"paper", "paper_three_cars", "loopback"},
-                                         Setting{"lab", "lab_three_cars", "lab"}),
-                         [](const auto& one) { return one.param.name; });
-
-// Far from each other, so that no cars are coupled.
-TEST(ReturnAlone, OfAControllerStopsNobodyWhoIsNotCoupled) {
-  const TemporaryFolder folder;
-  std::string text = read_text(kScripts + "scenarios/circle.yaml");
-  replace_all(text, "../", kScripts);
-  replace_all(text, "cars: 4, radius_m: 1.5", "cars: 3, radius_m: 30.0");
-  const std::filesystem::path file = folder / "far.yaml";
-  put(file, text);
-  ReturningRun run(file, "loopback");
-  ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", {2}));
-  run.expect_good_end();
-  const result::Drives drives = run.lab.drives();
-  for (const std::uint8_t other : std::vector<std::uint8_t>{1, 3}) {
-    const result::Drive meanwhile =
-        ReturningRun::between(drives.at(other), run.killed, run.driven_on);
-    ASSERT_FALSE(meanwhile.empty());
-    EXPECT_GT(std::ranges::min(meanwhile, {}, &result::DrivenSample::speed_mps).speed_mps, 0.3)
-        << "vehicle " << int{other};
-  }
 }
 
 }  // namespace

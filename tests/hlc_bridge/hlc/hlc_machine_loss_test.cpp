@@ -1,0 +1,156 @@
+// What the machine of a controller does when others are lost, come back, or are silent.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "tests/hlc_bridge/hlc/driven_machine.hpp"
+
+namespace hlc::high_level_controller::hlc_machine_loss_test {
+namespace {
+
+using namespace driven_machine;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+HlcPeers without_middleware() {
+  HlcPeers result = peers();
+  result.command_readers = 0;
+  result.local.lost = {middleware_name(1)};
+  return result;
+}
+
+TEST(HlcMachineLoss, PlansOnWhenItsMiddlewareIsBack) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  one.next_list(standing());
+  one.on(without_middleware());
+  EXPECT_TRUE(one.has_logged("middleware_1 lost"));
+  one.pass(30 * kSecond);
+  EXPECT_FALSE(one.exit_code());
+  EXPECT_TRUE(one.has_logged("waiting: no state list from middleware_1 for"));
+  one.on(peers());
+  EXPECT_TRUE(one.has_logged("middleware_1 is back"));
+  one.forget();
+  one.next_list(standing());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
+}
+
+TEST(HlcMachineLoss, LeavesWhenItsMiddlewareStaysAway) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  one.on(without_middleware());
+  one.pass(30 * kSecond + 1);
+  EXPECT_EQ(one.exit_code(), kExitDied);
+}
+
+TEST(HlcMachineLoss, LeavesWithoutItsMiddlewareAtOnceWhenEverybodyDrivesOutOrTimeStandsStill) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  one.on(RunState{.phase = RunPhase::kMinimalRiskStop});
+  EXPECT_FALSE(one.exit_code());
+  one.on(without_middleware());
+  EXPECT_EQ(one.exit_code(), kExitDied);
+
+  DrivenMachine other(logical_time());
+  other.on(peers());
+  other.next_list(standing());
+  other.on(without_middleware());
+  EXPECT_EQ(other.exit_code(), kExitDied);
+}
+
+TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  HlcPeers alone = peers();
+  alone.lab = {.alive = {}, .lost = {kLabControlName}};
+  one.on(alone);
+  EXPECT_TRUE(one.has_logged("lab_control lost"));
+  one.next_list(standing());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kMinimalRiskStop);
+  one.on(peers());
+  EXPECT_TRUE(one.has_logged("lab_control is back"));
+  one.next_list(standing());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
+
+  alone.lab.lost = {};  // the lab's own bears no name of ours, but reads stop requests
+  alone.stop_request_readers = 0;
+  const auto lose_the_labs_own = [&] {
+    one.on(alone);
+    one.pass(machine::LabControlWatch::kGap);
+    one.next_list(standing());
+    EXPECT_EQ(last_status(one), coordination::StepStatus::kMinimalRiskStop);
+  };
+  lose_the_labs_own();
+  one.on(peers());
+  one.next_list(standing());
+  EXPECT_NE(last_status(one), coordination::StepStatus::kMinimalRiskStop);
+
+  lose_the_labs_own();
+  one.pass(kControllerStays);
+  EXPECT_EQ(one.exit_code(), kExitDied);
+}
+
+// It left at once, as if the lab had ended, though it was itself that had not run for a while.
+TEST(HlcMachineLoss, OutlivesAMomentInWhichAllOthersAreGone) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  HlcPeers nobody = without_middleware();
+  nobody.lab = {.alive = {}, .lost = {kLabControlName}};
+  nobody.controllers = nobody.lab;
+  nobody.stop_request_readers = 0;
+  one.on(nobody);
+  EXPECT_TRUE(one.has_logged("lab_control lost"));
+  EXPECT_TRUE(one.has_logged("middleware_1 lost; no commands reach the vehicle"));
+  one.pass(kSecond / 2);
+  EXPECT_FALSE(one.exit_code());
+  one.on(peers());
+  one.next_list(standing());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
+}
+
+TEST(HlcMachineLoss, AMiddlewareThatIsStartedAgainBeforeTheStartIsAnsweredAgain) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  stand(one);
+  one.on(without_middleware());
+  one.pass(kSecond);
+  one.forget();
+  one.on(peers());
+  one.next_list(standing());
+  one.pass(kSecond / 2);
+  EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty()));
+  EXPECT_THAT(one.take<ReadyStatus>(), testing::Not(IsEmpty()));
+  EXPECT_FALSE(one.exit_code());
+}
+
+// In the lab the local domain holds all controllers of a computer.
+TEST(HlcMachineLoss, IsNotDisturbedWhenAnotherControllerOfItsMachineLeaves) {
+  DrivenMachine one(real_time());
+  HlcPeers among_others = peers();
+  among_others.local.alive = {middleware_name(1), controller_name(2)};
+  one.on(among_others);
+  start(one);
+  among_others.local = {.alive = {middleware_name(1)}, .lost = {controller_name(2)}};
+  one.on(among_others);
+  for (int i = 0; i < 200; ++i) one.next_list(standing());
+  EXPECT_FALSE(one.exit_code());
+  EXPECT_FALSE(one.has_logged("lost"));
+  EXPECT_THAT(one.take<ReportRecord>(), SizeIs(200));
+}
+
+TEST(HlcMachineLoss, SaysWhoseListsDoNotComeThoughItIsThere) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  stand(one);
+  one.pass(30 * kSecond);
+  EXPECT_TRUE(one.has_logged("waiting: no state list from middleware_1 for"));
+  EXPECT_FALSE(one.exit_code());
+}
+
+}  // namespace
+}  // namespace hlc::high_level_controller::hlc_machine_loss_test
