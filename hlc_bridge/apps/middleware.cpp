@@ -78,8 +78,8 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
     throw std::invalid_argument("--keep_running needs --simulated_time=false");
   }
   if (is_logical && options.offset != hlc::kListOffset) {
-    throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +
-                                ", must be 1 in logical time");
+    throw std::invalid_argument(
+        fmt::format("--offset_nanoseconds = {}, must be 1 in logical time", options.offset));
   }
   return options;
 }

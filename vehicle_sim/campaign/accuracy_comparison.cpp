@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/accuracy_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 

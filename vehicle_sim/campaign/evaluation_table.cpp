@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "planner/common/csv.hpp"

@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/paper_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

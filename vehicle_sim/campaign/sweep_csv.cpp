@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/sweep_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 

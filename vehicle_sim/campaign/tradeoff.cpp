@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/tradeoff.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>

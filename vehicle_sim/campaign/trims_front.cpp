@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/trims_front.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 
