@@ -1,9 +1,8 @@
 // Discovery server for the lab domain, for networks without multicast in which no lab control
 // centre runs one. Debian's own (fast-discovery-server 2.9.1) crashes on the lab's types, which it
 // does not know.
-#include <fmt/format.h>
-
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <unistd.h>
 

@@ -1,6 +1,7 @@
 // The middleware of one vehicle's controller, or of several. Flags as in the lab.
 #include "hlc_bridge/process/middleware_process.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>

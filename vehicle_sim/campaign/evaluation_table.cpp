@@ -90,36 +90,29 @@ std::string title_of(const Group& group) {
 
 std::string markdown_of(const Group& group) {
   const bool has_paper = group.scenario == kPaperSimulation || group.scenario == kPaperLab;
-  const auto row_of = [&](const std::string& name, const auto& ours, const auto& papers) {
-    std::vector<std::string> cells{name};
-    for (const Column& column : group.columns) {
-      cells.push_back(ours(column));
-      if (has_paper) cells.push_back(papers(column));
-    }
-    return cells;
-  };
-  std::string text = "## " + title_of(group) + "\n\n" +
-                     markdown_heading(row_of(
-                         "", [](const Column& column) { return column.name; },
-                         [](const Column&) { return "paper"; }));
-  for (const TableQuantity& quantity : table_quantities()) {
-    text += markdown_row(row_of(
-        quantity.name,
-        [&](const Column& column) {
-          return cell(spread_of(quantity, column.runs), quantity.decimals);
-        },
-        [&](const Column& column) {
-          return number(column.papers(quantity), std::min(quantity.decimals, 1), "");
-        }));
+  std::vector<std::string> titles{""};
+  for (const Column& column : group.columns) {
+    titles.push_back(column.name);
+    if (has_paper) titles.emplace_back("paper");
   }
-  text += markdown_row(row_of(
-      "Starts, good / failed",
-      [](const Column& column) {
-        const auto good = std::ranges::count_if(
-            column.runs, [](const RunFigures* run) { return is_well_driven(*run); });
-        return fmt::format("{} / {}", good, std::ssize(column.runs) - good);
-      },
-      [](const Column&) { return ""; }));
+  std::string text = "## " + title_of(group) + "\n\n" + markdown_heading(titles);
+  for (const TableQuantity& quantity : table_quantities()) {
+    std::vector<std::string> cells{quantity.name};
+    for (const Column& column : group.columns) {
+      cells.push_back(cell(spread_of(quantity, column.runs), quantity.decimals));
+      if (!has_paper) continue;
+      cells.push_back(number(column.papers(quantity), std::min(quantity.decimals, 1), ""));
+    }
+    text += markdown_row(cells);
+  }
+  std::vector<std::string> starts{"Starts, good / failed"};
+  for (const Column& column : group.columns) {
+    const auto good = std::ranges::count_if(
+        column.runs, [](const RunFigures* run) { return is_well_driven(*run); });
+    starts.push_back(fmt::format("{} / {}", good, std::ssize(column.runs) - good));
+    if (has_paper) starts.emplace_back();
+  }
+  text += markdown_row(starts);
   for (const Column& column : group.columns) {
     for (const RunFigures* run : column.runs) {
       if (is_well_driven(*run)) continue;
