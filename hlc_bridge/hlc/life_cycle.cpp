@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/life_cycle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -61,8 +63,8 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   }
   if (readiness_.is_ready() && rules_.logs_missing_lists && list_notice_.is_due(wall)) {
     const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
-    actions.warn("waiting: no state list from " + middleware_.name() + " for " +
-                 std::to_string(silence / kNanosecondsPerSecond) + " s");
+    actions.warn(fmt::format("waiting: no state list from {} for {} s", middleware_.name(),
+                             silence / kNanosecondsPerSecond));
   }
 }
 
@@ -91,8 +93,8 @@ std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
   }
   if (lab_control_.is_lost_for_good(wall)) return kExitDied;
   if (!has_list && is_start_overdue(wall)) {
-    actions.error(readiness_.missing() + " within " +
-                  std::to_string(startup_timeout_ / kNanosecondsPerSecond) + " s");
+    actions.error(fmt::format("{} within {} s", readiness_.missing(),
+                              startup_timeout_ / kNanosecondsPerSecond));
     return kExitMissing;
   }
   return std::nullopt;
