@@ -28,6 +28,7 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
 
 void DrivenPlans::published(const Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
+  stands(car, traffic);
   if (has_newest_plan(car)) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
@@ -35,11 +36,27 @@ void DrivenPlans::published(const Traffic& traffic) {
   }
 }
 
+/// Traffic of a vehicle that stands where nobody has agreed to: there its plan has been anchored.
+void DrivenPlans::stands(Car& car, const Traffic& traffic) {
+  if (!car.driven || !car.driven->areas || !traffic.running.areas_m.empty()) return;
+  const OccupiedAreas& areas = *car.driven->areas;
+  const bool has_run_out = traffic.step.value >= areas.first.value + areas.areas_m.size();
+  const ConvexPolygon& announced = traffic.running.final_area_m;
+  const bool is_agreed = announced == areas.final_area_m ||
+                         (car.agreed->areas && announced == car.agreed->areas->final_area_m);
+  if (!has_run_out || is_agreed) return;
+  Agreed anchored = *car.driven;
+  anchored.areas = traffic.running;
+  anchored.is_anchored = true;
+  car.run_out = std::exchange(car.driven, std::make_shared<const Agreed>(std::move(anchored)));
+}
+
 void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   Car& car = cars_[report.vehicle];
   if (report.status == StepStatus::kPlanned) {
     if (has_newest_plan(car)) car.missed_since = report.step;
     Agreed agreed{.number = ++car.num_agreed,
+                  .begin = (report.step.value + 1) * period_,
                   .end = in_force->end(),
                   .last_pose = in_force->pose_at(in_force->end()),
                   .areas = std::nullopt};
@@ -50,6 +67,10 @@ void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   }
   if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
     car.is_mistaken = false;
+  }
+  if (report.reason == FallbackReason::kDeviation && car.changed_over_late != 0 &&
+      report.step.value * period_ <= car.changed_over_late + 2 * period_) {
+    car.out_of_reach_until = report.step.value * period_ + kAfterwards;
   }
   for (Sent& sent : car.sent) {
     if (!sent.plan) sent.plan = car.agreed;
@@ -131,9 +152,18 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   judge_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
-  if (!plan || plan == car.driven) return;
+  if (!plan || plan == car.driven || plan == car.run_out) return;
+  if (is_change_late(car, plan, tick)) car.changed_over_late = tick;
   car.driven = plan;
   judge_pairs(vehicle, tick, violations);
+}
+
+/// The plan was commanded before it began; the vehicle, which drove another one, has not received
+/// it until after that.
+bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanoseconds tick) {
+  if (!car.driven || plan->is_anchored || tick < plan->begin + kVehiclePeriod) return false;
+  return std::ranges::any_of(
+      car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.create < plan->begin; });
 }
 
 void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
@@ -148,12 +178,11 @@ void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
 
 void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
   const Car& car = cars_.at(vehicle);
-  if (!is_judged(vehicle, car, tick)) return;
+  if (!is_judged(vehicle, car, tick) || car.driven->is_anchored) return;
   const OccupiedAreas& areas = *car.driven->areas;
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_judged(other, its, tick)) continue;
-    if (car.driven->is_anchored && its.driven->is_anchored) continue;
     const StepIndex from = std::max({now, areas.first, its.driven->areas->first});
     if (are_free(areas, *its.driven->areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {

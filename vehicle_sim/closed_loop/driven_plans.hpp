@@ -19,9 +19,10 @@ namespace hlc::closed_loop {
 
 /// Which plan each vehicle truly drives: the one whose command it follows. What is judged:
 ///
-/// * **driven**: whenever a vehicle changes over to another plan, it is free of the plans that the
-///   others drive from then on, until both stand. (Where two vehicles stand, about which nobody has
-///   agreed, is a matter of footprints.)
+/// * **driven**: whenever a vehicle changes over to another agreed plan, it is free of what the
+///   others drive from then on, until both stand. A plan that is anchored anew where a vehicle
+///   stands has been agreed by nobody: of that the footprints are judged. Once the plan of a
+///   vehicle has run out, the vehicle stands where its controller announces.
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid.
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
@@ -31,6 +32,8 @@ namespace hlc::closed_loop {
 ///   * while its controller is mistaken, from the second step after the first plan that it has not
 ///     received;
 ///   * while it has dropped its command before the end of the plan, since nothing newer has come;
+///   * when it has received a plan only after that had begun, has changed over to it late, that is
+///     on a way that nobody could know, and is then seen off it (kDeviation in the next two steps);
 ///   * when its process dies;
 /// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
 /// the vehicle has not received counts: commands that it has it must follow.
@@ -51,12 +54,18 @@ class DrivenPlans {
   void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
   void died(VehicleId vehicle, Nanoseconds at);
 
+  /// The vehicle has received the plan that was agreed last.
+  [[nodiscard]] bool has_plan_in_force(VehicleId vehicle) const {
+    const auto car = cars_.find(vehicle);
+    return car == cars_.end() || has_newest_plan(car->second);
+  }
   [[nodiscard]] bool is_out_of_reach(VehicleId vehicle, Nanoseconds at) const;
 
  private:
   /// A plan as its vehicle has announced it, or to stand where it stands.
   struct Agreed {
     std::uint64_t number{};
+    Nanoseconds begin{};
     StepIndex end;  ///< with the last pose, the identity of a plan
     Pose last_pose;
     std::optional<OccupiedAreas> areas;  ///< none: not known to anybody
@@ -80,13 +89,18 @@ class DrivenPlans {
     Nanoseconds newest_valid{};  ///< create, of those received
     Nanoseconds follows{};
     AgreedPlan driven;
+    AgreedPlan run_out;               ///< after which the vehicle stands elsewhere
+    Nanoseconds changed_over_late{};  ///< the last time
     Nanoseconds out_of_reach_until{};
   };
 
+  static void stands(Car& car, const Traffic& traffic);
   [[nodiscard]] static AgreedPlan plan_of(const Car& car, Nanoseconds create);
   [[nodiscard]] static bool has_newest_plan(const Car& car);
   [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const Report& report,
                                             const Plan& in_force);
+  [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
+                                           Nanoseconds tick);
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] bool is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
   void judge_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);

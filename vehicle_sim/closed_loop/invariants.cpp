@@ -89,8 +89,10 @@ bool FootprintsCheck::touches_first_time(const Cars::value_type& a, const Cars::
 
 // --- plans --------------------------------------------------------------------------------------
 
-bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
-  return now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
+bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
+  const bool has_run_out = now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
+  const bool is_silent = now.value > plan.last_report.value + 1;
+  return !has_run_out && (plan.is_received || !is_silent);
 }
 
 void PlansCheck::reported(const Report& report, const Plan* in_force, Nanoseconds at,
@@ -109,13 +111,13 @@ void PlansCheck::reported(const Report& report, const Plan* in_force, Nanosecond
       predicted->second.step != report.step) {
     return;
   }
-  OccupiedAreas& areas = in_force_[vehicle].areas;
-  in_force_[vehicle].last_report = report.step;
-  areas = std::move(predicted->second.areas);
+  const OccupiedAreas& areas = (in_force_[vehicle] = {.areas = std::move(predicted->second.areas),
+                                                      .last_report = report.step})
+                                   .areas;
   predicted_.erase(predicted);
   for (const auto& [other, plan] : in_force_) {
     const StepIndex from = std::max(areas.first, plan.areas.first);
-    if (other == vehicle || has_run_out(plan, report.step) ||
+    if (other == vehicle || !is_relied_on(plan, report.step) ||
         are_free(areas, plan.areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;

@@ -70,6 +70,7 @@ void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSa
   }
   if (!stopped_.contains(vehicle)) {
     driven_.driven(id, tick, sample.command_create, result_.violations);
+    plans_.received(id, driven_.has_plan_in_force(id));
     if (driven_.is_out_of_reach(id, tick)) announced_.forgive(id, tick);
     announced_.driven(id, tick, sample.pose, sample.speed_mps, result_.violations);
   }
