@@ -49,6 +49,8 @@ class Controller {
   /// @throws std::invalid_argument as prepare_subgraph and make_search_engine
   Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
              std::vector<DrivableRoute> routes);
+  /// The same on a subgraph that was prepared for this horizon and search.
+  Controller(ControllerOptions options, PreparedSubgraph on, std::vector<DrivableRoute> routes);
   /// With a single route.
   /// @param path      to be followed
   /// @param corridor  area in which the vehicle may drive
@@ -177,8 +179,6 @@ class Controller {
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };
-
-  Controller(ControllerOptions options, PreparedSubgraph on, std::vector<DrivableRoute> routes);
 
   void report_plan_in_force(Report& report) const;
   [[nodiscard]] ConvexPolygon reachable_area_m() const;

@@ -92,6 +92,10 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
 /// The controller of one vehicle. A vehicle that the scenario names takes its own route; any other
 /// takes the scenario's route that fits best at its pose.
 [[nodiscard]] std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id);
+/// The same on the scenario's subgraph, prepared once for many controllers.
+[[nodiscard]] std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id,
+                                                          PreparedSubgraph on);
+[[nodiscard]] PreparedSubgraph prepare_subgraph_of(const Scenario& scenario);
 
 /// Yaw of a vehicle that stands at a planned pose (the lab's vehicles point slightly aside of their
 /// course).

@@ -45,10 +45,14 @@ FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::mo
   const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";
   const Scenario paper =
       read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
+  const PreparedSubgraph on_paper = prepare_subgraph_of(paper);
   for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
     if (settings_.cars != 0 && settings_.cars != cars) continue;
-    scenarios_.emplace(cars, Scenarios{.circle = read_scenario({.file = circle, .cars = cars}),
-                                       .paper = crowded(paper, cars)});
+    Scenario on_circle = read_scenario({.file = circle, .cars = cars});
+    PreparedSubgraph prepared = prepare_subgraph_of(on_circle);
+    scenarios_.emplace(
+        cars, Scenarios{.circle = {std::move(on_circle), std::move(prepared)},
+                        .paper = {.scenario = crowded(paper, cars), .subgraph = on_paper}});
   }
 }
 
@@ -58,9 +62,10 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   auto chosen = scenarios_.begin();
   std::advance(chosen, static_cast<std::ptrdiff_t>(random.below(scenarios_.size())));
   const bool is_paper = random.chance(0.7);
-  the_case.scenario =
-      is_paper ? with_random_starts(chosen->second.paper, random.next()) : chosen->second.circle;
+  const Prepared& drawn = is_paper ? chosen->second.paper : chosen->second.circle;
+  the_case.scenario = is_paper ? with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
   FaultRunSettings& run = the_case.run;
+  run.lab.prepared = drawn.subgraph;
   run.lab.seed = seed;
   run.lab.is_logical = random.chance(0.2);
   // Logical time is for one machine.

@@ -63,9 +63,13 @@ class FaultCampaign {
 
  private:
   FaultCampaignSettings settings_;
+  struct Prepared {
+    Scenario scenario;
+    PreparedSubgraph subgraph;
+  };
   struct Scenarios {
-    Scenario circle;
-    Scenario paper;
+    Prepared circle;
+    Prepared paper;
   };
   std::map<std::size_t, Scenarios> scenarios_;  ///< by number of cars
 };

@@ -57,13 +57,14 @@ MiddlewareMachine middleware(std::uint8_t id, const LabSettings& settings) {
 
 HlcMachine controller(const Scenario& scenario, std::uint8_t id, const LabSettings& settings) {
   const bool keeps_commands = settings.transport == Transport::kLoopback;
-  const HlcRules rules = settings.is_logical
-                             ? rules_in_logical_time(keeps_commands)
-                             : rules_in_real_time(keeps_commands, StepDeadlines{}, kStartupTimeout);
+  HlcRules rules = settings.is_logical
+                       ? rules_in_logical_time(keeps_commands)
+                       : rules_in_real_time(keeps_commands, StepDeadlines{}, kStartupTimeout);
+  rules.warms_up = false;
   return {{.rules = rules,
            .startup_timeout = kStartupTimeout,
            .reconfiguration = scenario.reconfiguration},
-          make_controller(scenario, VehicleId{id})};
+          make_controller(scenario, VehicleId{id}, *settings.prepared)};
 }
 
 }  // namespace
@@ -84,6 +85,7 @@ std::string name_of(const ProcessKey& key) {
 
 ProcessFactory::ProcessFactory(const Scenario& scenario, const LabSettings& settings)
     : scenario_(&scenario), settings_(settings) {
+  if (!settings_.prepared) settings_.prepared = prepare_subgraph_of(scenario);
   for (const ScenarioVehicle& one : scenario.vehicles) ids_.push_back(one.id.value);
 }
 
