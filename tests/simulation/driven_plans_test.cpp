@@ -132,6 +132,7 @@ TEST_F(Driven, AfterItsPlanAVehicleStandsWhereItsControllerAnnounces) {
   receive(kFirst, 10);
   drive(kFirst, 10, 10);
   driven_.published({.vehicle = kFirst, .step = {12}, .running = area_at(12, 1.0)});
+  driven_.reported({.vehicle = kFirst, .step = {12}}, nullptr);
   agree(kSecond, 12, 0.0);
   receive(kSecond, 12);
   drive(kSecond, 12, 12);

@@ -28,7 +28,7 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
 
 void DrivenPlans::published(const Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
-  stands(car, traffic);
+  car.announced = traffic.running;
   if (has_newest_plan(car)) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
@@ -36,23 +36,23 @@ void DrivenPlans::published(const Traffic& traffic) {
   }
 }
 
-/// Traffic of a vehicle that stands where nobody has agreed to: there its plan has been anchored.
-void DrivenPlans::stands(Car& car, const Traffic& traffic) {
-  if (!car.driven || !car.driven->areas || !traffic.running.areas_m.empty()) return;
+/// Where a vehicle stands after its plan, unless its controller is mistaken or does not know
+/// either.
+void DrivenPlans::note_standing(Car& car, const Report& report) {
+  car.stands.reset();
+  if (!car.driven || !car.driven->areas || !car.announced) return;
   const OccupiedAreas& areas = *car.driven->areas;
-  const bool has_run_out = traffic.step.value >= areas.first.value + areas.areas_m.size();
-  const ConvexPolygon& announced = traffic.running.final_area_m;
-  const bool is_agreed = announced == areas.final_area_m ||
-                         (car.agreed->areas && announced == car.agreed->areas->final_area_m);
-  if (!has_run_out || is_agreed) return;
-  Agreed anchored = *car.driven;
-  anchored.areas = traffic.running;
-  anchored.is_anchored = true;
-  car.run_out = std::exchange(car.driven, std::make_shared<const Agreed>(std::move(anchored)));
+  const bool has_run_out = report.step.value >= areas.first.value + areas.areas_m.size();
+  const bool stands = car.announced->first == report.step && car.announced->areas_m.empty();
+  if (has_run_out && stands && has_newest_plan(car) &&
+      report.reason != FallbackReason::kDeviation) {
+    car.stands = car.announced;
+  }
 }
 
 void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   Car& car = cars_[report.vehicle];
+  note_standing(car, report);
   if (report.status == StepStatus::kPlanned) {
     if (has_newest_plan(car)) car.missed_since = report.step;
     Agreed agreed{.number = ++car.num_agreed,
@@ -152,9 +152,10 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   judge_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
-  if (!plan || plan == car.driven || plan == car.run_out) return;
+  if (!plan || plan == car.driven) return;
   if (is_change_late(car, plan, tick)) car.changed_over_late = tick;
   car.driven = plan;
+  car.stands.reset();
   judge_pairs(vehicle, tick, violations);
 }
 
@@ -183,8 +184,9 @@ void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& v
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_judged(other, its, tick)) continue;
-    const StepIndex from = std::max({now, areas.first, its.driven->areas->first});
-    if (are_free(areas, *its.driven->areas, from, horizon_steps_) ||
+    const OccupiedAreas& its_areas = its.stands ? *its.stands : *its.driven->areas;
+    const StepIndex from = std::max({now, areas.first, its_areas.first});
+    if (are_free(areas, its_areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }

@@ -78,6 +78,8 @@ class DrivenPlans {
   };
   struct Car {
     std::optional<Prediction> predicted;
+    std::optional<OccupiedAreas> announced;  ///< in its last traffic
+    std::optional<OccupiedAreas> stands;     ///< announced after the driven plan
     AgreedPlan agreed{std::make_shared<const Agreed>()};
     std::uint64_t num_agreed{};
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
@@ -89,12 +91,11 @@ class DrivenPlans {
     Nanoseconds newest_valid{};  ///< create, of those received
     Nanoseconds follows{};
     AgreedPlan driven;
-    AgreedPlan run_out;               ///< after which the vehicle stands elsewhere
     Nanoseconds changed_over_late{};  ///< the last time
     Nanoseconds out_of_reach_until{};
   };
 
-  static void stands(Car& car, const Traffic& traffic);
+  static void note_standing(Car& car, const Report& report);
   [[nodiscard]] static AgreedPlan plan_of(const Car& car, Nanoseconds create);
   [[nodiscard]] static bool has_newest_plan(const Car& car);
   [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const Report& report,
