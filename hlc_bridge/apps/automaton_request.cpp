@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kExitRefused = 1;
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   std::optional<int> controller_domain;
   std::vector<std::string> controller_peers;
   std::vector<int> vehicles;
@@ -50,7 +50,7 @@ struct Flags {
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle", flags.vehicles, "vehicles to ask, e.g. 1,2; default: all")
       ->delimiter(',')
-      ->check(hlc::vehicle_id_range());
+      ->check(hlc::apps::vehicle_id_range());
   auto* const criterion =
       app.add_option("--criterion", flags.criteria,
                      "labels of the maneuvers, e.g. J2, or J1,J2; default: the scenario's")
@@ -61,10 +61,10 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',')
       ->excludes(criterion);
   app.add_option("--max_speed", flags.max_speed_mps, "speed limit [m/s]; default: the scenario's")
-      ->check(hlc::within(0.0, 100.0));
+      ->check(hlc::apps::within(0.0, 100.0));
   const auto add_trims = [&app](const std::string& name, std::vector<int>& trims,
                                 const std::string& what) {
-    app.add_option(name, trims, what)->delimiter(',')->check(hlc::whole(1, 100'000));
+    app.add_option(name, trims, what)->delimiter(',')->check(hlc::apps::whole(1, 100'000));
   };
   add_trims("--trims_on", flags.trims_on, "trims beside the scenario's, numbered from 1");
   add_trims("--trims_off", flags.trims_off, "trims of the scenario's that are not to be used");
@@ -75,7 +75,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',');
   auto* const in_s = app.add_option("--in_s", flags.in_s, "real time: in force so much later")
                          ->capture_default_str()
-                         ->check(hlc::within(0.0, 3600.0));
+                         ->check(hlc::apps::within(0.0, 3600.0));
   app.add_option("--valid_from_ns", flags.valid_from_ns,
                  "in force from this time of the run on, e.g. of the logical clock; 0: at once")
       ->capture_default_str()
@@ -83,13 +83,13 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--timeout_s", flags.timeout_s,
                  "how long to wait for answers after the request's time")
       ->capture_default_str()
-      ->check(hlc::within(0.1, 3600.0));
+      ->check(hlc::apps::within(0.1, 3600.0));
   app.add_flag("--follow", flags.follow,
                "stay until stopped: controllers that appear later are asked, too, and every answer "
                "is printed");
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
-  hlc::declare_controller_peers(app, flags.controller_peers);
+  hlc::apps::declare_controller_peers(app, flags.controller_peers);
   flags.network.declare_network(app);
   app.footer(
       "A request is a change of the scenario's subgraph, not of the last request: without any it "
@@ -153,20 +153,20 @@ hlc::SubgraphRequest subgraph_request(const Flags& flags) {
           .edges_off = edges_of("--edges_off", flags.edges_off)};
 }
 
-hlc::ParticipantOptions participant_options(const Flags& flags) {
-  hlc::check_domain_id("--dds_domain", flags.network.dds_domain);
+hlc::dds::ParticipantOptions participant_options(const Flags& flags) {
+  hlc::dds::check_domain_id("--dds_domain", flags.network.dds_domain);
   const int domain = flags.controller_domain
                          ? *flags.controller_domain
-                         : hlc::default_controller_domain(flags.network.dds_domain);
-  hlc::check_domain_id("--controller_domain", domain);
-  hlc::check_addresses("--controller_peers", flags.controller_peers);
-  hlc::ParticipantOptions options;
+                         : hlc::dds::default_controller_domain(flags.network.dds_domain);
+  hlc::dds::check_domain_id("--controller_domain", domain);
+  hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
+  hlc::dds::ParticipantOptions options;
   options.name = "automaton_request";
   options.domain_id = domain;
-  options.role = hlc::DomainRole::kController;
-  options.transport = hlc::transport_from_name(flags.network.transport);
+  options.role = hlc::dds::DomainRole::kController;
+  options.transport = hlc::dds::transport_from_name(flags.network.transport);
   options.peers = flags.controller_peers;
-  options.version = hlc::program_version();
+  options.version = hlc::apps::program_version();
   return options;
 }
 
@@ -192,8 +192,8 @@ class Asker {
         subgraph_(subgraph_request(flags)),
         asked_(flags.vehicles.begin(), flags.vehicles.end()),
         participant_(participant_options(flags), [this] { signal_.notify(); }),
-        writer_(participant_, hlc::topics::automaton_request(), [this] { signal_.notify(); }),
-        reader_(participant_, hlc::topics::automaton_answer(),
+        writer_(participant_, hlc::dds::topics::automaton_request(), [this] { signal_.notify(); }),
+        reader_(participant_, hlc::dds::topics::automaton_answer(),
                 [this](const hlc::AutomatonAnswer& answer) {
                   signal_.post([&] { answers_.push_back(answer); });
                 }) {}
@@ -256,7 +256,7 @@ class Asker {
   }
 
   void ask() {
-    const hlc::Nanoseconds now = hlc::real_time_now();
+    const hlc::Nanoseconds now = hlc::time::real_time_now();
     id_ = now;
     const auto in = static_cast<hlc::Nanoseconds>(1e9 * flags_.in_s);
     const hlc::Nanoseconds valid_from = in > 0 ? now + in : flags_.valid_from_ns;
@@ -317,29 +317,29 @@ class Asker {
   std::uint64_t id_{};
   std::map<int, hlc::RequestOutcome> outcomes_;  ///< the last of each vehicle
 
-  hlc::Signal signal_;
+  hlc::time::Signal signal_;
   // Guarded by signal_:
   std::vector<hlc::AutomatonAnswer> answers_;
   bool stop_{};
 
-  hlc::Participant participant_;
-  hlc::Writer<hlc::AutomatonRequest> writer_;
-  hlc::Reader<hlc::AutomatonAnswer> reader_;
+  hlc::dds::Participant participant_;
+  hlc::dds::Writer<hlc::AutomatonRequest> writer_;
+  hlc::dds::Reader<hlc::AutomatonAnswer> reader_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"Asks controllers to plan on another part of their automaton, while they drive.",
                "automaton_request"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
-  return hlc::run_program(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  return hlc::apps::run_program(
       "automaton_request", signals,
       [&] {
-        hlc::check_each_once("--vehicle", flags.vehicles);
+        hlc::apps::check_each_once("--vehicle", flags.vehicles);
         return std::make_shared<Asker>(flags);
       },
       [](Asker& asker) { asker.stop(); });

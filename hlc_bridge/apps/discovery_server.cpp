@@ -19,9 +19,9 @@ namespace {
 
 struct Flags {
   int dds_domain{0};
-  std::string id{hlc::kDiscoveryServerId};
+  std::string id{hlc::apps::kDiscoveryServerId};
   std::string ip;
-  std::string port{hlc::kDiscoveryServerPort};
+  std::string port{hlc::apps::kDiscoveryServerPort};
   std::string transport{"lab"};
 };
 
@@ -62,7 +62,7 @@ void check_can_listen(const std::string& ip, std::uint16_t port) {
 /// Serves until it is stopped.
 class Server {
  public:
-  explicit Server(const hlc::ParticipantOptions& options) : participant_(options) {}
+  explicit Server(const hlc::dds::ParticipantOptions& options) : participant_(options) {}
   int run() {
     while (!signal_.wait_until(std::chrono::steady_clock::now() + std::chrono::hours{1},
                                [this] { return stop_; })) {
@@ -74,19 +74,20 @@ class Server {
   }
 
  private:
-  hlc::Participant participant_;
-  hlc::Signal signal_;
+  hlc::dds::Participant participant_;
+  hlc::time::Signal signal_;
   bool stop_{};
 };
 
 std::shared_ptr<Server> make_server(const Flags& flags) {
-  hlc::ParticipantOptions options;
+  hlc::dds::ParticipantOptions options;
   options.name = "discovery_server";
-  hlc::check_domain_id("--dds_domain", flags.dds_domain);
+  hlc::dds::check_domain_id("--dds_domain", flags.dds_domain);
   options.domain_id = flags.dds_domain;
-  options.role = hlc::DomainRole::kLab;
-  options.transport = hlc::transport_from_name(flags.transport);
-  options.discovery_server = hlc::discovery_from_flags("client", flags.id, flags.ip, flags.port);
+  options.role = hlc::dds::DomainRole::kLab;
+  options.transport = hlc::dds::transport_from_name(flags.transport);
+  options.discovery_server =
+      hlc::dds::discovery_from_flags("client", flags.id, flags.ip, flags.port);
   options.is_discovery_server = true;
   check_can_listen(options.discovery_server->ip, options.discovery_server->port);
   auto server = std::make_shared<Server>(options);
@@ -98,12 +99,12 @@ std::shared_ptr<Server> make_server(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"Introduces the participants of the lab domain to each other.", "discovery_server"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
-  return hlc::run_program(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  return hlc::apps::run_program(
       "discovery_server", signals, [&] { return make_server(flags); },
       [](Server& server) { server.stop(); });
 }

@@ -23,11 +23,13 @@ namespace {
 /// Time between two states; the maneuvers' inputs are constant in between.
 constexpr hlc::Nanoseconds kInterval = 10'000'000;
 
-hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord> rows,
-                              const hlc::Drives& drives, const hlc::RunFacts& facts,
-                              const hlc::UniversalAutomaton& automaton) {
-  std::vector<const hlc::StepRecord*> own;
-  for (const hlc::StepRecord& row : rows) {
+hlc::record::ExportedVehicle exported(hlc::VehicleId id,
+                                      std::span<const hlc::result::StepRecord> rows,
+                                      const hlc::result::Drives& drives,
+                                      const hlc::result::RunFacts& facts,
+                                      const hlc::automaton::UniversalAutomaton& automaton) {
+  std::vector<const hlc::result::StepRecord*> own;
+  for (const hlc::result::StepRecord& row : rows) {
     if (row.record.report.vehicle == id) own.push_back(&row);
   }
   const std::string name = "vehicle " + std::to_string(id.value);
@@ -37,14 +39,14 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
     throw std::runtime_error("reports.csv: " + std::to_string(own.size()) + " steps of " + name +
                              ", must be the " + std::to_string(facts.steps) + " of run.json");
   }
-  hlc::ExportedVehicle vehicle{
+  hlc::record::ExportedVehicle vehicle{
       .id = id,
-      .planned = hlc::planned_motion(own, facts.period, kInterval, automaton),
+      .planned = hlc::result::planned_motion(own, facts.period, kInterval, automaton),
       .driven = {}};
   const auto drive = drives.find(id.value);
   if (drive == drives.end()) throw std::runtime_error(name + ": no record of what it drove");
-  vehicle.driven = hlc::driven_motion(drive->second, *facts.first_step * facts.period, kInterval,
-                                      vehicle.planned.size());
+  vehicle.driven = hlc::result::driven_motion(drive->second, *facts.first_step * facts.period,
+                                              kInterval, vehicle.planned.size());
   if (vehicle.driven.size() < 2) throw std::runtime_error(name + ": drove less than a step");
   const std::size_t per_step = facts.period / kInterval;
   if (is_whole && vehicle.driven.size() + per_step < vehicle.planned.size()) {
@@ -56,28 +58,31 @@ hlc::ExportedVehicle exported(hlc::VehicleId id, std::span<const hlc::StepRecord
   return vehicle;
 }
 
-std::string export_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices) {
-  const hlc::RunFacts facts = hlc::read_facts(run / "run.json");
-  const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
+std::string export_run(const std::filesystem::path& run,
+                       const hlc::scenario::ScenarioChoices& choices) {
+  const hlc::result::RunFacts facts = hlc::record::read_facts(run / "run.json");
+  const std::vector<hlc::ReportRecord> reports = hlc::record::read_reports(run / "reports.csv");
   if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: no vehicle drove");
   if (facts.period == 0 || facts.period % kInterval != 0) {
     throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
                              ", must be a multiple of " + std::to_string(kInterval));
   }
-  const hlc::Scenario scenario =
-      hlc::read_scenario(choices.file.empty() ? hlc::kept_choices(run) : choices);
-  hlc::check_run(facts, hlc::describe(scenario, std::nullopt));
-  const hlc::Drives drives = hlc::read_drives(run, facts.vehicle_ids);
-  const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
-  std::vector<hlc::ExportedVehicle> vehicles;
+  const hlc::scenario::Scenario scenario =
+      hlc::scenario::read_scenario(choices.file.empty() ? hlc::record::kept_choices(run) : choices);
+  hlc::result::check_run(facts, hlc::result::describe(scenario, std::nullopt));
+  const hlc::result::Drives drives = hlc::record::read_drives(run, facts.vehicle_ids);
+  const std::vector<hlc::result::StepRecord> rows =
+      hlc::result::step_records(reports, drives, facts);
+  std::vector<hlc::record::ExportedVehicle> vehicles;
   for (const std::uint8_t id : facts.vehicle_ids) {
     vehicles.push_back(
         exported(hlc::VehicleId{id}, rows, drives, facts, scenario.subgraph->automaton()));
   }
-  const hlc::LaneletMap map =
-      scenario.map_file ? hlc::read_lanelet_map(*scenario.map_file) : hlc::open_ground(vehicles);
-  return hlc::commonroad_xml(map, scenario.subgraph->automaton().vehicle, vehicles,
-                             1e-9 * static_cast<double>(kInterval));
+  const hlc::road::LaneletMap map = scenario.map_file
+                                        ? hlc::road::read_lanelet_map(*scenario.map_file)
+                                        : hlc::record::open_ground(vehicles);
+  return hlc::record::commonroad_xml(map, scenario.subgraph->automaton().vehicle, vehicles,
+                                     1e-9 * static_cast<double>(kInterval));
 }
 
 }  // namespace
@@ -88,11 +93,11 @@ int main(int argc, char** argv) {
       "and driven motion every 10 ms.",
       "export_commonroad"};
   std::filesystem::path run;
-  hlc::ScenarioChoices choices;
-  hlc::OutputFile out{.flag = "--out", .file = {}};
+  hlc::scenario::ScenarioChoices choices;
+  hlc::apps::OutputFile out{.flag = "--out", .file = {}};
   app.add_option("--run", run, "run folder")->required();
-  hlc::declare_output(app, out, "CommonRoad file (XML)")->required();
-  hlc::declare_scenario_flags(app, choices);
+  hlc::apps::declare_output(app, out, "CommonRoad file (XML)")->required();
+  hlc::apps::declare_scenario_flags(app, choices);
   app.get_option("--scenario")
       ->required(false)
       ->description("scenario file (YAML); default: this and the following from the run folder");
@@ -103,10 +108,10 @@ int main(int argc, char** argv) {
     }
   }
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   const auto write = [&] {
-    hlc::check_output_files({out}, {run / "run.json", run / "reports.csv"});
+    hlc::apps::check_output_files({out}, {run / "run.json", run / "reports.csv"});
     hlc::write_file(*out.file, export_run(run, choices));
   };
-  return hlc::exit_code_of("export_commonroad", write, hlc::kExitBadInput);
+  return hlc::apps::exit_code_of("export_commonroad", write, hlc::kExitBadInput);
 }

@@ -12,7 +12,7 @@
 
 /// Flags that the processes of a run have in common, as in the lab: `--name=value` and `--name
 /// value`.
-namespace hlc {
+namespace hlc::apps {
 
 [[nodiscard]] inline CLI::Validator vehicle_id_range() { return whole(1, kMaxVehicleId); }
 
@@ -61,18 +61,18 @@ struct NetworkFlags {
   }
 
   /// @throws std::invalid_argument naming the flag
-  [[nodiscard]] std::optional<DiscoveryServer> discovery_server() const {
+  [[nodiscard]] std::optional<dds::DiscoveryServer> discovery_server() const {
     const bool is_client = discovery_mode == "client";
     const auto given = [is_client](const std::string& value, const char* otherwise) {
       return is_client && value.empty() ? std::string(otherwise) : value;
     };
-    return discovery_from_flags(discovery_mode, given(discovery_server_id, kDiscoveryServerId),
-                                discovery_server_ip,
-                                given(discovery_server_port, kDiscoveryServerPort));
+    return dds::discovery_from_flags(discovery_mode, given(discovery_server_id, kDiscoveryServerId),
+                                     discovery_server_ip,
+                                     given(discovery_server_port, kDiscoveryServerPort));
   }
   [[nodiscard]] std::chrono::seconds startup_timeout() const {
     return std::chrono::seconds{startup_timeout_s};
   }
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -26,7 +26,7 @@
 namespace {
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   std::string node_id;
   std::vector<int> vehicle_ids;
   int middleware_domain{1};
@@ -36,7 +36,7 @@ struct Flags {
   int thread_priority{1};
   std::optional<int> core;
   std::string dds_initial_peer;
-  hlc::ScenarioChoices scenario;
+  hlc::scenario::ScenarioChoices scenario;
 };
 
 /// Scenario driven without the flag --scenario: the lab control centre does not pass it.
@@ -56,8 +56,8 @@ void declare(CLI::App& app, Flags& flags) {
                  "vehicles to control, e.g. 1,2: each by a separate process")
       ->delimiter(',')
       ->required()
-      ->check(hlc::vehicle_id_range());
-  hlc::declare_scenario_flags(app, flags.scenario);
+      ->check(hlc::apps::vehicle_id_range());
+  hlc::apps::declare_scenario_flags(app, flags.scenario);
   app.get_option("--scenario")
       ->required(false)
       ->description(
@@ -71,7 +71,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
-  hlc::declare_controller_peers(app, flags.controller_peers);
+  hlc::apps::declare_controller_peers(app, flags.controller_peers);
   app.add_option(
       "--dump-problems,--dump_problems", flags.problem_folder,
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
@@ -80,89 +80,93 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--thread_priority", flags.thread_priority,
                  "real-time priority of the planning thread, where the system allows it; 0: none")
       ->capture_default_str()
-      ->check(hlc::whole(0, hlc::kMaxThreadPriority));
+      ->check(hlc::apps::whole(0, hlc::time::kMaxThreadPriority));
   app.add_option("--core", flags.core, "processor core of the planning thread; default: any")
-      ->check(hlc::whole(0, hlc::kMaxCore));
+      ->check(hlc::apps::whole(0, hlc::time::kMaxCore));
   flags.network.declare(app);
   app.footer(
       "Exit codes: 0 success, 1 success, but --dump-problems is incomplete, 2 invalid input, 3 "
       "startup timeout, 4 the middleware or lab control died.");
 }
 
-hlc::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
-  const hlc::NetworkFlags& network = flags.network;
-  hlc::HlcProcessOptions options;
-  options.version = hlc::program_version();
+hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {
+  const hlc::apps::NetworkFlags& network = flags.network;
+  hlc::process::HlcProcessOptions options;
+  options.version = hlc::apps::program_version();
   options.node_id = flags.node_id.empty() ? hlc::controller_name(id.value) : flags.node_id;
   if (!flags.dds_initial_peer.empty()) {
     spdlog::warn("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",
                  options.node_id, flags.dds_initial_peer);
   }
-  options.transport = hlc::transport_from_name(network.transport);
+  options.transport = hlc::dds::transport_from_name(network.transport);
   options.domains = {.lab = network.dds_domain,
                      .local = flags.middleware_domain,
                      .controller = flags.controller_domain
                                        ? *flags.controller_domain
-                                       : hlc::default_controller_domain(network.dds_domain)};
-  for (const std::string& warning : hlc::check_domains(options.domains, options.transport)) {
+                                       : hlc::dds::default_controller_domain(network.dds_domain)};
+  for (const std::string& warning : hlc::dds::check_domains(options.domains, options.transport)) {
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = network.discovery_server();
-  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   options.thread_priority = flags.thread_priority;
   options.core = flags.core;
   options.startup_timeout = network.startup_timeout();
-  options.time = hlc::run_time(network.simulated_time);
-  const bool keeps_commands = options.transport == hlc::Transport::kLoopback;
+  options.time = hlc::machine::run_time(network.simulated_time);
+  const bool keeps_commands = options.transport == hlc::dds::Transport::kLoopback;
   options.rules = network.simulated_time
-                      ? hlc::rules_in_logical_time(keeps_commands)
-                      : hlc::rules_in_real_time(keeps_commands, hlc::StepDeadlines{},
-                                                hlc::nanoseconds(options.startup_timeout));
+                      ? hlc::high_level_controller::rules_in_logical_time(keeps_commands)
+                      : hlc::high_level_controller::rules_in_real_time(
+                            keeps_commands, hlc::high_level_controller::StepDeadlines{},
+                            hlc::time::nanoseconds(options.startup_timeout));
   return options;
 }
 
-std::shared_ptr<hlc::HlcProcess> make_process(const Flags& flags, const hlc::Scenario& scenario,
-                                              int vehicle_id) {
+std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
+                                                       const hlc::scenario::Scenario& scenario,
+                                                       int vehicle_id) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
-  hlc::HlcProcessOptions options = process_options(flags, id);
+  hlc::process::HlcProcessOptions options = process_options(flags, id);
   options.configuration = [file = scenario.automaton_file] {
-    return hlc::read_configuration_of(file);
+    return hlc::maneuver_design::read_configuration_of(file);
   };
   options.reconfiguration = scenario.reconfiguration;
   if (flags.problem_folder) {
-    options.after_step = [dump = hlc::ProblemDump(*flags.problem_folder, scenario.automaton_file,
-                                                  scenario.subgraph->spec())](
-                             const hlc::Controller& controller) { dump.write(controller); };
+    options.after_step =
+        [dump = hlc::scenario::ProblemDump(*flags.problem_folder, scenario.automaton_file,
+                                           scenario.subgraph->spec())](
+            const hlc::controller::Controller& controller) { dump.write(controller); };
   }
-  return std::make_shared<hlc::HlcProcess>(options, hlc::make_controller(scenario, id));
+  return std::make_shared<hlc::process::HlcProcess>(options,
+                                                    hlc::scenario::make_controller(scenario, id));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"High-level controller: plans one vehicle's motion and agrees with the others.",
                "high_level_controller"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   const std::string program = "high_level_controller";
-  std::optional<hlc::Scenario> scenario;
-  const int code = hlc::exit_code_of(program.c_str(), [&] {
-    hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
+  std::optional<hlc::scenario::Scenario> scenario;
+  const int code = hlc::apps::exit_code_of(program.c_str(), [&] {
+    hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
     flags.scenario.file = scenario_file(flags.scenario.file);
-    scenario = hlc::read_scenario(flags.scenario);
-    if (flags.problem_folder && scenario->policy != hlc::kNoPolicy) {
+    scenario = hlc::scenario::read_scenario(flags.scenario);
+    if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
       throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
                                   " requires --policy none: a problem names a subgraph that "
                                   "the automaton's file declares");
     }
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
-  return hlc::process_per_vehicle(flags.vehicle_ids, signals, [&](int id) {
-    return hlc::run_program(
+  return hlc::apps::process_per_vehicle(flags.vehicle_ids, signals, [&](int id) {
+    return hlc::apps::run_program(
         program, signals, [&] { return make_process(flags, *scenario, id); },
-        [](hlc::HlcProcess& process) { process.stop(); });
+        [](hlc::process::HlcProcess& process) { process.stop(); });
   });
 }

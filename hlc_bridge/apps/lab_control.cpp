@@ -19,7 +19,7 @@
 namespace {
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   int controller_domain{-1};
   std::vector<std::string> controller_peers;
   std::vector<int> vehicle_ids;
@@ -34,17 +34,17 @@ void declare(CLI::App& app, Flags& flags) {
   flags.network.declare(app);
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
-  hlc::declare_controller_peers(app, flags.controller_peers);
+  hlc::apps::declare_controller_peers(app, flags.controller_peers);
   app.add_option("--vehicle_ids", flags.vehicle_ids, "all vehicles of the run: 1,2,3")
       ->delimiter(',')
       ->required()
-      ->check(hlc::vehicle_id_range());
+      ->check(hlc::apps::vehicle_id_range());
   app.add_option("--steps", flags.steps, "control steps of the run")
       ->capture_default_str()
-      ->check(hlc::whole(1, 10000));
+      ->check(hlc::apps::whole(1, 10000));
   app.add_option("--period_ms", flags.period_ms, "of the control steps")
       ->capture_default_str()
-      ->check(hlc::whole(20, 10000));
+      ->check(hlc::apps::whole(20, 10000));
   app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
   app.add_option(
          "--on_death", flags.on_death,
@@ -58,10 +58,10 @@ void declare(CLI::App& app, Flags& flags) {
       "(--on_death continue: and was not back at its end), 130 interrupted.");
 }
 
-hlc::LabControlOptions process_options(const Flags& flags) {
-  hlc::LabControlOptions options;
-  options.version = hlc::program_version();
-  hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
+hlc::process::LabControlOptions process_options(const Flags& flags) {
+  hlc::process::LabControlOptions options;
+  options.version = hlc::apps::program_version();
+  hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
   std::vector<int> ids = flags.vehicle_ids;
   std::ranges::sort(ids);
   for (const int id : ids) {
@@ -77,25 +77,25 @@ hlc::LabControlOptions process_options(const Flags& flags) {
           "--on_death = continue with --simulated_time = true, must be stop: logical time waits "
           "for all processes");
     }
-    options.run.on_death = hlc::OnDeath::kContinue;
+    options.run.on_death = hlc::lab_control::OnDeath::kContinue;
   }
-  options.transport = hlc::transport_from_name(flags.network.transport);
+  options.transport = hlc::dds::transport_from_name(flags.network.transport);
   options.lab_domain = flags.network.dds_domain;
-  hlc::check_domain_id("--dds_domain", options.lab_domain);
+  hlc::dds::check_domain_id("--dds_domain", options.lab_domain);
   options.controller_domain = flags.controller_domain >= 0
                                   ? flags.controller_domain
-                                  : hlc::default_controller_domain(options.lab_domain);
-  const hlc::Domains domains{
+                                  : hlc::dds::default_controller_domain(options.lab_domain);
+  const hlc::dds::Domains domains{
       .lab = options.lab_domain, .local = std::nullopt, .controller = options.controller_domain};
-  for (const std::string& warning : hlc::check_domains(domains, options.transport)) {
+  for (const std::string& warning : hlc::dds::check_domains(domains, options.transport)) {
     spdlog::warn("{}", warning);
   }
   options.discovery_server = flags.network.discovery_server();
-  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   if (flags.network.simulated_time) {
-    options.time = hlc::kLogicalTime;
-    options.make_run = hlc::make_lab_run<hlc::LogicalRun>;
+    options.time = hlc::machine::kLogicalTime;
+    options.make_run = hlc::lab_control::make_lab_run<hlc::lab_control::LogicalRun>;
   }
   options.out = flags.out;
   options.is_terminal = isatty(STDERR_FILENO) != 0;
@@ -105,17 +105,17 @@ hlc::LabControlOptions process_options(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_color_mt(hlc::kLabControlName));
   CLI::App app{"Lab control: starts, clocks, monitors, stops and records a run.",
                hlc::kLabControlName};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
-  return hlc::run_program(
+  return hlc::apps::run_program(
       hlc::kLabControlName, signals,
-      [&] { return std::make_shared<hlc::LabControlProcess>(process_options(flags)); },
-      [](hlc::LabControlProcess& process) { process.interrupt(); });
+      [&] { return std::make_shared<hlc::process::LabControlProcess>(process_options(flags)); },
+      [](hlc::process::LabControlProcess& process) { process.interrupt(); });
 }

@@ -16,7 +16,7 @@
 namespace {
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   std::vector<int> vehicle_ids;
   std::optional<int> middleware_domain;
   std::optional<int> controller_domain;
@@ -28,47 +28,47 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_ids", flags.vehicle_ids, "vehicles that take part, e.g. 1,2,3")
       ->delimiter(',')
       ->required()
-      ->check(hlc::vehicle_id_range());
+      ->check(hlc::apps::vehicle_id_range());
   app.add_option("--middleware_domain", flags.middleware_domain,
                  "local domain of this machine; default: no check of the middleware");
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
-  hlc::declare_controller_peers(app, flags.controller_peers);
+  hlc::apps::declare_controller_peers(app, flags.controller_peers);
   app.add_option("--listen_s", flags.listen_s, "how long to listen")
       ->capture_default_str()
-      ->check(hlc::within(0.5, 600.0));
+      ->check(hlc::apps::within(0.5, 600.0));
   flags.network.declare_network(app);
   app.footer(
       "Exit codes: 0 no bad finding, 1 a bad finding, 2 invalid input or an output that cannot be "
       "written.");
 }
 
-hlc::ListenOptions listen_options(const Flags& flags) {
-  const hlc::NetworkFlags& network = flags.network;
-  hlc::ListenOptions options;
-  options.transport = hlc::transport_from_name(network.transport);
+hlc::doctor::ListenOptions listen_options(const Flags& flags) {
+  const hlc::apps::NetworkFlags& network = flags.network;
+  hlc::doctor::ListenOptions options;
+  options.transport = hlc::dds::transport_from_name(network.transport);
   options.domains = {.lab = network.dds_domain,
                      .local = flags.middleware_domain,
                      .controller = flags.controller_domain
                                        ? *flags.controller_domain
-                                       : hlc::default_controller_domain(network.dds_domain)};
+                                       : hlc::dds::default_controller_domain(network.dds_domain)};
   options.discovery_server = network.discovery_server();
-  hlc::check_addresses("--controller_peers", flags.controller_peers);
+  hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   options.time = std::chrono::milliseconds{static_cast<int>(1000.0 * flags.listen_s)};
   return options;
 }
 
 /// @return true if no finding is bad
-bool print(const std::vector<hlc::Finding>& findings) {
+bool print(const std::vector<hlc::doctor::Finding>& findings) {
   bool is_good = true;
-  for (const hlc::Finding& finding : findings) {
-    const char* const mark = finding.verdict == hlc::Verdict::kGood   ? "good"
-                             : finding.verdict == hlc::Verdict::kNote ? "note"
-                                                                      : "BAD ";
+  for (const hlc::doctor::Finding& finding : findings) {
+    const char* const mark = finding.verdict == hlc::doctor::Verdict::kGood   ? "good"
+                             : finding.verdict == hlc::doctor::Verdict::kNote ? "note"
+                                                                              : "BAD ";
     std::cout << mark << "  " << finding.what << '\n';
     if (!finding.advice.empty()) std::cout << "      -> " << finding.advice << '\n';
-    is_good = is_good && finding.verdict != hlc::Verdict::kBad;
+    is_good = is_good && finding.verdict != hlc::doctor::Verdict::kBad;
   }
   return is_good;
 }
@@ -76,28 +76,29 @@ bool print(const std::vector<hlc::Finding>& findings) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"Checks a lab before or during a run: participants, leftovers, remedies.",
                "lab_doctor"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   std::atomic<bool> stop{false};
   bool is_good = true;
-  const int code = hlc::exit_code_of("lab_doctor", [&] {
-    hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
-    const hlc::ListenOptions options = listen_options(flags);
-    std::vector<hlc::Finding> findings{
-        {hlc::Verdict::kGood, "this program: " + hlc::program_version(), ""}};
-    for (const std::string& warning : hlc::check_domains(options.domains, options.transport)) {
-      findings.push_back({hlc::Verdict::kNote, warning, ""});
+  const int code = hlc::apps::exit_code_of("lab_doctor", [&] {
+    hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
+    const hlc::doctor::ListenOptions options = listen_options(flags);
+    std::vector<hlc::doctor::Finding> findings{
+        {hlc::doctor::Verdict::kGood, "this program: " + hlc::apps::program_version(), ""}};
+    for (const std::string& warning : hlc::dds::check_domains(options.domains, options.transport)) {
+      findings.push_back({hlc::doctor::Verdict::kNote, warning, ""});
     }
     signals.on_stop([&stop](int) { stop = true; });
-    findings.push_back(hlc::leftovers(hlc::shared_memory_files()));
-    const hlc::Received received =
-        hlc::listen(options, [&stop](const hlc::Received&) { return stop.load(); });
-    std::ranges::move(hlc::diagnose(flags.vehicle_ids, received, hlc::program_version()),
-                      std::back_inserter(findings));
+    findings.push_back(hlc::doctor::leftovers(hlc::doctor::shared_memory_files()));
+    const hlc::doctor::Received received =
+        hlc::doctor::listen(options, [&stop](const hlc::doctor::Received&) { return stop.load(); });
+    std::ranges::move(
+        hlc::doctor::diagnose(flags.vehicle_ids, received, hlc::apps::program_version()),
+        std::back_inserter(findings));
     is_good = print(findings);
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;

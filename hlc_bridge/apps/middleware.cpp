@@ -14,7 +14,7 @@
 namespace {
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   std::string node_id;
   std::vector<int> vehicle_ids;
   bool keep_running{false};
@@ -31,7 +31,7 @@ void declare(CLI::App& app, Flags& flags) {
                  "the controllers' vehicles, such as 1,2 (under our lab_control: one)")
       ->delimiter(',')
       ->required()
-      ->check(hlc::vehicle_id_range());
+      ->check(hlc::apps::vehicle_id_range());
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--offset_nanoseconds", flags.offset_nanoseconds,
@@ -45,30 +45,30 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer("Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
-hlc::MiddlewareOptions process_options(const Flags& flags) {
-  hlc::MiddlewareOptions options;
-  options.version = hlc::program_version();
-  hlc::check_each_once("--vehicle_ids", flags.vehicle_ids);
+hlc::process::MiddlewareOptions process_options(const Flags& flags) {
+  hlc::process::MiddlewareOptions options;
+  options.version = hlc::apps::program_version();
+  hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
   for (const int id : flags.vehicle_ids) {
     options.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
   }
   options.node_id =
       flags.node_id.empty() ? hlc::middleware_name(options.vehicle_ids.front()) : flags.node_id;
   options.keep_running = flags.keep_running;
-  options.transport = hlc::transport_from_name(flags.network.transport);
+  options.transport = hlc::dds::transport_from_name(flags.network.transport);
   options.lab_domain = flags.network.dds_domain;
   options.local_domain = flags.middleware_domain;
-  const hlc::Domains domains{
+  const hlc::dds::Domains domains{
       .lab = options.lab_domain, .local = options.local_domain, .controller = std::nullopt};
-  for (const std::string& warning : hlc::check_domains(domains, options.transport)) {
+  for (const std::string& warning : hlc::dds::check_domains(domains, options.transport)) {
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = flags.network.discovery_server();
   const bool is_logical = flags.network.simulated_time;
-  const bool beside_lab_programs = options.transport == hlc::Transport::kLab;
-  options.time = hlc::run_time(is_logical);
-  options.rules = is_logical ? hlc::logical_middleware_rules(beside_lab_programs)
-                             : hlc::real_middleware_rules(beside_lab_programs);
+  const bool beside_lab_programs = options.transport == hlc::dds::Transport::kLab;
+  options.time = hlc::machine::run_time(is_logical);
+  options.rules = is_logical ? hlc::middleware::logical_middleware_rules(beside_lab_programs)
+                             : hlc::middleware::real_middleware_rules(beside_lab_programs);
   options.offset = flags.offset_nanoseconds;
   options.startup_timeout = flags.network.startup_timeout();
   if (flags.wait_for_start) {
@@ -87,16 +87,16 @@ hlc::MiddlewareOptions process_options(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"Middleware: vehicle states to a controller, its commands to the vehicle.",
                "middleware"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
-  return hlc::run_program(
+  return hlc::apps::run_program(
       "middleware", signals,
-      [&] { return std::make_shared<hlc::MiddlewareProcess>(process_options(flags)); },
-      [](hlc::MiddlewareProcess& process) { process.stop(); });
+      [&] { return std::make_shared<hlc::process::MiddlewareProcess>(process_options(flags)); },
+      [](hlc::process::MiddlewareProcess& process) { process.stop(); });
 }

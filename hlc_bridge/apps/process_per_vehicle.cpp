@@ -11,7 +11,7 @@
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 pid_t start(int id, pid_t parent, const std::function<int(int id)>& run) {
@@ -35,7 +35,7 @@ int exit_code_of(pid_t pid) {
 
 }  // namespace
 
-int process_per_vehicle(const std::vector<int>& ids, StopSignals& signals,
+int process_per_vehicle(const std::vector<int>& ids, time::StopSignals& signals,
                         const std::function<int(int id)>& run) {
   if (ids.size() == 1) return run(ids.front());
   const pid_t parent = getpid();
@@ -58,4 +58,4 @@ int process_per_vehicle(const std::vector<int>& ids, StopSignals& signals,
   return code;
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

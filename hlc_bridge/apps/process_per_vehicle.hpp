@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/time/stop_signals.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Runs `run(id)` in a process of its own for every id, as if each had been started alone: a
 /// failure of one does not affect the others. The processes end with this process; SIGINT and
@@ -15,7 +15,7 @@ namespace hlc {
 /// @return the largest exit code; kExitDied for a process that a signal ended
 /// @throws std::system_error if a process cannot be started
 /// @pre this process has one thread: the new ones begin with a copy of it
-[[nodiscard]] int process_per_vehicle(const std::vector<int>& ids, StopSignals& signals,
+[[nodiscard]] int process_per_vehicle(const std::vector<int>& ids, time::StopSignals& signals,
                                       const std::function<int(int id)>& run);
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -9,7 +9,7 @@
 #include "hlc_bridge/time/exit_watchdog.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// main of a process of a run, once its flags are parsed; returns main's exit code.
 ///
@@ -18,7 +18,7 @@ namespace hlc {
 /// exception from the run is a failure of this process: for the others it has died, kExitDied.
 /// Either is logged in one line.
 template <class Make, class Stop>
-int run_program(const std::string& name, StopSignals& signals, Make make, Stop stop) {
+int run_program(const std::string& name, time::StopSignals& signals, Make make, Stop stop) {
   decltype(make()) process;
   try {
     process = make();
@@ -34,8 +34,8 @@ int run_program(const std::string& name, StopSignals& signals, Make make, Stop s
   } catch (const std::exception& error) {
     spdlog::error("{}: failed during the run: {}", name, error.what());
   }
-  end_within(kTakeDownTime, exit_code);
+  time::end_within(time::kTakeDownTime, exit_code);
   return exit_code;
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

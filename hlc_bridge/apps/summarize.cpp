@@ -26,39 +26,41 @@
 
 namespace {
 
-hlc::Drives drives_of(const std::filesystem::path& run, const hlc::RunFacts& facts) {
-  const hlc::Drives drives = hlc::read_drives(run, facts.vehicle_ids);
+hlc::result::Drives drives_of(const std::filesystem::path& run,
+                              const hlc::result::RunFacts& facts) {
+  const hlc::result::Drives drives = hlc::record::read_drives(run, facts.vehicle_ids);
   for (const std::uint8_t id : facts.vehicle_ids) {
     if (drives.contains(id)) continue;
-    std::cerr << "summarize: " << hlc::drive_file(run, id).string()
+    std::cerr << "summarize: " << hlc::record::drive_file(run, id).string()
               << " is missing; the result of vehicle " << id + 0 << " has no driven values\n";
   }
   return drives;
 }
 
 /// Returns the exit code.
-int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& choices,
+int summarize_run(const std::filesystem::path& run, const hlc::scenario::ScenarioChoices& choices,
                   std::optional<std::uint64_t> noise_seed) {
-  const std::vector<hlc::ReportRecord> reports = hlc::read_reports(run / "reports.csv");
-  hlc::RunFacts facts = hlc::read_facts(run / "run.json");
+  const std::vector<hlc::ReportRecord> reports = hlc::record::read_reports(run / "reports.csv");
+  hlc::result::RunFacts facts = hlc::record::read_facts(run / "run.json");
   if (!facts.first_step) {
-    facts.first_step = hlc::first_step_of(reports);  // the lab control did not end the run
+    facts.first_step = hlc::result::first_step_of(reports);  // the lab control did not end the run
   }
-  const hlc::Scenario scenario = hlc::read_scenario(choices);
-  const hlc::RunDescription description = hlc::describe(scenario, noise_seed);
-  hlc::check_run(facts, description);
-  const hlc::Drives drives = drives_of(run, facts);
-  const std::vector<hlc::StepRecord> rows = hlc::step_records(reports, drives, facts);
+  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
+  const hlc::result::RunDescription description = hlc::result::describe(scenario, noise_seed);
+  hlc::result::check_run(facts, description);
+  const hlc::result::Drives drives = drives_of(run, facts);
+  const std::vector<hlc::result::StepRecord> rows =
+      hlc::result::step_records(reports, drives, facts);
 
-  hlc::RunSummary summary = hlc::summarize(description, facts, rows, drives);
+  hlc::result::RunSummary summary = hlc::result::summarize(description, facts, rows, drives);
   summary.revision = hlc::program_revision();
-  summary.host = hlc::this_host();
-  hlc::write_file(run / "steps.csv", hlc::steps_csv(rows));
-  hlc::write_file(run / "timing.csv", hlc::timing_csv(rows));
-  hlc::write_file(run / "summary.json", hlc::summary_json(summary));
-  hlc::keep_configuration(run, hlc::files_of(scenario));
-  std::cout << hlc::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  const std::string fault = hlc::driving_fault(summary);
+  summary.host = hlc::record::this_host();
+  hlc::write_file(run / "steps.csv", hlc::record::steps_csv(rows));
+  hlc::write_file(run / "timing.csv", hlc::record::timing_csv(rows));
+  hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
+  hlc::record::keep_configuration(run, hlc::scenario::files_of(scenario));
+  std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
+  const std::string fault = hlc::result::driving_fault(summary);
   if (fault.empty()) return hlc::kExitGood;
   std::cerr << "summarize: " << fault << '\n';
   return hlc::kExitDrivenBadly;
@@ -69,19 +71,19 @@ int summarize_run(const std::filesystem::path& run, const hlc::ScenarioChoices& 
 int main(int argc, char** argv) {
   CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv.", "summarize"};
   std::filesystem::path run;
-  hlc::ScenarioChoices choices;
+  hlc::scenario::ScenarioChoices choices;
   std::optional<std::uint64_t> noise_seed;
   app.add_option("--run", run, "run folder")->required();
-  hlc::declare_scenario_flags(app, choices);
+  hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--noise_seed", noise_seed, "of the run's measurement noise; default: no noise")
-      ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
+      ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
       "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 5 driven, but a "
       "vehicle left its plan or touched another "
       "one.");
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
-  return hlc::exit_code_of(
+  return hlc::apps::exit_code_of(
       "summarize", [&] { return summarize_run(run, choices, noise_seed); }, hlc::kExitBadInput);
 }

@@ -9,7 +9,7 @@
 #include "planner/coordination/messages.hpp"
 
 /// Common to all conversions. Only sources of this folder include this file.
-namespace hlc {
+namespace hlc::dds {
 
 /// Result of converting a received message.
 template <class Message>
@@ -40,4 +40,4 @@ template <class... Numbers>
   return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId;
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

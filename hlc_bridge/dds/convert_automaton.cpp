@@ -8,7 +8,7 @@
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is converted.
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 // Without a default case: a new enumerator does not compile until it is known here.
@@ -68,7 +68,7 @@ std::vector<CriterionWeight> weights_from_wire(const std::vector<CriterionWeight
 
 bool is_valid(const AutomatonRequestMessage& wire) {
   const auto is_short = [](const auto& entries) { return entries.size() <= kMaxEntries; };
-  return is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
+  return dds::is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
          is_short(wire.labels()) && is_short(wire.weights()) && is_short(wire.trims_on()) &&
          is_short(wire.trims_off()) && is_short(wire.edges_on()) && is_short(wire.edges_off()) &&
          std::ranges::all_of(wire.labels(),
@@ -138,4 +138,4 @@ Incoming<AutomatonAnswer> from_wire(const AutomatonAnswerMessage& wire) {
                       .text = wire.text()});
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

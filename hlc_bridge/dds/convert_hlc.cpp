@@ -8,7 +8,7 @@
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is converted.
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 PoseMessage pose_to_wire(const Pose& pose) {
@@ -61,7 +61,7 @@ bool is_valid(const PolygonMessage& wire) {
          (vertices.empty() || polygon_from_wire(wire).vertices_m.size() >= 3);
 }
 
-AreasMessage areas_to_wire(const OccupiedAreas& areas) {
+AreasMessage areas_to_wire(const coordination::OccupiedAreas& areas) {
   const auto& [first, areas_m, final_area_m] = areas;
   AreasMessage result;
   result.first_step(first.value);
@@ -78,10 +78,10 @@ bool is_valid(const AreasMessage& wire) {
                              [](const PolygonMessage& area) { return is_valid(area); });
 }
 
-OccupiedAreas areas_from_wire(const AreasMessage& wire) {
-  OccupiedAreas result{.first = {wire.first_step()},
-                       .areas_m = {},
-                       .final_area_m = polygon_from_wire(wire.final_area_m())};
+coordination::OccupiedAreas areas_from_wire(const AreasMessage& wire) {
+  coordination::OccupiedAreas result{.first = {wire.first_step()},
+                                     .areas_m = {},
+                                     .final_area_m = polygon_from_wire(wire.final_area_m())};
   for (const PolygonMessage& area : wire.areas_m()) {
     result.areas_m.push_back(polygon_from_wire(area));
   }
@@ -98,7 +98,7 @@ std::vector<std::uint8_t> ids_to_wire(const std::vector<VehicleId>& ids) {
 
 bool is_valid(const std::vector<std::uint8_t>& ids) {
   return ids.size() <= kMaxEntries &&
-         std::ranges::all_of(ids, [](std::uint8_t id) { return is_valid(VehicleId{id}); });
+         std::ranges::all_of(ids, [](std::uint8_t id) { return dds::is_valid(VehicleId{id}); });
 }
 
 std::vector<VehicleId> ids_from_wire(const std::vector<std::uint8_t>& wire) {
@@ -110,40 +110,40 @@ std::vector<VehicleId> ids_from_wire(const std::vector<std::uint8_t>& wire) {
 }
 
 // Without a default case: a new enumerator does not compile until it is known here.
-bool is_known(StepStatus status) {
+bool is_known(coordination::StepStatus status) {
   switch (status) {
-    case StepStatus::kStandby:
-    case StepStatus::kPlanned:
-    case StepStatus::kFallback:
-    case StepStatus::kMinimalRiskStop:
+    case coordination::StepStatus::kStandby:
+    case coordination::StepStatus::kPlanned:
+    case coordination::StepStatus::kFallback:
+    case coordination::StepStatus::kMinimalRiskStop:
       return true;
   }
   return false;
 }
 
-bool is_known(FallbackReason reason) {
+bool is_known(coordination::FallbackReason reason) {
   switch (reason) {
-    case FallbackReason::kNone:
-    case FallbackReason::kInfeasible:
-    case FallbackReason::kBudget:
-    case FallbackReason::kMissing:
-    case FallbackReason::kConflict:
-    case FallbackReason::kNeighbour:
-    case FallbackReason::kDeviation:
-    case FallbackReason::kLate:
-    case FallbackReason::kUndrivable:
-    case FallbackReason::kOffRoute:
+    case coordination::FallbackReason::kNone:
+    case coordination::FallbackReason::kInfeasible:
+    case coordination::FallbackReason::kBudget:
+    case coordination::FallbackReason::kMissing:
+    case coordination::FallbackReason::kConflict:
+    case coordination::FallbackReason::kNeighbour:
+    case coordination::FallbackReason::kDeviation:
+    case coordination::FallbackReason::kLate:
+    case coordination::FallbackReason::kUndrivable:
+    case coordination::FallbackReason::kOffRoute:
       return true;
   }
   return false;
 }
 
-bool is_known(PlanQuality quality) {
+bool is_known(coordination::PlanQuality quality) {
   switch (quality) {
-    case PlanQuality::kNone:
-    case PlanQuality::kOptimal:
-    case PlanQuality::kBudget:
-    case PlanQuality::kUnproven:
+    case coordination::PlanQuality::kNone:
+    case coordination::PlanQuality::kOptimal:
+    case coordination::PlanQuality::kBudget:
+    case coordination::PlanQuality::kUnproven:
       return true;
   }
   return false;
@@ -159,10 +159,10 @@ bool is_known(RunPhase phase) {
 }
 
 bool is_valid(const ReportMessage& wire) {
-  return is_valid(VehicleId{wire.vehicle_id()}) &&
-         is_known(static_cast<StepStatus>(wire.status())) &&
-         is_known(static_cast<FallbackReason>(wire.reason())) &&
-         is_known(static_cast<PlanQuality>(wire.quality())) &&
+  return dds::is_valid(VehicleId{wire.vehicle_id()}) &&
+         is_known(static_cast<coordination::StepStatus>(wire.status())) &&
+         is_known(static_cast<coordination::FallbackReason>(wire.reason())) &&
+         is_known(static_cast<coordination::PlanQuality>(wire.quality())) &&
          is_finite(pose_from_wire(wire.planned_pose())) && wire.maneuver().size() <= kMaxText &&
          wire.subgraph().size() <= kMaxText &&
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
@@ -171,12 +171,12 @@ bool is_valid(const ReportMessage& wire) {
 
 }  // namespace
 
-bool can_be_written(const Traffic& message) { return is_valid(message.vehicle); }
-bool can_be_written(const Prediction& message) { return is_valid(message.vehicle); }
-bool can_be_written(const Outcome& message) { return is_valid(message.vehicle); }
+bool can_be_written(const coordination::Traffic& message) { return is_valid(message.vehicle); }
+bool can_be_written(const coordination::Prediction& message) { return is_valid(message.vehicle); }
+bool can_be_written(const coordination::Outcome& message) { return is_valid(message.vehicle); }
 bool can_be_written(const ReportRecord& message) { return is_valid(message.report.vehicle); }
 
-void to_wire(const Traffic& message, TrafficMessage& wire) {
+void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
   const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent] = message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -187,24 +187,24 @@ void to_wire(const Traffic& message, TrafficMessage& wire) {
   wire.silent(ids_to_wire(silent));
 }
 
-Incoming<Traffic> from_wire(const TrafficMessage& wire) {
+Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
   const bool valid = is_valid(VehicleId{wire.vehicle_id()}) &&
                      is_finite(pose_from_wire(wire.next_pose())) && is_valid(wire.running()) &&
                      is_valid(wire.reachable_area_m()) && is_valid(wire.silent());
   if (!valid) {
     return {std::nullopt, 1};
   }
-  return {Traffic{.vehicle = {wire.vehicle_id()},
-                  .step = {wire.step()},
-                  .next_pose = pose_from_wire(wire.next_pose()),
-                  .next_trim = {wire.next_trim()},
-                  .running = areas_from_wire(wire.running()),
-                  .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
-                  .silent = ids_from_wire(wire.silent())},
+  return {coordination::Traffic{.vehicle = {wire.vehicle_id()},
+                                .step = {wire.step()},
+                                .next_pose = pose_from_wire(wire.next_pose()),
+                                .next_trim = {wire.next_trim()},
+                                .running = areas_from_wire(wire.running()),
+                                .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
+                                .silent = ids_from_wire(wire.silent())},
           0};
 }
 
-void to_wire(const Prediction& message, PredictionMessage& wire) {
+void to_wire(const coordination::Prediction& message, PredictionMessage& wire) {
   const auto& [vehicle, step, is_new, areas] = message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -212,29 +212,29 @@ void to_wire(const Prediction& message, PredictionMessage& wire) {
   wire.areas(areas_to_wire(areas));
 }
 
-Incoming<Prediction> from_wire(const PredictionMessage& wire) {
+Incoming<coordination::Prediction> from_wire(const PredictionMessage& wire) {
   if (!is_valid(VehicleId{wire.vehicle_id()}) || !is_valid(wire.areas())) {
     return {std::nullopt, 1};
   }
-  return {Prediction{.vehicle = {wire.vehicle_id()},
-                     .step = {wire.step()},
-                     .is_new = wire.is_new(),
-                     .areas = areas_from_wire(wire.areas())},
+  return {coordination::Prediction{.vehicle = {wire.vehicle_id()},
+                                   .step = {wire.step()},
+                                   .is_new = wire.is_new(),
+                                   .areas = areas_from_wire(wire.areas())},
           0};
 }
 
-void to_wire(const Outcome& message, OutcomeMessage& wire) {
+void to_wire(const coordination::Outcome& message, OutcomeMessage& wire) {
   const auto& [vehicle, step, wants_fallback] = message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.wants_fallback(wants_fallback);
 }
 
-Incoming<Outcome> from_wire(const OutcomeMessage& wire) {
+Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
   return valid_if(is_valid(VehicleId{wire.vehicle_id()}),
-                  Outcome{.vehicle = {wire.vehicle_id()},
-                          .step = {wire.step()},
-                          .wants_fallback = wire.wants_fallback()});
+                  coordination::Outcome{.vehicle = {wire.vehicle_id()},
+                                        .step = {wire.step()},
+                                        .wants_fallback = wire.wants_fallback()});
 }
 
 // A name that is too long is cut: without the report its sender would seem dead.
@@ -269,23 +269,24 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
   if (!is_valid(wire)) {
     return {std::nullopt, 1};
   }
-  const Report report{.vehicle = {wire.vehicle_id()},
-                      .step = {wire.step()},
-                      .status = static_cast<StepStatus>(wire.status()),
-                      .reason = static_cast<FallbackReason>(wire.reason()),
-                      .planned_pose = pose_from_wire(wire.planned_pose()),
-                      .planned_trim = {wire.planned_trim()},
-                      .maneuver = wire.maneuver(),
-                      .subgraph = wire.subgraph(),
-                      .cost_m2 = wire.cost_m2(),
-                      .quality = static_cast<PlanQuality>(wire.quality()),
-                      .gap_m2 = wire.gap_m2(),
-                      .generated = wire.generated(),
-                      .expanded = wire.expanded(),
-                      .level = wire.level(),
-                      .coupled = ids_from_wire(wire.coupled()),
-                      .missing = ids_from_wire(wire.missing()),
-                      .deviation_m = wire.deviation_m()};
+  const coordination::Report report{
+      .vehicle = {wire.vehicle_id()},
+      .step = {wire.step()},
+      .status = static_cast<coordination::StepStatus>(wire.status()),
+      .reason = static_cast<coordination::FallbackReason>(wire.reason()),
+      .planned_pose = pose_from_wire(wire.planned_pose()),
+      .planned_trim = {wire.planned_trim()},
+      .maneuver = wire.maneuver(),
+      .subgraph = wire.subgraph(),
+      .cost_m2 = wire.cost_m2(),
+      .quality = static_cast<coordination::PlanQuality>(wire.quality()),
+      .gap_m2 = wire.gap_m2(),
+      .generated = wire.generated(),
+      .expanded = wire.expanded(),
+      .level = wire.level(),
+      .coupled = ids_from_wire(wire.coupled()),
+      .missing = ids_from_wire(wire.missing()),
+      .deviation_m = wire.deviation_m()};
   return {ReportRecord{report, wire.planning_ns(), wire.deadline_missed(), wire.late_ns()}, 0};
 }
 
@@ -300,4 +301,4 @@ Incoming<RunState> from_wire(const RunStateMessage& wire) {
   return valid_if(is_known(phase), RunState{phase, wire.start()});
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

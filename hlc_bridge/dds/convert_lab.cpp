@@ -6,7 +6,7 @@
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is converted.
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 ::Header header(Nanoseconds create_stamp, Nanoseconds valid_after_stamp) {
@@ -242,4 +242,4 @@ Incoming<DirectCommand> from_wire(const ::VehicleCommandDirect& wire) {
   return valid_if(all_finite(message.motor_throttle, message.steering_servo), message);
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -28,7 +28,7 @@
 /// or observation in a list, or an active id outside 1 ... 255, does not make the list invalid: it
 /// is left out, and the others are passed on. A goal is forwarded as it is: it has fields that are
 /// not set.
-namespace hlc {
+namespace hlc::dds {
 
 void to_wire(const VehicleState& message, ::VehicleState& wire);
 void to_wire(const VehicleObservation& message, ::VehicleObservation& wire);
@@ -64,4 +64,4 @@ void to_wire(const Visualization& message, ::Visualization& wire);
 [[nodiscard]] Incoming<GoalState> from_wire(const ::CommonroadDDSGoalState& wire);
 [[nodiscard]] Incoming<Visualization> from_wire(const ::Visualization& wire);
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -10,7 +10,7 @@
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is converted.
-namespace hlc {
+namespace hlc::dds {
 
 void to_wire(const ReadyStatus& message, ::ReadyStatus& wire) {
   const auto& [source_id, next_start] = message;
@@ -187,4 +187,4 @@ Incoming<Visualization> from_wire(const ::Visualization& wire) {
   return {std::move(message), 0};
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 ParticipantKey key_of(const frtps::GUID_t& guid) {
@@ -83,4 +83,4 @@ bool EndpointPeers::wait_for(const std::set<std::string>& names,
   });
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

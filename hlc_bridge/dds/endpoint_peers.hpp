@@ -9,7 +9,7 @@
 
 #include "hlc_bridge/dds/participant_core.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 /// The readers matched with a writer, or the writers matched with a reader; without those of the
 /// own participant. Only sources of this folder include this file.
@@ -45,4 +45,4 @@ class EndpointPeers {
   std::set<frtps::GUID_t> peers_;  ///< guarded by the core's lock
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

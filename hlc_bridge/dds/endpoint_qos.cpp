@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 using std::chrono::milliseconds;
@@ -173,4 +173,4 @@ TopicQos topic_qos(TopicId id, DomainRole role, Transport transport) {
                               " does not belong on the " + name(role) + " domain");
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -6,7 +6,7 @@
 #include "hlc_bridge/dds/topics.hpp"
 #include "hlc_bridge/dds/transport.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 enum class Reliability : std::uint8_t { kBestEffort, kReliable };
 enum class Durability : std::uint8_t { kVolatile, kTransientLocal };
@@ -46,4 +46,4 @@ struct TopicQos {
 /// Vehicles on one keyed topic at most.
 inline constexpr int kMaxInstances = 32;
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -37,7 +37,7 @@ void ParticipantProxyData::clear() {
 
 }  // namespace eprosima::fastrtps::rtps
 
-namespace hlc {
+namespace hlc::dds {
 
 void log_library_errors() {
   fdds::Log::ClearConsumers();
@@ -84,4 +84,4 @@ void DiscoveryListener::on_publisher_discovery(fdds::DomainParticipant* /*own*/,
                          .is_there = info.status != frtps::WriterDiscoveryInfo::REMOVED_WRITER});
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -27,7 +27,7 @@
 /// version to version (2.9 here; 2.11 to 2.14 deprecate, 3.x moves and renames). The rest of this
 /// folder uses these names and the DDS standard's, which stay. Only sources of this folder include
 /// this file.
-namespace hlc {
+namespace hlc::dds {
 
 namespace fdds = eprosima::fastdds::dds;     ///< the standard's interface
 namespace frtps = eprosima::fastrtps::rtps;  ///< GUIDs and locators; 3.x: eprosima::fastdds::rtps
@@ -104,4 +104,4 @@ inline void announce_type_object(const fdds::TypeSupport& type, bool announce) {
   type->auto_fill_type_information(announce);
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <utility>
 
-namespace hlc {
+namespace hlc::dds {
 
 /// Admits one callback at a time, and none after close: the objects that a callback uses can then
 /// be destroyed.
@@ -28,4 +28,4 @@ class Gate {
   bool open_{true};
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/dds/register_lab_types.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 void set_up_library() {
   static std::once_flag once;
@@ -22,4 +22,4 @@ LibraryDuration to_duration(std::chrono::nanoseconds time) {
           static_cast<std::uint32_t>((time - seconds).count())};
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -6,7 +6,7 @@
 
 /// Everything of Fast DDS that participants, writers and readers need. Only sources of this folder
 /// include it.
-namespace hlc {
+namespace hlc::dds {
 
 /// Once per process, before its first participant: registers the lab's types
 /// (register_lab_types.hpp), turns off delivery within the process, and sends the library's own
@@ -18,4 +18,4 @@ void set_up_library();
 
 [[nodiscard]] LibraryDuration to_duration(std::chrono::nanoseconds time);
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -2,7 +2,7 @@
 
 #include "hlc_bridge/dds/library.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 // Common to writers and readers.
@@ -51,4 +51,4 @@ fdds::DataReaderQos reader_qos(const EndpointQos& qos) {
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

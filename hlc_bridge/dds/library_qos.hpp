@@ -4,9 +4,9 @@
 #include "hlc_bridge/dds/fast_dds.hpp"
 
 /// Our quality of service as the library's. Only sources of this folder include this file.
-namespace hlc {
+namespace hlc::dds {
 
 [[nodiscard]] fdds::DataWriterQos writer_qos(const EndpointQos& qos);
 [[nodiscard]] fdds::DataReaderQos reader_qos(const EndpointQos& qos);
 
-}  // namespace hlc
+}  // namespace hlc::dds

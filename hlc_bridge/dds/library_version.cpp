@@ -2,8 +2,8 @@
 
 #include "hlc_bridge/dds/fast_dds.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 std::string library_version() { return fast_dds_version(); }
 
-}  // namespace hlc
+}  // namespace hlc::dds

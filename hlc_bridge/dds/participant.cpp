@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/dds/participant_core.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 Participant::Participant(const ParticipantOptions& options,
                          std::function<void()> on_presence_change)
@@ -44,4 +44,4 @@ bool Participant::wait_for(const std::set<std::string>& names,
 
 const ParticipantOptions& Participant::options() const { return core_->options(); }
 
-}  // namespace hlc
+}  // namespace hlc::dds

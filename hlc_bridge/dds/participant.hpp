@@ -12,7 +12,7 @@
 #include "hlc_bridge/dds/transport.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 class ParticipantCore;  // Fast DDS lives behind this
 
@@ -77,4 +77,4 @@ class Participant {
   std::shared_ptr<ParticipantCore> core_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -8,7 +8,7 @@
 #include "hlc_bridge/dds/library.hpp"
 #include "hlc_bridge/dds/participant_qos.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 ParticipantKey key_of(const frtps::GuidPrefix_t& prefix) {
@@ -116,4 +116,4 @@ void ParticipantCore::on_found(const FoundEndpoint& endpoint) {
   });
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

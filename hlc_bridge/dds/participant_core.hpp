@@ -16,7 +16,7 @@
 #include "hlc_bridge/dds/presence.hpp"
 
 /// Only sources of this folder include this file.
-namespace hlc {
+namespace hlc::dds {
 
 class EndpointPeers;
 
@@ -95,4 +95,4 @@ class ParticipantCore : private DiscoveryListener {
   fdds::Subscriber* subscriber_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/dds/library.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 using fdds::DomainParticipantQos;
@@ -108,4 +108,4 @@ DomainParticipantQos participant_qos(const ParticipantOptions& options) {
   return qos;
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -5,7 +5,7 @@
 #include "hlc_bridge/dds/fast_dds.hpp"
 #include "hlc_bridge/dds/participant.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 inline constexpr std::size_t kMaxParticipantName = 255;
 
@@ -24,4 +24,4 @@ inline constexpr std::size_t kMaxParticipantName = 255;
 /// none). Only sources of this folder include this file.
 [[nodiscard]] fdds::DomainParticipantQos participant_qos(const ParticipantOptions& options);
 
-}  // namespace hlc
+}  // namespace hlc::dds

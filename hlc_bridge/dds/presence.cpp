@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hlc {
+namespace hlc::dds {
 
 void Presence::appeared(const ParticipantKey& key, const std::string& name,
                         const std::string& version) {
@@ -41,4 +41,4 @@ const std::string* Presence::name_of(const ParticipantKey& key) const {
   return found == names_.end() ? nullptr : &found->second;
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

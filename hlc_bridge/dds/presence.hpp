@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace hlc {
+namespace hlc::dds {
 
 /// What identifies a participant on the wire (the first 12 bytes of a GUID).
 using ParticipantKey = std::array<std::uint8_t, 12>;
@@ -36,4 +36,4 @@ class Presence {
   std::set<std::string> lost_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

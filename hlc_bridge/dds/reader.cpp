@@ -6,7 +6,7 @@
 #include "hlc_bridge/dds/reader_endpoint.hpp"
 #include "hlc_bridge/dds/wire.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 // Converts, passes on the valid message, returns the number of invalid entries.
@@ -84,12 +84,12 @@ template class Reader<Log>;
 template class Reader<LogLevel>;
 template class Reader<Visualization>;
 template class Reader<GoalState>;
-template class Reader<Traffic>;
-template class Reader<Prediction>;
-template class Reader<Outcome>;
+template class Reader<coordination::Traffic>;
+template class Reader<coordination::Prediction>;
+template class Reader<coordination::Outcome>;
 template class Reader<ReportRecord>;
 template class Reader<RunState>;
 template class Reader<AutomatonRequest>;
 template class Reader<AutomatonAnswer>;
 
-}  // namespace hlc
+}  // namespace hlc::dds

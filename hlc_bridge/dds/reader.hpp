@@ -11,7 +11,7 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/topics.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 class ReaderEndpoint;  // Fast DDS lives behind this
 
@@ -56,4 +56,4 @@ class Reader {
   std::unique_ptr<ReaderEndpoint> endpoint_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/dds/library_qos.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 ReaderEndpoint::ReaderEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
                                const fdds::TypeSupport& type, const EndpointQos& qos,
@@ -74,4 +74,4 @@ void ReaderEndpoint::log(const fdds::DataReader& reader, const std::string& what
   if (on_loss) on_loss("topic " + reader.get_topicdescription()->get_name() + ": " + what);
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

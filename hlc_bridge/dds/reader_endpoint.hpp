@@ -9,7 +9,7 @@
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 /// A Fast DDS reader of any type. Only sources of this folder include this file.
 class ReaderEndpoint : private fdds::DataReaderListener {
@@ -48,4 +48,4 @@ class ReaderEndpoint : private fdds::DataReaderListener {
   fdds::DataReader* reader_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -29,7 +29,7 @@
 #include <VehicleStateTypeObject.h>
 #include <VisualizationTypeObject.h>
 
-namespace hlc {
+namespace hlc::dds {
 
 void register_lab_types() {
   registerColorTypes();
@@ -62,4 +62,4 @@ void register_lab_types() {
   registerVisualizationTypes();
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

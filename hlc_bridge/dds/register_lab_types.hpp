@@ -1,6 +1,6 @@
 #pragma once
 
-namespace hlc {
+namespace hlc::dds {
 
 /// Registers the type objects of all 28 lab types. The lab's processes announce theirs, and Fast
 /// DDS 2.9 crashes on the announcement of a type with a sequence of structs that this process has
@@ -8,4 +8,4 @@ namespace hlc {
 /// the first participant.
 void register_lab_types();
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -1,6 +1,6 @@
 #include "hlc_bridge/dds/topics.hpp"
 
-namespace hlc::topics {
+namespace hlc::dds::topics {
 namespace {
 
 std::string of_vehicle(std::uint8_t vehicle_id, const char* name) {
@@ -70,11 +70,11 @@ Topic<GoalState> goal_state() { return {TopicId::kGoalState, "commonroad_dds_goa
 
 Topic<Visualization> visualization() { return {TopicId::kVisualization, "visualization"}; }
 
-Topic<Traffic> traffic() { return {TopicId::kTraffic, "hlc/traffic"}; }
+Topic<coordination::Traffic> traffic() { return {TopicId::kTraffic, "hlc/traffic"}; }
 
-Topic<Prediction> prediction() { return {TopicId::kPrediction, "hlc/prediction"}; }
+Topic<coordination::Prediction> prediction() { return {TopicId::kPrediction, "hlc/prediction"}; }
 
-Topic<Outcome> outcome() { return {TopicId::kOutcome, "hlc/outcome"}; }
+Topic<coordination::Outcome> outcome() { return {TopicId::kOutcome, "hlc/outcome"}; }
 
 Topic<ReportRecord> report() { return {TopicId::kReport, "hlc/report"}; }
 
@@ -88,4 +88,4 @@ Topic<AutomatonAnswer> automaton_answer() {
   return {TopicId::kAutomatonAnswer, "hlc/automaton_answer"};
 }
 
-}  // namespace hlc::topics
+}  // namespace hlc::dds::topics

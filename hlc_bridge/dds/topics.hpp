@@ -8,7 +8,7 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 /// The row of the table of quality of service (endpoint_qos.hpp) for a topic.
 enum class TopicId : std::uint8_t {
@@ -70,13 +70,13 @@ template <class Command = TrajectoryCommand>
 [[nodiscard]] Topic<Visualization> visualization();
 
 // Controller domain; all but run_state keyed by the vehicle
-[[nodiscard]] Topic<Traffic> traffic();
-[[nodiscard]] Topic<Prediction> prediction();
-[[nodiscard]] Topic<Outcome> outcome();
+[[nodiscard]] Topic<coordination::Traffic> traffic();
+[[nodiscard]] Topic<coordination::Prediction> prediction();
+[[nodiscard]] Topic<coordination::Outcome> outcome();
 [[nodiscard]] Topic<ReportRecord> report();  ///< late joiners get all reports of a run
 [[nodiscard]] Topic<RunState> run_state();   ///< late joiners get the last one
 [[nodiscard]] Topic<AutomatonRequest> automaton_request();  ///< late joiners get the last one
 [[nodiscard]] Topic<AutomatonAnswer> automaton_answer();    ///< late joiners get the last ones
 
 }  // namespace topics
-}  // namespace hlc
+}  // namespace hlc::dds

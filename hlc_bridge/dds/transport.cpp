@@ -6,7 +6,7 @@
 #include <regex>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
@@ -110,4 +110,4 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
   return server;
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hlc {
+namespace hlc::dds {
 
 /// How the participants of a run reach each other.
 enum class Transport : std::uint8_t {
@@ -66,4 +66,4 @@ struct DiscoveryServer {
 /// Throws std::invalid_argument naming `flag` unless every address is an IPv4 address.
 void check_addresses(const std::string& flag, const std::vector<std::string>& addresses);
 
-}  // namespace hlc
+}  // namespace hlc::dds

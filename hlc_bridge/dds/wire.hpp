@@ -30,7 +30,7 @@
 
 /// The generated type of each plain message. Only sources of this folder (and its tests) include
 /// this file.
-namespace hlc {
+namespace hlc::dds {
 
 template <class Message>
 struct Wire;
@@ -68,9 +68,9 @@ template <> struct Wire<Log> : LabWire<::Log, LogPubSubType> {};
 template <> struct Wire<LogLevel> : LabWire<::LogLevel, LogLevelPubSubType> {};
 template <> struct Wire<GoalState> : LabWire<::CommonroadDDSGoalState, CommonroadDDSGoalStatePubSubType> {};
 template <> struct Wire<Visualization> : LabWire<::Visualization, VisualizationPubSubType> {};
-template <> struct Wire<Traffic> : OwnWire<TrafficMessage, TrafficMessagePubSubType> {};
-template <> struct Wire<Prediction> : OwnWire<PredictionMessage, PredictionMessagePubSubType> {};
-template <> struct Wire<Outcome> : OwnWire<OutcomeMessage, OutcomeMessagePubSubType> {};
+template <> struct Wire<coordination::Traffic> : OwnWire<TrafficMessage, TrafficMessagePubSubType> {};
+template <> struct Wire<coordination::Prediction> : OwnWire<PredictionMessage, PredictionMessagePubSubType> {};
+template <> struct Wire<coordination::Outcome> : OwnWire<OutcomeMessage, OutcomeMessagePubSubType> {};
 template <> struct Wire<ReportRecord> : OwnWire<ReportMessage, ReportMessagePubSubType> {};
 template <> struct Wire<AutomatonRequest> : OwnWire<AutomatonRequestMessage, AutomatonRequestMessagePubSubType> {};
 template <> struct Wire<AutomatonAnswer> : OwnWire<AutomatonAnswerMessage, AutomatonAnswerMessagePubSubType> {};
@@ -84,4 +84,4 @@ template <class Message>
   return type;
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -6,7 +6,7 @@
 #include "hlc_bridge/dds/wire.hpp"
 #include "hlc_bridge/dds/writer_endpoint.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 template <class Message>
 Writer<Message>::Writer(Participant& participant, const Topic<Message>& topic,
@@ -69,12 +69,12 @@ template class Writer<Log>;
 template class Writer<LogLevel>;
 template class Writer<Visualization>;
 template class Writer<GoalState>;
-template class Writer<Traffic>;
-template class Writer<Prediction>;
-template class Writer<Outcome>;
+template class Writer<coordination::Traffic>;
+template class Writer<coordination::Prediction>;
+template class Writer<coordination::Outcome>;
 template class Writer<ReportRecord>;
 template class Writer<RunState>;
 template class Writer<AutomatonRequest>;
 template class Writer<AutomatonAnswer>;
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -10,7 +10,7 @@
 #include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/dds/topics.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 class WriterEndpoint;  // Fast DDS lives behind this
 
@@ -52,4 +52,4 @@ class Writer {
   std::unique_ptr<WriterEndpoint> endpoint_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

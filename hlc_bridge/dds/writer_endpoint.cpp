@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/dds/library_qos.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 WriterEndpoint::WriterEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
                                const fdds::TypeSupport& type, const EndpointQos& qos,
@@ -36,4 +36,4 @@ void WriterEndpoint::on_publication_matched(fdds::DataWriter*,
   peers_->on_matched(status, status.last_subscription_handle);
 }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -7,7 +7,7 @@
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 /// A Fast DDS writer of any type. Only sources of this folder include this file.
 class WriterEndpoint : private fdds::DataWriterListener {
@@ -32,4 +32,4 @@ class WriterEndpoint : private fdds::DataWriterListener {
   fdds::DataWriter* writer_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -8,7 +8,7 @@
 #include "hlc_bridge/messages/settled_states.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 namespace {
 
 constexpr Nanoseconds kThisCentury = 946'684'800 * kNanosecondsPerSecond;  // since 1970 [ns]
@@ -132,4 +132,4 @@ std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Receive
   return findings;
 }
 
-}  // namespace hlc
+}  // namespace hlc::doctor

@@ -11,7 +11,7 @@
 #include "hlc_bridge/doctor/finding.hpp"
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 
 /// Received from one vehicle.
 struct ReceivedVehicle {
@@ -30,8 +30,8 @@ struct Received {
   bool lab_control_answers{};                        ///< a parameter request was answered
   std::optional<std::uint64_t> period_ms;            ///< as answered by the lab control
   std::set<std::string> controllers;                 ///< names on the domain of the controllers
-  std::map<std::string, std::string>
-      versions;  ///< of those that publish one (Participant::versions)
+  /// Of those that publish one (Participant::versions)
+  std::map<std::string, std::string> versions;
   bool listened_to_middleware{};
   std::size_t lists{};  ///< from the middleware
 };
@@ -45,4 +45,4 @@ void note(const VehicleState& state, Nanoseconds now, Received& received);
                                             const Received& received,
                                             const std::string& version = "");
 
-}  // namespace hlc
+}  // namespace hlc::doctor

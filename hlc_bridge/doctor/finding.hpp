@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hlc {
+namespace hlc::doctor {
 
 enum class Verdict : std::uint8_t {
   kGood,
@@ -18,4 +18,4 @@ struct Finding {
   std::string advice;  ///< what to do; empty if nothing
 };
 
-}  // namespace hlc
+}  // namespace hlc::doctor

@@ -13,22 +13,23 @@
 #include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/signal.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 namespace {
 
 constexpr const char* kName = "lab_doctor";
 constexpr std::uint8_t kVehicles = 30;  // the most that a lab has
 constexpr std::chrono::milliseconds kRequestPause{500};
 
-Participant on_domain(const ListenOptions& options, std::optional<int> domain, DomainRole role) {
-  return Participant(
+dds::Participant on_domain(const ListenOptions& options, std::optional<int> domain,
+                           dds::DomainRole role) {
+  return dds::Participant(
       {.name = kName,
        .domain_id = domain.value(),
        .role = role,
        .transport = options.transport,
-       .discovery_server = role == DomainRole::kLab ? options.discovery_server : std::nullopt,
-       .peers = role == DomainRole::kController ? options.controller_peers
-                                                : std::vector<std::string>{}});
+       .discovery_server = role == dds::DomainRole::kLab ? options.discovery_server : std::nullopt,
+       .peers = role == dds::DomainRole::kController ? options.controller_peers
+                                                     : std::vector<std::string>{}});
 }
 
 void note(const Parameter& parameter, Received& received) {
@@ -43,34 +44,35 @@ void note(const Parameter& parameter, Received& received) {
 
 Received listen(const ListenOptions& options,
                 const std::function<bool(const Received&)>& is_enough) {
-  Signal signal;
+  time::Signal signal;
   Received received;  // guarded by signal
   const auto begin = std::chrono::steady_clock::now();
 
-  Participant lab = on_domain(options, options.domains.lab, DomainRole::kLab);
-  Participant controllers = on_domain(options, options.domains.controller, DomainRole::kController);
-  std::optional<Participant> local;
+  dds::Participant lab = on_domain(options, options.domains.lab, dds::DomainRole::kLab);
+  dds::Participant controllers =
+      on_domain(options, options.domains.controller, dds::DomainRole::kController);
+  std::optional<dds::Participant> local;
   if (options.domains.local) {
     received.listened_to_middleware = true;
-    local.emplace(ParticipantOptions{.name = kName,
-                                     .domain_id = *options.domains.local,
-                                     .role = DomainRole::kLocal,
-                                     .transport = options.transport});
+    local.emplace(dds::ParticipantOptions{.name = kName,
+                                          .domain_id = *options.domains.local,
+                                          .role = dds::DomainRole::kLocal,
+                                          .transport = options.transport});
   }
-  Writer<ParameterRequest> requests(lab, topics::parameter_request());
-  const Reader<Parameter> parameters(lab, topics::parameter(), [&](const Parameter& parameter) {
-    signal.post([&] { note(parameter, received); });
-  });
-  std::list<Reader<VehicleState>> states;
+  dds::Writer<ParameterRequest> requests(lab, dds::topics::parameter_request());
+  const dds::Reader<Parameter> parameters(
+      lab, dds::topics::parameter(),
+      [&](const Parameter& parameter) { signal.post([&] { note(parameter, received); }); });
+  std::list<dds::Reader<VehicleState>> states;
   for (std::uint8_t id = 1; id <= kVehicles; ++id) {
-    states.emplace_back(lab, topics::vehicle_state(id), [&](const VehicleState& state) {
-      const Nanoseconds now = real_time_now();
+    states.emplace_back(lab, dds::topics::vehicle_state(id), [&](const VehicleState& state) {
+      const Nanoseconds now = time::real_time_now();
       signal.post([&] { note(state, now, received); });
     });
   }
-  std::optional<Reader<VehicleStateList>> lists;
+  std::optional<dds::Reader<VehicleStateList>> lists;
   if (local) {
-    lists.emplace(*local, topics::vehicle_state_list(),
+    lists.emplace(*local, dds::topics::vehicle_state_list(),
                   [&](const VehicleStateList&) { signal.post([&] { ++received.lists; }); });
   }
 
@@ -92,4 +94,4 @@ Received listen(const ListenOptions& options,
   });
 }
 
-}  // namespace hlc
+}  // namespace hlc::doctor

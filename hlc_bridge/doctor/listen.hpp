@@ -9,14 +9,14 @@
 #include "hlc_bridge/dds/transport.hpp"
 #include "hlc_bridge/doctor/diagnosis.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 
 struct ListenOptions {
-  Transport transport{Transport::kLab};
-  Domains domains;  ///< local: empty if the middleware is not to be checked
-  std::optional<DiscoveryServer> discovery_server;
-  std::vector<std::string>
-      controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
+  dds::Transport transport{dds::Transport::kLab};
+  dds::Domains domains;  ///< local: empty if the middleware is not to be checked
+  std::optional<dds::DiscoveryServer> discovery_server;
+  /// ParticipantOptions::peers of the controllers' domain
+  std::vector<std::string> controller_peers;
   std::chrono::milliseconds time{3000};
 };
 
@@ -26,4 +26,4 @@ struct ListenOptions {
 [[nodiscard]] Received listen(const ListenOptions& options,
                               const std::function<bool(const Received&)>& is_enough);
 
-}  // namespace hlc
+}  // namespace hlc::doctor

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-namespace hlc {
+namespace hlc::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ Finding leftovers(const std::vector<SharedMemoryFile>& files) {
           "/dev/shm/fast_datasharing_*"};
 }
 
-}  // namespace hlc
+}  // namespace hlc::doctor

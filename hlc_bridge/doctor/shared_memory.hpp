@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/doctor/finding.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 
 /// A shared-memory file of Fast DDS: a segment, a port, or a shared history.
 struct SharedMemoryFile {
@@ -24,4 +24,4 @@ struct SharedMemoryFile {
 /// Reports files that no process uses.
 [[nodiscard]] Finding leftovers(const std::vector<SharedMemoryFile>& files);
 
-}  // namespace hlc
+}  // namespace hlc::doctor

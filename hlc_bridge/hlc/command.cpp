@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 /// After valid_after: until then the copy is usable, including the vehicle's look-ahead.
@@ -13,9 +13,9 @@ constexpr double kReachReserve_s = 0.09;
 
 }  // namespace
 
-TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step, Nanoseconds t_now,
-                             Nanoseconds period, const VehicleParameters& parameters,
-                             double interval_s) {
+TrajectoryCommand command_of(VehicleId vehicle, const coordination::Plan* plan, StepIndex step,
+                             Nanoseconds t_now, Nanoseconds period,
+                             const vehicle::VehicleParameters& parameters, double interval_s) {
   TrajectoryCommand command{
       .vehicle_id = vehicle.value, .create_stamp = t_now, .valid_after_stamp = t_now};
   if (plan == nullptr) return command;
@@ -24,7 +24,7 @@ TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step
   const double offset_s = 1e-9 * static_cast<double>(static_cast<std::int64_t>(t_now) - step_start);
   const double reach_s = kReach_s + std::max(kReachReserve_s, offset_s);
   for (const TimedPoint& sample :
-       sample_trajectory(*plan, step, interval_s, reach_s, step_s, parameters)) {
+       controller::sample_trajectory(*plan, step, interval_s, reach_s, step_s, parameters)) {
     const std::int64_t t = step_start + std::llround(1e9 * sample.time_s);
     if (t < 0) continue;  // logical time starts at 0
     command.points.push_back({.t = static_cast<Nanoseconds>(t),
@@ -42,4 +42,4 @@ TrajectoryCommand copy_for_later(const TrajectoryCommand& command) {
   return copy;
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -6,19 +6,19 @@
 #include "planner/controller/trajectory.hpp"
 #include "planner/coordination/plan.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// The plan as the lab's timed trajectory command, in answer to the state list of `t_now` and valid
 /// at once: points every `interval_s` (which divides the period) from one before t(step), standing
 /// at the end, long enough for the vehicle's look-ahead as long as the copy is usable. Without a
 /// plan: no points; vehicles follow no such command.
-[[nodiscard]] TrajectoryCommand command_of(VehicleId vehicle, const Plan* plan, StepIndex step,
-                                           Nanoseconds t_now, Nanoseconds period,
-                                           const VehicleParameters& parameters,
-                                           double interval_s = kPointInterval_s);
+[[nodiscard]] TrajectoryCommand command_of(VehicleId vehicle, const coordination::Plan* plan,
+                                           StepIndex step, Nanoseconds t_now, Nanoseconds period,
+                                           const vehicle::VehicleParameters& parameters,
+                                           double interval_s = controller::kPointInterval_s);
 
 /// The same command, usable after the first has expired: same create_stamp, valid_after later by
 /// kCopyDelay.
 [[nodiscard]] TrajectoryCommand copy_for_later(const TrajectoryCommand& command);
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

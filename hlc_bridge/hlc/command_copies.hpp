@@ -6,7 +6,7 @@
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "hlc_bridge/hlc/hlc_rules.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// Publishes commands and their copies for later (command.hpp): a command at once, its copy
 /// according to HlcRules.
@@ -50,4 +50,4 @@ class CommandCopies {
   Nanoseconds due_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -6,14 +6,14 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
-void ControlStep::receive(const Traffic& message) {
+void ControlStep::receive(const coordination::Traffic& message) {
   silent_.erase(message.vehicle);
   loop_.receive(message);
 }
 
-void ControlStep::begin(const VehicleStateList& list, const Observation& observation,
+void ControlStep::begin(const VehicleStateList& list, const controller::Observation& observation,
                         const Instant& now, HlcActions& actions) {
   list_ = {.t_now = list.t_now, .period_ms = list.period_ms};
   record_ = {};
@@ -33,7 +33,7 @@ std::optional<ReportRecord> ControlStep::advance(const Instant& now,
   while (is_over || ends_phase(now, is_reachable, actions)) {
     phase_ends_ = now.wall + kMessageTimeout;
     num_awaited_ = 0;
-    StepOutput output = end_phase(now);
+    controller::StepOutput output = end_phase(now);
     if (output.report) {
       record_.report = *std::move(output.report);
       record_.planning_ns = loop_.planning_ns();
@@ -66,13 +66,13 @@ bool ControlStep::ends_phase(const Instant& now, const IsReachable& is_reachable
   return true;
 }
 
-StepOutput ControlStep::end_phase(const Instant& now) {
-  if (deadlines_ && loop_.phase() == StepPhase::kCommit) {
+controller::StepOutput ControlStep::end_phase(const Instant& now) {
+  if (deadlines_ && loop_.phase() == controller::StepPhase::kCommit) {
     const Nanoseconds latest = deadline_in_step(list_, deadlines_->command);
     if (now.run > latest) {
       record_.deadline_missed = true;
       record_.late_ns = now.run - latest;
-      return loop_.fall_back(FallbackReason::kLate);
+      return loop_.fall_back(coordination::FallbackReason::kLate);
     }
   }
   return loop_.proceed();
@@ -80,12 +80,12 @@ StepOutput ControlStep::end_phase(const Instant& now) {
 
 Nanoseconds ControlStep::deadline() const {
   switch (loop_.phase()) {
-    case StepPhase::kTraffic:
+    case controller::StepPhase::kTraffic:
       return deadline_in_step(list_, deadlines_->traffic);
-    case StepPhase::kPredecessors:
+    case controller::StepPhase::kPredecessors:
       return deadline_in_step(list_, deadlines_->predecessors);
-    case StepPhase::kCommit:
-    case StepPhase::kIdle:
+    case controller::StepPhase::kCommit:
+    case controller::StepPhase::kIdle:
       break;
   }
   return deadline_in_step(list_, deadlines_->commit);
@@ -97,4 +97,4 @@ WakeUp ControlStep::wake_up() const {
   return {.wall = phase_ends_};
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -11,7 +11,7 @@
 #include "hlc_bridge/messages/instant.hpp"
 #include "planner/controller/control_loop.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// One control step with its waits: takes the ControlLoop from phase to phase. A phase ends when
 /// all awaited controllers have answered; unreachable ones are not awaited. With deadlines it ends
@@ -22,24 +22,25 @@ class ControlStep {
   /// Whether messages of this vehicle's controller can arrive.
   using IsReachable = std::function<bool(VehicleId)>;
 
-  ControlStep(Controller& controller, const HlcRules& rules, Stopwatch stopwatch)
+  ControlStep(controller::Controller& controller, const HlcRules& rules,
+              controller::Stopwatch stopwatch)
       : loop_(controller, std::move(stopwatch)),
         deadlines_(rules.deadlines),
         warms_up_(rules.warms_up) {}
 
-  void receive(const Traffic& message);
-  void receive(const Prediction& message) { loop_.receive(message); }
-  void receive(const Outcome& message) { loop_.receive(message); }
+  void receive(const coordination::Traffic& message);
+  void receive(const coordination::Prediction& message) { loop_.receive(message); }
+  void receive(const coordination::Outcome& message) { loop_.receive(message); }
 
   /// The step of a list that is answered: messages for earlier steps are dropped.
   void advance_to(StepIndex step) { loop_.advance_to(step); }
-  [[nodiscard]] Report stand_by(const Observation& observation) {
+  [[nodiscard]] coordination::Report stand_by(const controller::Observation& observation) {
     return loop_.stand_by(observation);
   }
 
   /// Publishes traffic. @pre not in a step
-  void begin(const VehicleStateList& list, const Observation& observation, const Instant& now,
-             HlcActions& actions);
+  void begin(const VehicleStateList& list, const controller::Observation& observation,
+             const Instant& now, HlcActions& actions);
   [[nodiscard]] bool is_running() const { return loop_.is_in_step(); }
 
   /// Continues until there is something to publish, something is awaited, or the step has ended;
@@ -58,10 +59,10 @@ class ControlStep {
  private:
   [[nodiscard]] bool ends_phase(const Instant& now, const IsReachable& is_reachable,
                                 HlcActions& actions);
-  [[nodiscard]] StepOutput end_phase(const Instant& now);
+  [[nodiscard]] controller::StepOutput end_phase(const Instant& now);
   [[nodiscard]] Nanoseconds deadline() const;
 
-  ControlLoop loop_;
+  controller::ControlLoop loop_;
   std::optional<StepDeadlines> deadlines_;
   VehicleStateList list_;  ///< of the step; only its times
   bool warms_up_;
@@ -72,4 +73,4 @@ class ControlStep {
   ReportRecord record_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

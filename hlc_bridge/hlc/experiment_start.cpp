@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 void ExperimentStart::trigger(Nanoseconds next_start) {
   if (!time_) time_ = next_start;
@@ -12,7 +12,7 @@ void ExperimentStart::receive(const RunState& state) {
   if (state.start != 0) trigger(state.start);
 }
 
-void ExperimentStart::join_if_others_drive(const Observation& observation) {
+void ExperimentStart::join_if_others_drive(const controller::Observation& observation) {
   if (time_) return;
   const std::uint64_t now = observation.step.value;
   for (const VehicleId vehicle : observation.active) {
@@ -37,4 +37,4 @@ bool ExperimentStart::is_joining(const VehicleStateList& list) const {
   return is_inferred_ || (time_ && list.t_now >= *time_ + kLateSteps * step_ns_);
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -8,7 +8,7 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// When the experiment starts or started, as far as this controller knows. The start trigger is
 /// sent once: a controller that was absent then learns of the start from the lab control's run
@@ -21,12 +21,14 @@ class ExperimentStart {
   /// The first known start counts.
   void trigger(Nanoseconds next_start);
   void receive(const RunState& state);
-  void receive(const Traffic& traffic) { newest_traffic_[traffic.vehicle] = traffic.step; }
+  void receive(const coordination::Traffic& traffic) {
+    newest_traffic_[traffic.vehicle] = traffic.step;
+  }
 
   /// To be called before a list is answered. Only a controller that drives sends traffic, so the
   /// experiment is running if another active vehicle's traffic is of about this time. Traffic of
   /// inactive vehicles, or of another time, is not evidence.
-  void join_if_others_drive(const Observation& observation);
+  void join_if_others_drive(const controller::Observation& observation);
 
   /// next_start of the trigger; for an experiment that was already running, a time since which it
   /// runs.
@@ -52,4 +54,4 @@ class ExperimentStart {
   std::optional<StepIndex> first_step_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

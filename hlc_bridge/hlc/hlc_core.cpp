@@ -8,9 +8,10 @@
 #include "hlc_bridge/hlc/own_command_check.hpp"
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
-HlcCore::HlcCore(std::unique_ptr<Controller> controller) : controller_(std::move(controller)) {}
+HlcCore::HlcCore(std::unique_ptr<controller::Controller> controller)
+    : controller_(std::move(controller)) {}
 
 std::string HlcCore::validate(const VehicleStateList& list) const {
   const double step_s = controller_->subgraph().automaton().step_s;
@@ -21,19 +22,20 @@ std::string HlcCore::validate(const VehicleStateList& list) const {
          " ms, must be the automaton's step of " + shortest_text(step_s) + " s";
 }
 
-std::optional<Observation> HlcCore::observe(const VehicleStateList& list) {
-  Observation observation = observation_of(list);
+std::optional<controller::Observation> HlcCore::observe(const VehicleStateList& list) {
+  controller::Observation observation = observation_of(list);
   if (last_step_ && observation.step <= *last_step_) return std::nullopt;
   last_step_ = observation.step;
   return observation;
 }
 
-void HlcCore::note(const VehicleStateList& list, const Observation& observation) {
+void HlcCore::note(const VehicleStateList& list, const controller::Observation& observation) {
   for (const VehicleState& state : list.states) {
     if (is_usable(state, list.t_now)) settled_[{state.vehicle_id}].add(state);
   }
-  const MeasuredVehicle* vehicle = own(observation);
-  stood_lists_ = vehicle != nullptr && is_seen_standing(*vehicle, {}) ? stood_lists_ + 1 : 0;
+  const coordination::MeasuredVehicle* vehicle = own(observation);
+  stood_lists_ =
+      vehicle != nullptr && coordination::is_seen_standing(*vehicle, {}) ? stood_lists_ + 1 : 0;
 }
 
 bool HlcCore::has_settled(VehicleId vehicle) const {
@@ -41,33 +43,35 @@ bool HlcCore::has_settled(VehicleId vehicle) const {
   return found != settled_.end() && found->second.have_settled();
 }
 
-bool HlcCore::have_all_settled(const Observation& observation) const {
+bool HlcCore::have_all_settled(const controller::Observation& observation) const {
   return std::ranges::all_of(observation.active,
                              [this](VehicleId vehicle) { return has_settled(vehicle); });
 }
 
-const MeasuredVehicle* HlcCore::own(const Observation& observation) const {
+const coordination::MeasuredVehicle* HlcCore::own(
+    const controller::Observation& observation) const {
   const auto found = std::ranges::find(observation.states, controller_->options().vehicle,
-                                       &MeasuredVehicle::vehicle);
+                                       &coordination::MeasuredVehicle::vehicle);
   return found == observation.states.end() ? nullptr : &*found;
 }
 
-bool HlcCore::may_stand_by(const Observation& observation) const {
-  const MeasuredVehicle* vehicle = own(observation);
-  if (controller_->has_plan()) return vehicle == nullptr || is_seen_standing(*vehicle, {});
+bool HlcCore::may_stand_by(const controller::Observation& observation) const {
+  const coordination::MeasuredVehicle* vehicle = own(observation);
+  if (controller_->has_plan())
+    return vehicle == nullptr || coordination::is_seen_standing(*vehicle, {});
   return stood_lists_ >= controller_->options().horizon_steps &&
          has_settled(controller_->options().vehicle);
 }
 
-bool HlcCore::drives_former_plan(const Observation& observation) const {
+bool HlcCore::drives_former_plan(const controller::Observation& observation) const {
   constexpr double kDriving_mps = 0.2;
-  const MeasuredVehicle* vehicle = own(observation);
+  const coordination::MeasuredVehicle* vehicle = own(observation);
   return !controller_->has_plan() && vehicle != nullptr &&
          std::abs(vehicle->speed_mps) > kDriving_mps;
 }
 
-bool HlcCore::begins(const VehicleStateList& list, const Observation& observation, StartRule rule,
-                     const std::optional<Nanoseconds>& trigger) {
+bool HlcCore::begins(const VehicleStateList& list, const controller::Observation& observation,
+                     StartRule rule, const std::optional<Nanoseconds>& trigger) {
   if (has_begun_ || !controller_->has_plan() || !controller_->fits_route()) return has_begun_;
   has_begun_ = rule == StartRule::kTogether
                    ? is_complete(observation) && have_all_settled(observation)
@@ -77,17 +81,18 @@ bool HlcCore::begins(const VehicleStateList& list, const Observation& observatio
 }
 
 AnswerToList HlcCore::answer(const VehicleStateList& list) {
-  const Plan* plan = controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
-  const ControllerOptions& options = controller_->options();
+  const coordination::Plan* plan =
+      controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
+  const controller::ControllerOptions& options = controller_->options();
   const auto with_copy = [](TrajectoryCommand command) {
     AnswerToList result{.command = std::move(command), .copy = std::nullopt, .fault = ""};
     if (!result.command.points.empty()) result.copy = copy_for_later(result.command);
     return result;
   };
-  AnswerToList result =
-      with_copy(command_of(options.vehicle, plan, step_of(list), list.t_now, period_of(list),
-                           controller_->subgraph().automaton().vehicle,
-                           options.lab ? options.lab->point_interval_s : kPointInterval_s));
+  AnswerToList result = with_copy(
+      command_of(options.vehicle, plan, step_of(list), list.t_now, period_of(list),
+                 controller_->subgraph().automaton().vehicle,
+                 options.lab ? options.lab->point_interval_s : controller::kPointInterval_s));
   std::string fault = validate(result);
   if (fault.empty()) {
     last_good_ = result.command;
@@ -100,16 +105,17 @@ AnswerToList HlcCore::answer(const VehicleStateList& list) {
 }
 
 std::string HlcCore::validate(const AnswerToList& answer) const {
-  const std::optional<LabLimits>& lab = controller_->options().lab;
+  const std::optional<vehicle::LabLimits>& lab = controller_->options().lab;
   const std::string fault = validate_own_command(answer.command, lab);
   return fault.empty() && answer.copy ? validate_own_command(*answer.copy, lab) : fault;
 }
 
-Report with_answer(Report report, const AnswerToList& answer) {
+coordination::Report with_answer(coordination::Report report, const AnswerToList& answer) {
   if (answer.fault.empty()) return report;
-  report.reason = FallbackReason::kUndrivable;
-  if (report.status == StepStatus::kPlanned) report.status = StepStatus::kFallback;
+  report.reason = coordination::FallbackReason::kUndrivable;
+  if (report.status == coordination::StepStatus::kPlanned)
+    report.status = coordination::StepStatus::kFallback;
   return report;
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -11,7 +11,7 @@
 #include "hlc_bridge/messages/settled_states.hpp"
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// A command and, unless it is a command to stand, its copy for later (copy_for_later).
 struct AnswerToList {
@@ -22,7 +22,8 @@ struct AnswerToList {
 };
 
 /// The report of the answered step: with a fault it is a fallback.
-[[nodiscard]] Report with_answer(Report report, const AnswerToList& answer);
+[[nodiscard]] coordination::Report with_answer(coordination::Report report,
+                                               const AnswerToList& answer);
 
 /// The decisions of a controller's process, without network, clock or waiting: which lists count,
 /// when the experiment begins, and how a plan becomes commands. Between `begins` and `answer` the
@@ -32,21 +33,21 @@ struct AnswerToList {
 ///                                        └────no──► controller().stand_by ─► answer
 class HlcCore {
  public:
-  explicit HlcCore(std::unique_ptr<Controller> controller);
+  explicit HlcCore(std::unique_ptr<controller::Controller> controller);
 
-  [[nodiscard]] Controller& controller() { return *controller_; }
-  [[nodiscard]] const Controller& controller() const { return *controller_; }
+  [[nodiscard]] controller::Controller& controller() { return *controller_; }
+  [[nodiscard]] const controller::Controller& controller() const { return *controller_; }
 
   /// Error in the list's period, in one line; empty: none. A list with an error must not be used.
   [[nodiscard]] std::string validate(const VehicleStateList& list) const;
 
   /// The list as an observation; nothing if its step was observed before: each step is done once.
   /// @pre validate(list) is empty
-  [[nodiscard]] std::optional<Observation> observe(const VehicleStateList& list);
+  [[nodiscard]] std::optional<controller::Observation> observe(const VehicleStateList& list);
 
   /// Remembers the list's states, which decide on the start. To be called for every observed list
   /// until the experiment begins.
-  void note(const VehicleStateList& list, const Observation& observation);
+  void note(const VehicleStateList& list, const controller::Observation& observation);
 
   /// Under kAtTrigger, before the experiment has begun here: whether the vehicle may be commanded
   /// to stand where it is. A moving vehicle still drives the command of a former controller, or is
@@ -54,11 +55,11 @@ class HlcCore {
   /// a vehicle that has not stood in the lists of a whole horizon, since the plan of its former
   /// controller may be to wait and then drive, and for one whose states cannot be trusted yet
   /// (SettledStates). Once commanded to stand, it is commanded so as long as it is not seen moving.
-  [[nodiscard]] bool may_stand_by(const Observation& observation) const;
+  [[nodiscard]] bool may_stand_by(const controller::Observation& observation) const;
 
   /// Under kTogether: there is no plan yet, and the vehicle drives what a former controller has
   /// left it. (No noise measures a standing vehicle that fast.)
-  [[nodiscard]] bool drives_former_plan(const Observation& observation) const;
+  [[nodiscard]] bool drives_former_plan(const controller::Observation& observation) const;
 
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and
@@ -66,8 +67,9 @@ class HlcCore {
   ///     it and has settled (SettledStates), the same for all controllers;
   ///   * under kAtTrigger the list is not before the trigger's next_start, and shows the vehicle
   ///     standing.
-  [[nodiscard]] bool begins(const VehicleStateList& list, const Observation& observation,
-                            StartRule rule, const std::optional<Nanoseconds>& trigger);
+  [[nodiscard]] bool begins(const VehicleStateList& list,
+                            const controller::Observation& observation, StartRule rule,
+                            const std::optional<Nanoseconds>& trigger);
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
   /// The plan in force as commands, in answer to the list; without a plan a command to stand. The
@@ -79,11 +81,12 @@ class HlcCore {
 
  private:
   [[nodiscard]] std::string validate(const AnswerToList& answer) const;
-  [[nodiscard]] bool have_all_settled(const Observation& observation) const;
+  [[nodiscard]] bool have_all_settled(const controller::Observation& observation) const;
   [[nodiscard]] bool has_settled(VehicleId vehicle) const;
-  [[nodiscard]] const MeasuredVehicle* own(const Observation& observation) const;
+  [[nodiscard]] const coordination::MeasuredVehicle* own(
+      const controller::Observation& observation) const;
 
-  std::unique_ptr<Controller> controller_;
+  std::unique_ptr<controller::Controller> controller_;
   std::map<VehicleId, SettledStates> settled_;
   std::optional<StepIndex> last_step_;
   std::size_t stood_lists_{};  ///< consecutive, up to the last one
@@ -91,4 +94,4 @@ class HlcCore {
   bool has_begun_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

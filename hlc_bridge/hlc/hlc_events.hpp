@@ -16,7 +16,7 @@
 #include "planner/coordination/messages.hpp"
 
 /// Events and actions of a controller's machine.
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// The other participants, as far as the controller's endpoints know. The complete state: the last
 /// event counts. Names are those of messages/node_names.hpp.
@@ -43,9 +43,10 @@ struct AfterStepFailure {
 
 /// * SystemTrigger: those of the local domain; of the lab domain only the stop symbol.
 /// * StopSignal: the vehicle keeps its whole plan, unlike after the stop symbol.
-using HlcEvent = std::variant<HlcPeers, VehicleStateList, SystemTrigger, RunState, Traffic,
-                              Prediction, Outcome, AutomatonRequest, PreparedRequest,
-                              machine::StopSignal, LostMessage, AfterStepFailure>;
+using HlcEvent =
+    std::variant<HlcPeers, VehicleStateList, SystemTrigger, RunState, coordination::Traffic,
+                 coordination::Prediction, coordination::Outcome, AutomatonRequest, PreparedRequest,
+                 machine::StopSignal, LostMessage, AfterStepFailure>;
 
 /// Prepare this request concurrently (`prepare`); the result is the event PreparedRequest. One at a
 /// time.
@@ -55,7 +56,7 @@ struct PrepareRequest {
 
 /// Draw the step that has just ended on the operator's map.
 struct DrawStep {
-  Report report;
+  coordination::Report report;
   Nanoseconds time_to_live{};
 };
 
@@ -64,9 +65,10 @@ struct DrawStep {
 struct AfterStep {};
 
 /// Message types are to be published.
-using HlcAction = std::variant<Traffic, Prediction, Outcome, TrajectoryCommand, ReportRecord,
-                               ReadyStatus, StopRequest, AutomatonAnswer, machine::LogLine,
-                               PrepareRequest, DrawStep, AfterStep>;
+using HlcAction =
+    std::variant<coordination::Traffic, coordination::Prediction, coordination::Outcome,
+                 TrajectoryCommand, ReportRecord, ReadyStatus, StopRequest, AutomatonAnswer,
+                 machine::LogLine, PrepareRequest, DrawStep, AfterStep>;
 
 /// Actions in the order of execution.
 class HlcActions {
@@ -83,4 +85,4 @@ class HlcActions {
   std::vector<HlcAction> actions_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

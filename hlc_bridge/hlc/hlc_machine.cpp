@@ -9,7 +9,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 /// Time for the lab control to receive the stop request.
@@ -17,11 +17,11 @@ constexpr Nanoseconds kStopRequestWait = kNanosecondsPerSecond;
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 constexpr Nanoseconds kAtOnce = 0;        // a wake-up in the past
 
-Nanoseconds step_ns(const Controller& controller) {
+Nanoseconds step_ns(const controller::Controller& controller) {
   return static_cast<Nanoseconds>(std::llround(1e9 * controller.subgraph().automaton().step_s));
 }
 
-void check_plan_fits_commands(const Controller& controller) {
+void check_plan_fits_commands(const controller::Controller& controller) {
   const std::size_t steps = controller.options().horizon_steps;
   const double step_s = controller.subgraph().automaton().step_s;
   const double drivable_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime);
@@ -34,7 +34,8 @@ void check_plan_fits_commands(const Controller& controller) {
 
 }  // namespace
 
-HlcMachine::HlcMachine(const HlcSettings& settings, std::unique_ptr<Controller> controller)
+HlcMachine::HlcMachine(const HlcSettings& settings,
+                       std::unique_ptr<controller::Controller> controller)
     : rules_(settings.rules),
       cpu_time_(settings.cpu_time ? settings.cpu_time : [] { return std::uint64_t{}; }),
       core_(std::move(controller)),
@@ -61,7 +62,7 @@ void HlcMachine::take(const RunState& state) {
   start_.receive(state);
 }
 
-void HlcMachine::take(const Traffic& traffic) {
+void HlcMachine::take(const coordination::Traffic& traffic) {
   if (traffic.vehicle == controller().options().vehicle) life_.readiness().receive_own_traffic();
   start_.receive(traffic);
   step_.receive(traffic);
@@ -130,7 +131,7 @@ bool HlcMachine::take_list(const Instant& now) {
     phase_ = Phase::kRefusing;
     return true;
   }
-  std::optional<Observation> observation = core_.observe(current_.list);
+  std::optional<controller::Observation> observation = core_.observe(current_.list);
   if (!observation) return true;  // received twice
   current_.observation = *std::move(observation);
   life_.readiness().set_active(current_.observation.active);
@@ -163,7 +164,7 @@ bool HlcMachine::gather(const Instant& now) {
 /// True if it begins with this list, or has begun.
 void HlcMachine::enter_experiment() {
   const VehicleStateList& list = current_.list;
-  Observation& observation = current_.observation;
+  controller::Observation& observation = current_.observation;
   observation.present = life_.readiness().present(observation.active);
   const bool had_begun = core_.has_begun();
   if (!had_begun) {
@@ -180,8 +181,8 @@ void HlcMachine::enter_experiment() {
 
 bool HlcMachine::prepare(const Instant& now) {
   if (subgraphs_.is_preparing() && now.wall < current_.patience && !ending_.is_asked) return false;
-  Controller& controller = core_.controller();
-  const Observation& observation = current_.observation;
+  controller::Controller& controller = core_.controller();
+  const controller::Observation& observation = current_.observation;
   const Nanoseconds from = cpu_time_();
   subgraphs_.begin_step(controller, current_.list, observation.step, start_.first_step(), actions_);
   current_.reconfiguring_ns = cpu_time_() - from;
@@ -202,7 +203,7 @@ bool HlcMachine::prepare(const Instant& now) {
 }
 
 bool HlcMachine::may_stand_by() const {
-  const Observation& observation = current_.observation;
+  const controller::Observation& observation = current_.observation;
   if (rules_.start == StartRule::kTogether) return !core_.drives_former_plan(observation);
   return !life_.readiness().yields_to_duplicate() && core_.may_stand_by(observation);
 }
@@ -229,7 +230,7 @@ void HlcMachine::finish(ReportRecord record, const Instant& now) {
 }
 
 /// Also enters it in the report if it is not the plan.
-void HlcMachine::publish_command(Report& report, const Instant& now) {
+void HlcMachine::publish_command(coordination::Report& report, const Instant& now) {
   if (ending_.is_asked) return;
   if (!rules_.answers_every_list && controller().is_vehicle_lost()) return;
   const AnswerToList answer = core_.answer(current_.list);
@@ -279,4 +280,4 @@ std::optional<int> HlcMachine::exit_code() const {
   return copies_.due() ? std::nullopt : ending_.code;
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -20,13 +20,13 @@
 #include "hlc_bridge/hlc/subgraph_switching.hpp"
 #include "hlc_bridge/messages/instant.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 struct HlcSettings {
   HlcRules rules;
   Nanoseconds startup_timeout{30 * kNanosecondsPerSecond};
-  ReconfigurationSettings reconfiguration;  ///< zones and policies
-  Stopwatch cpu_time{};                     ///< of the calling thread; absent: 0
+  policy::ReconfigurationSettings reconfiguration;  ///< zones and policies
+  controller::Stopwatch cpu_time{};                 ///< of the calling thread; absent: 0
 };
 
 /// The decisions of one controller's process, as a machine (machine/machine.hpp): takes state lists
@@ -61,9 +61,9 @@ class HlcMachine {
 
   /// @param controller  of the vehicle
   /// @throws std::invalid_argument if its plans are longer than a vehicle follows a command
-  HlcMachine(const HlcSettings& settings, std::unique_ptr<Controller> controller);
+  HlcMachine(const HlcSettings& settings, std::unique_ptr<controller::Controller> controller);
 
-  [[nodiscard]] const Controller& controller() const { return core_.controller(); }
+  [[nodiscard]] const controller::Controller& controller() const { return core_.controller(); }
   /// Base for the preparation of requested subgraphs.
   [[nodiscard]] RequestBase request_base() const {
     return subgraphs_.request_base(core_.controller());
@@ -90,10 +90,10 @@ class HlcMachine {
   /// The list being answered.
   struct Current {
     VehicleStateList list;
-    Observation observation;
+    controller::Observation observation;
     bool is_running{};  ///< a step of the experiment, or one before it
     Nanoseconds reconfiguring_ns{};
-    Report report;
+    coordination::Report report;
     Nanoseconds patience{};  ///< wall time at which a wait ends; kPreparing, kRefusing
   };
 
@@ -107,9 +107,9 @@ class HlcMachine {
   void take(VehicleStateList&& list) { lists_.push_back(std::move(list)); }
   void take(const SystemTrigger& trigger);
   void take(const RunState& state);
-  void take(const Traffic& traffic);
-  void take(const Prediction& prediction) { step_.receive(prediction); }
-  void take(const Outcome& outcome) { step_.receive(outcome); }
+  void take(const coordination::Traffic& traffic);
+  void take(const coordination::Prediction& prediction) { step_.receive(prediction); }
+  void take(const coordination::Outcome& outcome) { step_.receive(outcome); }
   void take(const AutomatonRequest& request);
   void take(const PreparedRequest& prepared) { subgraphs_.receive(prepared); }
   void take(const machine::StopSignal& /*signal*/) { ending_.is_asked = true; }
@@ -130,10 +130,10 @@ class HlcMachine {
   [[nodiscard]] bool may_stand_by() const;
   void enter_experiment();
   void finish(ReportRecord record, const Instant& now);
-  void publish_command(Report& report, const Instant& now);
+  void publish_command(coordination::Report& report, const Instant& now);
 
   HlcRules rules_;
-  Stopwatch cpu_time_;
+  controller::Stopwatch cpu_time_;
   HlcCore core_;
   LifeCycle life_;
   ExperimentStart start_;
@@ -149,4 +149,4 @@ class HlcMachine {
   Ending ending_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

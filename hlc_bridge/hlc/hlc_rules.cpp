@@ -2,7 +2,7 @@
 
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 // Leases are 2 s in real time and 10 s in logical time (RunTime).
@@ -37,4 +37,4 @@ HlcRules rules_in_real_time(bool keeps_commands, const StepDeadlines& deadlines,
           .preparation_patience = 0};
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// When the phases of a step end in real time, as shares of the time from the list to the step's
 /// end (deadline_in_step).
@@ -63,4 +63,4 @@ struct HlcRules {
 [[nodiscard]] HlcRules rules_in_real_time(bool keeps_commands, const StepDeadlines& deadlines,
                                           Nanoseconds startup_timeout);
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -7,7 +7,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 LifeCycle::LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout)
     : vehicle_(vehicle),
@@ -66,8 +66,8 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   }
 }
 
-void LifeCycle::publish_ready(Nanoseconds wall, const Controller& controller, bool has_started,
-                              HlcActions& actions) {
+void LifeCycle::publish_ready(Nanoseconds wall, const controller::Controller& controller,
+                              bool has_started, HlcActions& actions) {
   const bool is_off_route = controller.placement() && !controller.fits_route();
   const bool is_unseen = rules_.start == StartRule::kAtTrigger && !controller.placement();
   repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
@@ -112,4 +112,4 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
   return rules_.answers_every_list ? wake : earlier(wake, list_notice_.next());
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -11,7 +11,7 @@
 #include "hlc_bridge/machine/wait_notice.hpp"
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// The duties of a controller's process beside its steps: becomes ready and publishes it, detects
 /// lost and returned participants, logs what it waits for, and ends.
@@ -47,7 +47,7 @@ class LifeCycle {
   void watch(Nanoseconds wall, bool has_started, HlcActions& actions);
   /// At every advance between two steps: publishes repeatedly that the controller is ready, until
   /// the start.
-  void publish_ready(Nanoseconds wall, const Controller& controller, bool has_started,
+  void publish_ready(Nanoseconds wall, const controller::Controller& controller, bool has_started,
                      HlcActions& actions);
   /// The code with which to end now; none: continue. Logs the reason. @param has_list  a list is
   /// pending
@@ -83,4 +83,4 @@ class LifeCycle {
   Nanoseconds next_ready_at_{};  ///< 0: not published yet
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

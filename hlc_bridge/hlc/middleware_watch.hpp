@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/hlc/hlc_events.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// Whether the own middleware is lost; it may be restarted. Without it nothing reaches the vehicle,
 /// which drives its last command to the end.
@@ -56,4 +56,4 @@ class MiddlewareWatch {
   std::optional<Nanoseconds> lost_at_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

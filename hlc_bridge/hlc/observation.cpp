@@ -5,10 +5,10 @@
 #include "hlc_bridge/messages/settled_states.hpp"
 #include "planner/coordination/missing.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
-constexpr auto kMaxStateAge = static_cast<Nanoseconds>(1e9 * kMaxStateAge_s);
+constexpr auto kMaxStateAge = static_cast<Nanoseconds>(1e9 * coordination::kMaxStateAge_s);
 constexpr std::int32_t kMaxWireId = 255;  // more than the lab has: every active vehicle counts
 
 }  // namespace
@@ -26,8 +26,8 @@ bool is_usable(const VehicleState& state, Nanoseconds t_now) {
          t_now - state.create_stamp <= kMaxStateAge;
 }
 
-Observation observation_of(const VehicleStateList& list) {
-  Observation observation{.step = step_of(list)};
+controller::Observation observation_of(const VehicleStateList& list) {
+  controller::Observation observation{.step = step_of(list)};
   const Nanoseconds step_start = observation.step.value * period_of(list);
   for (const std::int32_t id : list.active_vehicle_ids) {
     if (id > 0 && id <= kMaxWireId) {
@@ -46,7 +46,7 @@ Observation observation_of(const VehicleStateList& list) {
                                   .speed_mps = state.speed_mps,
                                   .age_s = std::max(age_s, 0.0)});
   }
-  std::ranges::sort(observation.states, {}, &MeasuredVehicle::vehicle);
+  std::ranges::sort(observation.states, {}, &coordination::MeasuredVehicle::vehicle);
   return observation;
 }
 
@@ -58,11 +58,11 @@ std::optional<double> battery_voltage_v(const VehicleStateList& list, VehicleId 
   return own->battery_voltage_v;
 }
 
-bool is_complete(const Observation& observation) {
+bool is_complete(const controller::Observation& observation) {
   return std::ranges::all_of(observation.active, [&](VehicleId vehicle) {
-    return std::ranges::find(observation.states, vehicle, &MeasuredVehicle::vehicle) !=
-           observation.states.end();
+    return std::ranges::find(observation.states, vehicle,
+                             &coordination::MeasuredVehicle::vehicle) != observation.states.end();
   });
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

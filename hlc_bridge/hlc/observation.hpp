@@ -5,7 +5,7 @@
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 [[nodiscard]] inline Nanoseconds period_of(const VehicleStateList& list) {
   return list.period_ms * kNanosecondsPerMillisecond;
@@ -25,7 +25,7 @@ namespace hlc {
 
 /// The list as an observation of the controller: usable states only, with their age at t(k).
 /// Vehicle ids out of range are left out.
-[[nodiscard]] Observation observation_of(const VehicleStateList& list);
+[[nodiscard]] controller::Observation observation_of(const VehicleStateList& list);
 
 /// The vehicle's battery voltage from its usable state in the list; none if there is none (a
 /// vehicle without a measurement publishes 0).
@@ -33,6 +33,6 @@ namespace hlc {
                                                       VehicleId vehicle);
 
 /// True if every active vehicle has a usable state in the list.
-[[nodiscard]] bool is_complete(const Observation& observation);
+[[nodiscard]] bool is_complete(const controller::Observation& observation);
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -2,9 +2,9 @@
 
 #include "hlc_bridge/hlc/placement_line.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
-void OperatorNotes::note_placement(const Controller& controller, HlcActions& actions) {
+void OperatorNotes::note_placement(const controller::Controller& controller, HlcActions& actions) {
   const bool fits = controller.fits_route();
   if (!controller.placement() || logged_fit_ == fits) return;
   logged_fit_ = fits;
@@ -12,10 +12,10 @@ void OperatorNotes::note_placement(const Controller& controller, HlcActions& act
                    : machine::error(placement_line(controller)));
 }
 
-void OperatorNotes::note_fallback(const Controller& controller, const Report& report,
-                                  HlcActions& actions) {
-  const bool is_off_route = report.reason == FallbackReason::kOffRoute;
-  const bool is_over_budget = report.reason == FallbackReason::kBudget;
+void OperatorNotes::note_fallback(const controller::Controller& controller,
+                                  const coordination::Report& report, HlcActions& actions) {
+  const bool is_off_route = report.reason == coordination::FallbackReason::kOffRoute;
+  const bool is_over_budget = report.reason == coordination::FallbackReason::kBudget;
   if ((is_off_route && !is_off_route_logged_) || (is_over_budget && !is_budget_logged_)) {
     actions.error(stuck_line(controller, report.reason));
   }
@@ -31,4 +31,4 @@ void OperatorNotes::note_fault(StepIndex step, const std::string& fault, HlcActi
   last_fault_ = fault;
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

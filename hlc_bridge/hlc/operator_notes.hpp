@@ -6,18 +6,19 @@
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// Logs each fact of a step once, not in every step in which it holds.
 class OperatorNotes {
  public:
   /// Before the start: where the vehicle stands, once it is seen, and again whenever it begins or
   /// ceases to fit its route.
-  void note_placement(const Controller& controller, HlcActions& actions);
+  void note_placement(const controller::Controller& controller, HlcActions& actions);
 
   /// Why the vehicle keeps its former plan, where that may last. An exhausted budget is logged once
   /// in a run; the summary counts how often.
-  void note_fallback(const Controller& controller, const Report& report, HlcActions& actions);
+  void note_fallback(const controller::Controller& controller, const coordination::Report& report,
+                     HlcActions& actions);
 
   /// @param fault  of a step's command (AnswerToList)
   void note_fault(StepIndex step, const std::string& fault, HlcActions& actions);
@@ -29,4 +30,4 @@ class OperatorNotes {
   std::string last_fault_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -4,7 +4,7 @@
 
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 /// Times relative to the first point.
@@ -22,11 +22,11 @@ std::vector<TimedPoint> timed_points(const TrajectoryCommand& command) {
 }  // namespace
 
 std::string validate_own_command(const TrajectoryCommand& command,
-                                 const std::optional<LabLimits>& limits) {
+                                 const std::optional<vehicle::LabLimits>& limits) {
   if (command.points.empty()) return "";
-  if (const auto found = trajectory_fault(timed_points(command), limits)) {
-    return to_text(*found, limits.value_or(LabLimits{})) + ", " + shortest_text(found->time_s) +
-           " s after the first point";
+  if (const auto found = vehicle::trajectory_fault(timed_points(command), limits)) {
+    return vehicle::to_text(*found, limits.value_or(vehicle::LabLimits{})) + ", " +
+           shortest_text(found->time_s) + " s after the first point";
   }
   const auto after_valid_s = [&command](const TrajectoryPoint& point) {
     return shortest_text(
@@ -57,4 +57,4 @@ TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now) {
   return command;
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -7,7 +7,7 @@
 #include "hlc_bridge/messages/messages.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// Error in a command that a controller is about to send, in words; empty: none.
 ///
@@ -21,10 +21,10 @@ namespace hlc {
 ///
 /// A command without points commands the vehicle to stand, and is good.
 [[nodiscard]] std::string validate_own_command(const TrajectoryCommand& command,
-                                               const std::optional<LabLimits>& limits);
+                                               const std::optional<vehicle::LabLimits>& limits);
 
 /// A good command again, as the answer to the list of `t_now`: created and valid then; extended at
 /// its end by standing until it is good again.
 [[nodiscard]] TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now);
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

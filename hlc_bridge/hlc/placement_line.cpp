@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 template <class... Values>
@@ -15,14 +15,14 @@ std::string text_of(const char* format, Values... values) {
   return text.data();
 }
 
-std::string vehicle_text(const Controller& controller) {
+std::string vehicle_text(const controller::Controller& controller) {
   return "vehicle " + std::to_string(controller.options().vehicle.value);
 }
 
 }  // namespace
 
-std::string placement_line(const Controller& controller) {
-  const Placement& placement = controller.placement().value();
+std::string placement_line(const controller::Controller& controller) {
+  const road::Placement& placement = controller.placement().value();
   const std::string& route = controller.route().name;
   if (controller.fits_route()) {
     return vehicle_text(controller) + " selects route " + route +
@@ -34,13 +34,14 @@ std::string placement_line(const Controller& controller) {
          text_of(
              " at %.3f m; it reaches %.0f mm beyond the lanes (must be <= %.0f mm), is turned by "
              "%.3f rad (must be <= %.3f rad)",
-             placement.s_m, 1e3 * std::max(0.0, placement.beyond_m()), 1e3 * kFitsBeyond_m,
-             placement.turned_rad, kFitsTurned_rad) +
+             placement.s_m, 1e3 * std::max(0.0, placement.beyond_m()), 1e3 * road::kFitsBeyond_m,
+             placement.turned_rad, road::kFitsTurned_rad) +
          (placement.is_on_ground ? "" : ", and is not on the map");
 }
 
-std::string stuck_line(const Controller& controller, FallbackReason reason) {
-  if (reason == FallbackReason::kBudget) {
+std::string stuck_line(const controller::Controller& controller,
+                       coordination::FallbackReason reason) {
+  if (reason == coordination::FallbackReason::kBudget) {
     return vehicle_text(controller) + ": no new plan, the search used up max_expansions = " +
            std::to_string(controller.options().search.max_expansions);
   }
@@ -49,4 +50,4 @@ std::string stuck_line(const Controller& controller, FallbackReason reason) {
          " steps leads into the lanes of route " + controller.route().name;
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -4,15 +4,16 @@
 
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// The vehicle's placement in one line for the operator: its route and place there, or that it fits
 /// none, with the errors and their limits.
 /// @pre the controller has a placement
-[[nodiscard]] std::string placement_line(const Controller& controller);
+[[nodiscard]] std::string placement_line(const controller::Controller& controller);
 
 /// Why a vehicle keeps its former plan, where that may last: kOffRoute, it cannot get onto its
 /// route from where it stands (lane_entry.hpp), or kBudget.
-[[nodiscard]] std::string stuck_line(const Controller& controller, FallbackReason reason);
+[[nodiscard]] std::string stuck_line(const controller::Controller& controller,
+                                     coordination::FallbackReason reason);
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

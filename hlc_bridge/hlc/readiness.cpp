@@ -2,7 +2,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 void Readiness::receive(const HlcPeers& peers) { peers_ = peers; }
 
@@ -52,4 +52,4 @@ std::string Readiness::missing() const {
   return "missing: " + machine::joined(names);
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

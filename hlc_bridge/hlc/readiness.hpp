@@ -7,7 +7,7 @@
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "hlc_bridge/hlc/hlc_rules.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// Whether a controller takes part: whether all who need its messages receive them, and whether it
 /// is the only instance for its vehicle.
@@ -67,4 +67,4 @@ class Readiness {
   bool is_duplicate_received_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -3,20 +3,21 @@
 #include <exception>
 #include <utility>
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 PreparedRequest prepare(const RequestBase& base, const AutomatonRequest& request,
                         WeightDesign* weights, const std::stop_token& stop) {
   PreparedRequest prepared{.request = request, .choice = {}, .refusal = {}};
   try {
-    std::shared_ptr<const UniversalAutomaton> automaton;
+    std::shared_ptr<const automaton::UniversalAutomaton> automaton;
     if (weights != nullptr && !request.subgraph.weights.empty()) {
-      automaton = weights->automaton_for(requested_spec(*base.subgraph.subgraph, request.subgraph),
-                                         request.subgraph.weights, stop);
+      automaton = weights->automaton_for(
+          automaton::requested_spec(*base.subgraph.subgraph, request.subgraph),
+          request.subgraph.weights, stop);
     }
-    auto choice =
-        std::make_shared<const PreparedChoice>(base.subgraph, request.subgraph, base.limits_mps,
-                                               base.horizon_steps, base.search, automaton);
+    auto choice = std::make_shared<const policy::PreparedChoice>(
+        base.subgraph, request.subgraph, base.limits_mps, base.horizon_steps, base.search,
+        automaton);
     for (const auto& [limit, one] : choice->by_limit()) {
       if (weights != nullptr) weights->check(*one.subgraph);
     }
@@ -52,7 +53,7 @@ std::vector<AutomatonAnswer> Reconfiguration::take(PreparedRequest prepared, Ste
   return answers;
 }
 
-std::optional<AutomatonAnswer> Reconfiguration::begin_step(SubgraphSelector& selector,
+std::optional<AutomatonAnswer> Reconfiguration::begin_step(policy::SubgraphSelector& selector,
                                                            StepIndex step, Nanoseconds t_now) {
   if (!waiting_ || t_now < waiting_->request.valid_from) return std::nullopt;
   PreparedRequest now = *std::exchange(waiting_, std::nullopt);
@@ -65,4 +66,4 @@ std::optional<AutomatonAnswer> Reconfiguration::begin_step(SubgraphSelector& sel
                          .text = {}};
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

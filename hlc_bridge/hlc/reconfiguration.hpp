@@ -12,21 +12,21 @@
 #include "hlc_bridge/messages/automaton_messages.hpp"
 #include "planner/policy/subgraph_selector.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// Base of the preparation of requests, the same for all requests of a run.
 struct RequestBase {
-  PreparedSubgraph subgraph;       ///< the scenario's
-  std::vector<double> limits_mps;  ///< that may apply to a request (SubgraphSelector)
+  controller::PreparedSubgraph subgraph;  ///< the scenario's
+  std::vector<double> limits_mps;         ///< that may apply to a request (SubgraphSelector)
   std::size_t horizon_steps{};
-  SearchOptions search;
+  search::SearchOptions search;
 };
 
 /// A request with everything that planning on its subgraph needs, or with the reason for its
 /// refusal.
 struct PreparedRequest {
   AutomatonRequest request;
-  std::shared_ptr<const PreparedChoice> choice;  ///< none: refused
+  std::shared_ptr<const policy::PreparedChoice> choice;  ///< none: refused
   std::string refusal;
 };
 
@@ -53,7 +53,7 @@ class Reconfiguration {
   /// To be called before every step, before SubgraphSelector::begin_step. If a request holds from
   /// this step on, passes it to `selector` and returns the answer; the answer's text, the name of
   /// the subgraph then planned on, is known only after that.
-  [[nodiscard]] std::optional<AutomatonAnswer> begin_step(SubgraphSelector& selector,
+  [[nodiscard]] std::optional<AutomatonAnswer> begin_step(policy::SubgraphSelector& selector,
                                                           StepIndex step, Nanoseconds t_now);
 
  private:
@@ -61,4 +61,4 @@ class Reconfiguration {
   std::optional<PreparedRequest> waiting_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/hlc/observation.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 std::string switch_line(const std::string& subgraph, StepIndex step) {
@@ -27,8 +27,8 @@ void publish(const AutomatonAnswer& answer, HlcActions& actions) {
 
 }  // namespace
 
-RequestBase SubgraphSwitching::request_base(const Controller& controller) const {
-  const ControllerOptions& options = controller.options();
+RequestBase SubgraphSwitching::request_base(const controller::Controller& controller) const {
+  const controller::ControllerOptions& options = controller.options();
   return {.subgraph = selector_.base(),
           .limits_mps = selector_.limits_mps(),
           .horizon_steps = options.horizon_steps,
@@ -52,7 +52,7 @@ void SubgraphSwitching::prepare_next(HlcActions& actions) {
   waiting_.pop_front();
 }
 
-void SubgraphSwitching::begin_step(Controller& controller, const VehicleStateList& list,
+void SubgraphSwitching::begin_step(controller::Controller& controller, const VehicleStateList& list,
                                    StepIndex step, std::optional<StepIndex> first_step,
                                    HlcActions& actions) {
   for (PreparedRequest& prepared : std::exchange(prepared_, {})) {
@@ -72,4 +72,4 @@ void SubgraphSwitching::begin_step(Controller& controller, const VehicleStateLis
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

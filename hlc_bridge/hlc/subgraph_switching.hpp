@@ -9,7 +9,7 @@
 #include "hlc_bridge/hlc/reconfiguration.hpp"
 #include "planner/policy/subgraph_selector.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 
 /// The subgraph that a controller plans on, step by step: requests of the operator from their
 /// arrival until they are in force (Reconfiguration), zones and policies (SubgraphSelector). Every
@@ -17,11 +17,12 @@ namespace hlc {
 class SubgraphSwitching {
  public:
   /// @pre check_reconfiguration throws nothing
-  SubgraphSwitching(const Controller& controller, const ReconfigurationSettings& settings)
+  SubgraphSwitching(const controller::Controller& controller,
+                    const policy::ReconfigurationSettings& settings)
       : selector_(controller, settings) {}
 
   /// Base for the preparation of requests.
-  [[nodiscard]] RequestBase request_base(const Controller& controller) const;
+  [[nodiscard]] RequestBase request_base(const controller::Controller& controller) const;
 
   /// Requests are prepared in order, one at a time; of more than kMaxWaiting the first are dropped.
   void receive(const AutomatonRequest& request);
@@ -34,23 +35,24 @@ class SubgraphSwitching {
   /// Before every step of the controller, also before the experiment has begun: switches the
   /// controller.
   /// @param first_step  of the experiment; none: it has not begun
-  void begin_step(Controller& controller, const VehicleStateList& list, StepIndex step,
+  void begin_step(controller::Controller& controller, const VehicleStateList& list, StepIndex step,
                   std::optional<StepIndex> first_step, HlcActions& actions);
 
   [[nodiscard]] bool looks_ahead() const { return selector_.looks_ahead(); }
   /// After every step of the experiment, when the vehicle's command is published.
-  void end_step(const Controller& controller, const Report& report, bool may_look_ahead) {
+  void end_step(const controller::Controller& controller, const coordination::Report& report,
+                bool may_look_ahead) {
     selector_.end_step(controller, report, may_look_ahead);
   }
 
   static constexpr std::size_t kMaxWaiting = 16;
 
  private:
-  SubgraphSelector selector_;
+  policy::SubgraphSelector selector_;
   Reconfiguration reconfiguration_;
   std::deque<AutomatonRequest> waiting_;
   bool is_in_work_{};
   std::vector<PreparedRequest> prepared_;  ///< since the last step
 };
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

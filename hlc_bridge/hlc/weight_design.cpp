@@ -11,7 +11,7 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 
-namespace hlc {
+namespace hlc::high_level_controller {
 namespace {
 
 constexpr double kSpeedRounding_mps = 1e-6;  // of the states of maneuvers, as in Subgraph
@@ -21,7 +21,7 @@ constexpr double kSpeedRounding_mps = 1e-6;  // of the states of maneuvers, as i
 }
 
 void check_weights(const std::vector<CriterionWeight>& weights) {
-  const std::vector<std::string> known = criterion_names();
+  const std::vector<std::string> known = maneuver_design::criterion_names();
   double sum = 0.0;
   for (const auto& [criterion, weight] : weights) {
     if (std::ranges::find(known, criterion) == known.end()) {
@@ -41,33 +41,35 @@ void check_weights(const std::vector<CriterionWeight>& weights) {
 }
 
 /// The configuration may have been edited since the automaton was built.
-bool describes(const AutomatonConfiguration& configuration, const UniversalAutomaton& automaton) {
+bool describes(const maneuver_design::AutomatonConfiguration& configuration,
+               const automaton::UniversalAutomaton& automaton) {
   return configuration.trims == automaton.trims && configuration.step_s == automaton.step_s &&
-         to_yaml(configuration.limits) == to_yaml(automaton.limits) &&
-         to_yaml(configuration.vehicle, configuration.identified) ==
-             to_yaml(automaton.vehicle, automaton.identified);
+         automaton::to_yaml(configuration.limits) == automaton::to_yaml(automaton.limits) &&
+         automaton::to_yaml(configuration.vehicle, configuration.identified) ==
+             automaton::to_yaml(automaton.vehicle, automaton.identified);
 }
 
 }  // namespace
 
-WeightDesign::WeightDesign(std::shared_ptr<const UniversalAutomaton> automaton, Source source,
-                           std::optional<LabLimits> lab)
+WeightDesign::WeightDesign(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+                           Source source, std::optional<vehicle::LabLimits> lab)
     : automaton_(std::move(automaton)),
       source_(std::move(source)),
       lab_(lab),
-      top_speed_mps_(top_speed_mps(*automaton_)) {}
+      top_speed_mps_(automaton::top_speed_mps(*automaton_)) {}
 
-const AutomatonConfiguration& WeightDesign::configuration() {
+const maneuver_design::AutomatonConfiguration& WeightDesign::configuration() {
   if (configuration_) return *configuration_;
   if (!source_) refuse_weights("configuration of the automaton unknown");
-  AutomatonConfiguration read = source_();
+  maneuver_design::AutomatonConfiguration read = source_();
   if (!describes(read, *automaton_)) {
     refuse_weights(read.source + " differs from the automaton in use");
   }
   return configuration_.emplace(std::move(read));
 }
 
-std::shared_ptr<const UniversalAutomaton> WeightDesign::known(const std::string& label) const {
+std::shared_ptr<const automaton::UniversalAutomaton> WeightDesign::known(
+    const std::string& label) const {
   for (const auto& [kept_label, automaton] : kept_) {
     if (kept_label == label) return automaton;
   }
@@ -75,34 +77,34 @@ std::shared_ptr<const UniversalAutomaton> WeightDesign::known(const std::string&
 }
 
 void WeightDesign::keep(const std::string& label,
-                        std::shared_ptr<const UniversalAutomaton> automaton) {
+                        std::shared_ptr<const automaton::UniversalAutomaton> automaton) {
   std::erase_if(kept_, [&label](const auto& kept) { return kept.first == label; });
   kept_.emplace_front(label, std::move(automaton));
   if (kept_.size() > kMaxKept) kept_.pop_back();
 }
 
-std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
-    const SubgraphSpec& spec, const std::vector<CriterionWeight>& weights,
+std::shared_ptr<const automaton::UniversalAutomaton> WeightDesign::automaton_for(
+    const automaton::SubgraphSpec& spec, const std::vector<CriterionWeight>& weights,
     const std::stop_token& stop) {
   check_weights(weights);
-  const std::string label = label_of(weights);
-  AutomatonConfiguration wanted = configuration();
+  const std::string label = automaton::label_of(weights);
+  maneuver_design::AutomatonConfiguration wanted = configuration();
   wanted.criteria = {{.label = label, .weights = weights}};
   wanted.subgraphs = {spec};
-  wanted.edges = EdgeChoice::kSubgraphs;
+  wanted.edges = maneuver_design::EdgeChoice::kSubgraphs;
   wanted.places = {};  // of keys that did not ask for this
   wanted.limits.speed_max_mps = std::min(wanted.limits.speed_max_mps, top_speed_mps_);
 
-  std::shared_ptr<const UniversalAutomaton> automaton = known(label);
-  std::vector<DesignTask> tasks = design_tasks(wanted);
-  std::erase_if(tasks, [&](const DesignTask& task) {
+  std::shared_ptr<const automaton::UniversalAutomaton> automaton = known(label);
+  std::vector<maneuver_design::DesignTask> tasks = maneuver_design::design_tasks(wanted);
+  std::erase_if(tasks, [&](const maneuver_design::DesignTask& task) {
     return automaton->find(task.edge.from, task.edge.to, label) != nullptr;
   });
   if (!tasks.empty()) {
-    std::vector<Maneuver> designed = design(wanted, tasks, [&stop] {
+    std::vector<automaton::Maneuver> designed = maneuver_design::design(wanted, tasks, [&stop] {
       if (stop.stop_requested()) refuse_weights("the controller is stopping");
     });
-    auto larger = std::make_shared<UniversalAutomaton>(*automaton);
+    auto larger = std::make_shared<automaton::UniversalAutomaton>(*automaton);
     std::ranges::move(designed, std::back_inserter(larger->maneuvers));
     automaton = std::move(larger);
   }
@@ -110,10 +112,10 @@ std::shared_ptr<const UniversalAutomaton> WeightDesign::automaton_for(
   return automaton;
 }
 
-void WeightDesign::check(const Subgraph& subgraph) const {
+void WeightDesign::check(const automaton::Subgraph& subgraph) const {
   for (const TrimId from : subgraph.start_trims()) {
-    for (const Edge& edge : subgraph.successors(from)) {
-      const double speed_mps = top_speed_mps(*edge.maneuver);
+    for (const automaton::Edge& edge : subgraph.successors(from)) {
+      const double speed_mps = automaton::top_speed_mps(*edge.maneuver);
       if (speed_mps <= top_speed_mps_ + kSpeedRounding_mps) continue;
       throw std::invalid_argument("maneuver " + std::to_string(from.index + 1) + " -> " +
                                   std::to_string(edge.to.index + 1) + " (" + edge.maneuver->label +
@@ -123,9 +125,9 @@ void WeightDesign::check(const Subgraph& subgraph) const {
     }
   }
   if (!lab_) return;
-  if (const std::string fault = validate_for_lab(subgraph, *lab_); !fault.empty()) {
+  if (const std::string fault = automaton::validate_for_lab(subgraph, *lab_); !fault.empty()) {
     throw std::invalid_argument(fault + " by the lab");
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::high_level_controller

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 namespace {
 
 template <class Predicate>
@@ -43,4 +43,4 @@ std::vector<std::string> Attendance::unreached_timers() const {
                   [this](const std::string& name) { return !trigger_readers_.contains(name); });
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

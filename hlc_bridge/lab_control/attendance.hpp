@@ -8,7 +8,7 @@
 
 #include "hlc_bridge/messages/instant.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Live, lost and dropped processes of a run, and the readers of its triggers. Three processes per
 /// vehicle: vehicle, middleware, controller (messages/node_names).
@@ -51,4 +51,4 @@ class Attendance {
   std::map<std::string, Nanoseconds> died_at_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

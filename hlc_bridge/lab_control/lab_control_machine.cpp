@@ -8,7 +8,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/run_parameters.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 namespace {
 
 static_assert(machine::Machine<LabControlMachine>);
@@ -115,4 +115,4 @@ std::size_t LabControlMachine::awaited() const {
   return leaves_at_ ? machine::kOnlyUrgent : std::max<std::size_t>(run_->pending_answers(), 1);
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

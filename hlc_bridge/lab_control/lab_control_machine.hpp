@@ -12,7 +12,7 @@
 #include "hlc_bridge/machine/log_line.hpp"
 #include "hlc_bridge/machine/machine.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Participants of the lab's and the controllers' domain, and readers of the triggers.
 struct LabControlPresence {
@@ -78,4 +78,4 @@ class LabControlMachine {
   std::optional<int> exit_code_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

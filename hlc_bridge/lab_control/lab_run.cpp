@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 namespace {
 
 std::string join(const std::vector<std::string>& words) {
@@ -302,4 +302,4 @@ std::string LabRun::standby_line() const {
          "; check that every vehicle's state is valid";
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

@@ -15,7 +15,7 @@
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Reaction of the run to the death of a process.
 enum class OnDeath : std::uint8_t {
@@ -204,4 +204,4 @@ template <class Run>
   return std::make_unique<Run>(std::move(settings));
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

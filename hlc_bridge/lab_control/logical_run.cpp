@@ -2,7 +2,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 namespace {
 
 std::vector<std::string> timer_names(const LabRunSettings& settings) {
@@ -92,4 +92,4 @@ void LogicalRun::drop(const std::string& process) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

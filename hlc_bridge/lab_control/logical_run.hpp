@@ -3,7 +3,7 @@
 #include "hlc_bridge/lab_control/lab_run.hpp"
 #include "hlc_bridge/lab_control/tick_master.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// A run in logical time: time stands still until the lab control releases the next tick.
 ///
@@ -40,4 +40,4 @@ class LogicalRun : public LabRun {
   bool send_again_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

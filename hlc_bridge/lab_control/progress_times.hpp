@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Times of the progress lines: every `interval` of wall time, but not in the first second, since
 /// most starts and short runs have ended by then.
@@ -34,4 +34,4 @@ class ProgressTimes {
   bool has_begun_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

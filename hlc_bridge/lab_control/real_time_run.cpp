@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 void RealTimeRun::ready(const ReadyStatus& status) {
   for (const std::uint8_t id : settings().vehicle_ids) {
@@ -97,4 +97,4 @@ Nanoseconds RealTimeRun::next_overdue() const {
   return time;
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

@@ -3,7 +3,7 @@
 #include "hlc_bridge/lab_control/lab_run.hpp"
 #include "hlc_bridge/messages/settled_states.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// A run in real time: the lab control starts and stops it, time passes by itself (wire
 /// contract, 5.2).
@@ -57,4 +57,4 @@ class RealTimeRun : public LabRun {
   std::optional<Nanoseconds> start_;               ///< next_start of the trigger
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-namespace hlc {
+namespace hlc::lab_control {
 
 ReportedSteps::ReportedSteps(std::vector<std::uint8_t> vehicle_ids)
     : vehicle_ids_(std::move(vehicle_ids)) {}
@@ -16,7 +16,7 @@ bool ReportedSteps::add(const ReportRecord& record) {
   std::uint64_t& last = last_.try_emplace(id, step).first->second;
   last = std::max(last, step);
   just_received_.insert(id);
-  if (record.report.status != StepStatus::kStandby) {
+  if (record.report.status != coordination::StepStatus::kStandby) {
     driving_.insert(id);
     first_step_ = std::min(first_step_.value_or(step), step);
   }
@@ -44,4 +44,4 @@ std::vector<std::uint8_t> ReportedSteps::on_standby() const {
   return ids;
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

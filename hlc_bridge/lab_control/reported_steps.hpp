@@ -9,7 +9,7 @@
 #include "hlc_bridge/messages/instant.hpp"
 #include "hlc_bridge/messages/run_messages.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Reports of the controllers of a run: the last step of each, its time, and which vehicles drive.
 class ReportedSteps {
@@ -42,4 +42,4 @@ class ReportedSteps {
   std::optional<std::uint64_t> first_step_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hlc {
+namespace hlc::lab_control {
 
 TickMaster::TickMaster(const std::vector<std::string>& timers) {
   for (const std::string& timer : timers) {
@@ -59,4 +59,4 @@ bool TickMaster::waits_for_released(const std::string& timer, Nanoseconds tick) 
   return found != requests_.end() && released_ == tick && found->second == tick;
 }
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

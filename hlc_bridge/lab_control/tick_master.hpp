@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Logical time: releases ticks to timers that wait for them (wire contract, 5.3).
 ///
@@ -49,4 +49,4 @@ class TickMaster {
   std::optional<Nanoseconds> released_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

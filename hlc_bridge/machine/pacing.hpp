@@ -7,7 +7,7 @@
 #include "hlc_bridge/messages/instant.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::machine {
 
 /// How the time of a run passes for the machine of a process. Knows no clock and no thread:
 /// `clocks` are their values, `run` being CLOCK_REALTIME. The shell calls it under its lock.
@@ -142,4 +142,4 @@ inline constexpr RunTime kLogicalTime{
   return is_logical ? kLogicalTime : kRealTime;
 }
 
-}  // namespace hlc
+}  // namespace hlc::machine

@@ -8,7 +8,7 @@ namespace hlc {
 
 /// A controller's report with the times measured by its process.
 struct ReportRecord {
-  Report report;
+  coordination::Report report;
   /// Processor time of Controller::plan, see there. The lateness of an answer is wall time.
   Nanoseconds planning_ns{};
   bool deadline_missed{};  ///< an answer of this step came after its deadline

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 bool all_finite(const TrajectoryCommand& command) {
@@ -91,4 +91,4 @@ CommandVerdict check_command(const TrajectoryCommand& command, Nanoseconds t_now
   return verdict;
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Faults of a controller's command (wire contract, 5.5). The lab's middleware forwards every
 /// command and only logs; ours holds back what no vehicle can drive.
@@ -41,4 +41,4 @@ struct CommandVerdict {
                                            Nanoseconds newest_list,
                                            std::span<const std::uint8_t> vehicle_ids);
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 std::uint8_t vehicle_of(const VehicleCommand& command) {
   return std::visit([](const auto& any) { return any.vehicle_id; }, command);
@@ -62,4 +62,4 @@ void CommandForwarder::count_missed_answers(Nanoseconds list, MiddlewareActions&
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

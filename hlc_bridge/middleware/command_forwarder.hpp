@@ -8,7 +8,7 @@
 #include "hlc_bridge/middleware/command_check.hpp"
 #include "hlc_bridge/middleware/middleware_messages.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Forwards the controllers' commands to their vehicles, and records who has answered which list.
 class CommandForwarder {
@@ -44,4 +44,4 @@ class CommandForwarder {
 
 [[nodiscard]] std::uint8_t vehicle_of(const VehicleCommand& command);
 
-}  // namespace hlc
+}  // namespace hlc::middleware

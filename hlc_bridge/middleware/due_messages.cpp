@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 DueMessages::DueMessages(std::string (*name)(std::uint8_t), Nanoseconds patience,
                          std::set<std::uint8_t> silent)
@@ -27,4 +27,4 @@ bool DueMessages::are_in(const std::vector<std::uint8_t>& peers, Nanoseconds now
   return true;
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/middleware/middleware_messages.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Messages of one kind that a tick waits for. A peer whose message is overdue for longer than the
 /// patience is silent: it is not awaited until its next message of any kind. All times are wall
@@ -41,4 +41,4 @@ class DueMessages {
   std::size_t awaited_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 ExperimentCycle::ExperimentCycle(std::vector<std::uint8_t> vehicle_ids, Nanoseconds offset,
                                  bool keep_running)
@@ -82,4 +82,4 @@ std::vector<std::string> ExperimentCycle::unready_controllers() const {
   return names;
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -10,7 +10,7 @@
 #include "hlc_bridge/middleware/experiment_parameters.hpp"
 #include "hlc_bridge/middleware/middleware_messages.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// From the controllers' readiness to the stop symbol, and from there to the next experiment.
 ///
@@ -76,4 +76,4 @@ class ExperimentCycle {
   bool is_stopped_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/machine/log_line.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 std::string milliseconds(Nanoseconds time) {
@@ -53,4 +53,4 @@ NextExperiment::Outcome NextExperiment::evaluate(std::span<const std::uint8_t> v
   return {.parameters = std::nullopt, .problem = is_new ? problem : std::string{}};
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

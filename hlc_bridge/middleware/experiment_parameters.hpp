@@ -8,7 +8,7 @@
 
 #include "hlc_bridge/messages/run_parameters.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Why a middleware of these vehicles cannot serve such an experiment; empty if it can.
 /// @pre parameters.complete()
@@ -48,4 +48,4 @@ class NextExperiment {
   std::string last_problem_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::middleware

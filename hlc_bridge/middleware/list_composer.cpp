@@ -1,6 +1,6 @@
 #include "hlc_bridge/middleware/list_composer.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 void ListComposer::add(std::uint8_t vehicle_id, const VehicleObservation& observation) {
   VehicleObservation& newest = observations_[vehicle_id];
@@ -20,4 +20,4 @@ VehicleStateList ListComposer::compose(Nanoseconds t_now, const RunParameters& p
   return list;
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

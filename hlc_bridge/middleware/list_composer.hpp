@@ -6,7 +6,7 @@
 #include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/middleware/state_buffer.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Composes the lists for the controllers from the messages of vehicles and cameras.
 class ListComposer {
@@ -39,4 +39,4 @@ class ListComposer {
   Nanoseconds newest_list_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -6,7 +6,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 std::set<std::uint8_t> silent_at_first(const MiddlewareSettings& settings) {
@@ -224,4 +224,4 @@ bool MiddlewareMachine::answers_are_in(const Instant& now) {
   return due_answers_.are_in(pending, now.wall, actions_);
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

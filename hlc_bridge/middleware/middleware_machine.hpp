@@ -14,7 +14,7 @@
 #include "hlc_bridge/middleware/middleware_messages.hpp"
 #include "hlc_bridge/middleware/middleware_settings.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Connects controllers and vehicles (run as described in machine/machine.hpp).
 ///
@@ -100,4 +100,4 @@ class MiddlewareMachine {
   Ending ending_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -10,7 +10,7 @@
 #include "hlc_bridge/messages/messages.hpp"
 
 /// Events and actions of a middleware's machine.
-namespace hlc {
+namespace hlc::middleware {
 
 using VehicleCommand =
     std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand, DirectCommand>;
@@ -55,4 +55,4 @@ using MiddlewareAction =
                  VehicleCommand, ReadyStatus, ParameterRequest>;
 using MiddlewareActions = std::vector<MiddlewareAction>;
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -6,7 +6,7 @@
 #include "hlc_bridge/machine/pacing_rules.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// Differences between middlewares in logical and in real time, and beside the lab's programs.
 struct MiddlewareRules {
@@ -51,4 +51,4 @@ struct MiddlewareSettings {
   MiddlewareRules rules;
 };
 
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 void StateBuffer::add(std::uint8_t vehicle_id, const VehicleState& state) {
   PerVehicle& vehicle = vehicles_[vehicle_id];
@@ -61,4 +61,4 @@ VehicleStateList compose_state_list(const StateBuffer& buffer, Nanoseconds t_now
   return list;
 }
 
-}  // namespace hlc
+}  // namespace hlc::middleware

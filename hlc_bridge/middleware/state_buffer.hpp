@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 
 /// The states that a middleware has received from each vehicle, as long as they are needed.
 ///
@@ -49,4 +49,4 @@ class StateBuffer {
                                                   Nanoseconds period,
                                                   std::span<const std::int32_t> active_vehicle_ids);
 
-}  // namespace hlc
+}  // namespace hlc::middleware

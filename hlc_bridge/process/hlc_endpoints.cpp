@@ -2,29 +2,29 @@
 
 #include "hlc_bridge/dds/topics.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 /// Reader callbacks.
-auto posts_to(Shell<HlcMachine>& shell) {
+auto posts_to(Shell<high_level_controller::HlcMachine>& shell) {
   return [&shell](const auto& message) { shell.post(message); };
 }
-auto wakes(Shell<HlcMachine>& shell) {
+auto wakes(Shell<high_level_controller::HlcMachine>& shell) {
   return [&shell](const auto& message) { shell.post_urgent(message); };
 }
 
 }  // namespace
 
 HlcWriters::HlcWriters(HlcDomains& domains, const std::function<void()>& on_presence)
-    : traffic(domains.controllers, topics::traffic(), on_presence),
-      prediction(domains.controllers, topics::prediction(), on_presence),
-      outcome(domains.controllers, topics::outcome(), on_presence),
-      command(domains.local, topics::command(), on_presence),
-      report(domains.controllers, topics::report()),
-      ready(domains.local, topics::ready_status()),
-      drawing(domains.lab, topics::visualization()),
-      stop_request(domains.lab, topics::stop_request(), on_presence),
-      automaton_answer(domains.controllers, topics::automaton_answer()) {}
+    : traffic(domains.controllers, dds::topics::traffic(), on_presence),
+      prediction(domains.controllers, dds::topics::prediction(), on_presence),
+      outcome(domains.controllers, dds::topics::outcome(), on_presence),
+      command(domains.local, dds::topics::command(), on_presence),
+      report(domains.controllers, dds::topics::report()),
+      ready(domains.local, dds::topics::ready_status()),
+      drawing(domains.lab, dds::topics::visualization()),
+      stop_request(domains.lab, dds::topics::stop_request(), on_presence),
+      automaton_answer(domains.controllers, dds::topics::automaton_answer()) {}
 
 std::set<std::string> HlcWriters::receivers() const {
   std::set<std::string> names = traffic.matched_names();
@@ -36,22 +36,24 @@ std::set<std::string> HlcWriters::receivers() const {
   return names;
 }
 
-HlcReaders::HlcReaders(HlcDomains& domains, Shell<HlcMachine>& shell, bool stops_on_lab)
-    : traffic(domains.controllers, topics::traffic(), posts_to(shell)),
-      prediction(domains.controllers, topics::prediction(), posts_to(shell)),
-      outcome(domains.controllers, topics::outcome(), posts_to(shell)),
-      automaton_request(domains.controllers, topics::automaton_request(), wakes(shell)),
-      run_state(domains.controllers, topics::run_state(), wakes(shell)),
-      trigger(domains.local, topics::system_trigger(),
+HlcReaders::HlcReaders(HlcDomains& domains, Shell<high_level_controller::HlcMachine>& shell,
+                       bool stops_on_lab)
+    : traffic(domains.controllers, dds::topics::traffic(), posts_to(shell)),
+      prediction(domains.controllers, dds::topics::prediction(), posts_to(shell)),
+      outcome(domains.controllers, dds::topics::outcome(), posts_to(shell)),
+      automaton_request(domains.controllers, dds::topics::automaton_request(), wakes(shell)),
+      run_state(domains.controllers, dds::topics::run_state(), wakes(shell)),
+      trigger(domains.local, dds::topics::system_trigger(),
               [&shell](const SystemTrigger& message) {
                 if (message.next_start == kStopSymbol) return shell.post_urgent(message);
                 shell.post(message);
               }),
-      list(domains.local, topics::vehicle_state_list(), wakes(shell)) {
+      list(domains.local, dds::topics::vehicle_state_list(), wakes(shell)) {
   if (!stops_on_lab) return;
-  lab_stop.emplace(domains.lab, topics::system_trigger(), [&shell](const SystemTrigger& message) {
-    if (message.next_start == kStopSymbol) shell.post_urgent(message);
-  });
+  lab_stop.emplace(domains.lab, dds::topics::system_trigger(),
+                   [&shell](const SystemTrigger& message) {
+                     if (message.next_start == kStopSymbol) shell.post_urgent(message);
+                   });
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

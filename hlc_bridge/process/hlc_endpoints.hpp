@@ -9,13 +9,13 @@
 #include "hlc_bridge/hlc/hlc_machine.hpp"
 #include "hlc_bridge/process/shell.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 /// The domains that a controller is on.
 struct HlcDomains {
-  Participant lab;
-  Participant local;
-  Participant controllers;
+  dds::Participant lab;
+  dds::Participant local;
+  dds::Participant controllers;
 };
 
 /// The publications of a controller.
@@ -26,15 +26,15 @@ struct HlcWriters {
   /// Controllers that receive all messages of this one for controllers.
   [[nodiscard]] std::set<std::string> receivers() const;
 
-  Writer<Traffic> traffic;
-  Writer<Prediction> prediction;
-  Writer<Outcome> outcome;
-  Writer<TrajectoryCommand> command;
-  Writer<ReportRecord> report;
-  Writer<ReadyStatus> ready;
-  Writer<Visualization> drawing;
-  Writer<StopRequest> stop_request;
-  Writer<AutomatonAnswer> automaton_answer;
+  dds::Writer<coordination::Traffic> traffic;
+  dds::Writer<coordination::Prediction> prediction;
+  dds::Writer<coordination::Outcome> outcome;
+  dds::Writer<TrajectoryCommand> command;
+  dds::Writer<ReportRecord> report;
+  dds::Writer<ReadyStatus> ready;
+  dds::Writer<Visualization> drawing;
+  dds::Writer<StopRequest> stop_request;
+  dds::Writer<AutomatonAnswer> automaton_answer;
 };
 
 /// The subscriptions of a controller, posted to its shell. Messages that require an answer or an
@@ -42,16 +42,17 @@ struct HlcWriters {
 /// urgent.
 struct HlcReaders {
   /// @param stops_on_lab  the stop symbol of the lab domain counts, too
-  HlcReaders(HlcDomains& domains, Shell<HlcMachine>& shell, bool stops_on_lab);
+  HlcReaders(HlcDomains& domains, Shell<high_level_controller::HlcMachine>& shell,
+             bool stops_on_lab);
 
-  Reader<Traffic> traffic;
-  Reader<Prediction> prediction;
-  Reader<Outcome> outcome;
-  Reader<AutomatonRequest> automaton_request;
-  Reader<RunState> run_state;
-  Reader<SystemTrigger> trigger;
-  std::optional<Reader<SystemTrigger>> lab_stop;
-  Reader<VehicleStateList> list;
+  dds::Reader<coordination::Traffic> traffic;
+  dds::Reader<coordination::Prediction> prediction;
+  dds::Reader<coordination::Outcome> outcome;
+  dds::Reader<AutomatonRequest> automaton_request;
+  dds::Reader<RunState> run_state;
+  dds::Reader<SystemTrigger> trigger;
+  std::optional<dds::Reader<SystemTrigger>> lab_stop;
+  dds::Reader<VehicleStateList> list;
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -15,66 +15,74 @@
 #include "hlc_bridge/time/thread_clock.hpp"
 #include "hlc_bridge/view/lab_map.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 /// For a step's messages, problems and plans.
 constexpr std::size_t kHeapReserve = std::size_t{4} << 20;
 
-HlcSettings settings_of(const HlcProcessOptions& options) {
+high_level_controller::HlcSettings settings_of(const HlcProcessOptions& options) {
   return {.rules = options.rules,
-          .startup_timeout = nanoseconds(options.startup_timeout),
+          .startup_timeout = time::nanoseconds(options.startup_timeout),
           .reconfiguration = options.reconfiguration,
-          .cpu_time = thread_time_now};
+          .cpu_time = time::thread_time_now};
 }
 
-std::function<void()> on_presence(Shell<HlcMachine>& shell) {
+std::function<void()> on_presence(Shell<high_level_controller::HlcMachine>& shell) {
   return [&shell] { shell.presence_changed(); };
 }
 
 }  // namespace
 
-HlcProcess::HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller)
+HlcProcess::HlcProcess(HlcProcessOptions options,
+                       std::unique_ptr<controller::Controller> controller)
     : options_(std::move(options)),
-      shell_(options_.node_id, HlcMachine(settings_of(options_), std::move(controller)),
-             options_.time.make_pacing(nanoseconds(options_.startup_timeout), wall_time_now())),
+      shell_(options_.node_id,
+             high_level_controller::HlcMachine(settings_of(options_), std::move(controller)),
+             options_.time.make_pacing(time::nanoseconds(options_.startup_timeout),
+                                       time::wall_time_now())),
       vehicle_(shell_.machine().controller().options().vehicle),
-      domains_{.lab = Participant(on_domain(options_.domains.lab, DomainRole::kLab),
-                                  on_presence(shell_)),
-               .local = Participant(on_domain(options_.domains.local, DomainRole::kLocal),
-                                    on_presence(shell_)),
-               .controllers =
-                   Participant(on_domain(options_.domains.controller, DomainRole::kController),
-                               on_presence(shell_))},
+      domains_{.lab = dds::Participant(on_domain(options_.domains.lab, dds::DomainRole::kLab),
+                                       on_presence(shell_)),
+               .local = dds::Participant(on_domain(options_.domains.local, dds::DomainRole::kLocal),
+                                         on_presence(shell_)),
+               .controllers = dds::Participant(
+                   on_domain(options_.domains.controller, dds::DomainRole::kController),
+                   on_presence(shell_))},
       writers_(domains_, on_presence(shell_)),
       lab_log_(domains_.lab, options_.node_id),
       preparation_(shell_.machine().request_base(),
                    {shell_.machine().controller().subgraph().shared_automaton(),
                     options_.configuration, shell_.machine().controller().options().lab},
-                   [this](PreparedRequest prepared) { shell_.post_urgent(std::move(prepared)); }),
+                   [this](high_level_controller::PreparedRequest prepared) {
+                     shell_.post_urgent(std::move(prepared));
+                   }),
       readers_(domains_, shell_, options_.rules.stops_on_lab_domain) {}
 
-ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, DomainRole role) {
-  return {.name = controller_name(vehicle_.value),
-          .domain_id = domain.value(),
-          .role = role,
-          .transport = options_.transport,
-          .lease = options_.time.lease,
-          .discovery_server = role == DomainRole::kLab ? options_.discovery_server : std::nullopt,
-          .peers = role == DomainRole::kController ? options_.controller_peers
-                                                   : std::vector<std::string>{},
-          .version = options_.version,
-          .on_loss = [this](const std::string& line) { shell_.post(LostMessage{line}); }};
+dds::ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, dds::DomainRole role) {
+  return {
+      .name = controller_name(vehicle_.value),
+      .domain_id = domain.value(),
+      .role = role,
+      .transport = options_.transport,
+      .lease = options_.time.lease,
+      .discovery_server = role == dds::DomainRole::kLab ? options_.discovery_server : std::nullopt,
+      .peers = role == dds::DomainRole::kController ? options_.controller_peers
+                                                    : std::vector<std::string>{},
+      .version = options_.version,
+      .on_loss = [this](const std::string& line) {
+        shell_.post(high_level_controller::LostMessage{line});
+      }};
 }
 
 void HlcProcess::prepare_thread() const {
-  make_code_resident();
-  reserve_heap(kHeapReserve);
-  if (options_.thread_priority > 0 && !take_precedence(options_.thread_priority)) {
+  time::make_code_resident();
+  time::reserve_heap(kHeapReserve);
+  if (options_.thread_priority > 0 && !time::take_precedence(options_.thread_priority)) {
     spdlog::info("{}: no real-time priority (ulimit -r): planning may be preempted",
                  options_.node_id);
   }
-  if (options_.core && !stay_on_core(*options_.core)) {
+  if (options_.core && !time::stay_on_core(*options_.core)) {
     spdlog::warn("{}: --core = {}: no such core for this process, must be in 0 ... {}",
                  options_.node_id, *options_.core, std::thread::hardware_concurrency() - 1);
   }
@@ -85,8 +93,8 @@ int HlcProcess::run() {
   return shell_.run(*this);
 }
 
-HlcPeers HlcProcess::presence() const {
-  const auto participants = [](const Participant& domain) {
+high_level_controller::HlcPeers HlcProcess::presence() const {
+  const auto participants = [](const dds::Participant& domain) {
     return machine::Participants{.alive = domain.alive(), .lost = domain.lost()};
   };
   return {.lab = participants(domains_.lab),
@@ -97,22 +105,22 @@ HlcPeers HlcProcess::presence() const {
           .stop_request_readers = writers_.stop_request.matched()};
 }
 
-void HlcProcess::perform(const DrawStep& action) {
+void HlcProcess::perform(const high_level_controller::DrawStep& action) {
   if (writers_.drawing.matched() == 0) return;
   for (const Visualization& drawing :
-       lab_map(shell_.machine().controller(), action.report, action.time_to_live)) {
+       view::lab_map(shell_.machine().controller(), action.report, action.time_to_live)) {
     writers_.drawing.write(drawing);
   }
 }
 
-void HlcProcess::perform(const AfterStep& /*action*/) {
+void HlcProcess::perform(const high_level_controller::AfterStep& /*action*/) {
   if (!options_.after_step) return;
   try {
     options_.after_step(shell_.machine().controller());
   } catch (const std::exception& error) {
     options_.after_step = nullptr;
-    shell_.post_urgent(AfterStepFailure{error.what()});
+    shell_.post_urgent(high_level_controller::AfterStepFailure{error.what()});
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -16,29 +16,29 @@
 #include "hlc_bridge/process/shell.hpp"
 #include "hlc_bridge/process/subgraph_preparation.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 struct HlcProcessOptions {
   /// For the log. On the domains the process always has its vehicle's name (messages/node_names),
   /// which the others expect: the lab gives all controllers one node id.
   std::string node_id;
   std::string version{};  ///< ParticipantOptions::version
-  Transport transport{Transport::kLab};
-  Domains domains;
-  std::optional<DiscoveryServer> discovery_server;
-  std::vector<std::string>
-      controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
-  RunTime time{kRealTime};
-  HlcRules rules;
+  dds::Transport transport{dds::Transport::kLab};
+  dds::Domains domains;
+  std::optional<dds::DiscoveryServer> discovery_server;
+  /// ParticipantOptions::peers of the controllers' domain
+  std::vector<std::string> controller_peers;
+  machine::RunTime time{machine::kRealTime};
+  high_level_controller::HlcRules rules;
   std::chrono::seconds startup_timeout{30};
   int thread_priority{1};   ///< of the planning thread (time/precedence); 0: an ordinary one
   std::optional<int> core;  ///< processor core of the planning thread
   /// Of the scenario's automaton, for new weights (WeightDesign).
-  WeightDesign::Source configuration;
-  ReconfigurationSettings reconfiguration;  ///< zones and policies
+  high_level_controller::WeightDesign::Source configuration;
+  policy::ReconfigurationSettings reconfiguration;  ///< zones and policies
   /// Called with the controller after the command of a step has been sent. Its first exception is
   /// logged, and it is not called again: a successful run then ends with kExitNotWritten.
-  std::function<void(const Controller&)> after_step;
+  std::function<void(const controller::Controller&)> after_step;
 };
 
 /// The process of one controller: an HlcMachine (hlc_bridge/hlc) on the shell, with its endpoints
@@ -73,7 +73,7 @@ class HlcProcess {
  public:
   /// @param controller  of the vehicle that this process drives
   /// @throws std::invalid_argument, std::runtime_error if an endpoint cannot be made
-  HlcProcess(HlcProcessOptions options, std::unique_ptr<Controller> controller);
+  HlcProcess(HlcProcessOptions options, std::unique_ptr<controller::Controller> controller);
 
   /// Runs until the stop symbol or `stop`. Exit code: 0 success, 1 success, but `after_step`
   /// failed, 2 it does not fit the others (another controller of the vehicle, a period that is not
@@ -85,27 +85,29 @@ class HlcProcess {
   void stop() { shell_.stop(); }
 
  private:
-  friend class Shell<HlcMachine>;
+  friend class Shell<high_level_controller::HlcMachine>;
 
-  [[nodiscard]] ParticipantOptions on_domain(std::optional<int> domain, DomainRole role);
+  [[nodiscard]] dds::ParticipantOptions on_domain(std::optional<int> domain, dds::DomainRole role);
   void prepare_thread() const;
 
-  [[nodiscard]] HlcPeers presence() const;
-  void perform(const Traffic& message) { writers_.traffic.write(message); }
-  void perform(const Prediction& message) { writers_.prediction.write(message); }
-  void perform(const Outcome& message) { writers_.outcome.write(message); }
+  [[nodiscard]] high_level_controller::HlcPeers presence() const;
+  void perform(const coordination::Traffic& message) { writers_.traffic.write(message); }
+  void perform(const coordination::Prediction& message) { writers_.prediction.write(message); }
+  void perform(const coordination::Outcome& message) { writers_.outcome.write(message); }
   void perform(const TrajectoryCommand& message) { writers_.command.write(message); }
   void perform(const ReportRecord& message) { writers_.report.write(message); }
   void perform(const ReadyStatus& message) { writers_.ready.write(message); }
   void perform(const StopRequest& message) { writers_.stop_request.write(message); }
   void perform(const AutomatonAnswer& message) { writers_.automaton_answer.write(message); }
   void perform(const machine::LogLine& line) { log(options_.node_id, line); }
-  void perform(const PrepareRequest& action) { preparation_.ask(action.request); }
-  void perform(const DrawStep& action);
-  void perform(const AfterStep& action);
+  void perform(const high_level_controller::PrepareRequest& action) {
+    preparation_.ask(action.request);
+  }
+  void perform(const high_level_controller::DrawStep& action);
+  void perform(const high_level_controller::AfterStep& action);
 
   HlcProcessOptions options_;
-  Shell<HlcMachine> shell_;
+  Shell<high_level_controller::HlcMachine> shell_;
   VehicleId vehicle_;
 
   HlcDomains domains_;
@@ -116,4 +118,4 @@ class HlcProcess {
   HlcReaders readers_;  // last: their callbacks use the shell, and they end first
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

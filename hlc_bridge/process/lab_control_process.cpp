@@ -12,13 +12,13 @@
 #include "hlc_bridge/time/wall_time.hpp"
 #include "planner/common/text_file.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 constexpr double kSecondsPerNanosecond = 1e-9;
 
-ParticipantOptions on_domain(const LabControlOptions& options, DomainRole role) {
-  const bool lab = role == DomainRole::kLab;
+dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainRole role) {
+  const bool lab = role == dds::DomainRole::kLab;
   return {.name = kLabControlName,
           .domain_id = lab ? options.lab_domain : options.controller_domain,
           .role = role,
@@ -30,7 +30,7 @@ ParticipantOptions on_domain(const LabControlOptions& options, DomainRole role) 
           .on_loss = [](const std::string& line) { log(kLabControlName, machine::warning(line)); }};
 }
 
-std::optional<ReportFile> make_report_file(const std::filesystem::path& folder) {
+std::optional<record::ReportFile> make_report_file(const std::filesystem::path& folder) {
   if (folder.empty()) {
     return std::nullopt;
   }
@@ -41,37 +41,37 @@ std::optional<ReportFile> make_report_file(const std::filesystem::path& folder) 
     throw std::invalid_argument("--out = " + folder.string() +
                                 ", must be a folder that can be created and holds no reports.csv");
   }
-  return std::optional<ReportFile>{std::in_place, file};
+  return std::optional<record::ReportFile>{std::in_place, file};
 }
 
 }  // namespace
 
-LabControlProcess::Writers::Writers(Participant& lab, Participant& controllers,
+LabControlProcess::Writers::Writers(dds::Participant& lab, dds::Participant& controllers,
                                     std::function<void()> on_presence)
-    : trigger(lab, topics::system_trigger(), std::move(on_presence)),
-      parameter(lab, topics::parameter()),
-      log(lab, topics::log()),
-      run_state(controllers, topics::run_state()) {}
+    : trigger(lab, dds::topics::system_trigger(), std::move(on_presence)),
+      parameter(lab, dds::topics::parameter()),
+      log(lab, dds::topics::log()),
+      run_state(controllers, dds::topics::run_state()) {}
 
 LabControlProcess::LabControlProcess(LabControlOptions options)
     : options_(std::move(options)),
       reports_(make_report_file(options_.out)),
       progress_(stderr, options_.is_terminal),
       shell_(kLabControlName,
-             LabControlMachine(options_.make_run(options_.run),
-                               ProgressLine::interval(options_.is_terminal)),
-             options_.time.make_pacing(options_.run.startup_timeout, wall_time_now())),
-      lab_(on_domain(options_, DomainRole::kLab), [this] { shell_.presence_changed(); }),
-      controllers_(on_domain(options_, DomainRole::kController),
+             lab_control::LabControlMachine(options_.make_run(options_.run),
+                                            ProgressLine::interval(options_.is_terminal)),
+             options_.time.make_pacing(options_.run.startup_timeout, time::wall_time_now())),
+      lab_(on_domain(options_, dds::DomainRole::kLab), [this] { shell_.presence_changed(); }),
+      controllers_(on_domain(options_, dds::DomainRole::kController),
                    [this] { shell_.presence_changed(); }),
       writers_(lab_, controllers_, [this] { shell_.presence_changed(); }),
-      ready_reader_(lab_, topics::ready_status(),
+      ready_reader_(lab_, dds::topics::ready_status(),
                     [this](const ReadyStatus& status) { shell_.post(status); }),
-      request_reader_(lab_, topics::parameter_request(),
+      request_reader_(lab_, dds::topics::parameter_request(),
                       [this](const ParameterRequest& request) { shell_.post(request); }),
-      stop_reader_(lab_, topics::stop_request(),
+      stop_reader_(lab_, dds::topics::stop_request(),
                    [this](const StopRequest& request) { shell_.post(request); }),
-      report_reader_(controllers_, topics::report(),
+      report_reader_(controllers_, dds::topics::report(),
                      [this](const ReportRecord& record) { shell_.post(record); }) {
   if (shell_.machine().run().awaits_states()) listen_to_vehicles();
 }
@@ -80,7 +80,7 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
 /// state counts, since a vehicle may leave and come back; later ones have no effect.
 void LabControlProcess::listen_to_vehicles() {
   for (const std::uint8_t id : options_.run.vehicle_ids) {
-    state_readers_.try_emplace(id, lab_, topics::vehicle_state(id),
+    state_readers_.try_emplace(id, lab_, dds::topics::vehicle_state(id),
                                [this](const VehicleState& state) {
                                  if (is_gathering_) shell_.post(state);
                                });
@@ -97,7 +97,7 @@ int LabControlProcess::run() {
   return exit_code;
 }
 
-LabControlPresence LabControlProcess::presence() const {
+lab_control::LabControlPresence LabControlProcess::presence() const {
   machine::Participants both{.alive = lab_.alive(), .lost = lab_.lost()};
   both.alive.merge(controllers_.alive());
   both.lost.merge(controllers_.lost());
@@ -110,7 +110,7 @@ void LabControlProcess::perform(const ReportRecord& record) {
 }
 
 void LabControlProcess::perform(Log log) {
-  log.stamp = real_time_now();
+  log.stamp = time::real_time_now();
   writers_.log.write(log);
 }
 
@@ -125,7 +125,7 @@ void LabControlProcess::perform(const machine::LogLine& line) {
 }
 
 void LabControlProcess::log_result() {
-  const LabRunResult& result = shell_.machine().run().result();
+  const lab_control::LabRunResult& result = shell_.machine().run().result();
   if (result.exit_code == kExitGood) {
     perform(machine::info(std::to_string(options_.run.steps) + " steps driven"));
   } else {
@@ -137,9 +137,9 @@ void LabControlProcess::record_facts() const {
   if (options_.out.empty()) {
     return;
   }
-  const LabRun& run = shell_.machine().run();
-  const LabRunResult& result = run.result();
-  RunFacts facts;
+  const lab_control::LabRun& run = shell_.machine().run();
+  const lab_control::LabRunResult& result = run.result();
+  result::RunFacts facts;
   facts.simulated_time = run.releases_time();
   facts.vehicle_ids = options_.run.vehicle_ids;
   facts.period = options_.run.period;
@@ -151,7 +151,7 @@ void LabControlProcess::record_facts() const {
   // Content of the file until the run has finished, also if it never does.
   facts.exit_code = run.finished() ? result.exit_code : kExitDied;
   facts.reason = run.finished() ? result.reason : "lab_control did not end the run";
-  write_file(options_.out / "run.json", facts_json(facts));
+  write_file(options_.out / "run.json", record::facts_json(facts));
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -20,19 +20,20 @@
 #include "hlc_bridge/process/shell.hpp"
 #include "hlc_bridge/record/report_file.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 struct LabControlOptions {
-  LabRunSettings run;
+  lab_control::LabRunSettings run;
   std::string version{};  ///< ParticipantOptions::version
-  Transport transport{Transport::kLab};
+  dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
   int controller_domain{};
-  std::optional<DiscoveryServer> discovery_server;
-  std::vector<std::string>
-      controller_peers;  ///< ParticipantOptions::peers of the controllers' domain
-  RunTime time{kRealTime};
-  std::unique_ptr<LabRun> (*make_run)(LabRunSettings){make_lab_run<RealTimeRun>};
+  std::optional<dds::DiscoveryServer> discovery_server;
+  /// ParticipantOptions::peers of the controllers' domain
+  std::vector<std::string> controller_peers;
+  machine::RunTime time{machine::kRealTime};
+  std::unique_ptr<lab_control::LabRun> (*make_run)(lab_control::LabRunSettings){
+      lab_control::make_lab_run<lab_control::RealTimeRun>};
   std::filesystem::path out;  ///< run folder; empty: nothing is recorded
   bool is_terminal{};         ///< standard error is one
 };
@@ -51,44 +52,45 @@ class LabControlProcess {
   void interrupt() { shell_.stop(); }
 
  private:
-  friend class Shell<LabControlMachine>;
+  friend class Shell<lab_control::LabControlMachine>;
 
   struct Writers {
-    Writers(Participant& lab, Participant& controllers, std::function<void()> on_presence);
+    Writers(dds::Participant& lab, dds::Participant& controllers,
+            std::function<void()> on_presence);
 
-    Writer<SystemTrigger> trigger;
-    Writer<Parameter> parameter;
-    Writer<Log> log;
-    Writer<RunState> run_state;
+    dds::Writer<SystemTrigger> trigger;
+    dds::Writer<Parameter> parameter;
+    dds::Writer<Log> log;
+    dds::Writer<RunState> run_state;
   };
 
   void listen_to_vehicles();
-  [[nodiscard]] LabControlPresence presence() const;
+  [[nodiscard]] lab_control::LabControlPresence presence() const;
   void perform(const Parameter& parameter) { writers_.parameter.write(parameter); }
   void perform(const ReportRecord& record);
   void perform(Log log);
   void perform(const RunState& state);
   void perform(const SystemTrigger& trigger) { writers_.trigger.write(trigger); }
-  void perform(const ProgressText& progress) { progress_.show(progress.text); }
+  void perform(const lab_control::ProgressText& progress) { progress_.show(progress.text); }
   void perform(const machine::LogLine& line);
   void log_result();
   void record_facts() const;
 
   LabControlOptions options_;
-  std::optional<ReportFile> reports_;
+  std::optional<record::ReportFile> reports_;
   ProgressLine progress_;
   std::atomic<bool> is_gathering_{true};
-  Shell<LabControlMachine> shell_;
+  Shell<lab_control::LabControlMachine> shell_;
 
   // Destroyed first: no callback comes afterwards.
-  Participant lab_;
-  Participant controllers_;
+  dds::Participant lab_;
+  dds::Participant controllers_;
   Writers writers_;
-  Reader<ReadyStatus> ready_reader_;
-  Reader<ParameterRequest> request_reader_;
-  Reader<StopRequest> stop_reader_;
-  Reader<ReportRecord> report_reader_;
-  std::map<std::uint8_t, Reader<VehicleState>> state_readers_;  ///< real time only
+  dds::Reader<ReadyStatus> ready_reader_;
+  dds::Reader<ParameterRequest> request_reader_;
+  dds::Reader<StopRequest> stop_reader_;
+  dds::Reader<ReportRecord> report_reader_;
+  std::map<std::uint8_t, dds::Reader<VehicleState>> state_readers_;  ///< real time only
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -12,7 +12,7 @@
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/time/real_time.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 std::uint16_t lab_level(spdlog::level::level_enum level) {
@@ -24,10 +24,10 @@ std::uint16_t lab_level(spdlog::level::level_enum level) {
 
 class LabLog::Sink : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  Sink(Participant& lab, std::string node_id)
+  Sink(dds::Participant& lab, std::string node_id)
       : node_id_(std::move(node_id)),
-        writer_(lab, topics::log()),
-        level_reader_(lab, topics::log_level(),
+        writer_(lab, dds::topics::log()),
+        level_reader_(lab, dds::topics::log_level(),
                       [this](const LogLevel& level) { highest_ = level.level; }) {}
 
  protected:
@@ -36,7 +36,7 @@ class LabLog::Sink : public spdlog::sinks::base_sink<std::mutex> {
     if (level > highest_) return;
     writer_.write({.id = node_id_,
                    .content = std::string(message.payload.begin(), message.payload.end()),
-                   .stamp = real_time_now(),
+                   .stamp = time::real_time_now(),
                    .level = level});
   }
   void flush_() override {}
@@ -44,11 +44,11 @@ class LabLog::Sink : public spdlog::sinks::base_sink<std::mutex> {
  private:
   std::string node_id_;
   std::atomic<std::uint16_t> highest_{1};
-  Writer<Log> writer_;
-  Reader<LogLevel> level_reader_;
+  dds::Writer<Log> writer_;
+  dds::Reader<LogLevel> level_reader_;
 };
 
-LabLog::LabLog(Participant& lab, std::string node_id)
+LabLog::LabLog(dds::Participant& lab, std::string node_id)
     : sink_(std::make_shared<Sink>(lab, std::move(node_id))) {
   // A logger's sinks must not change while another thread logs: the former logger is replaced.
   const auto former = spdlog::default_logger();
@@ -71,4 +71,4 @@ LabLog::~LabLog() {
   spdlog::set_default_logger(logger);
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/dds/participant.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 /// During its lifetime the log lines of this process (spdlog's default logger) are also published
 /// to the operator: topic `log` of the lab domain, in the lab's levels.
@@ -22,7 +22,7 @@ class LabLog {
  public:
   /// @param node_id  of the program, as the operator's log window names it
   /// @throws std::runtime_error if an endpoint cannot be made
-  LabLog(Participant& lab, std::string node_id);
+  LabLog(dds::Participant& lab, std::string node_id);
   ~LabLog();
   LabLog(const LabLog&) = delete;
   LabLog& operator=(const LabLog&) = delete;
@@ -32,4 +32,4 @@ class LabLog {
   std::shared_ptr<Sink> sink_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 spdlog::level::level_enum level_of(machine::Severity severity) {
@@ -24,4 +24,4 @@ void log(const std::string& process, const machine::LogLine& line) {
   spdlog::log(level_of(line.severity), "{}{}", prefix, line.text);
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -10,19 +10,19 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/log.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
-MiddlewareSettings settings_of(const MiddlewareOptions& options) {
+middleware::MiddlewareSettings settings_of(const MiddlewareOptions& options) {
   return {.vehicle_ids = options.vehicle_ids,
           .offset = options.offset,
           .keep_running = options.keep_running,
-          .startup_timeout = nanoseconds(options.startup_timeout),
+          .startup_timeout = time::nanoseconds(options.startup_timeout),
           .rules = options.rules};
 }
 
-ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) {
-  const bool lab = role == DomainRole::kLab;
+dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainRole role) {
+  const bool lab = role == dds::DomainRole::kLab;
   return {.name = middleware_name(options.vehicle_ids.front()),
           .domain_id = lab ? options.lab_domain : options.local_domain,
           .role = role,
@@ -39,11 +39,12 @@ ParticipantOptions on_domain(const MiddlewareOptions& options, DomainRole role) 
 
 struct MiddlewareProcess::Vehicle {
   Vehicle(MiddlewareProcess& process, std::uint8_t id)
-      : trajectory{process.lab_, topics::vehicle_command(id), process.on_presence()} {
-    if (process.options_.transport == Transport::kLab) {
-      path_tracking.emplace(process.lab_, topics::vehicle_command<PathTrackingCommand>(id));
-      speed_curvature.emplace(process.lab_, topics::vehicle_command<SpeedCurvatureCommand>(id));
-      direct.emplace(process.lab_, topics::vehicle_command<DirectCommand>(id));
+      : trajectory{process.lab_, dds::topics::vehicle_command(id), process.on_presence()} {
+    if (process.options_.transport == dds::Transport::kLab) {
+      path_tracking.emplace(process.lab_, dds::topics::vehicle_command<PathTrackingCommand>(id));
+      speed_curvature.emplace(process.lab_,
+                              dds::topics::vehicle_command<SpeedCurvatureCommand>(id));
+      direct.emplace(process.lab_, dds::topics::vehicle_command<DirectCommand>(id));
     }
   }
 
@@ -52,10 +53,10 @@ struct MiddlewareProcess::Vehicle {
   void write(const SpeedCurvatureCommand& command) { speed_curvature->write(command); }
   void write(const DirectCommand& command) { direct->write(command); }
 
-  Writer<TrajectoryCommand> trajectory;
-  std::optional<Writer<PathTrackingCommand>> path_tracking;
-  std::optional<Writer<SpeedCurvatureCommand>> speed_curvature;
-  std::optional<Writer<DirectCommand>> direct;
+  dds::Writer<TrajectoryCommand> trajectory;
+  std::optional<dds::Writer<PathTrackingCommand>> path_tracking;
+  std::optional<dds::Writer<SpeedCurvatureCommand>> speed_curvature;
+  std::optional<dds::Writer<DirectCommand>> direct;
 };
 
 struct MiddlewareProcess::LabEndpoints {
@@ -63,65 +64,67 @@ struct MiddlewareProcess::LabEndpoints {
       : path_tracking{reader<PathTrackingCommand>(process)},
         speed_curvature{reader<SpeedCurvatureCommand>(process)},
         direct{reader<DirectCommand>(process)},
-        goal_writer{process.local_, topics::goal_state()},
-        goal_reader{process.lab_, topics::goal_state(),
+        goal_writer{process.local_, dds::topics::goal_state()},
+        goal_reader{process.lab_, dds::topics::goal_state(),
                     [&process](const GoalState& goal) { process.shell_.post(goal); }} {}
 
   template <class Command>
-  static Reader<Command> reader(MiddlewareProcess& process) {
-    return Reader<Command>{
-        process.local_, topics::command<Command>(),
-        [&process](const Command& command) { process.shell_.post_urgent(VehicleCommand{command}); },
-        process.on_presence()};
+  static dds::Reader<Command> reader(MiddlewareProcess& process) {
+    return dds::Reader<Command>{process.local_, dds::topics::command<Command>(),
+                                [&process](const Command& command) {
+                                  process.shell_.post_urgent(middleware::VehicleCommand{command});
+                                },
+                                process.on_presence()};
   }
 
   [[nodiscard]] bool commands_are_sent() const {
     return path_tracking.matched() > 0 || speed_curvature.matched() > 0 || direct.matched() > 0;
   }
 
-  Reader<PathTrackingCommand> path_tracking;
-  Reader<SpeedCurvatureCommand> speed_curvature;
-  Reader<DirectCommand> direct;
-  Writer<GoalState> goal_writer;
-  Reader<GoalState> goal_reader;
-  std::map<std::uint8_t, Reader<VehicleObservation>> observations;
+  dds::Reader<PathTrackingCommand> path_tracking;
+  dds::Reader<SpeedCurvatureCommand> speed_curvature;
+  dds::Reader<DirectCommand> direct;
+  dds::Writer<GoalState> goal_writer;
+  dds::Reader<GoalState> goal_reader;
+  std::map<std::uint8_t, dds::Reader<VehicleObservation>> observations;
 };
 
 MiddlewareProcess::LabControlEndpoints::LabControlEndpoints(MiddlewareProcess& process)
-    : ready(process.lab_, topics::ready_status(), process.on_presence()),
-      request(process.lab_, topics::parameter_request()),
-      parameter(process.lab_, topics::parameter(),
+    : ready(process.lab_, dds::topics::ready_status(), process.on_presence()),
+      request(process.lab_, dds::topics::parameter_request()),
+      parameter(process.lab_, dds::topics::parameter(),
                 [&process](const Parameter& one) { process.shell_.post(one); }),
       trigger(
-          process.lab_, topics::system_trigger(),
+          process.lab_, dds::topics::system_trigger(),
           [&process](const SystemTrigger& one) { process.receive(one); }, process.on_presence()) {}
 
 MiddlewareProcess::ControllerEndpoints::ControllerEndpoints(MiddlewareProcess& process)
-    : list(process.local_, topics::vehicle_state_list(), process.on_presence()),
-      trigger(process.local_, topics::system_trigger(), process.on_presence()),
+    : list(process.local_, dds::topics::vehicle_state_list(), process.on_presence()),
+      trigger(process.local_, dds::topics::system_trigger(), process.on_presence()),
       command(
-          process.local_, topics::command(),
+          process.local_, dds::topics::command(),
           [&process](const TrajectoryCommand& one) {
-            process.shell_.post_urgent(VehicleCommand{one});
+            process.shell_.post_urgent(middleware::VehicleCommand{one});
           },
           process.on_presence()),
       ready(
-          process.local_, topics::ready_status(),
+          process.local_, dds::topics::ready_status(),
           [&process](const ReadyStatus& status) { process.shell_.post(status); },
           process.on_presence()) {}
 
 MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
     : options_(std::move(options)),
-      shell_(options_.node_id, MiddlewareMachine{settings_of(options_)},
-             options_.time.make_pacing(nanoseconds(options_.startup_timeout), wall_time_now())),
-      lab_(on_domain(options_, DomainRole::kLab), on_presence()),
-      local_(on_domain(options_, DomainRole::kLocal), on_presence()),
+      shell_(options_.node_id, middleware::MiddlewareMachine{settings_of(options_)},
+             options_.time.make_pacing(time::nanoseconds(options_.startup_timeout),
+                                       time::wall_time_now())),
+      lab_(on_domain(options_, dds::DomainRole::kLab), on_presence()),
+      local_(on_domain(options_, dds::DomainRole::kLocal), on_presence()),
       lab_control_(*this),
       controllers_(*this) {
   for (const std::uint8_t id : options_.vehicle_ids) {
     vehicles_.emplace(id, std::make_unique<Vehicle>(*this, id));
   }
-  if (options_.transport == Transport::kLab) {
+  if (options_.transport == dds::Transport::kLab) {
     lab_endpoints_ = std::make_unique<LabEndpoints>(*this);
   }
 }
@@ -132,7 +135,7 @@ MiddlewareProcess::~MiddlewareProcess() = default;
 /// 50 a second, do not wake the thread: that would slow down a run in logical time.
 void MiddlewareProcess::receive(const SystemTrigger& trigger) {
   const bool is_first = !std::exchange(is_triggered_, true);
-  if (is_first || trigger.next_start == kStopSymbol || options_.transport == Transport::kLab) {
+  if (is_first || trigger.next_start == kStopSymbol || options_.transport == dds::Transport::kLab) {
     shell_.post_urgent(trigger);
   } else {
     shell_.post(trigger);
@@ -142,34 +145,34 @@ void MiddlewareProcess::receive(const SystemTrigger& trigger) {
 
 void MiddlewareProcess::perform(const machine::LogLine& line) const { log(options_.node_id, line); }
 
-void MiddlewareProcess::perform(const SubscribeToVehicles& vehicles) {
+void MiddlewareProcess::perform(const middleware::SubscribeToVehicles& vehicles) {
   for (const std::int32_t active : vehicles.vehicle_ids) {
     const auto id = static_cast<std::uint8_t>(active);
     state_readers_.try_emplace(
-        id, lab_, topics::vehicle_state(id),
+        id, lab_, dds::topics::vehicle_state(id),
         [this, id](const VehicleState& state) {
-          shell_.post(PublishedState{.vehicle_id = id, .state = state});
+          shell_.post(middleware::PublishedState{.vehicle_id = id, .state = state});
         },
         on_presence());
     if (lab_endpoints_) {
-      lab_endpoints_->observations.try_emplace(
-          id, lab_, topics::vehicle_observation(id),
-          [this, id](const VehicleObservation& observation) {
-            shell_.post(PublishedObservation{.vehicle_id = id, .observation = observation});
-          });
+      lab_endpoints_->observations.try_emplace(id, lab_, dds::topics::vehicle_observation(id),
+                                               [this, id](const VehicleObservation& observation) {
+                                                 shell_.post(middleware::PublishedObservation{
+                                                     .vehicle_id = id, .observation = observation});
+                                               });
     }
   }
 }
 
 void MiddlewareProcess::perform(const GoalState& goal) { lab_endpoints_->goal_writer.write(goal); }
 
-void MiddlewareProcess::perform(const VehicleCommand& command) {
-  Vehicle& vehicle = *vehicles_.at(vehicle_of(command));
+void MiddlewareProcess::perform(const middleware::VehicleCommand& command) {
+  Vehicle& vehicle = *vehicles_.at(middleware::vehicle_of(command));
   std::visit([&vehicle](const auto& any) { vehicle.write(any); }, command);
 }
 
-MiddlewarePeers MiddlewareProcess::presence() const {
-  MiddlewarePeers peers;
+middleware::MiddlewarePeers MiddlewareProcess::presence() const {
+  middleware::MiddlewarePeers peers;
   peers.lab_control_is_matched = lab_control_.are_matched();
   peers.lab_control_is_lost = lab_.is_lost(kLabControlName);
   peers.commands_are_sent =
@@ -187,4 +190,4 @@ MiddlewarePeers MiddlewareProcess::presence() const {
   return peers;
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

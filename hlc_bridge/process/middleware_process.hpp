@@ -18,7 +18,7 @@
 #include "hlc_bridge/middleware/middleware_machine.hpp"
 #include "hlc_bridge/process/shell.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 struct MiddlewareOptions {
   /// For the log, and in logical time the source_id of the timer's ready status (wire contract,
@@ -26,12 +26,12 @@ struct MiddlewareOptions {
   std::string node_id;
   std::string version{};                  ///< ParticipantOptions::version
   std::vector<std::uint8_t> vehicle_ids;  ///< of its controllers; at least one
-  Transport transport{Transport::kLab};
+  dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
   int local_domain{};
-  std::optional<DiscoveryServer> discovery_server;
-  RunTime time{kRealTime};
-  MiddlewareRules rules{real_middleware_rules(true)};
+  std::optional<dds::DiscoveryServer> discovery_server;
+  machine::RunTime time{machine::kRealTime};
+  middleware::MiddlewareRules rules{middleware::real_middleware_rules(true)};
   Nanoseconds offset{kListOffset};  ///< of the lists in a period
   /// Waits for the next experiment after the stop symbol instead of ending (real time).
   bool keep_running{};
@@ -62,7 +62,7 @@ class MiddlewareProcess {
   void stop() { shell_.stop(); }
 
  private:
-  friend class Shell<MiddlewareMachine>;
+  friend class Shell<middleware::MiddlewareMachine>;
   /// The endpoints for one vehicle.
   struct Vehicle;
   /// Endpoints for the lab's programs only: on its transport.
@@ -72,31 +72,31 @@ class MiddlewareProcess {
     explicit LabControlEndpoints(MiddlewareProcess& process);
     [[nodiscard]] bool are_matched() const { return ready.matched() > 0 && trigger.matched() > 0; }
 
-    Writer<ReadyStatus> ready;
-    Writer<ParameterRequest> request;
-    Reader<Parameter> parameter;
-    Reader<SystemTrigger> trigger;
+    dds::Writer<ReadyStatus> ready;
+    dds::Writer<ParameterRequest> request;
+    dds::Reader<Parameter> parameter;
+    dds::Reader<SystemTrigger> trigger;
   };
   /// What passes between this process and its controllers.
   struct ControllerEndpoints {
     explicit ControllerEndpoints(MiddlewareProcess& process);
 
-    Writer<VehicleStateList> list;
-    Writer<SystemTrigger> trigger;
-    Reader<TrajectoryCommand> command;
-    Reader<ReadyStatus> ready;
+    dds::Writer<VehicleStateList> list;
+    dds::Writer<SystemTrigger> trigger;
+    dds::Reader<TrajectoryCommand> command;
+    dds::Reader<ReadyStatus> ready;
   };
 
   // For the shell:
   void perform(const machine::LogLine& line) const;
-  void perform(const SubscribeToVehicles& vehicles);
+  void perform(const middleware::SubscribeToVehicles& vehicles);
   void perform(const VehicleStateList& list) { controllers_.list.write(list); }
   void perform(const SystemTrigger& trigger) { controllers_.trigger.write(trigger); }
   void perform(const GoalState& goal);
-  void perform(const VehicleCommand& command);
+  void perform(const middleware::VehicleCommand& command);
   void perform(const ReadyStatus& status) { lab_control_.ready.write(status); }
   void perform(const ParameterRequest& request) { lab_control_.request.write(request); }
-  [[nodiscard]] MiddlewarePeers presence() const;
+  [[nodiscard]] middleware::MiddlewarePeers presence() const;
 
   void receive(const SystemTrigger& trigger);
   [[nodiscard]] std::function<void()> on_presence() {
@@ -104,17 +104,17 @@ class MiddlewareProcess {
   }
 
   MiddlewareOptions options_;
-  Shell<MiddlewareMachine> shell_;
+  Shell<middleware::MiddlewareMachine> shell_;
   bool is_triggered_{};  ///< of the trigger reader's callback
 
   // Destroyed first: no callback comes afterwards.
-  Participant lab_;
-  Participant local_;
+  dds::Participant lab_;
+  dds::Participant local_;
   LabControlEndpoints lab_control_;
   ControllerEndpoints controllers_;
   std::map<std::uint8_t, std::unique_ptr<Vehicle>> vehicles_;  ///< of the controllers
-  std::map<std::uint8_t, Reader<VehicleState>> state_readers_;
+  std::map<std::uint8_t, dds::Reader<VehicleState>> state_readers_;
   std::unique_ptr<LabEndpoints> lab_endpoints_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -1,6 +1,6 @@
 #include "hlc_bridge/process/progress_line.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 void ProgressLine::show(const std::string& text) {
   if (is_terminal_) {
@@ -22,4 +22,4 @@ void ProgressLine::end_line() {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 /// Shows the operator the progress of the run: on a terminal one line that is rewritten, otherwise
 /// (log files) a line each time.
@@ -34,4 +34,4 @@ class ProgressLine {
   bool is_open_{};  ///< the terminal's line has no line break yet
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

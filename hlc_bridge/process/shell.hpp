@@ -19,7 +19,7 @@
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/wall_time.hpp"
 
-namespace hlc {
+namespace hlc::process {
 
 /// Runs the machine of a process: a mailbox into which any thread puts events, and the loop
 ///
@@ -46,7 +46,7 @@ class Shell {
   using Event = typename M::Event;
 
   /// @param node_id  source_id of the ready status
-  Shell(std::string node_id, M machine, std::unique_ptr<Pacing> pacing)
+  Shell(std::string node_id, M machine, std::unique_ptr<machine::Pacing> pacing)
       : node_id_(std::move(node_id)), machine_(std::move(machine)), pacing_(std::move(pacing)) {}
   Shell(const Shell&) = delete;  // callbacks refer to it
   Shell& operator=(const Shell&) = delete;
@@ -68,7 +68,7 @@ class Shell {
   }
   /// Every SystemTrigger of the lab control, for any time.
   void trigger(Nanoseconds next_start) {
-    const Nanoseconds wall = wall_time_now();
+    const Nanoseconds wall = time::wall_time_now();
     signal_.post([&] { pacing_->on_trigger(next_start, wall); });
   }
   void stop() { post_urgent(machine::StopSignal{}); }
@@ -96,7 +96,7 @@ class Shell {
 
  private:
   [[nodiscard]] static Instant clocks_now() {
-    return {.run = real_time_now(), .wall = wall_time_now()};
+    return {.run = time::real_time_now(), .wall = time::wall_time_now()};
   }
 
   template <class Host>
@@ -115,7 +115,7 @@ class Shell {
   template <class Host>
   [[nodiscard]] bool announce(Host& host) {
     if constexpr (requires { host.perform(ReadyStatus{}); }) {
-      const Nanoseconds wall = wall_time_now();
+      const Nanoseconds wall = time::wall_time_now();
       const auto [is_timed_out, tick] = signal_.locked([&] {
         return std::pair{pacing_->is_timed_out(wall), pacing_->announcement(wall)};
       });
@@ -141,9 +141,9 @@ class Shell {
     Nanoseconds until = clocks.wall + (enough > 1 ? delay : kLongestWait);
     until = std::min({until, wake_wall.value_or(until), wake.wall.value_or(until)});
     if (wake.run && time_left(*wake.run, clocks.run) <= time_left(until, clocks.wall)) {
-      static_cast<void>(signal_.wait_until(real_time_point(*wake.run), has_work));
+      static_cast<void>(signal_.wait_until(time::real_time_point(*wake.run), has_work));
     } else {
-      static_cast<void>(signal_.wait_until(wall_time_point(until), has_work));
+      static_cast<void>(signal_.wait_until(time::wall_time_point(until), has_work));
     }
   }
 
@@ -158,11 +158,11 @@ class Shell {
   M machine_;
   std::vector<Event> read_;  ///< keeps its memory
 
-  Signal signal_;  // guards the members below
-  std::unique_ptr<Pacing> pacing_;
+  time::Signal signal_;  // guards the members below
+  std::unique_ptr<machine::Pacing> pacing_;
   std::vector<Event> mail_;
   bool is_urgent_{};
   bool has_presence_changed_{true};
 };
 
-}  // namespace hlc
+}  // namespace hlc::process

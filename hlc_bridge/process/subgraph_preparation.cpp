@@ -6,7 +6,7 @@
 
 #include "hlc_bridge/time/precedence.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 /// Only a bound for an interruptible wait.
@@ -14,8 +14,9 @@ constexpr std::chrono::hours kLong{1};
 
 }  // namespace
 
-SubgraphPreparation::SubgraphPreparation(RequestBase base, WeightDesign weights,
-                                         std::function<void(PreparedRequest)> on_prepared)
+SubgraphPreparation::SubgraphPreparation(
+    high_level_controller::RequestBase base, high_level_controller::WeightDesign weights,
+    std::function<void(high_level_controller::PreparedRequest)> on_prepared)
     : base_(std::move(base)),
       weights_(std::move(weights)),
       on_prepared_(std::move(on_prepared)),
@@ -32,7 +33,7 @@ void SubgraphPreparation::ask(const AutomatonRequest& request) {
 }
 
 void SubgraphPreparation::run() {
-  give_precedence();
+  time::give_precedence();
   while (true) {
     static_cast<void>(signal_.wait_until(std::chrono::steady_clock::now() + kLong,
                                          [this] { return !asked_.empty() || ends_; }));
@@ -44,11 +45,11 @@ void SubgraphPreparation::run() {
           return first;
         });
     if (request) {
-      on_prepared_(prepare(base_, *request, &weights_, stop_.get_token()));
+      on_prepared_(high_level_controller::prepare(base_, *request, &weights_, stop_.get_token()));
     } else if (signal_.locked([this] { return ends_; })) {
       return;
     }
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::process

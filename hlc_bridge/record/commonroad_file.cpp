@@ -10,20 +10,21 @@
 #include "planner/common/yaml_text.hpp"
 #include "planner/road/commonroad_writer.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 enum class Steering { kWritten, kLeftOut };
 
 /// A quantity with one value.
-void add_exact(CommonRoadWriter& xml, const char* name, double value) {
+void add_exact(road::CommonRoadWriter& xml, const char* name, double value) {
   xml.open_inline(name);
   xml.number("exact", value);
   xml.close_inline();
 }
 
 /// The content of a state, in one line.
-void add_state(CommonRoadWriter& xml, const State& state, std::size_t time, Steering steering) {
+void add_state(road::CommonRoadWriter& xml, const vehicle::State& state, std::size_t time,
+               Steering steering) {
   xml.open_inline("position");
   xml.open_inline("point");
   xml.number("x", state.pose.x_m);
@@ -38,7 +39,7 @@ void add_state(CommonRoadWriter& xml, const State& state, std::size_t time, Stee
   if (steering == Steering::kWritten) add_exact(xml, "steeringAngle", state.steering_rad);
 }
 
-void add_shape(CommonRoadWriter& xml, const Footprint& footprint) {
+void add_shape(road::CommonRoadWriter& xml, const Footprint& footprint) {
   xml.open("shape");
   xml.open_inline("rectangle");
   xml.number("length", footprint.length_m);
@@ -47,8 +48,8 @@ void add_shape(CommonRoadWriter& xml, const Footprint& footprint) {
   xml.close_inline();
 }
 
-void add_motion(CommonRoadWriter& xml, int id, const Footprint& footprint,
-                const std::vector<State>& states, Steering steering) {
+void add_motion(road::CommonRoadWriter& xml, int id, const Footprint& footprint,
+                const std::vector<vehicle::State>& states, Steering steering) {
   HLC_DEMAND(states.size() >= 2, states.size());
   xml.open("dynamicObstacle");
   xml.PushAttribute("id", id);
@@ -67,15 +68,16 @@ void add_motion(CommonRoadWriter& xml, int id, const Footprint& footprint,
   xml.close();
 }
 
-void add_problem(CommonRoadWriter& xml, int id, const VehicleParameters& vehicle,
-                 const std::vector<State>& planned) {
-  const State& start = planned.front();
+void add_problem(road::CommonRoadWriter& xml, int id, const vehicle::VehicleParameters& vehicle,
+                 const std::vector<vehicle::State>& planned) {
+  const vehicle::State& start = planned.front();
   xml.open("planningProblem");
   xml.PushAttribute("id", id);
   xml.open("initialState");
   add_state(xml, start, 0, Steering::kLeftOut);
-  add_exact(xml, "yawRate", start.speed_mps * curvature_per_m(start.steering_rad, vehicle));
-  add_exact(xml, "slipAngle", slip_angle_rad(start.steering_rad, vehicle));
+  add_exact(xml, "yawRate",
+            start.speed_mps * vehicle::curvature_per_m(start.steering_rad, vehicle));
+  add_exact(xml, "slipAngle", vehicle::slip_angle_rad(start.steering_rad, vehicle));
   xml.close_inline();
   xml.open("goalState");
   xml.open_inline("time");
@@ -86,7 +88,7 @@ void add_problem(CommonRoadWriter& xml, int id, const VehicleParameters& vehicle
   xml.close();
 }
 
-void check_ids(const LaneletMap& map) {
+void check_ids(const road::LaneletMap& map) {
   if (!map.lanelets.empty() && map.lanelets.rbegin()->first > kProblemIds) {
     throw std::runtime_error(fmt::format("{}: lanelet {}, id must be <= {}", map.benchmark_id,
                                          map.lanelets.rbegin()->first, kProblemIds));
@@ -95,13 +97,13 @@ void check_ids(const LaneletMap& map) {
 
 }  // namespace
 
-std::string commonroad_xml(const LaneletMap& map, const VehicleParameters& vehicle,
+std::string commonroad_xml(const road::LaneletMap& map, const vehicle::VehicleParameters& vehicle,
                            const std::vector<ExportedVehicle>& vehicles, double time_step_s) {
   check_ids(map);
-  CommonRoadWriter xml({.benchmark_id = map.benchmark_id,
-                        .author = "export_commonroad",
-                        .source = "run",
-                        .time_step = shortest_text(time_step_s)});
+  road::CommonRoadWriter xml({.benchmark_id = map.benchmark_id,
+                              .author = "export_commonroad",
+                              .source = "run",
+                              .time_step = shortest_text(time_step_s)});
   xml.add_lanelets(map);
   for (const ExportedVehicle& one : vehicles) {
     add_motion(xml, kPlannedIds + one.id.value, vehicle.footprint, one.planned, Steering::kWritten);
@@ -113,14 +115,14 @@ std::string commonroad_xml(const LaneletMap& map, const VehicleParameters& vehic
   return xml.finish();
 }
 
-LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles) {
+road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles) {
   constexpr double kBorder_m = 0.5;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low_m{kFar, kFar};
   Point high_m{-kFar, -kFar};
   for (const ExportedVehicle& vehicle : vehicles) {
-    for (const std::vector<State>* motion : {&vehicle.planned, &vehicle.driven}) {
-      for (const State& state : *motion) {
+    for (const std::vector<vehicle::State>* motion : {&vehicle.planned, &vehicle.driven}) {
+      for (const vehicle::State& state : *motion) {
         low_m = low_m.cwiseMin(state.pose.position_m());
         high_m = high_m.cwiseMax(state.pose.position_m());
       }
@@ -139,4 +141,4 @@ LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles) {
                          .adjacent_right = {}}}}};
 }
 
-}  // namespace hlc
+}  // namespace hlc::record

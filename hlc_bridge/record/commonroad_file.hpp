@@ -7,13 +7,13 @@
 #include "planner/road/lanelet_map.hpp"
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::record {
 
 /// One vehicle of a run in the file's form: states at 0, 1, 2 ... time steps.
 struct ExportedVehicle {
   VehicleId id;
-  std::vector<State> planned;  ///< heading of the single-track model, speed, steering
-  std::vector<State> driven;   ///< yaw, speed; steering is not written
+  std::vector<vehicle::State> planned;  ///< heading of the single-track model, speed, steering
+  std::vector<vehicle::State> driven;   ///< yaw, speed; steering is not written
 };
 
 /// Ids of a vehicle's elements; those of lanelets stay below.
@@ -30,12 +30,13 @@ inline constexpr int kDrivenIds = 3'000'000;   ///< + vehicle id: what was drive
 /// @param time_step_s  between two states
 /// @pre both motions of every vehicle have two states at least
 /// @throws std::runtime_error for a lanelet id that is not below those of vehicles
-[[nodiscard]] std::string commonroad_xml(const LaneletMap& map, const VehicleParameters& vehicle,
+[[nodiscard]] std::string commonroad_xml(const road::LaneletMap& map,
+                                         const vehicle::VehicleParameters& vehicle,
                                          const std::vector<ExportedVehicle>& vehicles,
                                          double time_step_s);
 
 /// A map for a run without lanes, since the format requires one: a single lane, 0.5 m wider on all
 /// sides than the area of the vehicles' reference points.
-[[nodiscard]] LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles);
+[[nodiscard]] road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles);
 
-}  // namespace hlc
+}  // namespace hlc::record

@@ -10,7 +10,7 @@
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,7 +45,7 @@ void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>&
   }
 }
 
-std::string flags_yaml(const ScenarioChoices& choices) {
+std::string flags_yaml(const scenario::ScenarioChoices& choices) {
   const auto path = [](const fs::path& file) { return fs::absolute(file).string(); };
   const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
   const auto number = [](const std::optional<std::size_t>& value) {
@@ -59,13 +59,13 @@ std::string flags_yaml(const ScenarioChoices& choices) {
       number(choices.steps));
 }
 
-ScenarioChoices kept_choices(const fs::path& run_folder) {
+scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   const fs::path file = run_folder / "configuration" / "flags.yaml";
   if (!fs::exists(file)) {
     throw std::invalid_argument(file.string() + ": missing; --scenario must be given");
   }
   const Node flags = Node::read_yaml(file);
-  ScenarioChoices choices;
+  scenario::ScenarioChoices choices;
   choices.file = copy_of(run_folder, flags.required<std::string>("scenario"));
   choices.profile = flags.required<std::string>("profile");
   choices.engine = text_or_null(flags, "engine");
@@ -76,4 +76,4 @@ ScenarioChoices kept_choices(const fs::path& run_folder) {
   return choices;
 }
 
-}  // namespace hlc
+}  // namespace hlc::record

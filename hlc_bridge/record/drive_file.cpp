@@ -4,18 +4,18 @@
 
 #include "planner/common/csv.hpp"
 
-namespace hlc {
+namespace hlc::record {
 
 std::filesystem::path drive_file(const std::filesystem::path& run_folder, std::uint8_t vehicle_id) {
   return run_folder / fmt::format("vehicle_{}.csv", vehicle_id);
 }
 
-Drive read_drive(const std::filesystem::path& file) {
+result::Drive read_drive(const std::filesystem::path& file) {
   const CsvTable table{file, kDriveHeading};
-  Drive drive;
+  result::Drive drive;
   drive.reserve(table.size());
   for (std::size_t row = 0; row < table.size(); ++row) {
-    DrivenSample sample;
+    result::DrivenSample sample;
     sample.t = table.unsigned_number(row, 0);
     sample.pose = {table.number(row, 1), table.number(row, 2), table.number(row, 3)};
     sample.speed_mps = table.number(row, 4);
@@ -30,9 +30,9 @@ Drive read_drive(const std::filesystem::path& file) {
   return drive;
 }
 
-Drives read_drives(const std::filesystem::path& run_folder,
-                   const std::vector<std::uint8_t>& vehicle_ids) {
-  Drives drives;
+result::Drives read_drives(const std::filesystem::path& run_folder,
+                           const std::vector<std::uint8_t>& vehicle_ids) {
+  result::Drives drives;
   for (const std::uint8_t id : vehicle_ids) {
     const std::filesystem::path file = drive_file(run_folder, id);
     if (std::filesystem::exists(file)) drives[id] = read_drive(file);
@@ -40,4 +40,4 @@ Drives read_drives(const std::filesystem::path& run_folder,
   return drives;
 }
 
-}  // namespace hlc
+}  // namespace hlc::record

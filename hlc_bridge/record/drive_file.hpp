@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-namespace hlc {
+namespace hlc::record {
 
 /// Heading of a vehicle's record, one row per tick: the true state at the tick, the inputs
 /// commanded then (they act 80 ms later), and the command that they come from.
@@ -17,10 +17,10 @@ inline constexpr std::string_view kDriveHeading =
                                                std::uint8_t vehicle_id);
 
 /// @throws std::runtime_error naming file, line, column, value and bound; times must increase
-[[nodiscard]] Drive read_drive(const std::filesystem::path& file);
+[[nodiscard]] result::Drive read_drive(const std::filesystem::path& file);
 
 /// The drives of these vehicles, without those whose file is missing. @throws as read_drive
-[[nodiscard]] Drives read_drives(const std::filesystem::path& run_folder,
-                                 const std::vector<std::uint8_t>& vehicle_ids);
+[[nodiscard]] result::Drives read_drives(const std::filesystem::path& run_folder,
+                                         const std::vector<std::uint8_t>& vehicle_ids);
 
-}  // namespace hlc
+}  // namespace hlc::record

@@ -5,9 +5,9 @@
 
 #include "planner/common/text_file.hpp"
 
-namespace hlc {
+namespace hlc::record {
 
-std::string facts_json(const RunFacts& facts) {
+std::string facts_json(const result::RunFacts& facts) {
   nlohmann::ordered_json json;
   json["simulated_time"] = facts.simulated_time;
   json["vehicle_ids"] = facts.vehicle_ids;
@@ -25,11 +25,11 @@ std::string facts_json(const RunFacts& facts) {
   return json.dump(2) + "\n";
 }
 
-RunFacts read_facts(const std::filesystem::path& file) {
+result::RunFacts read_facts(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   try {
     const auto json = nlohmann::json::parse(text);
-    RunFacts facts;
+    result::RunFacts facts;
     facts.simulated_time = json.at("simulated_time").get<bool>();
     facts.vehicle_ids = json.at("vehicle_ids").get<std::vector<std::uint8_t>>();
     facts.period = json.at("period_ns").get<Nanoseconds>();
@@ -52,4 +52,4 @@ RunFacts read_facts(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::record

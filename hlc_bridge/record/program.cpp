@@ -5,7 +5,7 @@
 #include <fstream>
 #include <thread>
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 std::string cpu_model() {
@@ -30,6 +30,6 @@ std::string kernel() {
 
 }  // namespace
 
-Host this_host() { return {cpu_model(), std::thread::hardware_concurrency(), kernel()}; }
+result::Host this_host() { return {cpu_model(), std::thread::hardware_concurrency(), kernel()}; }
 
-}  // namespace hlc
+}  // namespace hlc::record

@@ -11,7 +11,7 @@
 #include "planner/common/csv.hpp"
 #include "planner/common/text_file.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 constexpr std::string_view kHeading =
@@ -20,15 +20,15 @@ constexpr std::string_view kHeading =
     "missed,late_ns,maneuver,subgraph";
 
 std::string line(const ReportRecord& record) {
-  const Report& report = record.report;
+  const coordination::Report& report = record.report;
   const Pose& pose = report.planned_pose;
-  return CsvLine(report.step.value, report.vehicle.value, to_string(report.status),
-                 to_string(report.reason), pose.x_m, pose.y_m, pose.heading_rad,
-                 report.planned_trim.index + 1, report.cost_m2, to_string(report.quality),
-                 report.gap_m2, report.generated, report.expanded, report.level,
-                 ids_to_text(report.coupled), ids_to_text(report.missing), report.deviation_m,
-                 record.planning_ns, record.deadline_missed, record.late_ns, report.maneuver,
-                 report.subgraph)
+  return CsvLine(report.step.value, report.vehicle.value, coordination::to_string(report.status),
+                 coordination::to_string(report.reason), pose.x_m, pose.y_m, pose.heading_rad,
+                 report.planned_trim.index + 1, report.cost_m2,
+                 coordination::to_string(report.quality), report.gap_m2, report.generated,
+                 report.expanded, report.level, ids_to_text(report.coupled),
+                 ids_to_text(report.missing), report.deviation_m, record.planning_ns,
+                 record.deadline_missed, record.late_ns, report.maneuver, report.subgraph)
       .text();
 }
 
@@ -37,16 +37,19 @@ template <class Enum>
 std::optional<Enum> enum_from(const std::string& name, std::uint8_t count) {
   for (std::uint8_t i = 0; i < count; ++i) {
     const auto value = static_cast<Enum>(i);
-    if (name == to_string(value)) {
+    if (name == coordination::to_string(value)) {
       return value;
     }
   }
   return std::nullopt;
 }
 
-constexpr std::uint8_t kStatuses = static_cast<std::uint8_t>(StepStatus::kMinimalRiskStop) + 1;
-constexpr std::uint8_t kQualities = static_cast<std::uint8_t>(PlanQuality::kUnproven) + 1;
-constexpr std::uint8_t kReasons = static_cast<std::uint8_t>(FallbackReason::kOffRoute) + 1;
+constexpr std::uint8_t kStatuses =
+    static_cast<std::uint8_t>(coordination::StepStatus::kMinimalRiskStop) + 1;
+constexpr std::uint8_t kQualities =
+    static_cast<std::uint8_t>(coordination::PlanQuality::kUnproven) + 1;
+constexpr std::uint8_t kReasons =
+    static_cast<std::uint8_t>(coordination::FallbackReason::kOffRoute) + 1;
 
 /// Reads the fields of one row from left to right.
 class RowReader {
@@ -69,7 +72,8 @@ class RowReader {
     if (!value) {
       std::string allowed = "one of ";
       for (std::uint8_t i = 0; i < count; ++i) {
-        allowed += (i == 0 ? "" : ", ") + std::string{to_string(static_cast<Enum>(i))};
+        allowed +=
+            (i == 0 ? "" : ", ") + std::string{coordination::to_string(static_cast<Enum>(i))};
       }
       table_.refuse(row_, column_, allowed);
     }
@@ -99,17 +103,17 @@ class RowReader {
 
 ReportRecord read_row(RowReader row) {
   ReportRecord record;
-  Report& report = record.report;
+  coordination::Report& report = record.report;
   report.step = StepIndex{row.whole()};
   report.vehicle = VehicleId{static_cast<std::uint8_t>(row.whole(0, 255))};
-  report.status = row.name<StepStatus>(kStatuses);
-  report.reason = row.name<FallbackReason>(kReasons);
+  report.status = row.name<coordination::StepStatus>(kStatuses);
+  report.reason = row.name<coordination::FallbackReason>(kReasons);
   report.planned_pose.x_m = row.number();
   report.planned_pose.y_m = row.number();
   report.planned_pose.heading_rad = row.number();
   report.planned_trim = TrimId{row.whole(1) - 1};
   report.cost_m2 = row.number();
-  report.quality = row.name<PlanQuality>(kQualities);
+  report.quality = row.name<coordination::PlanQuality>(kQualities);
   report.gap_m2 = row.number();
   report.generated = row.whole();
   report.expanded = row.whole();
@@ -173,4 +177,4 @@ std::vector<ReportRecord> read_reports(const std::filesystem::path& file) {
   return records;
 }
 
-}  // namespace hlc
+}  // namespace hlc::record

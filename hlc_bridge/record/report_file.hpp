@@ -8,7 +8,7 @@
 
 #include "hlc_bridge/messages/run_messages.hpp"
 
-namespace hlc {
+namespace hlc::record {
 
 /// reports.csv: every report of a run. One line per report as it arrives, flushed to the system at
 /// once, so that a crash of the program loses nothing; sorted by step, then vehicle, at the end.
@@ -34,4 +34,4 @@ class ReportFile {
 /// Ids in one field: "2;3", empty for none.
 [[nodiscard]] std::string ids_to_text(const std::vector<VehicleId>& ids);
 
-}  // namespace hlc
+}  // namespace hlc::record

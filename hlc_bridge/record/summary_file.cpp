@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -13,8 +13,8 @@ constexpr double kMillisecondsPerSecond = 1e3;
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 /// The named figures of a sample, all null if it is empty.
-Json figures(const std::optional<Statistics>& value, double factor,
-             std::initializer_list<std::pair<const char*, double Statistics::*>> names) {
+Json figures(const std::optional<result::Statistics>& value, double factor,
+             std::initializer_list<std::pair<const char*, double result::Statistics::*>> names) {
   Json json;
   for (const auto& [name, field] : names) {
     json[name] = value ? Json((*value).*field * factor) : Json(nullptr);
@@ -22,40 +22,45 @@ Json figures(const std::optional<Statistics>& value, double factor,
   return json;
 }
 
-Json vehicle_json(const VehicleSummary& vehicle) {
+Json vehicle_json(const result::VehicleSummary& vehicle) {
   Json json;
   json["id"] = vehicle.id.value;
   json["name"] = vehicle.name;
   json["lap_s"] = or_null(vehicle.lap_s);
-  json["reference_error_mm"] =
-      figures(vehicle.reference_error_m, kMillimetresPerMetre,
-              {{"mean", &Statistics::mean}, {"std", &Statistics::std}, {"max", &Statistics::max}});
-  json["tracking_error_mm"] = figures(vehicle.tracking_error_m, kMillimetresPerMetre,
-                                      {{"mean", &Statistics::mean}, {"max", &Statistics::max}});
+  json["reference_error_mm"] = figures(vehicle.reference_error_m, kMillimetresPerMetre,
+                                       {{"mean", &result::Statistics::mean},
+                                        {"std", &result::Statistics::std},
+                                        {"max", &result::Statistics::max}});
+  json["tracking_error_mm"] =
+      figures(vehicle.tracking_error_m, kMillimetresPerMetre,
+              {{"mean", &result::Statistics::mean}, {"max", &result::Statistics::max}});
   json["generated_vertices"] =
-      figures(vehicle.generated, 1.0, {{"max", &Statistics::max}, {"mean", &Statistics::mean}});
+      figures(vehicle.generated, 1.0,
+              {{"max", &result::Statistics::max}, {"mean", &result::Statistics::mean}});
   json["expanded_vertices"] =
-      figures(vehicle.expanded, 1.0, {{"max", &Statistics::max}, {"mean", &Statistics::mean}});
+      figures(vehicle.expanded, 1.0,
+              {{"max", &result::Statistics::max}, {"mean", &result::Statistics::mean}});
   json["planning_time_ms"] = figures(vehicle.planning_s, kMillisecondsPerSecond,
-                                     {{"mean", &Statistics::mean},
-                                      {"std", &Statistics::std},
-                                      {"p99", &Statistics::p99},
-                                      {"max", &Statistics::max}});
+                                     {{"mean", &result::Statistics::mean},
+                                      {"std", &result::Statistics::std},
+                                      {"p99", &result::Statistics::p99},
+                                      {"max", &result::Statistics::max}});
   json["fallback_steps"] = vehicle.fallback_steps;
   json["deadline_misses"] = vehicle.deadline_misses;
   json["budget_share"] = or_null(vehicle.budget_share);
   json["plans_exceeding_step"] = vehicle.plans_exceeding_step;
   json["undrivable_steps"] = vehicle.undrivable_steps;
-  json["driven_error_mm"] =
-      figures(vehicle.driven_error_m, kMillimetresPerMetre,
-              {{"mean", &Statistics::mean}, {"std", &Statistics::std}, {"max", &Statistics::max}});
+  json["driven_error_mm"] = figures(vehicle.driven_error_m, kMillimetresPerMetre,
+                                    {{"mean", &result::Statistics::mean},
+                                     {"std", &result::Statistics::std},
+                                     {"max", &result::Statistics::max}});
   return json;
 }
 
 }  // namespace
 
-std::string summary_json(const RunSummary& summary) {
-  const RunDescription& run = summary.description;
+std::string summary_json(const result::RunSummary& summary) {
+  const result::RunDescription& run = summary.description;
   Json json;
   json["scenario"] = run.scenario;
   json["profile"] = run.profile;
@@ -66,7 +71,7 @@ std::string summary_json(const RunSummary& summary) {
   json["step_s"] = run.step_s;
   json["steps"] = summary.steps;
   json["vehicles"] = Json::array();
-  for (const VehicleSummary& vehicle : summary.vehicles) {
+  for (const result::VehicleSummary& vehicle : summary.vehicles) {
     json["vehicles"].push_back(vehicle_json(vehicle));
   }
   json["generated_vertices_sum_max"] = summary.generated_vertices_sum_max;
@@ -84,4 +89,4 @@ std::string summary_json(const RunSummary& summary) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace hlc
+}  // namespace hlc::record

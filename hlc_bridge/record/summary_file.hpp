@@ -4,9 +4,9 @@
 
 #include "hlc_bridge/result/run_summary.hpp"
 
-namespace hlc {
+namespace hlc::record {
 
 /// summary.json. Lengths in mm, planning times in ms; null where there is no value.
-[[nodiscard]] std::string summary_json(const RunSummary& summary);
+[[nodiscard]] std::string summary_json(const result::RunSummary& summary);
 
-}  // namespace hlc
+}  // namespace hlc::record

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace hlc {
+namespace hlc::result {
 
 std::string danger_of(const RunSummary& summary) {
   if (summary.collisions > 0) {
@@ -33,4 +33,4 @@ std::string driving_fault(const RunSummary& summary) {
   return "";
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

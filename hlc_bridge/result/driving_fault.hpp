@@ -5,7 +5,7 @@
 #include "hlc_bridge/result/run_summary.hpp"
 
 /// Whether a run was driven well: the only criterion, for one run and in a campaign.
-namespace hlc {
+namespace hlc::result {
 
 /// Why a run's driving was dangerous, in one line: vehicles touched, or a vehicle left the areas
 /// that it had announced (VehicleSummary::steps_outside_announced_area). Empty if it was not. A
@@ -17,4 +17,4 @@ namespace hlc {
 /// plan (subgraph A demands more than the car can do, which its controller predicts).
 [[nodiscard]] std::string driving_fault(const RunSummary& summary);
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -5,7 +5,7 @@
 
 #include "planner/geometry/polygon.hpp"
 
-namespace hlc {
+namespace hlc::result {
 namespace {
 
 double radius_m(const Footprint& footprint) {
@@ -91,4 +91,4 @@ std::vector<TimedDistance> footprint_distances(const VehicleDescription& a, cons
   return distances;
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-namespace hlc {
+namespace hlc::result {
 
 /// How close the driven footprints came to each other.
 struct Encounters {
@@ -35,4 +35,4 @@ struct TimedDistance {
                                                              const Drive& drive_b, Nanoseconds from,
                                                              Nanoseconds to);
 
-}  // namespace hlc
+}  // namespace hlc::result

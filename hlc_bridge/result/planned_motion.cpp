@@ -6,7 +6,7 @@
 
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::result {
 namespace {
 
 [[noreturn]] void refuse(const StepRecord& row, const std::string& what) {
@@ -18,39 +18,40 @@ namespace {
 std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
 /// Pose at the begin of a motion with a known end.
-Pose begin_of(const Maneuver& maneuver, const Pose& end) {
+Pose begin_of(const automaton::Maneuver& maneuver, const Pose& end) {
   return compose(end, between(maneuver.displacement, Pose{}));
 }
 
 }  // namespace
 
-const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
-                                const UniversalAutomaton& automaton) {
+const automaton::Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
+                                           const automaton::UniversalAutomaton& automaton) {
   if (next == nullptr || next->step != row.step + 1) return nullptr;
-  const Report& report = row.record.report;
+  const coordination::Report& report = row.record.report;
   // A vehicle that stands and whose plan is re-anchored may continue in another equilibrium.
-  const bool is_self_loop = report.maneuver == kSelfLoopLabel;
+  const bool is_self_loop = report.maneuver == automaton::kSelfLoopLabel;
   const TrimId to = is_self_loop ? report.planned_trim : next->record.report.planned_trim;
   if (to == report.planned_trim && !is_self_loop) return nullptr;
   return automaton.find(report.planned_trim, to, report.maneuver);
 }
 
-std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanoseconds period,
-                                  Nanoseconds interval, const UniversalAutomaton& automaton) {
-  std::vector<State> states;
-  const VehicleParameters& vehicle = automaton.vehicle;
+std::vector<vehicle::State> planned_motion(std::span<const StepRecord* const> rows,
+                                           Nanoseconds period, Nanoseconds interval,
+                                           const automaton::UniversalAutomaton& automaton) {
+  std::vector<vehicle::State> states;
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k]->step != k) refuse(*rows[k], "the step before was not reported");
-    const Report& report = rows[k]->record.report;
+    const coordination::Report& report = rows[k]->record.report;
     if (report.planned_trim.index >= automaton.trims.size()) {
       refuse(*rows[k], "planned_trim is none of the automaton");
     }
-    const Trim& trim = automaton.trims[report.planned_trim.index];
+    const automaton::Trim& trim = automaton.trims[report.planned_trim.index];
     states.push_back({.pose = report.planned_pose,
                       .speed_mps = trim.speed_mps,
                       .steering_rad = trim.steering_rad});
     if (k + 1 == rows.size() || rows[k + 1]->step != k + 1) continue;
-    const Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
+    const automaton::Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
     if (maneuver == nullptr) {
       refuse(*rows[k], "no maneuver from trim " + number_of(report.planned_trim) + " to " +
                            number_of(rows[k + 1]->record.report.planned_trim) + " with label '" +
@@ -58,7 +59,7 @@ std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanos
     }
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
     for (Nanoseconds t = interval; t < period; t += interval) {
-      State state = state_at(*maneuver, 1e-9 * static_cast<double>(t), vehicle);
+      vehicle::State state = automaton::state_at(*maneuver, 1e-9 * static_cast<double>(t), vehicle);
       state.pose = compose(begin, state.pose);
       states.push_back(state);
     }
@@ -66,9 +67,9 @@ std::vector<State> planned_motion(std::span<const StepRecord* const> rows, Nanos
   return states;
 }
 
-std::vector<State> driven_motion(std::span<const DrivenSample> drive, Nanoseconds begin,
-                                 Nanoseconds interval, std::size_t count) {
-  std::vector<State> states;
+std::vector<vehicle::State> driven_motion(std::span<const DrivenSample> drive, Nanoseconds begin,
+                                          Nanoseconds interval, std::size_t count) {
+  std::vector<vehicle::State> states;
   const auto is_before = [](const DrivenSample& sample, Nanoseconds t) { return sample.t < t; };
   for (std::size_t i = 0; i < count; ++i) {
     const Nanoseconds t = begin + i * interval;
@@ -87,4 +88,4 @@ std::vector<State> driven_motion(std::span<const DrivenSample> drive, Nanosecond
   return states;
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -7,7 +7,7 @@
 
 /// The planned motion of a vehicle between the steps: the reports give pose and trim at every t(k)
 /// and the maneuver under way, the automaton its motion.
-namespace hlc {
+namespace hlc::result {
 
 /// The maneuver under way in the step of `row`: of that label, from its trim to that of the next
 /// row. A plan that is re-anchored meanwhile leads elsewhere with the same maneuvers.
@@ -15,8 +15,8 @@ namespace hlc {
 /// nullptr if there is no next row, if the row has no plan, or if the automaton does not hold the
 /// maneuver: one of new weights (weight_design.hpp).
 /// @param next  the vehicle's next row; nullptr: none
-[[nodiscard]] const Maneuver* maneuver_during(const StepRecord& row, const StepRecord* next,
-                                              const UniversalAutomaton& automaton);
+[[nodiscard]] const automaton::Maneuver* maneuver_during(
+    const StepRecord& row, const StepRecord* next, const automaton::UniversalAutomaton& automaton);
 
 /// The planned states of one vehicle every `interval`, from t(0) of the run to the time of its last
 /// row. At t(k) that is the reported state; in between, the motion that ends where the plan is at
@@ -28,16 +28,16 @@ namespace hlc {
 /// @pre `interval` divides `period`
 /// @throws std::runtime_error naming vehicle and step if a row is missing, or its maneuver is not
 /// in the automaton
-[[nodiscard]] std::vector<State> planned_motion(std::span<const StepRecord* const> rows,
-                                                Nanoseconds period, Nanoseconds interval,
-                                                const UniversalAutomaton& automaton);
+[[nodiscard]] std::vector<vehicle::State> planned_motion(
+    std::span<const StepRecord* const> rows, Nanoseconds period, Nanoseconds interval,
+    const automaton::UniversalAutomaton& automaton);
 
 /// The driven states at the same times: true pose (heading_rad is the yaw) and speed, steering 0.
 /// Between two ticks the simulated car's motion is linear.
 ///
 /// @param count  states; fewer are returned if the drive ends before
-[[nodiscard]] std::vector<State> driven_motion(std::span<const DrivenSample> drive,
-                                               Nanoseconds begin, Nanoseconds interval,
-                                               std::size_t count);
+[[nodiscard]] std::vector<vehicle::State> driven_motion(std::span<const DrivenSample> drive,
+                                                        Nanoseconds begin, Nanoseconds interval,
+                                                        std::size_t count);
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -7,14 +7,15 @@
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/engine_choice.hpp"
 
-namespace hlc {
+namespace hlc::result {
 
-RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> noise_seed) {
-  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
+RunDescription describe(const scenario::Scenario& scenario,
+                        std::optional<std::uint64_t> noise_seed) {
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   RunDescription description;
   description.scenario = scenario.name;
   description.profile = scenario.profile.name;
-  description.engine = engine_name(scenario.search);
+  description.engine = scenario::engine_name(scenario.search);
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
   description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;
@@ -22,7 +23,7 @@ RunDescription describe(const Scenario& scenario, std::optional<std::uint64_t> n
   description.horizon_steps = scenario.horizon_steps;
   description.step_s = automaton.step_s;
   description.automaton = scenario.subgraph;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+  for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     description.vehicles.push_back(
         {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
   }
@@ -45,4 +46,4 @@ void check_run(const RunFacts& facts, const RunDescription& description) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

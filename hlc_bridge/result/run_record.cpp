@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hlc {
+namespace hlc::result {
 namespace {
 
 constexpr Nanoseconds kWidestGap = 100'000'000;
@@ -13,7 +13,7 @@ constexpr Nanoseconds kWidestGap = 100'000'000;
 std::optional<std::uint64_t> first_step_of(std::span<const ReportRecord> reports) {
   std::optional<std::uint64_t> first;
   for (const ReportRecord& record : reports) {
-    if (record.report.status != StepStatus::kStandby) {
+    if (record.report.status != coordination::StepStatus::kStandby) {
       const std::uint64_t step = record.report.step.value;
       first = std::min(first.value_or(step), step);
     }
@@ -68,4 +68,4 @@ std::vector<StepRecord> step_records(std::span<const ReportRecord> reports, cons
   return sorted;
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

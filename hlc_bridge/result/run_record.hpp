@@ -15,13 +15,13 @@
 #include "planner/road/reference_path.hpp"
 
 /// The records of a run as plain data; `hlc_bridge/record` reads and writes the files.
-namespace hlc {
+namespace hlc::result {
 
 struct VehicleDescription {
   VehicleId id;
   std::string name;
-  std::optional<ReferencePath> route;  ///< centre line; none in a scenario without lanes
-  Footprint footprint;                 ///< without margin
+  std::optional<road::ReferencePath> route;  ///< centre line; none in a scenario without lanes
+  Footprint footprint;                       ///< without margin
 };
 
 /// What was driven: the scenario, as needed for the result.
@@ -32,13 +32,13 @@ struct RunDescription {
   std::string map;
   std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;
-  std::string policy{kNoPolicy};  ///< by which the controllers changed it
+  std::string policy{policy::kNoPolicy};  ///< by which the controllers changed it
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;
   /// The automaton of the plans: gives the planned poses between steps. None: only those at the
   /// steps.
-  std::shared_ptr<const Subgraph> automaton;
+  std::shared_ptr<const automaton::Subgraph> automaton;
 };
 
 /// How the run went, as observed by the lab control.
@@ -89,4 +89,4 @@ struct StepRecord {
 [[nodiscard]] std::vector<StepRecord> step_records(std::span<const ReportRecord> reports,
                                                    const Drives& drives, const RunFacts& facts);
 
-}  // namespace hlc
+}  // namespace hlc::result

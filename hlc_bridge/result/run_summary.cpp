@@ -8,14 +8,15 @@
 #include "planner/automaton/deviation.hpp"
 #include "planner/road/lap.hpp"
 
-namespace hlc {
+namespace hlc::result {
 namespace {
 
 constexpr double kSecondsPerNanosecond = 1e-9;
 
 bool has_planned(const StepRecord& row) {
-  const StepStatus status = row.record.report.status;
-  return status == StepStatus::kPlanned || status == StepStatus::kFallback;
+  const coordination::StepStatus status = row.record.report.status;
+  return status == coordination::StepStatus::kPlanned ||
+         status == coordination::StepStatus::kFallback;
 }
 
 void add_route(const VehicleDescription& vehicle, std::span<const StepRecord* const> rows,
@@ -31,11 +32,12 @@ void add_route(const VehicleDescription& vehicle, std::span<const StepRecord* co
     if (row->driven) driven_m.push_back(row->driven->position_m());
     times_s.push_back(static_cast<double>(row->step) * step_s);
   }
-  const Progress progress = progress_along(*vehicle.route, positions_m);
+  const road::Progress progress = road::progress_along(*vehicle.route, positions_m);
   summary.reference_error_m = statistics(progress.distance_m);
-  summary.driven_error_m = statistics(progress_along(*vehicle.route, driven_m).distance_m);
+  summary.driven_error_m = statistics(road::progress_along(*vehicle.route, driven_m).distance_m);
   const bool from_the_start = !rows.empty() && rows.front()->step == 0;
-  summary.lap_s = lap_s(*vehicle.route, progress, times_s, from_the_start ? kFirstStepDriven : 0);
+  summary.lap_s =
+      road::lap_s(*vehicle.route, progress, times_s, from_the_start ? road::kFirstStepDriven : 0);
 }
 
 void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleSummary& summary) {
@@ -45,11 +47,13 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
   std::size_t found = 0;
   std::size_t budget = 0;
   for (const StepRecord* row : rows) {
-    summary.fallback_steps += row->record.report.status == StepStatus::kFallback ? 1U : 0U;
-    summary.undrivable_steps += row->record.report.reason == FallbackReason::kUndrivable ? 1U : 0U;
+    summary.fallback_steps +=
+        row->record.report.status == coordination::StepStatus::kFallback ? 1U : 0U;
+    summary.undrivable_steps +=
+        row->record.report.reason == coordination::FallbackReason::kUndrivable ? 1U : 0U;
     summary.deadline_misses += row->record.deadline_missed ? 1U : 0U;
-    found += row->record.report.quality != PlanQuality::kNone ? 1U : 0U;
-    budget += row->record.report.quality == PlanQuality::kBudget ? 1U : 0U;
+    found += row->record.report.quality != coordination::PlanQuality::kNone ? 1U : 0U;
+    budget += row->record.report.quality == coordination::PlanQuality::kBudget ? 1U : 0U;
     if (has_planned(*row)) {
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
@@ -68,21 +72,21 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
 /// the vehicle kept to the margin.
 class Tracking {
  public:
-  explicit Tracking(const UniversalAutomaton& automaton) : automaton_(automaton) {}
+  explicit Tracking(const automaton::UniversalAutomaton& automaton) : automaton_(automaton) {}
 
-  void look(const Pose& driven, const State& planned) {
+  void look(const Pose& driven, const vehicle::State& planned) {
     errors_m_.push_back((driven.position_m() - planned.pose.position_m()).norm());
-    step_m_ = std::max(
-        step_m_, footprint_deviation_m(driven, planned, automaton_.vehicle, automaton_.identified));
+    step_m_ = std::max(step_m_, automaton::footprint_deviation_m(
+                                    driven, planned, automaton_.vehicle, automaton_.identified));
   }
 
   void look(const Drive& drive, Nanoseconds begin, Nanoseconds end, const Pose& pose,
-            const Maneuver& maneuver) {
+            const automaton::Maneuver& maneuver) {
     const auto is_before = [](const DrivenSample& sample, Nanoseconds t) { return sample.t < t; };
     auto sample = std::lower_bound(drive.begin(), drive.end(), begin, is_before);
     for (; sample != drive.end() && sample->t < end; ++sample) {
       const double time_s = kSecondsPerNanosecond * static_cast<double>(sample->t - begin);
-      State planned = state_at(maneuver, time_s, automaton_.vehicle);
+      vehicle::State planned = automaton::state_at(maneuver, time_s, automaton_.vehicle);
       planned.pose = compose(pose, planned.pose);
       look(sample->pose, planned);
     }
@@ -96,8 +100,8 @@ class Tracking {
 
  private:
   [[nodiscard]] bool is_at_limit(TrimId trim) const {
-    return is_at_steering_limit(automaton_.trims[trim.index], automaton_.vehicle,
-                                automaton_.identified);
+    return automaton::is_at_steering_limit(automaton_.trims[trim.index], automaton_.vehicle,
+                                           automaton_.identified);
   }
 
   void end_step(bool is_at_limit) {
@@ -106,7 +110,7 @@ class Tracking {
     step_m_ = 0.0;
   }
 
-  const UniversalAutomaton& automaton_;
+  const automaton::UniversalAutomaton& automaton_;
   std::vector<double> errors_m_;
   std::optional<double> deviation_m_;
   double step_m_{};  ///< largest deviation in the current step
@@ -125,17 +129,17 @@ void add_tracking_at_steps(std::span<const StepRecord* const> rows, VehicleSumma
 }
 
 void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, Nanoseconds period,
-                  const UniversalAutomaton& automaton, VehicleSummary& summary) {
+                  const automaton::UniversalAutomaton& automaton, VehicleSummary& summary) {
   Tracking tracking(automaton);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Report& report = rows[i]->record.report;
+    const coordination::Report& report = rows[i]->record.report;
     const StepRecord* next = i + 1 < rows.size() ? rows[i + 1] : nullptr;
-    if (const Maneuver* maneuver = maneuver_during(*rows[i], next, automaton)) {
+    if (const automaton::Maneuver* maneuver = maneuver_during(*rows[i], next, automaton)) {
       const Nanoseconds begin = report.step.value * period;
       tracking.look(drive, begin, begin + period, report.planned_pose, *maneuver);
     } else if (rows[i]->driven && !report.maneuver.empty() &&
                report.planned_trim.index < automaton.trims.size()) {
-      const Trim& trim = automaton.trims[report.planned_trim.index];
+      const automaton::Trim& trim = automaton.trims[report.planned_trim.index];
       tracking.look(*rows[i]->driven, {.pose = report.planned_pose,
                                        .speed_mps = trim.speed_mps,
                                        .steering_rad = trim.steering_rad});
@@ -145,7 +149,7 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
   const double margin_m = automaton.vehicle.safety_margin_m;
   summary.steps_outside_announced_area =
       static_cast<std::size_t>(std::ranges::count_if(rows, [margin_m](const StepRecord* row) {
-        return row->record.report.reason == FallbackReason::kDeviation &&
+        return row->record.report.reason == coordination::FallbackReason::kDeviation &&
                row->record.report.deviation_m > margin_m;
       }));
 }
@@ -189,7 +193,8 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
 }
 
 /// Over the vehicles of a step, of one of the report's counts.
-std::size_t largest_sum(std::span<const StepRecord> rows, std::uint64_t Report::*vertices) {
+std::size_t largest_sum(std::span<const StepRecord> rows,
+                        std::uint64_t coordination::Report::*vertices) {
   std::map<std::uint64_t, std::size_t> sums;
   for (const StepRecord& row : rows) {
     sums[row.step] += row.record.report.*vertices;
@@ -211,8 +216,8 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   for (const VehicleDescription& vehicle : description.vehicles) {
     summary.vehicles.push_back(summarize_vehicle(vehicle, description, facts, rows, drives));
   }
-  summary.generated_vertices_sum_max = largest_sum(rows, &Report::generated);
-  summary.expanded_vertices_sum_max = largest_sum(rows, &Report::expanded);
+  summary.generated_vertices_sum_max = largest_sum(rows, &coordination::Report::generated);
+  summary.expanded_vertices_sum_max = largest_sum(rows, &coordination::Report::expanded);
   if (facts.first_step) {
     const Encounters close =
         encounters(description.vehicles, drives, *facts.first_step * facts.period,
@@ -226,4 +231,4 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   return summary;
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

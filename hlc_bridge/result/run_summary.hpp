@@ -8,7 +8,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "hlc_bridge/result/statistics.hpp"
 
-namespace hlc {
+namespace hlc::result {
 
 struct VehicleSummary {
   VehicleId id;
@@ -70,4 +70,4 @@ struct RunSummary {
 [[nodiscard]] RunSummary summarize(const RunDescription& description, const RunFacts& facts,
                                    std::span<const StepRecord> rows, const Drives& drives);
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hlc {
+namespace hlc::result {
 
 std::optional<Statistics> statistics(std::span<const double> sample) {
   if (sample.empty()) {
@@ -29,4 +29,4 @@ std::optional<Statistics> statistics(std::span<const double> sample) {
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-namespace hlc {
+namespace hlc::result {
 
 /// Mean, spread and extremes of a sample.
 struct Statistics {
@@ -19,4 +19,4 @@ struct Statistics {
 /// Nothing for an empty sample. @pre no NaN
 [[nodiscard]] std::optional<Statistics> statistics(std::span<const double> sample);
 
-}  // namespace hlc
+}  // namespace hlc::result

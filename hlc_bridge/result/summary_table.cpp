@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace hlc {
+namespace hlc::result {
 namespace {
 
 constexpr double kMillimetresPerMetre = 1e3;
@@ -54,8 +54,8 @@ std::string summary_table(const RunSummary& summary) {
   std::string text = print(
       "%s: %zu steps of %g s, horizon %zu, subgraph %s%s, profile %s, map %s, %s\n\n",
       run.scenario.c_str(), summary.steps, run.step_s, run.horizon_steps, run.subgraph.c_str(),
-      run.policy == kNoPolicy ? "" : (", policy " + run.policy).c_str(), run.profile.c_str(),
-      run.map.c_str(),
+      run.policy == policy::kNoPolicy ? "" : (", policy " + run.policy).c_str(),
+      run.profile.c_str(), run.map.c_str(),
       run.noise_seed ? ("noise seed " + std::to_string(*run.noise_seed)).c_str() : "no noise");
   text += print("%3s  %-8s %14s %6s %19s %27s %12s %13s\n", "", "", "reference", "lap",
                 "vertices, max", "planning time", "tracking", "steps");
@@ -107,4 +107,4 @@ std::string summary_table(const RunSummary& summary) {
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -6,7 +6,7 @@
 
 #include "planner/common/sha256.hpp"
 
-namespace hlc {
+namespace hlc::result {
 namespace {
 
 constexpr std::uint64_t kMissingBits = 0x7ff8000000000000ULL;
@@ -44,4 +44,4 @@ std::string trace_sha256(std::span<const StepRecord> rows) {
   return hash.hex();
 }
 
-}  // namespace hlc
+}  // namespace hlc::result

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-namespace hlc {
+namespace hlc::result {
 
 /// SHA-256 of what was planned and driven, as 64 hexadecimal digits: over the steps in order, in
 /// each over the vehicles by id, the planned x, y, heading and the driven x, y, yaw as
@@ -16,4 +16,4 @@ namespace hlc {
 /// @pre rows by step, then id
 [[nodiscard]] std::string trace_sha256(std::span<const StepRecord> rows);
 
-}  // namespace hlc
+}  // namespace hlc::result

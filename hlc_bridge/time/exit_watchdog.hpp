@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace hlc {
+namespace hlc::time {
 
 /// Ends the process with `exit_code` if it has not ended within `time`: for the end of main, since
 /// a thread of the library can hang while participants are destroyed (Fast DDS 2.9.1 was seen in an
@@ -19,4 +19,4 @@ inline void end_within(std::chrono::seconds time, int exit_code) {
 /// Longer than any successful destruction (less than 1 s).
 inline constexpr std::chrono::seconds kTakeDownTime{2};
 
-}  // namespace hlc
+}  // namespace hlc::time

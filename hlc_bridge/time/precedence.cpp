@@ -3,7 +3,7 @@
 #include <sched.h>
 #include <unistd.h>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 constexpr pid_t kThisThread = 0;
@@ -33,4 +33,4 @@ void give_precedence() {
   static_cast<void>(nice(kNicer));  // on Linux it affects the calling thread only
 }
 
-}  // namespace hlc
+}  // namespace hlc::time

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace hlc {
+namespace hlc::time {
 
 inline constexpr int kMaxThreadPriority = 99;
 
@@ -24,4 +24,4 @@ bool stay_on_core(int core);
 /// control loop without a deadline. Threads that it starts inherit this.
 void give_precedence();
 
-}  // namespace hlc
+}  // namespace hlc::time

@@ -1,6 +1,6 @@
 #include "hlc_bridge/time/real_time.hpp"
 
-namespace hlc {
+namespace hlc::time {
 
 Nanoseconds real_time_now() {
   using namespace std::chrono;
@@ -14,4 +14,4 @@ std::chrono::system_clock::time_point real_time_point(Nanoseconds time) {
       duration_cast<system_clock::duration>(nanoseconds{static_cast<std::int64_t>(time)})};
 }
 
-}  // namespace hlc
+}  // namespace hlc::time

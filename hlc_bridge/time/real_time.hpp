@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::time {
 
 /// Now, nanoseconds since the Unix epoch (CLOCK_REALTIME): the time of runs in real time.
 [[nodiscard]] Nanoseconds real_time_now();
@@ -12,4 +12,4 @@ namespace hlc {
 /// The same instant as a deadline for Signal::wait_until.
 [[nodiscard]] std::chrono::system_clock::time_point real_time_point(Nanoseconds time);
 
-}  // namespace hlc
+}  // namespace hlc::time

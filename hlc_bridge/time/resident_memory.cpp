@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 std::size_t page_size() { return static_cast<std::size_t>(sysconf(_SC_PAGESIZE)); }
@@ -43,4 +43,4 @@ void reserve_heap(std::size_t bytes) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::time

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace hlc {
+namespace hlc::time {
 
 /// Makes the memory of a control loop resident before the loop begins: the first touch of a page is
 /// a fault, which takes longer than a whole search if the memory has to come from a virtual
@@ -16,4 +16,4 @@ void make_code_resident();
 /// that it frees from now on. Blocks up to that size come from the heap.
 void reserve_heap(std::size_t bytes);
 
-}  // namespace hlc
+}  // namespace hlc::time

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace hlc {
+namespace hlc::time {
 
 /// The one place where a process's control thread waits. Callbacks of other threads (messages,
 /// matches, presence, signals) store their data under the signal's lock; the control thread waits
@@ -110,4 +110,4 @@ class Signal {
   mutable Conditions waiting_;  ///< of waiting threads
 };
 
-}  // namespace hlc
+}  // namespace hlc::time

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 sigset_t stop_signals() {
@@ -73,4 +73,4 @@ void StopSignals::on_stop(std::function<void(int)> callback) {
   }};
 }
 
-}  // namespace hlc
+}  // namespace hlc::time

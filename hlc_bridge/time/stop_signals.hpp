@@ -3,7 +3,7 @@
 #include <functional>
 #include <thread>
 
-namespace hlc {
+namespace hlc::time {
 
 /// SIGINT and SIGTERM as a callback on a separate thread.
 ///
@@ -28,4 +28,4 @@ class StopSignals {
   std::thread thread_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::time

@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::time {
 
 /// Processor time of the calling thread [ns]: its own computation, without preemption.
 [[nodiscard]] inline Nanoseconds thread_time_now() {
@@ -14,4 +14,4 @@ namespace hlc {
          static_cast<Nanoseconds>(now.tv_nsec);
 }
 
-}  // namespace hlc
+}  // namespace hlc::time

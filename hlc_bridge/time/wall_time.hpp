@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::time {
 
 [[nodiscard]] constexpr Nanoseconds nanoseconds(std::chrono::nanoseconds time) {
   return static_cast<Nanoseconds>(time.count());
@@ -22,4 +22,4 @@ namespace hlc {
       std::chrono::nanoseconds{static_cast<std::int64_t>(time)}};
 }
 
-}  // namespace hlc
+}  // namespace hlc::time

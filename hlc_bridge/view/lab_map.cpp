@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace hlc {
+namespace hlc::view {
 namespace {
 
 // Above the ids that the lab's own programs use for drawing.
@@ -25,7 +25,8 @@ std::uint64_t id_of(VehicleId vehicle, Item item) {
   return kFirstId + 16U * vehicle.value + static_cast<std::uint64_t>(item);
 }
 
-std::vector<Point> path_of(const Plan& plan, StepIndex from, const UniversalAutomaton& automaton) {
+std::vector<Point> path_of(const coordination::Plan& plan, StepIndex from,
+                           const automaton::UniversalAutomaton& automaton) {
   constexpr int kPointsPerStep = 4;
   std::vector<Point> points_m;
   for (StepIndex step = from; step < plan.end(); step = {step.value + 1}) {
@@ -38,20 +39,22 @@ std::vector<Point> path_of(const Plan& plan, StepIndex from, const UniversalAuto
   return points_m;
 }
 
-std::string text_of(const Report& report) {
-  std::string text = std::to_string(report.vehicle.value) + ": " + to_string(report.status);
-  if (report.reason != FallbackReason::kNone) {
-    text += std::string(" (") + to_string(report.reason) + ")";
+std::string text_of(const coordination::Report& report) {
+  std::string text =
+      std::to_string(report.vehicle.value) + ": " + coordination::to_string(report.status);
+  if (report.reason != coordination::FallbackReason::kNone) {
+    text += std::string(" (") + coordination::to_string(report.reason) + ")";
   }
   return text;
 }
 
 }  // namespace
 
-std::vector<Visualization> lab_map(const Controller& controller, const Report& report,
-                                   Nanoseconds time_to_live) {
+std::vector<Visualization> lab_map(const controller::Controller& controller,
+                                   const coordination::Report& report, Nanoseconds time_to_live) {
   std::vector<Visualization> drawings;
-  const DrawingColor color = report.status == StepStatus::kFallback ? kFallbackColor : kGoodColor;
+  const DrawingColor color =
+      report.status == coordination::StepStatus::kFallback ? kFallbackColor : kGoodColor;
   const auto add = [&](Item item, DrawingKind kind, std::vector<Point> points_m, double size_m,
                        const DrawingColor& in_color) -> Visualization& {
     return drawings.emplace_back(Visualization{.id = id_of(report.vehicle, item),
@@ -76,4 +79,4 @@ std::vector<Visualization> lab_map(const Controller& controller, const Report& r
   return drawings;
 }
 
-}  // namespace hlc
+}  // namespace hlc::view

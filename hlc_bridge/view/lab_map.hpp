@@ -5,7 +5,7 @@
 #include "hlc_bridge/messages/messages.hpp"
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::view {
 
 /// Drawings of a controller on the lab control centre's map for the operator:
 ///
@@ -17,7 +17,8 @@ namespace hlc {
 /// those of the step before.
 /// @param report        of the controller's last step
 /// @param time_to_live  of all drawings: longer than a period, otherwise they flicker
-[[nodiscard]] std::vector<Visualization> lab_map(const Controller& controller, const Report& report,
+[[nodiscard]] std::vector<Visualization> lab_map(const controller::Controller& controller,
+                                                 const coordination::Report& report,
                                                  Nanoseconds time_to_live);
 
-}  // namespace hlc
+}  // namespace hlc::view

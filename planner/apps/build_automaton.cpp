@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 struct Choices {
   fs::path configuration;
-  hlc::OutputFile out{"--out", {}};
-  hlc::OutputFile table{"--table", {}};
-  hlc::OutputFile plot{"--plot", {}};
+  hlc::apps::OutputFile out{"--out", {}};
+  hlc::apps::OutputFile table{"--table", {}};
+  hlc::apps::OutputFile plot{"--plot", {}};
   std::optional<std::size_t> intervals;
   std::size_t jobs{};
 };
@@ -39,24 +39,28 @@ struct Choices {
   throw std::invalid_argument(place + ", must be " + allowed + "; " + reason);
 }
 
-hlc::UniversalAutomaton built(const hlc::AutomatonConfiguration& configuration, std::size_t jobs) {
-  const std::vector<hlc::DesignTask> tasks = hlc::design_tasks(configuration);
-  std::vector<hlc::Maneuver> maneuvers(tasks.size());
-  const hlc::ProgressLine progress("maneuver", tasks.size());
-  hlc::run_parallel(
+hlc::automaton::UniversalAutomaton built(
+    const hlc::maneuver_design::AutomatonConfiguration& configuration, std::size_t jobs) {
+  const std::vector<hlc::maneuver_design::DesignTask> tasks =
+      hlc::maneuver_design::design_tasks(configuration);
+  std::vector<hlc::automaton::Maneuver> maneuvers(tasks.size());
+  const hlc::apps::ProgressLine progress("maneuver", tasks.size());
+  hlc::apps::run_parallel(
       tasks.size(), jobs,
-      [&](std::size_t i) { maneuvers[i] = hlc::design(configuration, tasks[i]); },
+      [&](std::size_t i) { maneuvers[i] = hlc::maneuver_design::design(configuration, tasks[i]); },
       [&](std::size_t done) { progress.show(done); });
-  return hlc::assembled(configuration, std::move(maneuvers));
+  return hlc::maneuver_design::assembled(configuration, std::move(maneuvers));
 }
 
 /// A speed limit may have removed maneuvers.
-void check_subgraphs(const hlc::AutomatonFile& file, const hlc::ConfigurationPlaces& places) {
+void check_subgraphs(const hlc::automaton::AutomatonFile& file,
+                     const hlc::maneuver_design::ConfigurationPlaces& places) {
   for (std::size_t i = 0; i < file.subgraphs.size(); ++i) {
     try {
-      hlc::check_driving(hlc::Subgraph(file.automaton, file.subgraphs[i]), file.horizon_steps);
+      hlc::automaton::check_driving(hlc::automaton::Subgraph(file.automaton, file.subgraphs[i]),
+                                    file.horizon_steps);
     } catch (const std::invalid_argument& error) {
-      const hlc::ConfigurationPlaces::Subgraph& place = places.subgraphs[i];
+      const hlc::maneuver_design::ConfigurationPlaces::Subgraph& place = places.subgraphs[i];
       if (place.max_speed_mps.empty())
         fail(place.trims, "a set that the maneuvers connect", error.what());
       fail(place.max_speed_mps, "a limit that leaves every trim a way from and to standstill",
@@ -66,30 +70,31 @@ void check_subgraphs(const hlc::AutomatonFile& file, const hlc::ConfigurationPla
 }
 
 void run(const Choices& choices) {
-  if (hlc::is_automaton_file(choices.configuration)) {
+  if (hlc::automaton::is_automaton_file(choices.configuration)) {
     throw std::invalid_argument(choices.configuration.string() +
                                 ": a built automaton, must be a configuration");
   }
-  const hlc::AutomatonConfiguration configuration =
-      hlc::read_automaton_configuration(choices.configuration);
-  hlc::check_output_files({choices.out, choices.table, choices.plot}, {choices.configuration});
-  hlc::AutomatonConfiguration to_build = configuration;
+  const hlc::maneuver_design::AutomatonConfiguration configuration =
+      hlc::maneuver_design::read_automaton_configuration(choices.configuration);
+  hlc::apps::check_output_files({choices.out, choices.table, choices.plot},
+                                {choices.configuration});
+  hlc::maneuver_design::AutomatonConfiguration to_build = configuration;
   if (choices.intervals) {
     to_build.intervals = *choices.intervals;
     to_build.places.intervals = "--intervals = " + std::to_string(*choices.intervals);
   }
   const auto begin = std::chrono::steady_clock::now();
-  const hlc::AutomatonFile file =
-      hlc::file_of(configuration, built(to_build, choices.jobs), choices.intervals);
+  const hlc::automaton::AutomatonFile file = hlc::maneuver_design::file_of(
+      configuration, built(to_build, choices.jobs), choices.intervals);
   check_subgraphs(file, configuration.places);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  hlc::write_automaton_file(file, *choices.out.file);
+  hlc::automaton::write_automaton_file(file, *choices.out.file);
   if (const auto& table = choices.table.file) {
-    hlc::write_file(*table, hlc::maneuver_table(*file.automaton));
+    hlc::write_file(*table, hlc::apps::maneuver_table(*file.automaton));
   }
   if (const auto& plot = choices.plot.file) {
-    hlc::write_file(*plot, hlc::automaton_plot(file));
+    hlc::write_file(*plot, hlc::plot::automaton_plot(file));
   }
   std::printf("%s: %zu trims, %zu maneuvers, labels", choices.out.file->c_str(),
               configuration.trims.size(),
@@ -106,16 +111,16 @@ int main(int argc, char** argv) {
   Choices choices;
   choices.jobs = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("CONFIG", choices.configuration, "configuration (YAML)")->required();
-  hlc::declare_output(app, choices.out, "automaton file to write (YAML)")->required();
-  hlc::declare_output(app, choices.table, "write a table of all maneuvers (CSV)");
-  hlc::declare_output(app, choices.plot, "draw trims and maneuvers (SVG)");
+  hlc::apps::declare_output(app, choices.out, "automaton file to write (YAML)")->required();
+  hlc::apps::declare_output(app, choices.table, "write a table of all maneuvers (CSV)");
+  hlc::apps::declare_output(app, choices.plot, "draw trims and maneuvers (SVG)");
   app.add_option("--intervals", choices.intervals,
                  "intervals of constant input, instead of the configuration's")
-      ->check(hlc::whole(10, 1000));
+      ->check(hlc::apps::whole(10, 1000));
   app.add_option("--jobs", choices.jobs, "maneuvers designed at a time")
-      ->check(hlc::whole(1, 256))
+      ->check(hlc::apps::whole(1, 256))
       ->capture_default_str();
   app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::exit_code_of("build_automaton", [&choices] { run(choices); });
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("build_automaton", [&choices] { run(choices); });
 }

@@ -52,16 +52,16 @@ class DriveTable {
   hlc::CsvTable table_;
 };
 
-std::vector<hlc::DriveSample> read_samples(const DriveTable& table) {
-  std::vector<hlc::DriveSample> samples;
+std::vector<hlc::maneuver_design::DriveSample> read_samples(const DriveTable& table) {
+  std::vector<hlc::maneuver_design::DriveSample> samples;
   for (std::size_t row = 0; row < table.size(); ++row) {
     samples.push_back({table.number(row, "speed_mps"), table.number(row, "steering_rad")});
   }
   return samples;
 }
 
-std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
-                                         const hlc::VehicleParameters& vehicle) {
+std::vector<hlc::maneuver_design::DriveSample> read_drive(
+    const std::filesystem::path& path, const hlc::vehicle::VehicleParameters& vehicle) {
   const DriveTable table(path);
   if (table.has("speed_mps") && table.has("steering_rad")) return read_samples(table);
   const std::string time = table.has("t_ns") ? "t_ns" : "t_s";
@@ -73,7 +73,7 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
                     "y_m and yaw_rad or heading_rad",
                     path.string(), hlc::one_line(table.columns())));
   }
-  std::vector<hlc::DrivePoint> points;
+  std::vector<hlc::maneuver_design::DrivePoint> points;
   for (std::size_t row = 0; row < table.size(); ++row) {
     const double time_s = table.number(row, time) * (time == "t_ns" ? 1e-9 : 1.0);
     if (!points.empty() && time_s <= points.back().time_s) {
@@ -82,14 +82,14 @@ std::vector<hlc::DriveSample> read_drive(const std::filesystem::path& path,
     points.push_back(
         {time_s, {table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, heading)}});
   }
-  return hlc::drive_samples(points, kWindow_s, vehicle);
+  return hlc::maneuver_design::drive_samples(points, kWindow_s, vehicle);
 }
 
 /// Vehicle and limits of a configuration; its other keys may be absent.
 struct Car {
   std::string name{"the uCar"};
-  hlc::VehicleParameters vehicle;
-  hlc::VehicleLimits limits;
+  hlc::vehicle::VehicleParameters vehicle;
+  hlc::vehicle::VehicleLimits limits;
 };
 
 Car read_car(const std::filesystem::path& configuration) {
@@ -97,16 +97,16 @@ Car read_car(const std::filesystem::path& configuration) {
   const hlc::Node vehicle = file.map("vehicle");
   Car car;
   car.name = configuration.filename().string();
-  car.vehicle = hlc::read_vehicle(vehicle);
-  car.limits = hlc::read_limits(file.map("limits"));
-  static_cast<void>(hlc::read_identified(vehicle, car.vehicle, car.limits));
+  car.vehicle = hlc::automaton::read_vehicle(vehicle);
+  car.limits = hlc::automaton::read_limits(file.map("limits"));
+  static_cast<void>(hlc::automaton::read_identified(vehicle, car.vehicle, car.limits));
   vehicle.check_no_unknown_keys();
   return car;
 }
 
-void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::path& drive,
-           const Car& car) {
-  const hlc::VehicleLimits& limits = car.limits;
+void print(const std::vector<hlc::maneuver_design::ChosenTrim>& trims,
+           const std::filesystem::path& drive, const Car& car) {
+  const hlc::vehicle::VehicleLimits& limits = car.limits;
   std::printf("# limits of %s: %g ... %g m/s, +-%g rad", car.name.c_str(), limits.speed_min_mps,
               limits.speed_max_mps, limits.steering_max_rad);
   if (limits.friction_mps2) std::printf(", friction circle %g m/s^2", *limits.friction_mps2);
@@ -115,7 +115,7 @@ void print(const std::vector<hlc::ChosenTrim>& trims, const std::filesystem::pat
   std::printf("# Trims that represent %s; the share of the drive that each represents.\ntrims:\n",
               drive.filename().c_str());
   for (std::size_t i = 0; i < trims.size(); ++i) {
-    const hlc::Trim& trim = trims[i].trim;
+    const hlc::automaton::Trim& trim = trims[i].trim;
     std::printf("  - {speed_mps: %.3f, steering_rad: %.3f}%s# %zu, %.1f %%\n", trim.speed_mps,
                 trim.steering_rad, trim.steering_rad < 0.0 ? "   " : "    ", i + 1,
                 100.0 * trims[i].share);
@@ -132,14 +132,15 @@ struct Notes {
   double fastest_reverse_mps{};
 };
 
-Notes notes_on(const std::vector<hlc::DriveSample>& samples, const hlc::VehicleLimits& limits) {
+Notes notes_on(const std::vector<hlc::maneuver_design::DriveSample>& samples,
+               const hlc::vehicle::VehicleLimits& limits) {
   Notes notes;
-  for (const hlc::DriveSample& sample : samples) {
-    if (hlc::is_reversing(sample)) {
+  for (const hlc::maneuver_design::DriveSample& sample : samples) {
+    if (hlc::maneuver_design::is_reversing(sample)) {
       ++notes.reversing;
       notes.fastest_reverse_mps = std::max(notes.fastest_reverse_mps, -sample.speed_mps);
     }
-    if (sample.speed_mps < hlc::kSlowestDrive_mps) continue;
+    if (sample.speed_mps < hlc::maneuver_design::kSlowestDrive_mps) continue;
     const double sharpness_rad = std::abs(sample.steering_rad);
     notes.fastest_mps = std::max(notes.fastest_mps, sample.speed_mps);
     notes.slowest_mps = std::min(notes.slowest_mps, sample.speed_mps);
@@ -152,7 +153,7 @@ Notes notes_on(const std::vector<hlc::DriveSample>& samples, const hlc::VehicleL
   return notes;
 }
 
-std::string excess(const Notes& notes, const hlc::VehicleLimits& limits) {
+std::string excess(const Notes& notes, const hlc::vehicle::VehicleLimits& limits) {
   std::string text;
   const auto add = [&text](const char* what, double value, const char* unit, const char* bound,
                            double allowed) {
@@ -175,7 +176,7 @@ std::string excess(const Notes& notes, const hlc::VehicleLimits& limits) {
 
 /// A line per kind of samples that do not count as they are.
 void print_notes(const Notes& notes, const std::string& drive, std::size_t samples,
-                 const hlc::VehicleLimits& limits) {
+                 const hlc::vehicle::VehicleLimits& limits) {
   if (notes.outside > 0) {
     std::cerr << "choose_trims: " << drive << ": " << notes.outside << " of " << samples
               << " samples are outside the limits (" << excess(notes, limits)
@@ -204,16 +205,16 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--count", count, "number of trims, standstill included")
       ->capture_default_str()
-      ->check(hlc::whole(2, 200));
+      ->check(hlc::apps::whole(2, 200));
   app.add_option(
       "--config", configuration,
       "file with the keys `vehicle` and `limits` of an automaton configuration; default: the "
       "uCar");
   app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::exit_code_of("choose_trims", [&] {
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("choose_trims", [&] {
     const Car car = configuration.empty() ? Car{} : read_car(configuration);
-    const std::vector<hlc::DriveSample> samples = [&] {
+    const std::vector<hlc::maneuver_design::DriveSample> samples = [&] {
       try {
         return read_drive(drive, car.vehicle);
       } catch (const std::runtime_error& error) {
@@ -221,8 +222,8 @@ int main(int argc, char** argv) {
       }
     }();
     try {
-      const std::vector<hlc::ChosenTrim> trims =
-          hlc::choose_trims(samples, count, car.vehicle, car.limits);
+      const std::vector<hlc::maneuver_design::ChosenTrim> trims =
+          hlc::maneuver_design::choose_trims(samples, count, car.vehicle, car.limits);
       print_notes(notes_on(samples, car.limits), drive.filename().string(), samples.size(),
                   car.limits);
       print(trims, drive, car);

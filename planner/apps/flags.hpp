@@ -26,7 +26,7 @@
 
 /// Common to the command lines of all programs: `--name=value` and `--name value`, `--help` and
 /// `--version`, unknown flags refused, one line and exit code 2 for bad ones.
-namespace hlc {
+namespace hlc::apps {
 
 /// Prints an error in one line, even if names of files and keys in it contain line breaks.
 inline void complain(const std::string& program, const std::string& message) {
@@ -183,11 +183,11 @@ void check_each_once(const std::string& flag, const std::vector<Value>& values) 
 }
 
 /// The flags that choose a scenario.
-inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
+inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& choices) {
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
   app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
   app.add_option("--engine", choices.engine,
-                 std::string("search engine: ") + kEngineChoices +
+                 std::string("search engine: ") + scenario::kEngineChoices +
                      " (default: the scenario's, else the profile's)");
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--policy", choices.policy,
@@ -198,4 +198,4 @@ inline void declare_scenario_flags(CLI::App& app, ScenarioChoices& choices) {
       ->check(whole(1, 30));
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

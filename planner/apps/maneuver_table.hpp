@@ -4,7 +4,7 @@
 
 #include "planner/automaton/automaton.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// CSV, one row per edge between different trims and label, in the automaton's order:
 ///
@@ -14,6 +14,6 @@ namespace hlc {
 /// label; (dx, dy, dpsi) the displacement [m, m, rad]; v_max the largest speed along the maneuver
 /// [m/s]; status always `optimal`, because no other maneuver is built. Numbers read back to the
 /// same bits. A label with a comma or quote is quoted as usual in CSV.
-[[nodiscard]] std::string maneuver_table(const UniversalAutomaton& automaton);
+[[nodiscard]] std::string maneuver_table(const automaton::UniversalAutomaton& automaton);
 
-}  // namespace hlc
+}  // namespace hlc::apps

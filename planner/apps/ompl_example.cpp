@@ -68,7 +68,7 @@ struct Flags {
   unsigned runs{5};
   double radius_m{0.5};
   unsigned seed{1};
-  hlc::OutputFile log{"--log", {}};
+  hlc::apps::OutputFile log{"--log", {}};
 };
 
 void declare(CLI::App& app, Flags& flags) {
@@ -76,21 +76,21 @@ void declare(CLI::App& app, Flags& flags) {
                  std::string("planning problem (JSON, see plan_problem), for example ") + kShipped)
       ->required();
   app.add_option("--seconds", flags.seconds, "that each planner has per run")
-      ->check(hlc::within(0.001, 3600.0))
+      ->check(hlc::apps::within(0.001, 3600.0))
       ->capture_default_str();
   app.add_option("--runs", flags.runs, "of each planner")
-      ->check(hlc::whole(1, 10000))
+      ->check(hlc::apps::whole(1, 10000))
       ->capture_default_str();
   app.add_option("--radius_m", flags.radius_m,
                  "of the goal: standing after the last step, not farther than this from the last "
                  "reference point")
-      ->check(hlc::within(0.0, 1e4))
+      ->check(hlc::apps::within(0.0, 1e4))
       ->capture_default_str();
   app.add_option("--seed", flags.seed, "of OMPL's random numbers")
-      ->check(hlc::whole(1, 1 << 30))
+      ->check(hlc::apps::whole(1, 1 << 30))
       ->capture_default_str();
-  hlc::declare_output(app, flags.log,
-                      "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
+  hlc::apps::declare_output(
+      app, flags.log, "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
   app.footer(
       "Of the file's `search`, max_expansions holds for this planner, which is run with each of "
       "its "
@@ -106,22 +106,24 @@ class PositionProjection final : public ob::ProjectionEvaluator {
   unsigned getDimension() const override { return 2; }
   void defaultCellSizes() override { cellSizes_ = {0.1, 0.1}; }
   void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override {
-    projection = hlc::read_state(*state).pose.position_m();
+    projection = hlc::search::read_state(*state).pose.position_m();
   }
 };
 
 /// This planner with each of its engines, then OMPL's.
 std::vector<ob::PlannerPtr> make_planners(const std::shared_ptr<oc::SpaceInformation>& si,
-                                          const hlc::ProblemFile& file,
-                                          const hlc::ReachableSets& reachable) {
+                                          const hlc::scenario::ProblemFile& file,
+                                          const hlc::automaton::ReachableSets& reachable) {
   std::vector<ob::PlannerPtr> planners;
-  for (const hlc::Engine engine : {hlc::Engine::kBranchAndBound, hlc::Engine::kBestFirst}) {
-    hlc::SearchOptions options = file.search;
-    if (engine == hlc::Engine::kBranchAndBound) options.cost_to_go = hlc::CostToGo::kReachable;
-    auto planner =
-        std::make_shared<hlc::RecedingHorizonPlanner>(si, *file.subgraph, reachable, options);
-    planner->params().setParam("engine", hlc::to_string(engine));
-    planner->setName(std::string("this planner, ") + hlc::to_string(engine));
+  for (const hlc::search::Engine engine :
+       {hlc::search::Engine::kBranchAndBound, hlc::search::Engine::kBestFirst}) {
+    hlc::search::SearchOptions options = file.search;
+    if (engine == hlc::search::Engine::kBranchAndBound)
+      options.cost_to_go = hlc::search::CostToGo::kReachable;
+    auto planner = std::make_shared<hlc::search::RecedingHorizonPlanner>(si, *file.subgraph,
+                                                                         reachable, options);
+    planner->params().setParam("engine", hlc::search::to_string(engine));
+    planner->setName(std::string("this planner, ") + hlc::search::to_string(engine));
     planners.push_back(planner);
   }
   planners.push_back(std::make_shared<oc::RRT>(si));
@@ -144,8 +146,8 @@ const char* kind_of_plans(const ot::Benchmark::PlannerExperiment& experiment,
   const auto is_optimal = [](const ot::Benchmark::RunProperties& run) {
     return !run.contains(kCost) || run.at(kIsOptimal) == "1";
   };
-  if (const auto* ours = dynamic_cast<const hlc::RecedingHorizonPlanner*>(&planner)) {
-    if (!hlc::is_admissible(ours->options().cost_to_go)) return "first found";
+  if (const auto* ours = dynamic_cast<const hlc::search::RecedingHorizonPlanner*>(&planner)) {
+    if (!hlc::search::is_admissible(ours->options().cost_to_go)) return "first found";
     return std::ranges::all_of(experiment.runs, is_optimal) ? "optimal" : "best so far";
   }
   return dynamic_cast<const oc::SST*>(&planner) != nullptr ? "best so far" : "first found";
@@ -201,7 +203,7 @@ void print_alone(ob::Planner& planner, const ob::ProblemDefinitionPtr& definitio
 }
 
 void print(const ob::State& at) {
-  const hlc::HorizonState state = hlc::read_state(at);
+  const hlc::search::HorizonState state = hlc::search::read_state(at);
   std::printf("x %.3f m, y %.3f m, psi %.3f rad, trim %zu", state.pose.x_m, state.pose.y_m,
               state.pose.heading_rad, state.trim.index + 1);
 }
@@ -230,9 +232,10 @@ void print_data(const ob::Planner& planner, const ob::SpaceInformationPtr& si) {
 }
 
 /// @throws std::invalid_argument
-void check_can_be_compared(const hlc::ProblemFile& file, const std::filesystem::path& path) {
+void check_can_be_compared(const hlc::scenario::ProblemFile& file,
+                           const std::filesystem::path& path) {
   try {
-    hlc::check_can_be_searched(file);
+    hlc::scenario::check_can_be_searched(file);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(path.string() + ": " + error.what());
   }
@@ -245,8 +248,8 @@ void check_can_be_compared(const hlc::ProblemFile& file, const std::filesystem::
       "reference alone");
 }
 
-void print_table(const Flags& flags, const hlc::ProblemFile& file, const ot::Benchmark& benchmark,
-                 const std::vector<ob::PlannerPtr>& planners) {
+void print_table(const Flags& flags, const hlc::scenario::ProblemFile& file,
+                 const ot::Benchmark& benchmark, const std::vector<ob::PlannerPtr>& planners) {
   std::printf("%zu steps, goal: standing within %g m of the last reference point; %g s per run\n\n",
               file.problem.horizon_steps(), flags.radius_m, flags.seconds);
   std::printf("%-32s %5s %7s %10s %10s %12s %12s\n", "", "", "", "time [ms]", "", "cost [m^2]", "");
@@ -261,28 +264,30 @@ void print_table(const Flags& flags, const hlc::ProblemFile& file, const ot::Ben
       "\nPlans: optimal: none costs less. best so far: when the time or max_expansions was used "
       "up.\nfirst found: RRT and KPIECE1 stop at their first solution%s; SST uses all its time.\n"
       "Times are Benchmark's, including its threads that run and monitor a planner.\n",
-      hlc::is_admissible(file.search.cost_to_go) ? "" : ", and so does best_first with 2022");
+      hlc::search::is_admissible(file.search.cost_to_go) ? ""
+                                                         : ", and so does best_first with 2022");
   std::fflush(stdout);
 }
 
 int run(const Flags& flags) {
-  hlc::check_output_files({flags.log}, {flags.file});
-  const hlc::ProblemFile file = hlc::read_problem_file(flags.file);
-  hlc::check_output_files({flags.log}, {file.automaton_file});
+  hlc::apps::check_output_files({flags.log}, {flags.file});
+  const hlc::scenario::ProblemFile file = hlc::scenario::read_problem_file(flags.file);
+  hlc::apps::check_output_files({flags.log}, {file.automaton_file});
   check_can_be_compared(file, flags.file);
-  const hlc::HorizonProblem& problem = file.problem;
-  const hlc::ReachableSets reachable(*file.subgraph, problem.horizon_steps());
+  const hlc::search::HorizonProblem& problem = file.problem;
+  const hlc::automaton::ReachableSets reachable(*file.subgraph, problem.horizon_steps());
 
-  const auto si = hlc::make_control_space_information(*file.subgraph, reachable, problem);
+  const auto si = hlc::search::make_control_space_information(*file.subgraph, reachable, problem);
   si->getStateSpace()->registerDefaultProjection(
       std::make_shared<PositionProjection>(si->getStateSpace()));
   oc::SimpleSetup setup(si);
   ob::ScopedState<> start(si);
-  hlc::write_state({problem.start, problem.start_trim, 0}, *start.get());
+  hlc::search::write_state({problem.start, problem.start_trim, 0}, *start.get());
   setup.setStartState(start);
-  setup.setGoal(std::make_shared<hlc::StandstillGoal>(si, *file.subgraph, problem, flags.radius_m));
+  setup.setGoal(
+      std::make_shared<hlc::search::StandstillGoal>(si, *file.subgraph, problem, flags.radius_m));
   setup.setOptimizationObjective(
-      std::make_shared<hlc::SquaredDistanceObjective>(si, problem.reference_m));
+      std::make_shared<hlc::search::SquaredDistanceObjective>(si, problem.reference_m));
 
   ompl::RNG::setSeed(flags.seed);
   ot::Benchmark benchmark(setup, "receding horizon");
@@ -292,7 +297,7 @@ int run(const Flags& flags) {
     const ob::ProblemDefinitionPtr& definition = planner->getProblemDefinition();
     if (!definition->hasExactSolution()) return;
     const auto& path = dynamic_cast<const oc::PathControl&>(*definition->getSolutionPath());
-    const ob::Cost cost = hlc::path_cost(path, *definition->getOptimizationObjective());
+    const ob::Cost cost = hlc::search::path_cost(path, *definition->getOptimizationObjective());
     run[kCost] = hlc::shortest_text(cost.value());
     run[kIsOptimal] = definition->getSolutions().front().optimized_ ? "1" : "0";
   });
@@ -303,7 +308,8 @@ int run(const Flags& flags) {
 
   print_table(flags, file, benchmark, planners);
   for (const ob::PlannerPtr& planner : planners) {
-    if (dynamic_cast<const hlc::RecedingHorizonPlanner*>(planner.get()) == nullptr) continue;
+    if (dynamic_cast<const hlc::search::RecedingHorizonPlanner*>(planner.get()) == nullptr)
+      continue;
     print_alone(*planner, setup.getProblemDefinition(), flags.seconds);
   }
   forget_plans(*planners.front(), setup.getProblemDefinition());
@@ -324,7 +330,7 @@ int main(int argc, char** argv) {
                "ompl_example"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::exit_code_of(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  return hlc::apps::exit_code_of(
       "ompl_example", [&flags] { return run(flags); }, kExitFailed);
 }

@@ -6,7 +6,7 @@
 
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ void check_output_files(const std::vector<OutputFile>& outputs,
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

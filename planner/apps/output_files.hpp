@@ -7,7 +7,7 @@
 
 #include "planner/apps/cli.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// A file that a program writes, by its flag.
 struct OutputFile {
@@ -27,4 +27,4 @@ CLI::Option* declare_output(CLI::App& app, OutputFile& output, const std::string
 void check_output_files(const std::vector<OutputFile>& outputs,
                         const std::vector<std::filesystem::path>& inputs = {});
 
-}  // namespace hlc
+}  // namespace hlc::apps

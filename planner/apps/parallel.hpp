@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Runs `task(i)` for i = 0 ... count - 1 in `jobs` threads, each task once, and waits for all. If
 /// tasks throw, no new ones are begun, and the exception of the smallest such i is thrown.
@@ -44,4 +44,4 @@ inline void run_parallel(std::size_t count, std::size_t jobs,
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

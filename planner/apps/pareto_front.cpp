@@ -34,8 +34,8 @@ struct Flags {
   std::vector<double> free_duration_s;  ///< empty: the duration is fixed
   std::size_t intervals{};              ///< 0: the configuration's
   std::string spacing{"front"};
-  hlc::OutputFile table{"--out", {}};
-  hlc::OutputFile plot{"--plot", {}};
+  hlc::apps::OutputFile table{"--out", {}};
+  hlc::apps::OutputFile plot{"--plot", {}};
 };
 
 constexpr double kShortest_s = 1e-3;
@@ -46,39 +46,39 @@ void declare(CLI::App& app, Flags& flags) {
       ->required();
   app.add_option("--from", flags.from, "speed [m/s] and steering [rad] at the start")
       ->expected(2)
-      ->check(hlc::finite())
+      ->check(hlc::apps::finite())
       ->required();
   app.add_option("--to", flags.to, "speed [m/s] and steering [rad] at the end")
       ->expected(2)
-      ->check(hlc::finite())
+      ->check(hlc::apps::finite())
       ->required();
   app.add_option("--points", flags.points, "of the front")
-      ->check(hlc::whole(2, 1000))
+      ->check(hlc::apps::whole(2, 1000))
       ->capture_default_str();
   CLI::Option* const duration =
       app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
-          ->check(hlc::within(kShortest_s, kLongest_s));
+          ->check(hlc::apps::within(kShortest_s, kLongest_s));
   app.add_option("--free_duration", flags.free_duration_s,
                  "MIN MAX [s]: each maneuver has its own best duration within these bounds, for "
                  "criteria such as travel_time; the table has a column `duration` then")
       ->expected(2)
-      ->check(hlc::within(kShortest_s, kLongest_s))
+      ->check(hlc::apps::within(kShortest_s, kLongest_s))
       ->excludes(duration);
   app.add_option("--intervals", flags.intervals,
                  "of constant input, instead of the configuration's")
-      ->check(hlc::whole(2, 1000));
+      ->check(hlc::apps::whole(2, 1000));
   app.add_option("--criteria", flags.criteria,
                  "two criteria; the first is minimised, the second "
                  "bounded")
       ->expected(2)
-      ->check(hlc::among(hlc::criterion_names()))
+      ->check(hlc::apps::among(hlc::maneuver_design::criterion_names()))
       ->capture_default_str();
   app.add_option("--spacing", flags.spacing,
                  "front: equal distances along it; second: equal steps of the second criterion")
-      ->check(hlc::among({"front", "second"}))
+      ->check(hlc::apps::among({"front", "second"}))
       ->capture_default_str();
-  hlc::declare_output(app, flags.table, "table to write (CSV)")->required();
-  hlc::declare_output(app, flags.plot, "plot to write (SVG)");
+  hlc::apps::declare_output(app, flags.table, "table to write (CSV)")->required();
+  hlc::apps::declare_output(app, flags.plot, "plot to write (SVG)");
   app.footer(
       "Exit codes: 0 success, 1 a point was not found or an output cannot be written, 2 invalid "
       "input.");
@@ -89,7 +89,7 @@ std::string printed(const std::vector<double>& numbers) {
 }
 
 void check_trim(const char* flag, const std::vector<double>& trim,
-                const hlc::VehicleLimits& limits) {
+                const hlc::vehicle::VehicleLimits& limits) {
   if (trim[0] >= limits.speed_min_mps && trim[0] <= limits.speed_max_mps &&
       std::abs(trim[1]) <= limits.steering_max_rad) {
     return;
@@ -102,7 +102,8 @@ void check_trim(const char* flag, const std::vector<double>& trim,
 }
 
 /// Durations are free within the bounds; the search starts at the duration nearest to step_s.
-void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& problem) {
+void free_duration(const std::vector<double>& bounds_s,
+                   hlc::maneuver_design::ManeuverProblem& problem) {
   if (bounds_s[0] > bounds_s[1]) {
     throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", must be MIN <= MAX");
   }
@@ -110,82 +111,88 @@ void free_duration(const std::vector<double>& bounds_s, hlc::ManeuverProblem& pr
   problem.duration_s = std::clamp(problem.duration_s, bounds_s[0], bounds_s[1]);
 }
 
-hlc::ParetoProblem problem_of(const Flags& flags) {
+hlc::maneuver_design::ParetoProblem problem_of(const Flags& flags) {
   if (flags.criteria[0] == flags.criteria[1]) {
     throw std::invalid_argument("--criteria = " + flags.criteria[0] + " " + flags.criteria[1] +
                                 ", must be two different ones");
   }
-  const hlc::AutomatonConfiguration c = hlc::read_automaton_configuration(flags.configuration);
+  const hlc::maneuver_design::AutomatonConfiguration c =
+      hlc::maneuver_design::read_automaton_configuration(flags.configuration);
   check_trim("--from", flags.from, c.limits);
   check_trim("--to", flags.to, c.limits);
-  hlc::ParetoProblem problem;
-  problem.maneuver =
-      hlc::problem_between({flags.from[0], flags.from[1]}, {flags.to[0], flags.to[1]}, c);
+  hlc::maneuver_design::ParetoProblem problem;
+  problem.maneuver = hlc::maneuver_design::problem_between({flags.from[0], flags.from[1]},
+                                                           {flags.to[0], flags.to[1]}, c);
   if (flags.duration_s > 0.0) problem.maneuver.duration_s = flags.duration_s;
   if (!flags.free_duration_s.empty()) free_duration(flags.free_duration_s, problem.maneuver);
   if (flags.intervals > 0) problem.maneuver.intervals = flags.intervals;
   for (const std::string& name : flags.criteria) {
-    problem.criteria.push_back(hlc::make_criterion(name, c.vehicle));
+    problem.criteria.push_back(hlc::maneuver_design::make_criterion(name, c.vehicle));
   }
   return problem;
 }
 
 /// Dominated share of the rectangle between the ends.
-double dominated_share(const hlc::ParetoFront& front, const hlc::ObjectiveRange& range) {
+double dominated_share(const hlc::maneuver_design::ParetoFront& front,
+                       const hlc::maneuver_design::ObjectiveRange& range) {
   const double area = (range.worst - range.best).prod();
-  return area > 0.0 ? hlc::hypervolume(front.objectives(), range.worst) / area : 0.0;
+  return area > 0.0 ? hlc::maneuver_design::hypervolume(front.objectives(), range.worst) / area
+                    : 0.0;
 }
 
-void print(const char* name, const hlc::ParetoPoint& point) {
+void print(const char* name, const hlc::maneuver_design::ParetoPoint& point) {
   std::printf("%-18s %14.6g %14.6g\n", name, point.objectives(0), point.objectives(1));
 }
 
-void print_summary(const Flags& flags, const hlc::ParetoFront& front,
-                   const hlc::ParetoFront& weighted_sums) {
+void print_summary(const Flags& flags, const hlc::maneuver_design::ParetoFront& front,
+                   const hlc::maneuver_design::ParetoFront& weighted_sums) {
   std::printf("%-18s %14s %14s\n", "", flags.criteria[0].c_str(), flags.criteria[1].c_str());
   print(("optimum of " + flags.criteria[1]).c_str(), front.points.front());
-  print("knee", front.points[hlc::knee_point(front.objectives())]);
+  print("knee", front.points[hlc::maneuver_design::knee_point(front.objectives())]);
   print(("optimum of " + flags.criteria[0]).c_str(), front.points.back());
   if (front.points.size() == 1) {
     std::printf("the front is one point: here the criteria do not contradict each other\n");
     return;
   }
-  const hlc::ObjectiveRange range = hlc::range_of(front.objectives());
+  const hlc::maneuver_design::ObjectiveRange range =
+      hlc::maneuver_design::range_of(front.objectives());
   std::printf("hypervolume %.4f, of weighted sums %.4f (share of the rectangle between the ends)\n",
               dominated_share(front, range), dominated_share(weighted_sums, range));
-  if (weighted_sums.status != hlc::ManeuverStatus::kOptimal) {
+  if (weighted_sums.status != hlc::maneuver_design::ManeuverStatus::kOptimal) {
     std::printf("not all weighted sums were found: %s\n", weighted_sums.reason.c_str());
   }
 }
 
 void run(const Flags& flags) {
-  const hlc::ParetoProblem problem = problem_of(flags);
-  hlc::check_output_files({flags.table, flags.plot}, {flags.configuration});
-  hlc::ParetoOptions options;
+  const hlc::maneuver_design::ParetoProblem problem = problem_of(flags);
+  hlc::apps::check_output_files({flags.table, flags.plot}, {flags.configuration});
+  hlc::maneuver_design::ParetoOptions options;
   options.points = flags.points;
-  options.spacing =
-      flags.spacing == "front" ? hlc::Spacing::kAlongFront : hlc::Spacing::kSecondCriterion;
+  options.spacing = flags.spacing == "front" ? hlc::maneuver_design::Spacing::kAlongFront
+                                             : hlc::maneuver_design::Spacing::kSecondCriterion;
   const bool is_watched = isatty(STDERR_FILENO) != 0;
   if (is_watched) {
     options.progress = [](std::size_t done, std::size_t of) {
       std::fprintf(stderr, "\r%zu of at most %zu maneuvers  ", done, of);
     };
   }
-  const hlc::ParetoFront front = hlc::epsilon_constraint_front(problem, options);
-  const hlc::ParetoFront weighted_sums = hlc::weighted_sum_front(problem, options);
+  const hlc::maneuver_design::ParetoFront front =
+      hlc::maneuver_design::epsilon_constraint_front(problem, options);
+  const hlc::maneuver_design::ParetoFront weighted_sums =
+      hlc::maneuver_design::weighted_sum_front(problem, options);
   if (is_watched) std::fprintf(stderr, "\n");
-  if (front.status == hlc::ManeuverStatus::kInfeasible) {
+  if (front.status == hlc::maneuver_design::ManeuverStatus::kInfeasible) {
     throw std::invalid_argument(flags.configuration + ": " + front.reason);
   }
-  if (front.status != hlc::ManeuverStatus::kOptimal) {
+  if (front.status != hlc::maneuver_design::ManeuverStatus::kOptimal) {
     throw std::runtime_error(flags.configuration + ": " + front.reason);
   }
-  const hlc::ParetoDescription description{problem.maneuver.from, problem.maneuver.to,
-                                           problem.maneuver.duration_s, flags.criteria,
-                                           problem.maneuver.free_duration};
-  hlc::write_file(*flags.table.file, hlc::pareto_table(front, description));
+  const hlc::plot::ParetoDescription description{problem.maneuver.from, problem.maneuver.to,
+                                                 problem.maneuver.duration_s, flags.criteria,
+                                                 problem.maneuver.free_duration};
+  hlc::write_file(*flags.table.file, hlc::apps::pareto_table(front, description));
   if (const auto& plot = flags.plot.file) {
-    hlc::write_file(*plot, hlc::pareto_plot(front, weighted_sums, description));
+    hlc::write_file(*plot, hlc::plot::pareto_plot(front, weighted_sums, description));
   }
   print_summary(flags, front, weighted_sums);
 }
@@ -197,6 +204,6 @@ int main(int argc, char** argv) {
                "pareto_front"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::exit_code_of("pareto_front", [&flags] { run(flags); });
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("pareto_front", [&flags] { run(flags); });
 }

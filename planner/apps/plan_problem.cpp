@@ -38,11 +38,11 @@ struct Flags {
   std::optional<std::string> cost_to_go;
   std::optional<std::size_t> max_expansions;
   bool json{};
-  hlc::OutputFile plot{"--plot", {}};
+  hlc::apps::OutputFile plot{"--plot", {}};
 };
 
 struct Solved {
-  hlc::SearchResult result;
+  hlc::search::SearchResult result;
   double planning_us{};
 };
 
@@ -53,44 +53,45 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--automaton", flags.automaton, "instead of the file that the problem names");
   app.add_option(
       "--engine", flags.engine,
-      std::string(hlc::kEngineChoices) + " (default: the file's, else branch_and_bound)");
+      std::string(hlc::scenario::kEngineChoices) + " (default: the file's, else branch_and_bound)");
   app.add_option("--cost_to_go", flags.cost_to_go,
                  "reachable, straight_line or 2022; the last two with best_first");
   app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1")
-      ->check(hlc::whole(1, hlc::SearchOptions::kMostExpansions));
+      ->check(hlc::apps::whole(1, hlc::search::SearchOptions::kMostExpansions));
   app.add_flag(
       "--json", flags.json,
       "print one JSON object: status (optimal, budget, unproven, fallback), reason (of a fallback: "
       "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
       "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
       "planning_us");
-  hlc::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
+  hlc::apps::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
   app.footer(
       "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 invalid input or an output "
       "that "
       "cannot be written.");
 }
 
-hlc::ProblemFile read(const Flags& flags) {
-  hlc::ProblemFile file = hlc::read_problem_file(flags.file, flags.automaton);
+hlc::scenario::ProblemFile read(const Flags& flags) {
+  hlc::scenario::ProblemFile file = hlc::scenario::read_problem_file(flags.file, flags.automaton);
   try {
-    if (flags.engine) hlc::choose_engine(*flags.engine, file.search);
-    if (flags.cost_to_go) file.search.cost_to_go = hlc::cost_to_go_from_name(*flags.cost_to_go);
+    if (flags.engine) hlc::scenario::choose_engine(*flags.engine, file.search);
+    if (flags.cost_to_go)
+      file.search.cost_to_go = hlc::search::cost_to_go_from_name(*flags.cost_to_go);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("--") + error.what());
   }
   try {
     if (flags.max_expansions) file.search.max_expansions = *flags.max_expansions;
-    hlc::check_can_be_searched(file);
+    hlc::scenario::check_can_be_searched(file);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(flags.file.string() + ": " + error.what());
   }
   return file;
 }
 
-Solved solve(const hlc::ProblemFile& file) {
-  const hlc::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
-  const auto engine = hlc::make_search_engine(*file.subgraph, reachable, file.search);
+Solved solve(const hlc::scenario::ProblemFile& file) {
+  const hlc::automaton::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
+  const auto engine = hlc::search::make_search_engine(*file.subgraph, reachable, file.search);
   Solved solved;
   double sum_us = 0.0;
   for (int call = 0; call < kMaxCalls && sum_us < kEnough_us; ++call) {
@@ -104,17 +105,17 @@ Solved solve(const hlc::ProblemFile& file) {
 }
 
 Json to_json(const Solved& solved) {
-  const hlc::SearchResult& result = solved.result;
-  const bool has_plan = result.status != hlc::SearchStatus::kFallback;
+  const hlc::search::SearchResult& result = solved.result;
+  const bool has_plan = result.status != hlc::search::SearchStatus::kFallback;
   Json json;
-  json["status"] = hlc::to_string(result.status);
-  json["reason"] = hlc::to_string(result.reason);
+  json["status"] = hlc::search::to_string(result.status);
+  json["reason"] = hlc::search::to_string(result.reason);
   json["cost"] = has_plan ? Json(result.cost) : Json(nullptr);
   json["lower_bound"] = has_plan ? Json(result.lower_bound) : Json(nullptr);
   json["gap"] = has_plan ? Json(result.cost - result.lower_bound) : Json(nullptr);
   json["trims"] = Json::array();
   json["poses"] = Json::array();
-  for (const hlc::Maneuver* maneuver : result.maneuvers) {
+  for (const hlc::automaton::Maneuver* maneuver : result.maneuvers) {
     json["trims"].push_back(maneuver->to.index + 1);
   }
   for (const hlc::Pose& pose : result.poses) {
@@ -128,23 +129,23 @@ Json to_json(const Solved& solved) {
 
 std::string number(double value) { return fmt::format("{:.9g}", value); }
 
-void print(const hlc::ProblemFile& file, const Solved& solved) {
-  const hlc::SearchResult& result = solved.result;
-  const hlc::HorizonProblem& problem = file.problem;
+void print(const hlc::scenario::ProblemFile& file, const Solved& solved) {
+  const hlc::search::SearchResult& result = solved.result;
+  const hlc::search::HorizonProblem& problem = file.problem;
   std::printf("engine           %s, cost-to-go %s, at most %zu expansions\n",
-              hlc::engine_name(file.search).c_str(), hlc::to_string(file.search.cost_to_go),
-              file.search.max_expansions);
-  const bool has_plan = result.status != hlc::SearchStatus::kFallback;
-  std::printf("status           %s%s\n", hlc::to_string(result.status),
-              has_plan ? "" : (std::string(": ") + hlc::to_string(result.reason)).c_str());
+              hlc::scenario::engine_name(file.search).c_str(),
+              hlc::search::to_string(file.search.cost_to_go), file.search.max_expansions);
+  const bool has_plan = result.status != hlc::search::SearchStatus::kFallback;
+  std::printf("status           %s%s\n", hlc::search::to_string(result.status),
+              has_plan ? "" : (std::string(": ") + hlc::search::to_string(result.reason)).c_str());
   if (has_plan) {
-    const bool is_optimal = result.status == hlc::SearchStatus::kOptimal;
+    const bool is_optimal = result.status == hlc::search::SearchStatus::kOptimal;
     const std::string bound = is_optimal ? "no plan costs less"
                                          : "a plan that costs up to " +
                                                number(result.cost - result.lower_bound) +
                                                " m^2 less may exist";
     std::printf("cost             %.9g m^2, %s\n", result.cost, bound.c_str());
-    if (result.status == hlc::SearchStatus::kUnproven) {
+    if (result.status == hlc::search::SearchStatus::kUnproven) {
       std::printf("                 the cost-to-go of 2022 may overestimate\n");
     }
   }
@@ -166,9 +167,9 @@ void print(const hlc::ProblemFile& file, const Solved& solved) {
 }
 
 int run(const Flags& flags) {
-  hlc::check_output_files({flags.plot}, {flags.file});
-  const hlc::ProblemFile file = read(flags);
-  hlc::check_output_files({flags.plot}, {flags.file, file.automaton_file});
+  hlc::apps::check_output_files({flags.plot}, {flags.file});
+  const hlc::scenario::ProblemFile file = read(flags);
+  hlc::apps::check_output_files({flags.plot}, {flags.file, file.automaton_file});
   const Solved solved = solve(file);
   if (flags.json) {
     std::cout << to_json(solved).dump() << '\n';
@@ -176,9 +177,9 @@ int run(const Flags& flags) {
     print(file, solved);
   }
   if (flags.plot.file) {
-    hlc::write_file(*flags.plot.file, hlc::problem_plot(file, solved.result));
+    hlc::write_file(*flags.plot.file, hlc::plot::problem_plot(file, solved.result));
   }
-  return solved.result.status == hlc::SearchStatus::kFallback ? kExitFallback : 0;
+  return solved.result.status == hlc::search::SearchStatus::kFallback ? kExitFallback : 0;
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Solves one planning problem from a file.", "plan_problem"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::exit_code_of(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  return hlc::apps::exit_code_of(
       "plan_problem", [&flags] { return run(flags); }, kExitFailed);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace hlc {
+namespace hlc::apps {
 
 /// "what 13 of 64" on stderr, updated in place and erased at the end; nothing if stderr is no
 /// terminal.
@@ -31,4 +31,4 @@ class ProgressLine {
   bool is_shown_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

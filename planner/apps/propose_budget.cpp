@@ -31,7 +31,7 @@ constexpr int kCalls = 3;
 constexpr std::size_t kMeasured = 300'000;
 
 struct Flags {
-  hlc::ScenarioChoices scenario;
+  hlc::scenario::ScenarioChoices scenario;
   double deadline_ms{};
   double safety{2.0};
 };
@@ -48,17 +48,17 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("scenario,--scenario", flags.scenario.file, "scenario file (YAML)")->required();
   app.add_option("--deadline_ms", flags.deadline_ms, "that a plan may take")
       ->required()
-      ->check(hlc::within(0.001, 1e6));
+      ->check(hlc::apps::within(0.001, 1e6));
   app.add_option("--safety", flags.safety,
                  "factor: the search is expected to need 1 / safety of the deadline")
-      ->check(hlc::within(1.0, 1000.0))
+      ->check(hlc::apps::within(1.0, 1000.0))
       ->capture_default_str();
   app.add_option("--profile", flags.scenario.profile, "rules: default or 2022")
       ->capture_default_str();
   app.add_option("--engine", flags.scenario.engine, "instead of the scenario's");
   app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
-      ->check(hlc::whole(1, 100000));
+      ->check(hlc::apps::whole(1, 100000));
   app.footer(
       "Exit codes: 0 success, 1 the deadline leaves no time to search, 2 invalid input or an "
       "output that "
@@ -66,9 +66,9 @@ void declare(CLI::App& app, Flags& flags) {
 }
 
 /// All problems that the scenario's controllers pose.
-std::vector<hlc::HorizonProblem> problems_of(const hlc::Scenario& scenario) {
-  hlc::Rollout rollout = hlc::make_rollout(scenario);
-  std::vector<hlc::HorizonProblem> problems;
+std::vector<hlc::search::HorizonProblem> problems_of(const hlc::scenario::Scenario& scenario) {
+  hlc::rollout::Rollout rollout = hlc::rollout::make_rollout(scenario);
+  std::vector<hlc::search::HorizonProblem> problems;
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     rollout.step();
     for (const auto& controller : rollout.controllers()) {
@@ -80,7 +80,7 @@ std::vector<hlc::HorizonProblem> problems_of(const hlc::Scenario& scenario) {
 }
 
 /// No path has a free end, so the whole tree is searched.
-hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
+hlc::search::HorizonProblem with_blocked_ends(hlc::search::HorizonProblem problem) {
   constexpr double kFar_m = 1e3;
   const hlc::Point at = problem.start.position_m();
   problem.obstacles_m.resize(problem.horizon_steps());
@@ -91,7 +91,7 @@ hlc::HorizonProblem with_blocked_ends(hlc::HorizonProblem problem) {
 }
 
 /// The shortest time of some calls, without the load of other processes.
-double time_s(hlc::SearchEngine& engine, const hlc::HorizonProblem& problem,
+double time_s(hlc::search::SearchEngine& engine, const hlc::search::HorizonProblem& problem,
               std::size_t& expanded) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (int call = 0; call < kCalls; ++call) {
@@ -110,22 +110,23 @@ struct Measurements {
   }
 };
 
-Measured measured(hlc::SearchEngine& engine, const hlc::HorizonProblem& problem, std::string what) {
+Measured measured(hlc::search::SearchEngine& engine, const hlc::search::HorizonProblem& problem,
+                  std::string what) {
   Measured one{.what = std::move(what), .problems = 1};
   one.time_s = time_s(engine, problem, one.expansions);
   return one;
 }
 
-Measurements measure(const hlc::Scenario& scenario,
-                     const std::vector<hlc::HorizonProblem>& problems) {
-  const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  hlc::SearchOptions options = scenario.search;
+Measurements measure(const hlc::scenario::Scenario& scenario,
+                     const std::vector<hlc::search::HorizonProblem>& problems) {
+  const hlc::automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
+  hlc::search::SearchOptions options = scenario.search;
   options.max_expansions = kMeasured;
-  const auto engine = hlc::make_search_engine(*scenario.subgraph, reachable, options);
+  const auto engine = hlc::search::make_search_engine(*scenario.subgraph, reachable, options);
   Measurements result;
   std::optional<Measured> ordinary;
   std::size_t informative = 0;
-  for (const hlc::HorizonProblem& problem : problems) {
+  for (const hlc::search::HorizonProblem& problem : problems) {
     const Measured one = measured(*engine, problem, "slowest of the scenario's");
     if (one.expansions < kInformative) {
       result.preparation_s = std::max(result.preparation_s, one.time_s);
@@ -141,17 +142,18 @@ Measurements measure(const hlc::Scenario& scenario,
 
   // The problem with the most obstacles and boundary, since each of them is checked; but one whose
   // way is not blocked at once.
-  const auto size = [](const hlc::HorizonProblem& problem) {
+  const auto size = [](const hlc::search::HorizonProblem& problem) {
     std::size_t count = problem.boundary_m.size();
     for (const auto& areas_m : problem.obstacles_m) count += areas_m.size();
     return count;
   };
-  std::vector<const hlc::HorizonProblem*> by_size;
-  for (const hlc::HorizonProblem& problem : problems) by_size.push_back(&problem);
-  std::ranges::stable_sort(by_size, std::ranges::greater{},
-                           [&size](const hlc::HorizonProblem* problem) { return size(*problem); });
-  for (const hlc::HorizonProblem* problem : by_size) {
-    hlc::HorizonProblem hardest = with_blocked_ends(*problem);
+  std::vector<const hlc::search::HorizonProblem*> by_size;
+  for (const hlc::search::HorizonProblem& problem : problems) by_size.push_back(&problem);
+  std::ranges::stable_sort(
+      by_size, std::ranges::greater{},
+      [&size](const hlc::search::HorizonProblem* problem) { return size(*problem); });
+  for (const hlc::search::HorizonProblem* problem : by_size) {
+    hlc::search::HorizonProblem hardest = with_blocked_ends(*problem);
     hardest.incumbent.clear();
     const Measured within_lanes = measured(*engine, hardest, "all ends blocked");
     if (within_lanes.expansions < kInformative) continue;
@@ -175,8 +177,8 @@ std::size_t rounded_down(double value) {
 }
 
 int run(const Flags& flags) {
-  const hlc::Scenario scenario = hlc::read_scenario(flags.scenario);
-  const std::vector<hlc::HorizonProblem> problems = problems_of(scenario);
+  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(flags.scenario);
+  const std::vector<hlc::search::HorizonProblem> problems = problems_of(scenario);
   if (problems.empty()) {
     throw std::invalid_argument(
         flags.scenario.file.string() +
@@ -190,8 +192,8 @@ int run(const Flags& flags) {
   }
   std::printf(
       "%s: engine %s, cost-to-go %s, horizon %zu, subgraph %s; %zu problems of %zu steps\n\n",
-      scenario.name.c_str(), hlc::engine_name(scenario.search).c_str(),
-      hlc::to_string(scenario.search.cost_to_go), scenario.horizon_steps,
+      scenario.name.c_str(), hlc::scenario::engine_name(scenario.search).c_str(),
+      hlc::search::to_string(scenario.search.cost_to_go), scenario.horizon_steps,
       scenario.subgraph->spec().name.c_str(), problems.size(), scenario.steps);
   std::printf("%-26s %8s %12s %12s %18s\n", "measured", "problems", "expansions", "time [ms]",
               "expansions per s");
@@ -225,7 +227,7 @@ int main(int argc, char** argv) {
       "propose_budget"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::exit_code_of(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  return hlc::apps::exit_code_of(
       "propose_budget", [&flags] { return run(flags); }, kExitFailed);
 }

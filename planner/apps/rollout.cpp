@@ -26,15 +26,15 @@ struct Tally {
   int changed{};  ///< steps in which the others changed the plan
 };
 
-void add(Tally& tally, const hlc::Report& report) {
+void add(Tally& tally, const hlc::coordination::Report& report) {
   tally.positions_m.push_back(report.planned_pose.position_m());
   tally.generated_max = std::max(tally.generated_max, report.generated);
   tally.expanded_max = std::max(tally.expanded_max, report.expanded);
-  if (report.status == hlc::StepStatus::kFallback) ++tally.fallbacks;
+  if (report.status == hlc::coordination::StepStatus::kFallback) ++tally.fallbacks;
 }
 
-void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_s) {
-  const hlc::Progress progress = hlc::progress_along(vehicle.path, tally.positions_m);
+void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, double step_s) {
+  const hlc::road::Progress progress = hlc::road::progress_along(vehicle.path, tally.positions_m);
   std::vector<double> times_s;
   double sum_m = 0.0;
   double max_m = 0.0;
@@ -44,7 +44,7 @@ void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_
     max_m = std::max(max_m, distance_m);
   }
   const std::optional<double> lap_s =
-      hlc::lap_s(vehicle.path, progress, times_s, hlc::kFirstStepDriven);
+      hlc::road::lap_s(vehicle.path, progress, times_s, hlc::road::kFirstStepDriven);
   char lap[16] = "-";
   if (lap_s) std::snprintf(lap, sizeof(lap), "%.2f", *lap_s);
   std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n", vehicle.name.c_str(), lap,
@@ -54,28 +54,31 @@ void print(const Tally& tally, const hlc::ScenarioVehicle& vehicle, double step_
 }
 
 /// True if the plan of this step would be different without the other vehicles.
-bool others_changed_the_plan(const hlc::Controller& controller, hlc::SearchEngine& alone,
-                             const hlc::Report& report) {
-  if (controller.problems().empty() || report.status != hlc::StepStatus::kPlanned) return false;
-  hlc::HorizonProblem problem = controller.problems().back();
+bool others_changed_the_plan(const hlc::controller::Controller& controller,
+                             hlc::search::SearchEngine& alone,
+                             const hlc::coordination::Report& report) {
+  if (controller.problems().empty() || report.status != hlc::coordination::StepStatus::kPlanned)
+    return false;
+  hlc::search::HorizonProblem problem = controller.problems().back();
   problem.obstacles_m.clear();
   return alone.search(problem).cost < report.cost_m2 - 1e-9;
 }
 
-int run(const hlc::ScenarioChoices& choices) {
-  const hlc::Scenario scenario = hlc::read_scenario(choices);
+int run(const hlc::scenario::ScenarioChoices& choices) {
+  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
   const double step_s = scenario.subgraph->automaton().step_s;
   std::map<hlc::VehicleId, Tally> tallies;
-  hlc::Rollout rollout = hlc::make_rollout(scenario);
-  const hlc::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = hlc::make_search_engine(*scenario.subgraph, reachable, scenario.search);
+  hlc::rollout::Rollout rollout = hlc::rollout::make_rollout(scenario);
+  const hlc::automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
+  const auto alone =
+      hlc::search::make_search_engine(*scenario.subgraph, reachable, scenario.search);
   std::chrono::steady_clock::duration wall{};
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<hlc::Report> reports = rollout.step();
+    const std::vector<hlc::coordination::Report> reports = rollout.step();
     wall += std::chrono::steady_clock::now() - begin;
     for (std::size_t j = 0; j < reports.size(); ++j) {
-      const hlc::Report& report = reports[j];
+      const hlc::coordination::Report& report = reports[j];
       Tally& tally = tallies[report.vehicle];
       add(tally, report);
       if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;
@@ -85,7 +88,8 @@ int run(const hlc::ScenarioChoices& choices) {
 
   std::printf("%-10s %8s %12s %11s %14s %13s %10s %8s\n", "vehicle", "lap [s]", "error [mm]",
               "max [mm]", "max generated", "max expanded", "fallbacks", "changed");
-  for (const auto& [id, tally] : tallies) print(tally, hlc::vehicle_of(scenario, id), step_s);
+  for (const auto& [id, tally] : tallies)
+    print(tally, hlc::scenario::vehicle_of(scenario, id), step_s);
   std::printf("changed: steps in which the others changed the vehicle's plan\n");
   std::printf("%zu steps in %.1f ms\n", scenario.steps, wall_ms);
   return 0;
@@ -95,12 +99,12 @@ int run(const hlc::ScenarioChoices& choices) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Plans a scenario with vehicles that follow perfectly, in one process.", "rollout"};
-  hlc::ScenarioChoices choices;
-  hlc::declare_scenario_flags(app, choices);
+  hlc::scenario::ScenarioChoices choices;
+  hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
-      ->check(hlc::whole(1, 100000));
+      ->check(hlc::apps::whole(1, 100000));
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::exit_code_of(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  return hlc::apps::exit_code_of(
       "rollout", [&choices] { return run(choices); }, kExitFailed);
 }

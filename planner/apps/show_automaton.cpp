@@ -13,17 +13,17 @@
 
 namespace {
 
-using hlc::AutomatonFile;
-using hlc::Maneuver;
 using hlc::TrimId;
+using hlc::automaton::AutomatonFile;
+using hlc::automaton::Maneuver;
 
 void print_head(const AutomatonFile& file, const std::string& path) {
-  const hlc::UniversalAutomaton& automaton = *file.automaton;
+  const hlc::automaton::UniversalAutomaton& automaton = *file.automaton;
   std::printf("automaton  %s\n", path.c_str());
   std::printf("built from %s, sha256 %.16s..., %zu intervals per maneuver\n",
               file.configuration_file.c_str(), file.configuration_sha256.c_str(),
               file.automaton->maneuvers.front().inputs.size());
-  const hlc::VehicleLimits& limits = automaton.limits;
+  const hlc::vehicle::VehicleLimits& limits = automaton.limits;
   std::printf(
       "vehicle    wheelbase %g m, rear axle to centre of gravity %g m, %g m x %g m, margin %g m\n",
       automaton.vehicle.wheelbase_m, automaton.vehicle.rear_axle_to_cg_m,
@@ -39,7 +39,7 @@ void print_head(const AutomatonFile& file, const std::string& path) {
 }
 
 /// Trims with the number of other trims that they have edges to and from, and their unit costs.
-void print_trims(const hlc::UniversalAutomaton& automaton) {
+void print_trims(const hlc::automaton::UniversalAutomaton& automaton) {
   std::printf(
       "\ntrims, with the number of edges to and from other trims, and unit costs "
       "[1/s]\n");
@@ -85,7 +85,7 @@ void print_labels(const AutomatonFile& file) {
       "way\n");
   std::printf("%-12s %6s %19s %19s %19s %15s\n", "label", "edges", "dx [m]", "dy [m]", "dpsi [rad]",
               "v_max [m/s]");
-  std::vector<std::string> labels{hlc::kSelfLoopLabel};
+  std::vector<std::string> labels{hlc::automaton::kSelfLoopLabel};
   labels.insert(labels.end(), file.labels.begin(), file.labels.end());
   for (const std::string& label : labels) {
     std::size_t edges = 0;
@@ -99,7 +99,7 @@ void print_labels(const AutomatonFile& file) {
       x.add(m.displacement.x_m);
       y.add(m.displacement.y_m);
       heading.add(m.displacement.heading_rad);
-      speed.add(hlc::top_speed_mps(m));
+      speed.add(hlc::automaton::top_speed_mps(m));
     }
     if (edges == 0) continue;
     std::printf("%-12s %6zu %8.4f...%8.4f %8.4f...%8.4f %8.4f...%8.4f %6.3f...%6.3f\n",
@@ -120,18 +120,21 @@ void print_subgraphs(const AutomatonFile& file) {
       "and for each trim the steps to standstill (- : cannot be planned from)\n");
   std::printf("%-12s %-12s %-10s %6s %6s %6s  %s\n", "name", "labels", "rule", "trims", "edges",
               "disabled", "steps to standstill of trims 1, 2, ...");
-  for (const hlc::SubgraphSpec& spec : file.subgraphs) {
-    const hlc::Subgraph subgraph(file.automaton, spec);
+  for (const hlc::automaton::SubgraphSpec& spec : file.subgraphs) {
+    const hlc::automaton::Subgraph subgraph(file.automaton, spec);
     std::size_t edges = 0;
     for (const TrimId trim : subgraph.trims()) {
-      for (const hlc::Edge& edge : subgraph.successors(trim)) edges += edge.to == trim ? 0U : 1U;
+      for (const hlc::automaton::Edge& edge : subgraph.successors(trim))
+        edges += edge.to == trim ? 0U : 1U;
     }
     std::printf("%-12s %-12s %-10s %6zu %6zu %6zu ", spec.name.c_str(), joined(spec.labels).c_str(),
-                spec.rule == hlc::EdgeRule::kChain ? "chain" : "reachable", subgraph.trims().size(),
-                edges, subgraph.start_trims().size() - subgraph.trims().size());
+                spec.rule == hlc::automaton::EdgeRule::kChain ? "chain" : "reachable",
+                subgraph.trims().size(), edges,
+                subgraph.start_trims().size() - subgraph.trims().size());
     for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
       const std::size_t steps = subgraph.distance_to_standstill({i});
-      std::printf(" %s", steps == hlc::Subgraph::kNever ? "-" : std::to_string(steps).c_str());
+      std::printf(" %s",
+                  steps == hlc::automaton::Subgraph::kNever ? "-" : std::to_string(steps).c_str());
     }
     std::printf("\n");
   }
@@ -150,10 +153,10 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 1 an output cannot be written, 2 invalid input, a stale or edited "
       "file.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::exit_code_of("show_automaton", [&] {
-    const AutomatonFile file = hlc::read_current_automaton_file(path);
-    if (configuration) hlc::check_is_current(file, path, *configuration);
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("show_automaton", [&] {
+    const AutomatonFile file = hlc::maneuver_design::read_current_automaton_file(path);
+    if (configuration) hlc::maneuver_design::check_is_current(file, path, *configuration);
     print_head(file, path.string());
     print_trims(*file.automaton);
     print_labels(file);

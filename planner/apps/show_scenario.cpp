@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kExitFailed = 2;
 
-void print_table(const hlc::Scenario& scenario) {
+void print_table(const hlc::scenario::Scenario& scenario) {
   std::printf("scenario   %s, %zu steps of %g s, horizon %zu steps\n", scenario.name.c_str(),
               scenario.steps, scenario.subgraph->automaton().step_s, scenario.horizon_steps);
   std::printf("map        %s\n",
@@ -26,26 +26,26 @@ void print_table(const hlc::Scenario& scenario) {
               scenario.lab_file ? scenario.lab_file->c_str() : "none (no limits)");
   std::printf("profile    %s\n", scenario.profile.name.c_str());
   if (!scenario.policies.empty()) {
-    std::string names = hlc::kNoPolicy;
+    std::string names = hlc::policy::kNoPolicy;
     for (const auto& [name, settings] : scenario.policies) names += ", " + name;
     std::printf("policy     %s (of %s)\n", scenario.policy.c_str(), names.c_str());
-    for (const hlc::SpeedZone& zone : scenario.reconfiguration.zones) {
+    for (const hlc::policy::SpeedZone& zone : scenario.reconfiguration.zones) {
       std::printf("zone       %g m/s, x %g ... %g m, y %g ... %g m\n", zone.max_speed_mps,
                   zone.min_x_m, zone.max_x_m, zone.min_y_m, zone.max_y_m);
     }
   }
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
               "y [m]");
-  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
+  for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     std::printf("%4d  %-10s %9.3f %9.3f %9.3f %11.3f\n", vehicle.id.value, vehicle.name.c_str(),
                 vehicle.path.length_m(), vehicle.start_s_m, vehicle.start.x_m, vehicle.start.y_m);
   }
 }
 
 /// One line per vehicle: id and start pose of the vehicle (yaw), for `vehicle_sim --pose`.
-void print_starts(const hlc::Scenario& scenario) {
-  for (const hlc::ScenarioVehicle& vehicle : scenario.vehicles) {
-    const hlc::Pose pose = hlc::measured_start(scenario, vehicle);
+void print_starts(const hlc::scenario::Scenario& scenario) {
+  for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+    const hlc::Pose pose = hlc::scenario::measured_start(scenario, vehicle);
     std::printf("%d %.17g,%.17g,%.17g\n", vehicle.id.value, pose.x_m, pose.y_m, pose.heading_rad);
   }
 }
@@ -54,28 +54,28 @@ void print_starts(const hlc::Scenario& scenario) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Checks a scenario file and describes a run of it.", "show_scenario"};
-  hlc::ScenarioChoices choices;
+  hlc::scenario::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
   bool policy = false;
-  hlc::OutputFile plot{"--plot", {}};
-  hlc::declare_scenario_flags(app, choices);
+  hlc::apps::OutputFile plot{"--plot", {}};
+  hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
-      ->check(hlc::whole(1, 100000));
+      ->check(hlc::apps::whole(1, 100000));
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
-  hlc::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
+  hlc::apps::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
   const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};
     if (choices.map_file) inputs.push_back(*choices.map_file);
-    hlc::check_output_files({plot}, inputs);
-    const hlc::Scenario scenario = hlc::read_scenario(choices);
-    hlc::check_output_files({plot}, hlc::files_of(scenario));
+    hlc::apps::check_output_files({plot}, inputs);
+    const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
+    hlc::apps::check_output_files({plot}, hlc::scenario::files_of(scenario));
     if (plot.file) {
-      hlc::write_file(*plot.file, hlc::scenario_plot(scenario, hlc::map_of(scenario)));
+      hlc::write_file(*plot.file, hlc::plot::scenario_plot(scenario, hlc::plot::map_of(scenario)));
     }
     if (starts) {
       print_starts(scenario);
@@ -87,5 +87,5 @@ int main(int argc, char** argv) {
       print_table(scenario);
     }
   };
-  return hlc::exit_code_of("show_scenario", run, kExitFailed);
+  return hlc::apps::exit_code_of("show_scenario", run, kExitFailed);
 }

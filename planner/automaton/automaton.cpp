@@ -5,7 +5,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::string& label) const {
   const std::string& wanted = from == to ? kSelfLoopLabel : label;
@@ -17,7 +17,8 @@ const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::stri
 
 double top_speed_mps(const Maneuver& maneuver) {
   double largest_mps = 0.0;
-  for (const State& state : maneuver.states) largest_mps = std::max(largest_mps, state.speed_mps);
+  for (const vehicle::State& state : maneuver.states)
+    largest_mps = std::max(largest_mps, state.speed_mps);
   return largest_mps;
 }
 
@@ -29,27 +30,30 @@ double top_speed_mps(const UniversalAutomaton& automaton) {
   return largest_mps;
 }
 
-double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
-                             const IdentifiedVehicle& identified) {
-  return slip_angle_rad(steering_rad, vehicle) -
-         steady_slip_rad(curvature_per_m(steering_rad, vehicle), identified);
+double yaw_minus_heading_rad(double steering_rad, const vehicle::VehicleParameters& vehicle,
+                             const vehicle::IdentifiedVehicle& identified) {
+  return vehicle::slip_angle_rad(steering_rad, vehicle) -
+         vehicle::steady_slip_rad(vehicle::curvature_per_m(steering_rad, vehicle), identified);
 }
 
-bool is_at_steering_limit(const Trim& trim, const VehicleParameters& vehicle,
-                          const IdentifiedVehicle& identified) {
+bool is_at_steering_limit(const Trim& trim, const vehicle::VehicleParameters& vehicle,
+                          const vehicle::IdentifiedVehicle& identified) {
   constexpr double kUsable = 0.80;
-  const double steering = steady_steering(curvature_per_m(trim.steering_rad, vehicle), identified) -
-                          identified.steering_offset;
+  const double steering =
+      vehicle::steady_steering(vehicle::curvature_per_m(trim.steering_rad, vehicle), identified) -
+      identified.steering_offset;
   return std::abs(steering) > kUsable;
 }
 
-State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters& vehicle) {
+vehicle::State state_at(const Maneuver& maneuver, double time_s,
+                        const vehicle::VehicleParameters& vehicle) {
   HLC_DEMAND(!maneuver.inputs.empty() && maneuver.states.size() == maneuver.inputs.size() + 1,
              maneuver.inputs.size(), maneuver.states.size());
   const double time = std::clamp(time_s, 0.0, maneuver.duration_s);
   if (maneuver.from == maneuver.to) {
-    State state = maneuver.states.front();
-    state.pose = trim_motion(state.pose, state.speed_mps, state.steering_rad, time, vehicle);
+    vehicle::State state = maneuver.states.front();
+    state.pose =
+        vehicle::trim_motion(state.pose, state.speed_mps, state.steering_rad, time, vehicle);
     return state;
   }
   const std::size_t intervals = maneuver.inputs.size();
@@ -63,7 +67,7 @@ State state_at(const Maneuver& maneuver, double time_s, const VehicleParameters&
   }
   const std::size_t interval = std::min(static_cast<std::size_t>(time / interval_s), intervals - 1);
   const double rest_s = time - static_cast<double>(interval) * interval_s;
-  return integrated(maneuver.states[interval], maneuver.inputs[interval], rest_s, vehicle);
+  return vehicle::integrated(maneuver.states[interval], maneuver.inputs[interval], rest_s, vehicle);
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -11,7 +11,7 @@
 #include "planner/vehicle/identified_vehicle.hpp"
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// Constant speed and steering (paper, Section 2): u = 0.
 struct Trim {
@@ -35,9 +35,10 @@ struct Maneuver {
   TrimId to;
   std::string label;  ///< criterion that it is optimal for ("J2"); "trim" for a self-loop
   double duration_s{};
-  std::vector<Input> inputs;  ///< N intervals of equal length of constant input
-  std::vector<State> states;  ///< N + 1 states at the interval bounds, the first at the origin
-  Pose displacement;          ///< pose of states.back()
+  std::vector<vehicle::Input> inputs;  ///< N intervals of equal length of constant input
+  /// N + 1 states at the interval bounds, the first at the origin
+  std::vector<vehicle::State> states;
+  Pose displacement;  ///< pose of states.back()
   /// Convex area that contains the footprint, grown by the safety margin, at every time of the
   /// motion, for the planned heading and for the heading of a vehicle with the identified slip on
   /// the same path.
@@ -52,9 +53,9 @@ struct Maneuver {
 
 /// All trims and maneuvers of a vehicle, for one step length. Immutable once built.
 struct UniversalAutomaton {
-  VehicleParameters vehicle;
-  VehicleLimits limits;
-  IdentifiedVehicle identified;
+  vehicle::VehicleParameters vehicle;
+  vehicle::VehicleLimits limits;
+  vehicle::IdentifiedVehicle identified;
   double step_s{0.2};
   std::vector<Trim> trims;
   /// Unit costs l(x, 0) of each trim [per second], of the criteria that have one: those that do not
@@ -78,19 +79,20 @@ struct UniversalAutomaton {
 /// Angle from a planned heading to the yaw at which the identified vehicle drives the same path:
 /// course = heading + beta(delta) = yaw + slip(curvature(delta)), so yaw - heading = beta(delta) -
 /// slip [rad].
-[[nodiscard]] double yaw_minus_heading_rad(double steering_rad, const VehicleParameters& vehicle,
-                                           const IdentifiedVehicle& identified);
+[[nodiscard]] double yaw_minus_heading_rad(double steering_rad,
+                                           const vehicle::VehicleParameters& vehicle,
+                                           const vehicle::IdentifiedVehicle& identified);
 
 /// True if the identified vehicle has less than 20 % of its steering left on this trim's path, or
 /// cannot drive it at all: it can hardly correct an error there. Of the paper's trims this holds
 /// for those at 0.60 and 0.48 rad; they take 0.9998 and 0.83 of the steering on the left, 1.09 and
 /// 0.90 on the right.
-[[nodiscard]] bool is_at_steering_limit(const Trim& trim, const VehicleParameters& vehicle,
-                                        const IdentifiedVehicle& identified);
+[[nodiscard]] bool is_at_steering_limit(const Trim& trim, const vehicle::VehicleParameters& vehicle,
+                                        const vehicle::IdentifiedVehicle& identified);
 
 /// State of the motion at `time_s` in [0, duration], in the maneuver's frame: the model integrated
 /// from the last interval bound before (exact arc for a trim's self-loop).
-[[nodiscard]] State state_at(const Maneuver& maneuver, double time_s,
-                             const VehicleParameters& vehicle);
+[[nodiscard]] vehicle::State state_at(const Maneuver& maneuver, double time_s,
+                                      const vehicle::VehicleParameters& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -18,7 +18,7 @@
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 // --- writing ------------------------------------------------------------------------------------
@@ -31,8 +31,10 @@ std::string row(std::initializer_list<double> values) {
   return text;
 }
 
-std::string row(const Input& u) { return row({u.acceleration_mps2, u.steering_rate_radps}); }
-std::string row(const State& x) {
+std::string row(const vehicle::Input& u) {
+  return row({u.acceleration_mps2, u.steering_rate_radps});
+}
+std::string row(const vehicle::State& x) {
   return row({x.pose.x_m, x.pose.y_m, x.pose.heading_rad, x.speed_mps, x.steering_rad});
 }
 std::string row(const Point& p) { return row({p.x(), p.y()}); }
@@ -298,4 +300,4 @@ std::string rebuild_command(const AutomatonFile& file, const std::filesystem::pa
       file.chosen_intervals ? fmt::format(" --intervals {}", *file.chosen_intervals) : "");
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -9,7 +9,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// The content of an automaton file, with its origin.
 struct AutomatonFile {
@@ -65,4 +65,4 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
                                           const std::filesystem::path& path,
                                           const std::filesystem::path& configuration_path);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

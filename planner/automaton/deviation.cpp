@@ -6,7 +6,7 @@
 
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 double distance_to_segment_m(const Point& point, const Point& from, const Point& to) {
@@ -28,9 +28,9 @@ double distance_to_area_m(const Point& point, const ConvexPolygon& area) {
 
 }  // namespace
 
-double footprint_deviation_m(const Pose& measured, const State& planned,
-                             const VehicleParameters& vehicle,
-                             const IdentifiedVehicle& identified) {
+double footprint_deviation_m(const Pose& measured, const vehicle::State& planned,
+                             const vehicle::VehicleParameters& vehicle,
+                             const vehicle::IdentifiedVehicle& identified) {
   Pose turned = planned.pose;
   turned.heading_rad += yaw_minus_heading_rad(planned.steering_rad, vehicle, identified);
   const ConvexPolygon hull = convex_hull(std::array{footprint_area(vehicle.footprint, planned.pose),
@@ -42,8 +42,9 @@ double footprint_deviation_m(const Pose& measured, const State& planned,
   return result;
 }
 
-bool deviates(const Pose& measured, const State& planned, double limit_m,
-              const VehicleParameters& vehicle, const IdentifiedVehicle& identified) {
+bool deviates(const Pose& measured, const vehicle::State& planned, double limit_m,
+              const vehicle::VehicleParameters& vehicle,
+              const vehicle::IdentifiedVehicle& identified) {
   const double radius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m);
   const double off_m = (measured.position_m() - planned.pose.position_m()).norm();
   const double turn_rad = wrap_angle(measured.heading_rad - planned.pose.heading_rad);
@@ -56,10 +57,11 @@ bool deviates(const Pose& measured, const State& planned, double limit_m,
   return footprint_deviation_m(measured, planned, vehicle, identified) > limit_m;
 }
 
-Pose pose_of_measured(const Pose& measured, double steering_rad, const VehicleParameters& vehicle,
-                      const IdentifiedVehicle& identified) {
+Pose pose_of_measured(const Pose& measured, double steering_rad,
+                      const vehicle::VehicleParameters& vehicle,
+                      const vehicle::IdentifiedVehicle& identified) {
   return {measured.x_m, measured.y_m,
           measured.heading_rad - yaw_minus_heading_rad(steering_rad, vehicle, identified)};
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -2,7 +2,7 @@
 
 #include "planner/automaton/automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// Deviation of a measured vehicle from its plan [m]: the largest distance of a point of its
 /// footprint from
@@ -24,22 +24,23 @@ namespace hlc {
 /// m / length is left for the heading.
 ///
 /// @param measured  heading_rad is the vehicle's yaw
-[[nodiscard]] double footprint_deviation_m(const Pose& measured, const State& planned,
-                                           const VehicleParameters& vehicle,
-                                           const IdentifiedVehicle& identified);
+[[nodiscard]] double footprint_deviation_m(const Pose& measured, const vehicle::State& planned,
+                                           const vehicle::VehicleParameters& vehicle,
+                                           const vehicle::IdentifiedVehicle& identified);
 
 /// True if footprint_deviation_m is larger than `limit_m`, decided at once where the vehicle is
 /// clearly near: a point of the footprint at distance r from its centre deviates by at most |p -
 /// p'| + r |psi - psi'|, where p and psi are measured, p' and psi' the planned position and either
 /// heading of H.
-[[nodiscard]] bool deviates(const Pose& measured, const State& planned, double limit_m,
-                            const VehicleParameters& vehicle, const IdentifiedVehicle& identified);
+[[nodiscard]] bool deviates(const Pose& measured, const vehicle::State& planned, double limit_m,
+                            const vehicle::VehicleParameters& vehicle,
+                            const vehicle::IdentifiedVehicle& identified);
 
 /// The planner's pose of a vehicle measured at `measured` (yaw) while it steers as planned: same
 /// course, hence heading = yaw - yaw_minus_heading_rad. Exact for a vehicle in steady state; after
 /// a change of steering the vehicle turns to that yaw within some 0.1 s.
 [[nodiscard]] Pose pose_of_measured(const Pose& measured, double steering_rad,
-                                    const VehicleParameters& vehicle,
-                                    const IdentifiedVehicle& identified);
+                                    const vehicle::VehicleParameters& vehicle,
+                                    const vehicle::IdentifiedVehicle& identified);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -3,16 +3,16 @@
 #include <cmath>
 #include <vector>
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 std::vector<TimedPoint> points_of(const Maneuver& maneuver, double interval_s,
-                                  const VehicleParameters& vehicle) {
+                                  const vehicle::VehicleParameters& vehicle) {
   const auto count = static_cast<int>(std::lround(maneuver.duration_s / interval_s));
   std::vector<TimedPoint> points;
   for (int i = 0; i <= count; ++i) {
     const double time_s = static_cast<double>(i) * interval_s;
-    points.push_back(timed_point(time_s, state_at(maneuver, time_s, vehicle), vehicle));
+    points.push_back(vehicle::timed_point(time_s, state_at(maneuver, time_s, vehicle), vehicle));
   }
   return points;
 }
@@ -21,7 +21,7 @@ std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
 }  // namespace
 
-std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits) {
+std::string validate_for_lab(const Subgraph& subgraph, const vehicle::LabLimits& limits) {
   const UniversalAutomaton& automaton = subgraph.automaton();
   // Trims first: a fault of a trim explains those of its maneuvers.
   for (const bool self_loops : {true, false}) {
@@ -31,16 +31,16 @@ std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits) 
         if ((m.from == m.to) != self_loops) continue;
         const std::vector<TimedPoint> points =
             points_of(m, limits.point_interval_s, automaton.vehicle);
-        const auto found = curve_fault(points, limits);
+        const auto found = vehicle::curve_fault(points, limits);
         if (!found) continue;
         const std::string who = self_loops ? "trim " + number_of(trim)
                                            : "maneuver " + number_of(m.from) + " -> " +
                                                  number_of(m.to) + " (" + m.label + ")";
-        return who + ": " + to_text(*found, limits);
+        return who + ": " + vehicle::to_text(*found, limits);
       }
     }
   }
   return "";
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -5,7 +5,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// The first trim or maneuver of the subgraph that the lab's vehicles cannot follow (curve_fault of
 /// its points every point_interval_s), with value and bound in one line; empty if they can follow
@@ -16,6 +16,7 @@ namespace hlc {
 /// it leads: a fault of a command is then a fault of the program or of its data.
 /// @pre point_interval_s divides the step length
 /// @pre point_interval_s divides the step length
-[[nodiscard]] std::string validate_for_lab(const Subgraph& subgraph, const LabLimits& limits);
+[[nodiscard]] std::string validate_for_lab(const Subgraph& subgraph,
+                                           const vehicle::LabLimits& limits);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

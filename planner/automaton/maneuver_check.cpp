@@ -8,7 +8,7 @@
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 constexpr double kSame = 1e-9;
@@ -18,7 +18,7 @@ bool is_bounded(double value, double min, double max) {
   return value >= min - slack && value <= max + slack;
 }
 
-bool is_trim(const State& state, const Trim& trim, const VehicleLimits& limits) {
+bool is_trim(const vehicle::State& state, const Trim& trim, const vehicle::VehicleLimits& limits) {
   return std::abs(state.speed_mps - trim.speed_mps) <=
              kSame * std::max(1.0, limits.speed_max_mps) &&
          std::abs(state.steering_rad - trim.steering_rad) <= kSame;
@@ -46,8 +46,8 @@ std::string validate_ends(const Maneuver& m, const UniversalAutomaton& automaton
 }
 
 std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automaton) {
-  const VehicleLimits& limits = automaton.limits;
-  for (const Input& u : m.inputs) {
+  const vehicle::VehicleLimits& limits = automaton.limits;
+  for (const vehicle::Input& u : m.inputs) {
     if (!is_bounded(u.acceleration_mps2, -limits.acceleration_mps2, limits.acceleration_mps2)) {
       return "acceleration = " + shortest_text(u.acceleration_mps2) + " m/s^2, exceeds the limit";
     }
@@ -57,7 +57,7 @@ std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automat
              " rad/s, exceeds the limit";
     }
   }
-  for (const State& x : m.states) {
+  for (const vehicle::State& x : m.states) {
     if (!is_bounded(x.speed_mps, limits.speed_min_mps, limits.speed_max_mps)) {
       return "speed = " + shortest_text(x.speed_mps) + " m/s, outside the limits";
     }
@@ -66,12 +66,12 @@ std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automat
     }
   }
   for (std::size_t k = 0; k < m.inputs.size(); ++k) {
-    if (!is_within_friction(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
-        !is_within_friction(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
+    if (!vehicle::is_within_friction(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
+        !vehicle::is_within_friction(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
       return "friction circle exceeded in interval " + std::to_string(k + 1);
     }
-    if (!is_within_curvature(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
-        !is_within_curvature(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
+    if (!vehicle::is_within_curvature(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
+        !vehicle::is_within_curvature(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
       return "curvature limit exceeded in interval " + std::to_string(k + 1);
     }
   }
@@ -79,28 +79,30 @@ std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automat
 }
 
 /// State k integrated over one interval.
-State integrated_again(const Maneuver& m, std::size_t k, const VehicleParameters& vehicle) {
+vehicle::State integrated_again(const Maneuver& m, std::size_t k,
+                                const vehicle::VehicleParameters& vehicle) {
   constexpr int kFiner = 10;
   const double interval_s = m.duration_s / static_cast<double>(m.inputs.size());
   if (m.from == m.to) {
-    State state = m.states[k];
-    state.pose = trim_motion(state.pose, state.speed_mps, state.steering_rad, interval_s, vehicle);
+    vehicle::State state = m.states[k];
+    state.pose =
+        vehicle::trim_motion(state.pose, state.speed_mps, state.steering_rad, interval_s, vehicle);
     return state;
   }
-  State state = m.states[k];
+  vehicle::State state = m.states[k];
   for (int i = 0; i < kFiner; ++i) {
-    state = integrated(state, m.inputs[k], interval_s / kFiner, vehicle);
+    state = vehicle::integrated(state, m.inputs[k], interval_s / kFiner, vehicle);
   }
   return state;
 }
 
-std::string validate_motion(const Maneuver& m, const VehicleParameters& vehicle) {
+std::string validate_motion(const Maneuver& m, const vehicle::VehicleParameters& vehicle) {
   const double tolerance =
       (m.from == m.to ? kSame : 1e-6) *
       std::max(1.0, top_speed_mps(m) * m.duration_s / static_cast<double>(m.inputs.size()));
   for (std::size_t k = 0; k < m.inputs.size(); ++k) {
-    const State reached = integrated_again(m, k, vehicle);
-    const State& stored = m.states[k + 1];
+    const vehicle::State reached = integrated_again(m, k, vehicle);
+    const vehicle::State& stored = m.states[k + 1];
     const bool is_same = std::abs(reached.speed_mps - stored.speed_mps) <= tolerance &&
                          std::abs(reached.steering_rad - stored.steering_rad) <= tolerance;
     // Negated, so that a NaN is a fault.
@@ -112,7 +114,7 @@ std::string validate_motion(const Maneuver& m, const VehicleParameters& vehicle)
 }
 
 bool contains_footprint(const ConvexPolygon& area_m, const Pose& pose, double margin_m,
-                        const VehicleParameters& vehicle) {
+                        const vehicle::VehicleParameters& vehicle) {
   const ConvexPolygon footprint = footprint_area(vehicle.footprint, pose, margin_m);
   return !area_m.empty() &&
          std::ranges::all_of(footprint.vertices_m, [&area_m](const Point& corner) {
@@ -121,11 +123,11 @@ bool contains_footprint(const ConvexPolygon& area_m, const Pose& pose, double ma
 }
 
 std::string validate_areas(const Maneuver& m, const UniversalAutomaton& automaton) {
-  const VehicleParameters& vehicle = automaton.vehicle;
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
   const std::size_t halves = 2 * m.inputs.size();
   for (std::size_t i = 0; i <= halves; ++i) {
     const double time_s = m.duration_s * static_cast<double>(i) / static_cast<double>(halves);
-    const State state = state_at(m, time_s, vehicle);
+    const vehicle::State state = state_at(m, time_s, vehicle);
     Pose driven = state.pose;
     driven.heading_rad += yaw_minus_heading_rad(state.steering_rad, vehicle, automaton.identified);
     const double margin_m = vehicle.safety_margin_m;
@@ -150,4 +152,4 @@ std::string validate(const Maneuver& maneuver, const UniversalAutomaton& automat
   return fault;
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -4,7 +4,7 @@
 
 #include "planner/automaton/automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// Error of a maneuver of that automaton (its vehicle, limits, trims, step length), in words;
 /// empty: none. The maneuver must
@@ -21,4 +21,4 @@ namespace hlc {
 ///   swept area with margin for planned heading and driven yaw, the lane area without.
 [[nodiscard]] std::string validate(const Maneuver& maneuver, const UniversalAutomaton& automaton);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

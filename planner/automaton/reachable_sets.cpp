@@ -8,7 +8,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 /// Kept vertices of a swept area's hull; the recursion itself uses all of them.
@@ -220,4 +220,4 @@ std::size_t ReachableSets::area_index(TrimId trim, std::size_t step) const {
   return step * num_trims_ + trim.index;
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -8,7 +8,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// Unit vectors n_0 ... n_15 at multiples of 22.5 degrees: the directions of Reach::support_m.
 inline constexpr std::array<std::array<double, 2>, 16> kReachDirections = [] {
@@ -119,4 +119,4 @@ class ReachableSets {
   std::vector<std::vector<Shift>> shifts_;  ///< by trim; empty after the tables are computed
 };
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -8,7 +8,7 @@
 
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
@@ -161,4 +161,4 @@ std::shared_ptr<const Subgraph> requested_subgraph(
   return subgraph;
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -8,7 +8,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/automaton/subgraph_request.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// Label of maneuvers designed for these weights ("J1 0.3 J2 0.7"): the same for the same weights
 /// in any order, without zero weights.
@@ -34,4 +34,4 @@ namespace hlc {
     const Subgraph& base, const SubgraphRequest& request, std::size_t horizon_steps,
     std::shared_ptr<const UniversalAutomaton> automaton = nullptr);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

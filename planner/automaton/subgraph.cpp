@@ -7,7 +7,7 @@
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 constexpr double kRounding_mps = 1e-6;  // of the states of maneuvers (maneuver_check)
@@ -29,8 +29,8 @@ bool holds_twice(const std::vector<T>& list, const T& value) {
 /// True if constant inputs that make the change within one step are within the limits. Without a
 /// friction circle and a limit on the curvature there are no other limits: v and delta are linear
 /// in the inputs.
-bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle,
-                  const VehicleLimits& limits, double step_s) {
+bool are_in_reach(const Trim& a, const Trim& b, const vehicle::VehicleParameters& vehicle,
+                  const vehicle::VehicleLimits& limits, double step_s) {
   constexpr double kRounding = 1.0 + 1e-9;
   const double speed_mps = limits.acceleration_mps2 * step_s * kRounding;
   const double steering_rad = limits.steering_rate_radps * step_s * kRounding;
@@ -38,16 +38,16 @@ bool are_in_reach(const Trim& a, const Trim& b, const VehicleParameters& vehicle
       std::abs(b.steering_rad - a.steering_rad) > steering_rad) {
     return false;
   }
-  const Input input{(b.speed_mps - a.speed_mps) / step_s,
-                    (b.steering_rad - a.steering_rad) / step_s};
+  const vehicle::Input input{(b.speed_mps - a.speed_mps) / step_s,
+                             (b.steering_rad - a.steering_rad) / step_s};
   constexpr int kSamples = 100;
   for (int i = 0; i <= kSamples; ++i) {
     const double share = static_cast<double>(i) / kSamples;
-    const State state{{},
-                      std::lerp(a.speed_mps, b.speed_mps, share),
-                      std::lerp(a.steering_rad, b.steering_rad, share)};
-    if (!is_within_friction(state, input, vehicle, limits) ||
-        !is_within_curvature(state, input, vehicle, limits)) {
+    const vehicle::State state{{},
+                               std::lerp(a.speed_mps, b.speed_mps, share),
+                               std::lerp(a.steering_rad, b.steering_rad, share)};
+    if (!vehicle::is_within_friction(state, input, vehicle, limits) ||
+        !vehicle::is_within_curvature(state, input, vehicle, limits)) {
       return false;
     }
   }
@@ -127,8 +127,9 @@ bool sort_by_target(std::vector<Edge>& edges) {
 }  // namespace
 
 std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
-                                 const std::vector<TrimId>& on, const VehicleParameters& vehicle,
-                                 const VehicleLimits& limits, double step_s) {
+                                 const std::vector<TrimId>& on,
+                                 const vehicle::VehicleParameters& vehicle,
+                                 const vehicle::VehicleLimits& limits, double step_s) {
   const auto has_edge = [&](std::size_t i, std::size_t j) {
     const Trim& a = trims[on[i].index];
     const Trim& b = trims[on[j].index];
@@ -385,4 +386,4 @@ void check_driving(const Subgraph& subgraph, std::size_t horizon_steps) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -9,7 +9,7 @@
 
 #include "planner/automaton/automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// The rule for edges between the trims of a subgraph, beside each trim's self-loop.
 enum class EdgeRule {
@@ -55,8 +55,8 @@ struct SubgraphSpec {
 /// @pre every element of `on` is an index into `trims`
 [[nodiscard]] std::vector<TrimPair> rule_edges(EdgeRule rule, const std::vector<Trim>& trims,
                                                const std::vector<TrimId>& on,
-                                               const VehicleParameters& vehicle,
-                                               const VehicleLimits& limits, double step_s);
+                                               const vehicle::VehicleParameters& vehicle,
+                                               const vehicle::VehicleLimits& limits, double step_s);
 
 /// The labels of the edges from one trim to another, without disabled ones.
 [[nodiscard]] std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edge);
@@ -162,4 +162,4 @@ class Subgraph {
 /// @throws std::invalid_argument naming subgraph and trim
 void check_driving(const Subgraph& subgraph, std::size_t horizon_steps);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

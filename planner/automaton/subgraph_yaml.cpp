@@ -7,7 +7,7 @@
 
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 template <class T>
@@ -239,4 +239,4 @@ std::string to_yaml(const SubgraphSpec& spec) {
   return text + "}";
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

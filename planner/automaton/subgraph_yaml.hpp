@@ -6,13 +6,13 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/common/node.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// The file's part that its subgraphs refer to.
 struct SubgraphContext {
   const std::vector<Trim>& trims;
-  const VehicleParameters& vehicle;
-  const VehicleLimits& limits;
+  const vehicle::VehicleParameters& vehicle;
+  const vehicle::VehicleLimits& limits;
   double step_s{};
   std::size_t horizon_steps{};
   const std::vector<std::string>& labels;  ///< of the automaton
@@ -41,4 +41,4 @@ struct SubgraphContext {
 /// The same entry as text, one line of YAML ("{name: B, ...}"): reads back to the same spec.
 [[nodiscard]] std::string to_yaml(const SubgraphSpec& spec);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -2,7 +2,7 @@
 
 #include "planner/automaton/automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// The two areas that a maneuver covers, see Maneuver.
 struct SweptAreas {
@@ -66,7 +66,8 @@ struct SweptAreas {
 /// um is added for that (its error is below 0.1 um with 20 intervals in 0.2 s).
 ///
 /// @pre `maneuver` has inputs and states; 0 <= l_r <= L, p4 > 0, p2 <= 0
-[[nodiscard]] SweptAreas swept_areas(const Maneuver& maneuver, const VehicleParameters& vehicle,
-                                     const IdentifiedVehicle& identified);
+[[nodiscard]] SweptAreas swept_areas(const Maneuver& maneuver,
+                                     const vehicle::VehicleParameters& vehicle,
+                                     const vehicle::IdentifiedVehicle& identified);
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -9,7 +9,7 @@
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 using Field = std::pair<const char*, double>;
@@ -29,8 +29,8 @@ std::string fields(std::initializer_list<Field> list) {
 
 }  // namespace
 
-VehicleParameters read_vehicle(const Node& vehicle) {
-  VehicleParameters v;
+vehicle::VehicleParameters read_vehicle(const Node& vehicle) {
+  vehicle::VehicleParameters v;
   v.wheelbase_m = vehicle.required<double>("wheelbase_m", above(0.0, kLongest_m));
   v.rear_axle_to_cg_m = vehicle.required<double>("rear_axle_to_cg_m", between(0.0, v.wheelbase_m));
   v.footprint.length_m = vehicle.required<double>("length_m", above(0.0, kLongest_m));
@@ -40,14 +40,15 @@ VehicleParameters read_vehicle(const Node& vehicle) {
   return v;
 }
 
-IdentifiedVehicle read_identified(const Node& vehicle, const VehicleParameters& parameters,
-                                  const VehicleLimits& limits) {
+vehicle::IdentifiedVehicle read_identified(const Node& vehicle,
+                                           const vehicle::VehicleParameters& parameters,
+                                           const vehicle::VehicleLimits& limits) {
   if (vehicle.is_value("identified")) {
     static_cast<void>(vehicle.required<std::string>("identified", one_of({"kinematic"})));
-    return kinematic_vehicle(parameters, limits.steering_max_rad);
+    return vehicle::kinematic_vehicle(parameters, limits.steering_max_rad);
   }
   const Node identified = vehicle.optional_map("identified");
-  IdentifiedVehicle v;
+  vehicle::IdentifiedVehicle v;
   v.path_speed_gain = identified.optional("path_speed_gain", v.path_speed_gain, above(0.0));
   v.path_speed_steering =
       identified.optional("path_speed_steering", v.path_speed_steering, between(-1.0, 0.0));
@@ -64,8 +65,8 @@ IdentifiedVehicle read_identified(const Node& vehicle, const VehicleParameters& 
   return v;
 }
 
-VehicleLimits read_limits(const Node& limits) {
-  VehicleLimits l;
+vehicle::VehicleLimits read_limits(const Node& limits) {
+  vehicle::VehicleLimits l;
   l.acceleration_mps2 = limits.required<double>("acceleration_mps2", above(0.0, kStrongest));
   l.steering_rate_radps = limits.required<double>("steering_rate_radps", above(0.0, kStrongest));
   l.speed_min_mps = limits.required<double>("speed_min_mps", between(0.0, kFastest_mps));
@@ -82,23 +83,27 @@ VehicleLimits read_limits(const Node& limits) {
   return l;
 }
 
-Trim read_trim(const Node& trim, const VehicleParameters& vehicle, const VehicleLimits& limits) {
+Trim read_trim(const Node& trim, const vehicle::VehicleParameters& vehicle,
+               const vehicle::VehicleLimits& limits) {
   Trim result;
   result.speed_mps =
       trim.required<double>("speed_mps", between(limits.speed_min_mps, limits.speed_max_mps));
   result.steering_rad = trim.required<double>(
       "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
-  if (!is_within_friction({{}, result.speed_mps, result.steering_rad}, {}, vehicle, limits)) {
+  if (!vehicle::is_within_friction({{}, result.speed_mps, result.steering_rad}, {}, vehicle,
+                                   limits)) {
     trim.fail("speed_mps", "less with this steering: the friction circle is exceeded");
   }
-  if (!is_within_curvature({{}, result.speed_mps, result.steering_rad}, {}, vehicle, limits)) {
+  if (!vehicle::is_within_curvature({{}, result.speed_mps, result.steering_rad}, {}, vehicle,
+                                    limits)) {
     trim.fail("steering_rad", "less: its path bends more than limits.curvature_max_per_m");
   }
   return result;
 }
 
-std::string to_yaml(const VehicleParameters& vehicle, const IdentifiedVehicle& identified) {
-  const IdentifiedVehicle& i = identified;
+std::string to_yaml(const vehicle::VehicleParameters& vehicle,
+                    const vehicle::IdentifiedVehicle& identified) {
+  const vehicle::IdentifiedVehicle& i = identified;
   return "{" +
          fields({{"wheelbase_m", vehicle.wheelbase_m},
                  {"rear_axle_to_cg_m", vehicle.rear_axle_to_cg_m},
@@ -119,7 +124,7 @@ std::string to_yaml(const VehicleParameters& vehicle, const IdentifiedVehicle& i
          "}}";
 }
 
-std::string to_yaml(const VehicleLimits& limits) {
+std::string to_yaml(const vehicle::VehicleLimits& limits) {
   const auto if_any = [](const char* key, const std::optional<double>& value) {
     return value ? ", " + fields({{key, *value}}) : "";
   };
@@ -133,4 +138,4 @@ std::string to_yaml(const VehicleLimits& limits) {
          if_any("curvature_max_per_m", limits.curvature_max_per_m) + "}";
 }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -7,7 +7,7 @@
 #include "planner/controller/self_loop.hpp"
 #include "planner/controller/trajectory.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 /// Swept areas are rounded outwards before they enter the reachable area.
@@ -17,43 +17,46 @@ constexpr double kReachRounding_m = 1e-5;
 /// fraction of a millisecond.
 constexpr int kWarmUpLooks = 16;
 
-PlanQuality quality_of(SearchStatus found) {
+coordination::PlanQuality quality_of(search::SearchStatus found) {
   switch (found) {
-    case SearchStatus::kOptimal:
-      return PlanQuality::kOptimal;
-    case SearchStatus::kUnproven:
-      return PlanQuality::kUnproven;
-    case SearchStatus::kBudget:
-      return PlanQuality::kBudget;
-    case SearchStatus::kFallback:
+    case search::SearchStatus::kOptimal:
+      return coordination::PlanQuality::kOptimal;
+    case search::SearchStatus::kUnproven:
+      return coordination::PlanQuality::kUnproven;
+    case search::SearchStatus::kBudget:
+      return coordination::PlanQuality::kBudget;
+    case search::SearchStatus::kFallback:
       break;
   }
-  return PlanQuality::kNone;
+  return coordination::PlanQuality::kNone;
 }
 
-void add_figures(const SearchResult& result, const Subgraph& on, Report& report) {
+void add_figures(const search::SearchResult& result, const automaton::Subgraph& on,
+                 coordination::Report& report) {
   report.generated += result.generated;
   report.expanded += result.expanded;
-  if (result.status == SearchStatus::kFallback) return;
+  if (result.status == search::SearchStatus::kFallback) return;
   report.subgraph = on.spec().name;
   report.cost_m2 = result.cost;
   report.quality = quality_of(result.status);
-  report.gap_m2 = result.status == SearchStatus::kOptimal ? 0.0 : result.cost - result.lower_bound;
+  report.gap_m2 =
+      result.status == search::SearchStatus::kOptimal ? 0.0 : result.cost - result.lower_bound;
 }
 
 /// The command of the plan is checked before the plan is published.
-bool is_drivable(const Plan& plan, const CandidateInputs& inputs,
-                 const UniversalAutomaton& automaton) {
+bool is_drivable(const coordination::Plan& plan, const CandidateInputs& inputs,
+                 const automaton::UniversalAutomaton& automaton) {
   if (!inputs.lab) return true;
-  return !trajectory_fault(sample_trajectory(plan, inputs.now, inputs.lab->point_interval_s, 0.0,
-                                             automaton.step_s, automaton.vehicle),
-                           inputs.lab);
+  return !vehicle::trajectory_fault(
+      sample_trajectory(plan, inputs.now, inputs.lab->point_interval_s, 0.0, automaton.step_s,
+                        automaton.vehicle),
+      inputs.lab);
 }
 
 /// The search has kept the swept areas free, and they are within reach; areas with drift may be
 /// larger.
 bool is_free(const PlanCandidate& candidate, const CandidateInputs& inputs) {
-  const OccupiedAreas& areas = candidate.areas;
+  const coordination::OccupiedAreas& areas = candidate.areas;
   const auto is_in_reach = [&](const ConvexPolygon& area) {
     return contains(inputs.reachable_area_m, area, kReachRounding_m);
   };
@@ -75,12 +78,12 @@ bool is_free(const PlanCandidate& candidate, const CandidateInputs& inputs) {
 
 }  // namespace
 
-CandidateSearch::CandidateSearch(PreparedSubgraph on, const SearchOptions& search,
+CandidateSearch::CandidateSearch(PreparedSubgraph on, const search::SearchOptions& search,
                                  std::size_t horizon_steps)
     : horizon_steps_(horizon_steps), current_(std::move(on), search) {}
 
-std::vector<const ReachableSets*> CandidateSearch::reachable() const {
-  std::vector<const ReachableSets*> result{current_.on().reachable.get()};
+std::vector<const automaton::ReachableSets*> CandidateSearch::reachable() const {
+  std::vector<const automaton::ReachableSets*> result{current_.on().reachable.get()};
   if (former_) result.push_back(former_->engine.on().reachable.get());
   return result;
 }
@@ -92,7 +95,7 @@ double CandidateSearch::reach_m(TrimId trim) const {
   return std::max(reach_in(current_.on()), former_ ? reach_in(former_->engine.on()) : 0.0);
 }
 
-void CandidateSearch::switch_to(const PreparedSubgraph& next, const SearchOptions& search,
+void CandidateSearch::switch_to(const PreparedSubgraph& next, const search::SearchOptions& search,
                                 StepIndex now) {
   HLC_DEMAND(next.subgraph->automaton().trims == on().subgraph->automaton().trims);
   HLC_DEMAND(next.reachable->max_steps() > horizon_steps_, next.reachable->max_steps(),
@@ -109,17 +112,17 @@ void CandidateSearch::set_max_expansions(std::size_t max_expansions) {
   if (former_) former_->engine.set_max_expansions(max_expansions);
 }
 
-SearchResult CandidateSearch::search(const HorizonProblem& problem) {
+search::SearchResult CandidateSearch::search(const search::HorizonProblem& problem) {
   return current_.engine().search(problem);
 }
 
-std::uint64_t CandidateSearch::warm_up(const HorizonProblem& problem) {
+std::uint64_t CandidateSearch::warm_up(const search::HorizonProblem& problem) {
   int looks = 0;
   return current_.engine().search(problem, [&looks] { return ++looks > kWarmUpLooks; }).expanded;
 }
 
-PlanCandidate CandidateSearch::find(HorizonProblem problem, const CandidateInputs& inputs,
-                                    Report& report) {
+PlanCandidate CandidateSearch::find(search::HorizonProblem problem, const CandidateInputs& inputs,
+                                    coordination::Report& report) {
   PlanCandidate candidate;
   candidate.problems.push_back(std::move(problem));
   search_with_and_without_drift(current_, inputs, candidate, report);
@@ -128,51 +131,53 @@ PlanCandidate CandidateSearch::find(HorizonProblem problem, const CandidateInput
 }
 
 void CandidateSearch::search_on(EngineCache& on, const CandidateInputs& inputs,
-                                PlanCandidate& candidate, Report& report) {
-  const Subgraph& subgraph = *on.on().subgraph;
-  const SearchResult result = on.engine().search(candidate.problems.back());
+                                PlanCandidate& candidate, coordination::Report& report) {
+  const automaton::Subgraph& subgraph = *on.on().subgraph;
+  const search::SearchResult result = on.engine().search(candidate.problems.back());
   add_figures(result, subgraph, report);
-  if (result.status == SearchStatus::kFallback) {
-    candidate.obstacle =
-        result.reason == NoPath::kBudget ? FallbackReason::kBudget : FallbackReason::kInfeasible;
+  if (result.status == search::SearchStatus::kFallback) {
+    candidate.obstacle = result.reason == search::NoPath::kBudget
+                             ? coordination::FallbackReason::kBudget
+                             : coordination::FallbackReason::kInfeasible;
     return;
   }
   const StepIndex next{inputs.now.value + 1};
-  const UniversalAutomaton& automaton = subgraph.automaton();
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
   candidate.plan = inputs.in_force.base().continued(
       next, result.maneuvers, self_loop(automaton, result.maneuvers.back()->to),
       subgraph.shared_automaton());
   candidate.areas = inputs.in_force.areas_of(*candidate.plan, next);
   if (!is_drivable(*candidate.plan, inputs, automaton)) {
-    candidate.obstacle = FallbackReason::kUndrivable;
+    candidate.obstacle = coordination::FallbackReason::kUndrivable;
   } else if (!is_free(candidate, inputs)) {
-    candidate.obstacle = FallbackReason::kConflict;
+    candidate.obstacle = coordination::FallbackReason::kConflict;
   }
-  if (candidate.obstacle != FallbackReason::kNone) candidate.plan.reset();
+  if (candidate.obstacle != coordination::FallbackReason::kNone) candidate.plan.reset();
 }
 
 void CandidateSearch::search_with_and_without_drift(EngineCache& on, const CandidateInputs& inputs,
-                                                    PlanCandidate& candidate, Report& report) {
+                                                    PlanCandidate& candidate,
+                                                    coordination::Report& report) {
   search_on(on, inputs, candidate, report);
-  if (candidate.obstacle != FallbackReason::kConflict) return;
-  HorizonProblem without_drift = candidate.problems.back();
+  if (candidate.obstacle != coordination::FallbackReason::kConflict) return;
+  search::HorizonProblem without_drift = candidate.problems.back();
   without_drift.avoids_steering_limit = true;
   candidate.problems.push_back(std::move(without_drift));
-  candidate.obstacle = FallbackReason::kNone;
+  candidate.obstacle = coordination::FallbackReason::kNone;
   search_on(on, inputs, candidate, report);
 }
 
 void CandidateSearch::search_on_former(const CandidateInputs& inputs, PlanCandidate& candidate,
-                                       Report& report) {
+                                       coordination::Report& report) {
   if (candidate.plan || inputs.now > former_->last) {
     former_.reset();
     return;
   }
   // A second search would take as long again: the former subgraph is tried in the next step.
-  if (candidate.obstacle == FallbackReason::kBudget) return;
-  candidate.obstacle = FallbackReason::kNone;
+  if (candidate.obstacle == coordination::FallbackReason::kBudget) return;
+  candidate.obstacle = coordination::FallbackReason::kNone;
   if (candidate.problems.size() > 1) candidate.problems.push_back(candidate.problems.front());
   search_with_and_without_drift(former_->engine, inputs, candidate, report);
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -10,24 +10,24 @@
 #include "planner/search/horizon_problem.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// Constraints on a new plan. Not owned.
 struct CandidateInputs {
-  const PlanInForce& in_force;            ///< continued by the new plan
-  StepIndex now;                          ///< k; the plan is new from t(k+1) on
-  const ConvexPolygon& reachable_area_m;  ///< as announced in this step's traffic
-  const std::optional<LabLimits>& lab;    ///< limits of the vehicle; absent: none
+  const PlanInForce& in_force;                   ///< continued by the new plan
+  StepIndex now;                                 ///< k; the plan is new from t(k+1) on
+  const ConvexPolygon& reachable_area_m;         ///< as announced in this step's traffic
+  const std::optional<vehicle::LabLimits>& lab;  ///< limits of the vehicle; absent: none
 };
 
 /// Result of the search for a new plan.
 struct PlanCandidate {
-  std::optional<Plan> plan;  ///< none: see `obstacle`
-  OccupiedAreas areas;       ///< of the plan from t(k+1) on
-  FallbackReason obstacle{FallbackReason::kNone};
+  std::optional<coordination::Plan> plan;  ///< none: see `obstacle`
+  coordination::OccupiedAreas areas;       ///< of the plan from t(k+1) on
+  coordination::FallbackReason obstacle{coordination::FallbackReason::kNone};
   /// Problems given to the search, in order: two if the first plan would have drifted into
   /// something, after a switch perhaps more.
-  std::vector<HorizonProblem> problems;
+  std::vector<search::HorizonProblem> problems;
 };
 
 /// Searches a new plan and checks it: the vehicle must be able to follow it, and its drift
@@ -38,29 +38,30 @@ struct PlanCandidate {
 class CandidateSearch {
  public:
   /// @throws std::invalid_argument as EngineCache
-  CandidateSearch(PreparedSubgraph on, const SearchOptions& search, std::size_t horizon_steps);
+  CandidateSearch(PreparedSubgraph on, const search::SearchOptions& search,
+                  std::size_t horizon_steps);
 
   /// The current subgraph.
   [[nodiscard]] const PreparedSubgraph& on() const { return current_.on(); }
   /// Reachable sets of all subgraphs that may be searched, that of `on` first.
-  [[nodiscard]] std::vector<const ReachableSets*> reachable() const;
+  [[nodiscard]] std::vector<const automaton::ReachableSets*> reachable() const;
   /// How far the vehicle can get from the trim within a horizon.
   [[nodiscard]] double reach_m(TrimId trim) const;
 
   /// @param now  the last step
   /// @pre as Controller::switch_to
-  void switch_to(const PreparedSubgraph& next, const SearchOptions& search, StepIndex now);
+  void switch_to(const PreparedSubgraph& next, const search::SearchOptions& search, StepIndex now);
   void set_max_expansions(std::size_t max_expansions);
 
   /// One search, unchecked, on the current subgraph.
-  [[nodiscard]] SearchResult search(const HorizonProblem& problem);
+  [[nodiscard]] search::SearchResult search(const search::HorizonProblem& problem);
   /// Searches for a fraction of a millisecond and drops the result.
   /// @return expansions
-  std::uint64_t warm_up(const HorizonProblem& problem);
+  std::uint64_t warm_up(const search::HorizonProblem& problem);
 
   /// @param report  receives the figures of the search
-  [[nodiscard]] PlanCandidate find(HorizonProblem problem, const CandidateInputs& inputs,
-                                   Report& report);
+  [[nodiscard]] PlanCandidate find(search::HorizonProblem problem, const CandidateInputs& inputs,
+                                   coordination::Report& report);
 
  private:
   /// The subgraph before a switch.
@@ -70,14 +71,15 @@ class CandidateSearch {
   };
 
   static void search_on(EngineCache& on, const CandidateInputs& inputs, PlanCandidate& candidate,
-                        Report& report);
+                        coordination::Report& report);
   static void search_with_and_without_drift(EngineCache& on, const CandidateInputs& inputs,
-                                            PlanCandidate& candidate, Report& report);
-  void search_on_former(const CandidateInputs& inputs, PlanCandidate& candidate, Report& report);
+                                            PlanCandidate& candidate, coordination::Report& report);
+  void search_on_former(const CandidateInputs& inputs, PlanCandidate& candidate,
+                        coordination::Report& report);
 
   std::size_t horizon_steps_;
   EngineCache current_;
   std::optional<Former> former_;  ///< until something was found on `current_`
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 constexpr std::uint64_t kMaxStepsAhead = 10;
@@ -25,7 +25,7 @@ StepOutput ControlLoop::begin(const Observation& observation) {
   return {.traffic = controller_->observe(observation)};
 }
 
-Report ControlLoop::stand_by(const Observation& observation) {
+coordination::Report ControlLoop::stand_by(const Observation& observation) {
   HLC_DEMAND(!is_in_step(), phase_);
   advance_to(observation.step);
   return controller_->stand_by(observation);
@@ -39,9 +39,9 @@ void ControlLoop::advance_to(StepIndex step) {
   std::apply([&](auto&... kinds) { (drop_old(kinds), ...); }, received_);
 }
 
-void ControlLoop::receive(const Traffic& message) { keep(message); }
-void ControlLoop::receive(const Prediction& message) { keep(message); }
-void ControlLoop::receive(const Outcome& message) { keep(message); }
+void ControlLoop::receive(const coordination::Traffic& message) { keep(message); }
+void ControlLoop::receive(const coordination::Prediction& message) { keep(message); }
+void ControlLoop::receive(const coordination::Outcome& message) { keep(message); }
 
 template <class Message>
 void ControlLoop::keep(const Message& message) {
@@ -86,13 +86,15 @@ Awaited ControlLoop::awaited() const {
     case StepPhase::kIdle:
       break;
     case StepPhase::kTraffic:
-      return missing_of<Traffic>(MessageKind::kTraffic, active_);
+      return missing_of<coordination::Traffic>(MessageKind::kTraffic, active_);
     case StepPhase::kPredecessors:
-      return missing_of<Prediction>(MessageKind::kPrediction, controller_->predecessors());
+      return missing_of<coordination::Prediction>(MessageKind::kPrediction,
+                                                  controller_->predecessors());
     case StepPhase::kCommit:
-      return needs_votes()
-                 ? missing_of<Outcome>(MessageKind::kOutcome, controller_->component())
-                 : missing_of<Prediction>(MessageKind::kPrediction, controller_->coupled());
+      return needs_votes() ? missing_of<coordination::Outcome>(MessageKind::kOutcome,
+                                                               controller_->component())
+                           : missing_of<coordination::Prediction>(MessageKind::kPrediction,
+                                                                  controller_->coupled());
   }
   HLC_DEMAND(is_in_step());  // nothing is awaited outside a step
   return {};
@@ -103,7 +105,7 @@ StepOutput ControlLoop::proceed() {
     case StepPhase::kIdle:
       break;
     case StepPhase::kTraffic:
-      controller_->couple(received<Traffic>());
+      controller_->couple(received<coordination::Traffic>());
       phase_ = StepPhase::kPredecessors;
       return {};
     case StepPhase::kPredecessors:
@@ -111,14 +113,15 @@ StepOutput ControlLoop::proceed() {
       return plan();
     case StepPhase::kCommit:
       phase_ = StepPhase::kIdle;
-      return {.report = controller_->commit(received<Prediction>(), received<Outcome>())};
+      return {.report = controller_->commit(received<coordination::Prediction>(),
+                                            received<coordination::Outcome>())};
   }
   HLC_DEMAND(is_in_step());
   return {};
 }
 
 StepOutput ControlLoop::plan() {
-  const std::vector<Prediction> predictions = received<Prediction>();
+  const std::vector<coordination::Prediction> predictions = received<coordination::Prediction>();
   const std::uint64_t from_ns = stopwatch_();
   StepOutput output{.prediction = controller_->plan(predictions)};
   planning_ns_ = stopwatch_() - from_ns;
@@ -126,10 +129,10 @@ StepOutput ControlLoop::plan() {
   return output;
 }
 
-StepOutput ControlLoop::fall_back(FallbackReason reason) {
+StepOutput ControlLoop::fall_back(coordination::FallbackReason reason) {
   HLC_DEMAND(is_in_step());
   phase_ = StepPhase::kIdle;
   return {.report = controller_->fall_back(reason)};
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

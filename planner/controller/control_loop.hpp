@@ -9,16 +9,16 @@
 
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 enum class MessageKind { kTraffic, kPrediction, kOutcome };
 
 /// Messages to publish now; at the end of the step its report.
 struct StepOutput {
-  std::optional<Traffic> traffic{};
-  std::optional<Prediction> prediction{};
-  std::optional<Outcome> outcome{};
-  std::optional<Report> report{};
+  std::optional<coordination::Traffic> traffic{};
+  std::optional<coordination::Prediction> prediction{};
+  std::optional<coordination::Outcome> outcome{};
+  std::optional<coordination::Report> report{};
 };
 
 /// Senders whose messages the next phase needs and has not received.
@@ -63,14 +63,14 @@ class ControlLoop {
   /// Begins a step; outputs traffic. @pre as for Controller::observe; not in a step
   [[nodiscard]] StepOutput begin(const Observation& observation);
   /// Controller::stand_by, a step before the start. @pre not in a step
-  [[nodiscard]] Report stand_by(const Observation& observation);
+  [[nodiscard]] coordination::Report stand_by(const Observation& observation);
   /// The step of the next `begin`, if it is known earlier: messages for the steps before are
   /// dropped. Also to be called in a step that has neither `begin` nor `stand_by`.
   void advance_to(StepIndex step);
 
-  void receive(const Traffic& message);
-  void receive(const Prediction& message);
-  void receive(const Outcome& message);
+  void receive(const coordination::Traffic& message);
+  void receive(const coordination::Prediction& message);
+  void receive(const coordination::Outcome& message);
 
   [[nodiscard]] StepPhase phase() const { return phase_; }
   [[nodiscard]] bool is_in_step() const { return phase_ != StepPhase::kIdle; }
@@ -82,7 +82,7 @@ class ControlLoop {
   /// The next phase, with the messages received so far. @pre in a step
   [[nodiscard]] StepOutput proceed();
   /// Ends the step instead; outputs the report: the plan in force stays. @pre in a step
-  [[nodiscard]] StepOutput fall_back(FallbackReason reason);
+  [[nodiscard]] StepOutput fall_back(coordination::FallbackReason reason);
 
   /// Duration of planning in the last step, by the stopwatch.
   [[nodiscard]] std::uint64_t planning_ns() const { return planning_ns_; }
@@ -106,7 +106,9 @@ class ControlLoop {
   StepIndex step_;
   std::vector<VehicleId> active_;
   std::uint64_t planning_ns_{};
-  std::tuple<Received<Traffic>, Received<Prediction>, Received<Outcome>> received_;
+  std::tuple<Received<coordination::Traffic>, Received<coordination::Prediction>,
+             Received<coordination::Outcome>>
+      received_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

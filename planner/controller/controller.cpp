@@ -10,21 +10,21 @@
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/priority.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
-FallbackReason reason_of(CommitVerdict verdict) {
+coordination::FallbackReason reason_of(coordination::CommitVerdict verdict) {
   switch (verdict) {
-    case CommitVerdict::kInForce:
+    case coordination::CommitVerdict::kInForce:
       break;
-    case CommitVerdict::kConflict:
-      return FallbackReason::kConflict;
-    case CommitVerdict::kNotReceived:
-      return FallbackReason::kMissing;
-    case CommitVerdict::kFallback:
-      return FallbackReason::kNeighbour;
+    case coordination::CommitVerdict::kConflict:
+      return coordination::FallbackReason::kConflict;
+    case coordination::CommitVerdict::kNotReceived:
+      return coordination::FallbackReason::kMissing;
+    case coordination::CommitVerdict::kFallback:
+      return coordination::FallbackReason::kNeighbour;
   }
-  return FallbackReason::kNone;
+  return coordination::FallbackReason::kNone;
 }
 
 bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
@@ -33,22 +33,24 @@ bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
 
 }  // namespace
 
-Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-                       std::vector<DrivableRoute> routes)
+Controller::Controller(ControllerOptions options,
+                       std::shared_ptr<const automaton::Subgraph> subgraph,
+                       std::vector<road::DrivableRoute> routes)
     : Controller(options,
                  prepare_subgraph(std::move(subgraph), options.horizon_steps, options.search),
                  std::move(routes)) {}
 
-Controller::Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-                       ReferencePath path, Corridor corridor)
+Controller::Controller(ControllerOptions options,
+                       std::shared_ptr<const automaton::Subgraph> subgraph,
+                       road::ReferencePath path, road::Corridor corridor)
     : Controller(options, std::move(subgraph),
                  {{.name = "", .path = std::move(path), .corridor = std::move(corridor)}}) {}
 
 Controller::Controller(ControllerOptions options, PreparedSubgraph on,
-                       std::vector<DrivableRoute> routes)
+                       std::vector<road::DrivableRoute> routes)
     : options_(std::move(options)),
       search_(std::move(on), options_.search, options_.horizon_steps),
-      tracker_(std::make_shared<const std::vector<DrivableRoute>>(std::move(routes))),
+      tracker_(std::make_shared<const std::vector<road::DrivableRoute>>(std::move(routes))),
       drivable_area_(options_.strategies.standstill_timeout, options_.horizon_steps),
       neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())) {}
 
@@ -62,25 +64,26 @@ void Controller::switch_to(const PreparedSubgraph& next) {
   drivable_area_.note_switch();
 }
 
-void Controller::switch_to(std::shared_ptr<const Subgraph> next) {
+void Controller::switch_to(std::shared_ptr<const automaton::Subgraph> next) {
   switch_to(prepare_subgraph(std::move(next), options_.horizon_steps, options_.search));
 }
 
-Report Controller::stand_by(const Observation& observation) {
+coordination::Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;
   neighbours_.begin_step(observation.step);
-  if (const MeasuredVehicle* own = observation.measured(options_.vehicle)) {
-    const UniversalAutomaton& automaton = subgraph().automaton();
+  if (const coordination::MeasuredVehicle* own = observation.measured(options_.vehicle)) {
+    const automaton::UniversalAutomaton& automaton = subgraph().automaton();
     in_force_.emplace(subgraph().shared_automaton(), self_loop(automaton, subgraph().standstill()),
                       options_.deviation, own->pose, observation.step);
-    tracker_.select_route(pose_of_measured(own->pose, 0.0, automaton.vehicle, automaton.identified),
-                          automaton.vehicle.footprint);
+    tracker_.select_route(
+        automaton::pose_of_measured(own->pose, 0.0, automaton.vehicle, automaton.identified),
+        automaton.vehicle.footprint);
     drivable_area_.depart();
   }
-  Report report{.vehicle = options_.vehicle, .step = observation.step};
+  coordination::Report report{.vehicle = options_.vehicle, .step = observation.step};
   if (placement() && !fits_route()) {
-    report.reason = FallbackReason::kOffRoute;
+    report.reason = coordination::FallbackReason::kOffRoute;
     report.deviation_m = std::max(0.0, placement()->beyond_m());
   }
   report.subgraph = subgraph().spec().name;
@@ -88,14 +91,14 @@ Report Controller::stand_by(const Observation& observation) {
   return report;
 }
 
-void Controller::report_plan_in_force(Report& report) const {
-  const Plan& plan = plan_in_force();
+void Controller::report_plan_in_force(coordination::Report& report) const {
+  const coordination::Plan& plan = plan_in_force();
   report.planned_pose = plan.pose_at(report.step);
   report.planned_trim = plan.trim_at(report.step);
   report.maneuver = plan.maneuver_during(report.step).label;
 }
 
-Traffic Controller::observe(const Observation& observation) {
+coordination::Traffic Controller::observe(const Observation& observation) {
   HLC_DEMAND(has_plan());
   const StepIndex now = observation.step;
   former_problem_.reset();
@@ -107,13 +110,13 @@ Traffic Controller::observe(const Observation& observation) {
   const DeviationCheck check =
       in_force_->check_deviation(observation.measured(options_.vehicle), now);
   step_.report.deviation_m = check.deviation_m;
-  if (check.is_disturbed) step_.obstacle = FallbackReason::kDeviation;
+  if (check.is_disturbed) step_.obstacle = coordination::FallbackReason::kDeviation;
   step_.is_vehicle_lost = check.is_lost;
   if (check.is_reanchored) drivable_area_.depart();
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
 
-  Traffic& traffic = step_.traffic;
+  coordination::Traffic& traffic = step_.traffic;
   traffic.vehicle = options_.vehicle;
   traffic.step = now;
   traffic.next_pose = in_force_->base().pose_at(step_.next());
@@ -126,17 +129,17 @@ Traffic Controller::observe(const Observation& observation) {
 
 /// Area reachable on every subgraph that may be planned on, or along the plan in force.
 ConvexPolygon Controller::reachable_area_m() const {
-  const Traffic& traffic = step_.traffic;
+  const coordination::Traffic& traffic = step_.traffic;
   std::vector<ConvexPolygon> reach;
   reach.reserve(traffic.running.areas_m.size() + 3);
   const auto add = [&reach](const ConvexPolygon& area) {  // most areas lie within the first one
     if (reach.empty() || !contains(reach.front(), area)) reach.push_back(area);
   };
-  const auto add_reachable = [&](const ReachableSets* sets) {
+  const auto add_reachable = [&](const automaton::ReachableSets* sets) {
     add(transformed(sets->swept_area_until_m(traffic.next_trim, options_.horizon_steps + 1),
                     traffic.next_pose));
   };
-  const std::vector<const ReachableSets*> reachable = search_.reachable();
+  const std::vector<const automaton::ReachableSets*> reachable = search_.reachable();
   add_reachable(reachable.front());
   std::ranges::for_each(traffic.running.areas_m, add);
   add(traffic.running.final_area_m);
@@ -146,30 +149,30 @@ ConvexPolygon Controller::reachable_area_m() const {
 
 std::uint64_t Controller::warm_up() {
   if (!former_problem_ && !path_s_m()) return 0;
-  const HorizonProblem problem = former_problem_
-                                     ? one_step_later(std::move(*former_problem_), step_.traffic)
-                                     : problem_in(route().corridor);
+  const search::HorizonProblem problem =
+      former_problem_ ? one_step_later(std::move(*former_problem_), step_.traffic)
+                      : problem_in(route().corridor);
   former_problem_.reset();
   return search_.warm_up(problem);
 }
 
-void Controller::couple(std::span<const Traffic> received) {
+void Controller::couple(std::span<const coordination::Traffic> received) {
   neighbours_.receive(received, step_.observation);
-  std::vector<const Traffic*> traffic = neighbours_.received();
+  std::vector<const coordination::Traffic*> traffic = neighbours_.received();
   traffic.push_back(&step_.traffic);
-  const CouplingGraph graph(std::move(traffic));
-  step_.predecessors = hlc::predecessors(graph, options_.vehicle);
+  const coordination::CouplingGraph graph(std::move(traffic));
+  step_.predecessors = coordination::predecessors(graph, options_.vehicle);
   step_.component = graph.component(options_.vehicle);
   step_.report.coupled = graph.neighbours(options_.vehicle);
   step_.report.missing = neighbours_.missing();
-  step_.report.level = computation_level(graph, options_.vehicle);
+  step_.report.level = coordination::computation_level(graph, options_.vehicle);
   // A coupled vehicle that does not receive our messages may soon drive as if we stood for good
   // (missing.hpp).
   const bool is_silent_to_any = std::ranges::any_of(coupled(), [this](VehicleId other) {
     return holds(neighbours_.traffic_of(other).silent, options_.vehicle);
   });
-  if (is_silent_to_any && step_.obstacle == FallbackReason::kNone) {
-    step_.obstacle = FallbackReason::kMissing;
+  if (is_silent_to_any && step_.obstacle == coordination::FallbackReason::kNone) {
+    step_.obstacle = coordination::FallbackReason::kMissing;
   }
 }
 
@@ -178,16 +181,16 @@ std::optional<double> Controller::path_s_m_of(const Point& position_m) const {
   return tracker_.project(position_m, reach_m());
 }
 
-HorizonProblem Controller::problem_in(const Corridor& corridor) const {
+search::HorizonProblem Controller::problem_in(const road::Corridor& corridor) const {
   return problem_alone(step_.traffic, tracker_, corridor, reach_m(), subgraph().automaton(),
                        options_);
 }
 
 void Controller::update_drivable_area() {
-  const Plan& base = in_force_->base();
+  const coordination::Plan& base = in_force_->base();
   const StepIndex next = step_.next();
   const StepIndex end = std::max(base.end(), next);
-  const UniversalAutomaton& automaton = subgraph().automaton();
+  const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   drivable_area_.update_drivable_area(
       {.next = next,
        .is_ended = base.end() <= next,
@@ -205,11 +208,11 @@ void Controller::update_drivable_area() {
 LaneEntry Controller::find_lane_entry() {
   const Footprint& footprint = subgraph().automaton().vehicle.footprint;
   const Pose& start = step_.traffic.next_pose;
-  const Placement placement = tracker_.place(start, footprint);
-  return hlc::find_lane_entry(
+  const road::Placement placement = tracker_.place(start, footprint);
+  return controller::find_lane_entry(
       route(), placement, start, reach_m(), footprint,
-      [this](const Corridor& corridor) { return problem_in(corridor); },
-      [this](const HorizonProblem& problem) {
+      [this](const road::Corridor& corridor) { return problem_in(corridor); },
+      [this](const search::HorizonProblem& problem) {
         step_.entry_problems.push_back(problem);
         return search_.search(problem);
       });
@@ -222,7 +225,7 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
     coupled_vehicles.push_back(
         {.traffic = &neighbours_.traffic_of(other),
          .prediction = respected == step_.respected.end() ? nullptr : &respected->second,
-         .is_predecessor = plans_before(other, options_.vehicle)});
+         .is_predecessor = coordination::plans_before(other, options_.vehicle)});
   }
   std::vector<MissingVehicle> missing;
   for (const VehicleId other : neighbours_.missing()) {
@@ -230,13 +233,13 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
         {.measured = step_.observation.measured(other),
          .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)});
   }
-  return hlc::obstacles_m(coupled_vehicles, options_.strategies.coupled_obstacles, missing,
-                          neighbours_.rules(), step_.observation.step, options_.horizon_steps,
-                          subgraph().automaton().step_s);
+  return controller::obstacles_m(coupled_vehicles, options_.strategies.coupled_obstacles, missing,
+                                 neighbours_.rules(), step_.observation.step,
+                                 options_.horizon_steps, subgraph().automaton().step_s);
 }
 
-HorizonProblem Controller::pose_problem() const {
-  HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor);
+search::HorizonProblem Controller::pose_problem() const {
+  search::HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor);
   problem.obstacles_m = obstacles_m();
   // The plan in force, continued, is a plan too, as long as it starts where planning starts.
   if (!in_force_->is_moved()) {
@@ -247,10 +250,10 @@ HorizonProblem Controller::pose_problem() const {
 }
 
 bool Controller::may_plan() const {
-  return !minimal_risk_stop_ && step_.obstacle == FallbackReason::kNone;
+  return !minimal_risk_stop_ && step_.obstacle == coordination::FallbackReason::kNone;
 }
 
-Prediction Controller::plan(std::span<const Prediction> received) {
+coordination::Prediction Controller::plan(std::span<const coordination::Prediction> received) {
   respect_predecessors(received);
   check_start();
   if (may_plan()) {
@@ -266,9 +269,10 @@ Prediction Controller::plan(std::span<const Prediction> received) {
   return step_.prediction;
 }
 
-void Controller::respect_predecessors(std::span<const Prediction> received) {
+void Controller::respect_predecessors(std::span<const coordination::Prediction> received) {
   for (const VehicleId other : step_.predecessors) {
-    if (const Prediction* message = find_message(received, other, step_.observation.step)) {
+    if (const coordination::Prediction* message =
+            find_message(received, other, step_.observation.step)) {
       step_.respected[other] = *message;
     }
   }
@@ -279,11 +283,11 @@ void Controller::check_start() {
   const bool is_any_unknown = std::ranges::any_of(neighbours_.missing(), [this](VehicleId other) {
     return step_.observation.measured(other) == nullptr;  // it may be anywhere
   });
-  if (is_any_unknown) step_.obstacle = FallbackReason::kMissing;
+  if (is_any_unknown) step_.obstacle = coordination::FallbackReason::kMissing;
   // A disabled trim may have no way out, or a long one.
-  if (step_.obstacle == FallbackReason::kNone &&
+  if (step_.obstacle == coordination::FallbackReason::kNone &&
       subgraph().distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
-    step_.obstacle = FallbackReason::kInfeasible;
+    step_.obstacle = coordination::FallbackReason::kInfeasible;
   }
 }
 
@@ -297,7 +301,7 @@ void Controller::search_candidate() {
   step_.obstacle = step_.candidate.obstacle;
 }
 
-Outcome Controller::vote() const {
+coordination::Outcome Controller::vote() const {
   return {.vehicle = options_.vehicle,
           .step = step_.observation.step,
           .wants_fallback = !step_.candidate.plan.has_value()};
@@ -305,7 +309,7 @@ Outcome Controller::vote() const {
 
 std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
   std::vector<AnnouncedPlan> plans;
-  for (const Traffic* traffic : neighbours_.received()) {
+  for (const coordination::Traffic* traffic : neighbours_.received()) {
     const VehicleId other = traffic->vehicle;
     const auto respected = step_.respected.find(other);
     const auto awaited = step_.awaited.find(other);
@@ -320,17 +324,18 @@ std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
   return plans;
 }
 
-CommitVerdict Controller::decide(std::span<const Prediction> predictions,
-                                 std::span<const Outcome> outcomes) const {
+coordination::CommitVerdict Controller::decide(
+    std::span<const coordination::Prediction> predictions,
+    std::span<const coordination::Outcome> outcomes) const {
   const StepIndex now = step_.observation.step;
-  std::vector<CoupledAreas> coupled_areas;
+  std::vector<coordination::CoupledAreas> coupled_areas;
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;  // an obstacle of the search
-    const Prediction* message = find_message(predictions, other, now);
+    const coordination::Prediction* message = find_message(predictions, other, now);
     coupled_areas.push_back({.reachable_area_m = &neighbours_.traffic_of(other).reachable_area_m,
                              .predicted = message == nullptr ? nullptr : &message->areas});
   }
-  std::vector<const Outcome*> votes;
+  std::vector<const coordination::Outcome*> votes;
   for (const VehicleId other : step_.component) {
     if (other != options_.vehicle) votes.push_back(find_message(outcomes, other, now));
   }
@@ -341,37 +346,41 @@ CommitVerdict Controller::decide(std::span<const Prediction> predictions,
                                             .steps = options_.horizon_steps});
 }
 
-Report Controller::commit(std::span<const Prediction> predictions,
-                          std::span<const Outcome> outcomes) {
+coordination::Report Controller::commit(std::span<const coordination::Prediction> predictions,
+                                        std::span<const coordination::Outcome> outcomes) {
   if (!options_.strategies.commit.needs_votes) note_awaited(predictions);
   if (!step_.candidate.plan) return finish(false, step_.obstacle);
-  const CommitVerdict verdict = decide(predictions, outcomes);
-  return finish(verdict == CommitVerdict::kInForce, reason_of(verdict));
+  const coordination::CommitVerdict verdict = decide(predictions, outcomes);
+  return finish(verdict == coordination::CommitVerdict::kInForce, reason_of(verdict));
 }
 
 /// For announced_plans; the predecessors' are known already.
-void Controller::note_awaited(std::span<const Prediction> predictions) {
+void Controller::note_awaited(std::span<const coordination::Prediction> predictions) {
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;
-    const Prediction* message = find_message(predictions, other, step_.observation.step);
+    const coordination::Prediction* message =
+        find_message(predictions, other, step_.observation.step);
     if (message != nullptr && message->is_new) step_.awaited[other] = message->areas;
   }
 }
 
-Report Controller::fall_back(FallbackReason reason) { return finish(false, reason); }
+coordination::Report Controller::fall_back(coordination::FallbackReason reason) {
+  return finish(false, reason);
+}
 
-Report Controller::finish(bool accepted, FallbackReason reason) {
-  Report& report = step_.report;
+coordination::Report Controller::finish(bool accepted, coordination::FallbackReason reason) {
+  coordination::Report& report = step_.report;
   if (accepted) {
     in_force_->replace(std::move(*step_.candidate.plan), step_.prediction.areas,
                        step_.observation.step);
-    report.status = StepStatus::kPlanned;
+    report.status = coordination::StepStatus::kPlanned;
   } else {
-    report.status = minimal_risk_stop_ ? StepStatus::kMinimalRiskStop : StepStatus::kFallback;
-    report.reason = minimal_risk_stop_ ? FallbackReason::kNone : reason;
+    report.status = minimal_risk_stop_ ? coordination::StepStatus::kMinimalRiskStop
+                                       : coordination::StepStatus::kFallback;
+    report.reason = minimal_risk_stop_ ? coordination::FallbackReason::kNone : reason;
   }
   step_.candidate.plan.reset();
   return report;
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -22,7 +22,7 @@
 #include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// The high-level controller of one vehicle, as a pure state machine: no clock, no thread, no
 /// waiting. ControlLoop takes it through the phases of a step, in their order:
@@ -47,18 +47,21 @@ class Controller {
  public:
   /// @param routes  the permitted ones, at least one
   /// @throws std::invalid_argument as prepare_subgraph and make_search_engine
-  Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-             std::vector<DrivableRoute> routes);
+  Controller(ControllerOptions options, std::shared_ptr<const automaton::Subgraph> subgraph,
+             std::vector<road::DrivableRoute> routes);
   /// The same on a subgraph that was prepared for this horizon and search.
-  Controller(ControllerOptions options, PreparedSubgraph on, std::vector<DrivableRoute> routes);
+  Controller(ControllerOptions options, PreparedSubgraph on,
+             std::vector<road::DrivableRoute> routes);
   /// With a single route.
   /// @param path      to be followed
   /// @param corridor  area in which the vehicle may drive
-  Controller(ControllerOptions options, std::shared_ptr<const Subgraph> subgraph,
-             ReferencePath path, Corridor corridor);
+  Controller(ControllerOptions options, std::shared_ptr<const automaton::Subgraph> subgraph,
+             road::ReferencePath path, road::Corridor corridor);
 
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
-  [[nodiscard]] const Subgraph& subgraph() const { return *prepared_subgraph().subgraph; }
+  [[nodiscard]] const automaton::Subgraph& subgraph() const {
+    return *prepared_subgraph().subgraph;
+  }
   /// The same with its tables, shared.
   [[nodiscard]] const PreparedSubgraph& prepared_subgraph() const { return search_.on(); }
   /// Step of the last `observe` or `stand_by`.
@@ -78,18 +81,18 @@ class Controller {
   /// vehicle, step and trims, and has no maneuver faster than that
   void switch_to(const PreparedSubgraph& next);
   /// The same, prepared by this call.
-  void switch_to(std::shared_ptr<const Subgraph> next);
+  void switch_to(std::shared_ptr<const automaton::Subgraph> next);
 
   /// A step before the start: the plan in force is to stand at the measured pose. Without a
   /// measurement of the own vehicle the former plan, if any, stays.
-  [[nodiscard]] Report stand_by(const Observation& observation);
+  [[nodiscard]] coordination::Report stand_by(const Observation& observation);
 
   /// If requested, nothing new is planned from the next step on, and the plan in force is driven to
   /// its end; otherwise planning continues from the rest of it.
   void set_minimal_risk_stop(bool is_requested) { minimal_risk_stop_ = is_requested; }
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
-  [[nodiscard]] Traffic observe(const Observation& observation);
+  [[nodiscard]] coordination::Traffic observe(const Observation& observation);
   /// Any time between the first phase and the third, while the owner waits for the others'
   /// messages: searches the former step's problem, updated as far as that is known without the
   /// messages, and drops the result. Changes nothing; but it fills the processor's caches with the
@@ -97,20 +100,20 @@ class Controller {
   /// Returns how many there were.
   std::uint64_t warm_up();
   /// Second phase. `received` may hold messages of other steps and senders: they are ignored.
-  void couple(std::span<const Traffic> received);
+  void couple(std::span<const coordination::Traffic> received);
   /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
   /// the drift, checks the result, and searches again if the drift leads into something: planning
   /// time is the duration of all this.
-  [[nodiscard]] Prediction plan(std::span<const Prediction> received);
+  [[nodiscard]] coordination::Prediction plan(std::span<const coordination::Prediction> received);
   /// Fourth phase, for a commit rule that needs votes: what the others need to know before they
   /// commit.
-  [[nodiscard]] Outcome vote() const;
+  [[nodiscard]] coordination::Outcome vote() const;
   /// Last phase. Needs the predictions of `coupled`, or the outcomes of `component` for a commit
   /// rule that needs votes.
-  [[nodiscard]] Report commit(std::span<const Prediction> predictions,
-                              std::span<const Outcome> outcomes);
+  [[nodiscard]] coordination::Report commit(std::span<const coordination::Prediction> predictions,
+                                            std::span<const coordination::Outcome> outcomes);
   /// Instead of the remaining phases: a deadline has passed, the plan in force stays.
-  [[nodiscard]] Report fall_back(FallbackReason reason);
+  [[nodiscard]] coordination::Report fall_back(coordination::FallbackReason reason);
 
   /// Valid after `couple`: the senders that the phases need.
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
@@ -118,21 +121,23 @@ class Controller {
   [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
   /// The problems that `plan` gave to the search (PlanCandidate::problems): none if it did not get
   /// that far. Valid until the next step.
-  [[nodiscard]] std::span<const HorizonProblem> problems() const {
+  [[nodiscard]] std::span<const search::HorizonProblem> problems() const {
     return step_.candidate.problems;
   }
   /// The problems before those, when the vehicle stands and is to drive off: they determine the
   /// area in which it may drive (lane_entry.hpp). Their vertices are not counted.
-  [[nodiscard]] std::span<const HorizonProblem> entry_problems() const {
+  [[nodiscard]] std::span<const search::HorizonProblem> entry_problems() const {
     return step_.entry_problems;
   }
 
   /// The permitted routes.
-  [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return tracker_.routes(); }
+  [[nodiscard]] const std::vector<road::DrivableRoute>& routes() const { return tracker_.routes(); }
   /// The selected route; before the first measurement the first of all.
-  [[nodiscard]] const DrivableRoute& route() const { return tracker_.route(); }
+  [[nodiscard]] const road::DrivableRoute& route() const { return tracker_.route(); }
   /// Placement on the route in the last `stand_by` with a measurement.
-  [[nodiscard]] const std::optional<Placement>& placement() const { return tracker_.placement(); }
+  [[nodiscard]] const std::optional<road::Placement>& placement() const {
+    return tracker_.placement();
+  }
   /// True if there is a placement and it fits. @see fits
   [[nodiscard]] bool fits_route() const { return tracker_.fits_route(); }
   /// Arc length on the route where planning began in the last step, or where the vehicle was
@@ -142,7 +147,7 @@ class Controller {
   /// vehicle has no place on its path.
   [[nodiscard]] std::optional<double> path_s_m_of(const Point& position_m) const;
   /// The area in which the vehicle enters its lanes (lane_entry.hpp), while it does.
-  [[nodiscard]] const std::optional<Corridor>& entry_area() const {
+  [[nodiscard]] const std::optional<road::Corridor>& entry_area() const {
     return drivable_area_.entry_area();
   }
 
@@ -150,7 +155,7 @@ class Controller {
   /// controller received it and had to wait for it, otherwise its former one.
   struct AnnouncedPlan {
     VehicleId vehicle;
-    OccupiedAreas areas;  ///< from the last step on, or from the next
+    coordination::OccupiedAreas areas;  ///< from the last step on, or from the next
   };
   /// Of all vehicles received in the last step, by vehicle. Valid after `commit` or `fall_back`.
   /// Independent of which other messages arrived in time.
@@ -159,43 +164,47 @@ class Controller {
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
   /// In the last step the vehicle was to be sent nothing (rule 5 of plan_in_force.hpp).
   [[nodiscard]] bool is_vehicle_lost() const { return step_.is_vehicle_lost; }
-  [[nodiscard]] const Plan& plan_in_force() const { return in_force_->plan(); }
+  [[nodiscard]] const coordination::Plan& plan_in_force() const { return in_force_->plan(); }
 
  private:
   /// All data of one step; reset by `observe`.
   struct Step {
     Observation observation;
-    Report report;
-    Traffic traffic;  ///< own
+    coordination::Report report;
+    coordination::Traffic traffic;  ///< own
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
-    std::vector<HorizonProblem> entry_problems;
-    std::map<VehicleId, Prediction> respected;   ///< predictions that the search took into account
-    std::map<VehicleId, OccupiedAreas> awaited;  ///< new plans of other coupled vehicles
+    std::vector<search::HorizonProblem> entry_problems;
+    /// Predictions that the search took into account
+    std::map<VehicleId, coordination::Prediction> respected;
+    std::map<VehicleId, coordination::OccupiedAreas>
+        awaited;  ///< new plans of other coupled vehicles
     PlanCandidate candidate;
-    Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
-    FallbackReason obstacle{FallbackReason::kNone};  ///< why nothing new may be planned
+    coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
+    coordination::FallbackReason obstacle{
+        coordination::FallbackReason::kNone};  ///< why nothing new may be planned
     bool is_vehicle_lost{};
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };
 
-  void report_plan_in_force(Report& report) const;
+  void report_plan_in_force(coordination::Report& report) const;
   [[nodiscard]] ConvexPolygon reachable_area_m() const;
   [[nodiscard]] bool may_plan() const;
-  void respect_predecessors(std::span<const Prediction> received);
+  void respect_predecessors(std::span<const coordination::Prediction> received);
   void check_start();
   [[nodiscard]] double reach_m() const { return search_.reach_m(step_.traffic.next_trim); }
-  [[nodiscard]] HorizonProblem problem_in(const Corridor& corridor) const;
+  [[nodiscard]] search::HorizonProblem problem_in(const road::Corridor& corridor) const;
   void update_drivable_area();
   [[nodiscard]] LaneEntry find_lane_entry();
-  [[nodiscard]] HorizonProblem pose_problem() const;
+  [[nodiscard]] search::HorizonProblem pose_problem() const;
   [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m() const;
   void search_candidate();
-  void note_awaited(std::span<const Prediction> predictions);
-  [[nodiscard]] CommitVerdict decide(std::span<const Prediction> predictions,
-                                     std::span<const Outcome> outcomes) const;
-  [[nodiscard]] Report finish(bool accepted, FallbackReason reason);
+  void note_awaited(std::span<const coordination::Prediction> predictions);
+  [[nodiscard]] coordination::CommitVerdict decide(
+      std::span<const coordination::Prediction> predictions,
+      std::span<const coordination::Outcome> outcomes) const;
+  [[nodiscard]] coordination::Report finish(bool accepted, coordination::FallbackReason reason);
 
   ControllerOptions options_;
   CandidateSearch search_;
@@ -205,7 +214,7 @@ class Controller {
   std::optional<PlanInForce> in_force_;
   bool minimal_risk_stop_{false};
   Step step_;
-  std::optional<HorizonProblem> former_problem_;  ///< for `warm_up`
+  std::optional<search::HorizonProblem> former_problem_;  ///< for `warm_up`
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

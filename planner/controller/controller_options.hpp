@@ -12,25 +12,24 @@
 #include "planner/search/horizon_problem.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// A plan that is known before the search begins (HorizonProblem::incumbent): n maneuvers from
 /// t(next) on, or nothing. A rule is one function.
 /// @param in_force  planning starts from its pose at t(next)
-using IncumbentRule = std::vector<const Maneuver*> (*)(const Plan& in_force, StepIndex next,
-                                                       std::size_t horizon_steps);
+using IncumbentRule = std::vector<const automaton::Maneuver*> (*)(
+    const coordination::Plan& in_force, StepIndex next, std::size_t horizon_steps);
 
 /// The rest of the plan in force, then standing.
-[[nodiscard]] std::vector<const Maneuver*> rest_of_plan_in_force(const Plan& in_force,
-                                                                 StepIndex next,
-                                                                 std::size_t horizon_steps);
-[[nodiscard]] std::vector<const Maneuver*> no_incumbent(const Plan& in_force, StepIndex next,
-                                                        std::size_t horizon_steps);
+[[nodiscard]] std::vector<const automaton::Maneuver*> rest_of_plan_in_force(
+    const coordination::Plan& in_force, StepIndex next, std::size_t horizon_steps);
+[[nodiscard]] std::vector<const automaton::Maneuver*> no_incumbent(
+    const coordination::Plan& in_force, StepIndex next, std::size_t horizon_steps);
 
 /// The rules by which a controller plans and coordinates. A user's own rule is one function. All
 /// vehicles of a run need the same.
 struct ControllerStrategies {
-  CommitRule commit{kStrictCommit};
+  coordination::CommitRule commit{coordination::kStrictCommit};
   CoupledObstacleRule coupled_obstacles{&old_and_new_plans};  ///< must match `commit`
   IncumbentRule incumbent{&rest_of_plan_in_force};
   /// nullptr: never.
@@ -42,12 +41,12 @@ struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
   double reference_speed_mps{0.8};
-  ReferenceRule reference_rule{half_speed_last};
+  road::ReferenceRule reference_rule{road::half_speed_last};
   ControllerStrategies strategies{};
-  SearchOptions search{};
+  search::SearchOptions search{};
   DeviationRules deviation{};
   /// Limits of the vehicle: a plan beyond them does not come into force. Absent: none.
-  std::optional<LabLimits> lab{};
+  std::optional<vehicle::LabLimits> lab{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -6,7 +6,7 @@
 #include "planner/automaton/deviation.hpp"
 #include "planner/vehicle/identified_motion.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 constexpr double kCorrection_per_s = 5.0;
@@ -21,7 +21,7 @@ struct Instant {
   double time_s{};
 
   [[nodiscard]] Instant next(double step_s) const {
-    const double t = time_s + kIdentifiedStep_s;
+    const double t = time_s + vehicle::kIdentifiedStep_s;
     return t < step_s - 1e-9 ? Instant{step, t} : Instant{{step.value + 1}, t - step_s};
   }
 };
@@ -33,8 +33,8 @@ struct Driven {
 
 /// One tick of a vehicle at `at`, planned to move from `from` to `to` in it.
 Driven driven(const Driven& at, const Point& from, const Point& to,
-              const IdentifiedVehicle& identified) {
-  const Point chord = (to - from) / kIdentifiedStep_s;
+              const vehicle::IdentifiedVehicle& identified) {
+  const Point chord = (to - from) / vehicle::kIdentifiedStep_s;
   const Point error = from - at.pose.position_m();
   double speed_mps = chord.norm();
   double steering = at.steering;
@@ -44,31 +44,34 @@ Driven driven(const Driven& at, const Point& from, const Point& to,
     const double course_rad =
         std::atan2(chord.y(), chord.x()) + std::atan2(kCorrection_per_s * across_m, speed_mps);
     const double slip_rad = wrap_angle(course_rad - at.pose.heading_rad);
-    steering = std::clamp(steering_for_slip(slip_rad, identified), -1.0, 1.0);
+    steering = std::clamp(vehicle::steering_for_slip(slip_rad, identified), -1.0, 1.0);
     speed_mps += kCorrection_per_s * along.dot(error);
   } else {
-    const double course_rad = at.pose.heading_rad + identified_slip_rad(steering, identified);
+    const double course_rad =
+        at.pose.heading_rad + vehicle::identified_slip_rad(steering, identified);
     speed_mps = kCorrection_per_s * Point(std::cos(course_rad), std::sin(course_rad)).dot(error);
   }
-  const VehicleMotion motion{
+  const vehicle::VehicleMotion motion{
       .pose = at.pose,
-      .speed_mps = std::max(0.0, speed_mps) / path_speed_ratio(steering, identified)};
-  return {stepped(motion, {.throttle = 0.0, .steering = steering}, identified).pose, steering};
+      .speed_mps = std::max(0.0, speed_mps) / vehicle::path_speed_ratio(steering, identified)};
+  return {vehicle::stepped(motion, {.throttle = 0.0, .steering = steering}, identified).pose,
+          steering};
 }
 
 }  // namespace
 
-std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& seen, StepIndex until,
-                                              const UniversalAutomaton& automaton) {
-  const VehicleParameters& vehicle = automaton.vehicle;
+std::vector<PredictedInstant> predicted_drive(const coordination::Plan& plan, const SeenAt& seen,
+                                              StepIndex until,
+                                              const automaton::UniversalAutomaton& automaton) {
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
   std::vector<PredictedInstant> drive;
   Instant at{seen.step, seen.time_s};
   Driven vehicle_at{.pose = seen.pose};
-  State planned = plan.state_at(at.step, at.time_s, vehicle);
+  vehicle::State planned = plan.state_at(at.step, at.time_s, vehicle);
   drive.push_back({at.step, planned, vehicle_at.pose});
   while (at.step < until) {
     const Instant then = at.next(automaton.step_s);
-    const State planned_then =  // standing, it stays as it is
+    const vehicle::State planned_then =  // standing, it stays as it is
         at.step < plan.end() ? plan.state_at(then.step, then.time_s, vehicle) : planned;
     vehicle_at = driven(vehicle_at, planned.pose.position_m(), planned_then.pose.position_m(),
                         automaton.identified);
@@ -80,10 +83,12 @@ std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& se
   return drive;
 }
 
-OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& seen,
-                               const UniversalAutomaton& automaton, double tolerated_m) {
-  const VehicleParameters& vehicle = automaton.vehicle;
-  OccupiedAreas areas = plan.areas_from(from);
+coordination::OccupiedAreas areas_with_drift(const coordination::Plan& plan, StepIndex from,
+                                             const SeenAt& seen,
+                                             const automaton::UniversalAutomaton& automaton,
+                                             double tolerated_m) {
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
+  coordination::OccupiedAreas areas = plan.areas_from(from);
   const std::vector<PredictedInstant> drive =
       predicted_drive(plan, seen, {std::max(plan.end(), from).value + kStepsToRest}, automaton);
   for (auto begin = drive.begin(); begin != drive.end();) {
@@ -93,8 +98,8 @@ OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& s
     });
     const bool drifts =
         step >= from && std::any_of(begin, end, [&](const PredictedInstant& instant) {
-          return deviates(instant.pose, instant.planned, tolerated_m, vehicle,
-                          automaton.identified);
+          return automaton::deviates(instant.pose, instant.planned, tolerated_m, vehicle,
+                                     automaton.identified);
         });
     if (drifts) {
       const std::size_t i = step.value - from.value;
@@ -111,4 +116,4 @@ OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& s
   return areas;
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -2,7 +2,7 @@
 
 #include "planner/coordination/plan.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// Pose of a vehicle at a time within a plan: t(step) + time_s, 0 <= time_s < one step.
 struct SeenAt {
@@ -14,7 +14,7 @@ struct SeenAt {
 /// A predicted instant of a drive.
 struct PredictedInstant {
   StepIndex step;
-  State planned;
+  vehicle::State planned;
   Pose pose;  ///< of the vehicle, heading_rad is the yaw
 };
 
@@ -25,9 +25,9 @@ struct PredictedInstant {
 /// the steering is kept, and the vehicle still catches up with its plan. Instants at which a step
 /// ends are given twice: as the end of that step and as the begin of the next. @pre plan.first() <=
 /// seen.step
-[[nodiscard]] std::vector<PredictedInstant> predicted_drive(const Plan& plan, const SeenAt& seen,
-                                                            StepIndex until,
-                                                            const UniversalAutomaton& automaton);
+[[nodiscard]] std::vector<PredictedInstant> predicted_drive(
+    const coordination::Plan& plan, const SeenAt& seen, StepIndex until,
+    const automaton::UniversalAutomaton& automaton);
 
 /// Areas of `plan` from t(from) on that contain the vehicle's real drive.
 ///
@@ -47,8 +47,8 @@ struct PredictedInstant {
 /// Assumption for the claim that the areas contain the vehicle: prediction and drive differ by no
 /// more than margin - tolerated_m (tests/vehicle_sim/campaign measures it in whole closed loops).
 /// @pre plan.first() <= seen.step <= from
-[[nodiscard]] OccupiedAreas areas_with_drift(const Plan& plan, StepIndex from, const SeenAt& seen,
-                                             const UniversalAutomaton& automaton,
-                                             double tolerated_m);
+[[nodiscard]] coordination::OccupiedAreas areas_with_drift(
+    const coordination::Plan& plan, StepIndex from, const SeenAt& seen,
+    const automaton::UniversalAutomaton& automaton, double tolerated_m);
 
-}  // namespace hlc
+}  // namespace hlc::controller

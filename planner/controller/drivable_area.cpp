@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hlc {
+namespace hlc::controller {
 
 bool once_per_horizon(std::uint64_t stood_steps, std::size_t horizon_steps) {
   return stood_steps % horizon_steps == 0;
@@ -24,9 +24,10 @@ void DrivableArea::update_drivable_area(const DrivableAreaInputs& inputs) {
   }
 }
 
-FallbackReason DrivableArea::obstacle() const {
-  if (entry_.is_possible) return FallbackReason::kNone;
-  return entry_.is_certain ? FallbackReason::kOffRoute : FallbackReason::kBudget;
+coordination::FallbackReason DrivableArea::obstacle() const {
+  if (entry_.is_possible) return coordination::FallbackReason::kNone;
+  return entry_.is_certain ? coordination::FallbackReason::kOffRoute
+                           : coordination::FallbackReason::kBudget;
 }
 
 bool DrivableArea::has_timed_out(const DrivableAreaInputs& inputs) {
@@ -40,4 +41,4 @@ bool DrivableArea::has_timed_out(const DrivableAreaInputs& inputs) {
   return stood_steps > 0 && timeout_(stood_steps, horizon_steps_);
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -7,7 +7,7 @@
 #include "planner/controller/lane_entry.hpp"
 #include "planner/coordination/report.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// When the drivable area is searched again after a standstill: true for a vehicle whose plan has
 /// kept it in place for `stood_steps` > 0. A rule is one function.
@@ -43,9 +43,9 @@ class DrivableArea {
   void update_drivable_area(const DrivableAreaInputs& inputs);
 
   /// The area that leads into the lanes, while it is needed.
-  [[nodiscard]] const std::optional<Corridor>& entry_area() const { return entry_.area; }
+  [[nodiscard]] const std::optional<road::Corridor>& entry_area() const { return entry_.area; }
   /// Why the vehicle has to stay in place; none if it need not.
-  [[nodiscard]] FallbackReason obstacle() const;
+  [[nodiscard]] coordination::FallbackReason obstacle() const;
 
  private:
   [[nodiscard]] bool has_timed_out(const DrivableAreaInputs& inputs);
@@ -57,4 +57,4 @@ class DrivableArea {
   std::optional<StepIndex> stands_since_;  ///< while the plan in force keeps the vehicle in place
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

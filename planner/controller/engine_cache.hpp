@@ -6,7 +6,7 @@
 #include "planner/controller/prepared_subgraph.hpp"
 #include "planner/search/search_engine.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// The search on a prepared subgraph. The engine is a cache: its result depends on the problem
 /// alone. So a copy shares the subgraph and its tables, which never change, and makes its own
@@ -14,7 +14,7 @@ namespace hlc {
 class EngineCache {
  public:
   /// @throws std::invalid_argument as make_search_engine
-  EngineCache(PreparedSubgraph on, SearchOptions search)
+  EngineCache(PreparedSubgraph on, search::SearchOptions search)
       : on_(std::move(on)), search_(std::move(search)), engine_(make()) {}
   EngineCache(const EngineCache& other) : on_(other.on_), search_(other.search_) {}
   EngineCache& operator=(const EngineCache& other) { return *this = EngineCache(other); }
@@ -30,19 +30,19 @@ class EngineCache {
   }
 
   /// Valid until the next change of this object.
-  [[nodiscard]] SearchEngine& engine() {
+  [[nodiscard]] search::SearchEngine& engine() {
     if (!engine_) engine_ = make();
     return *engine_;
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<SearchEngine> make() const {
-    return make_search_engine(*on_.subgraph, *on_.reachable, search_, on_.tables);
+  [[nodiscard]] std::unique_ptr<search::SearchEngine> make() const {
+    return search::make_search_engine(*on_.subgraph, *on_.reachable, search_, on_.tables);
   }
 
   PreparedSubgraph on_;
-  SearchOptions search_;
-  std::unique_ptr<SearchEngine> engine_;
+  search::SearchOptions search_;
+  std::unique_ptr<search::SearchEngine> engine_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 /// Delivers messages to all but their sender, unless they are lost.
@@ -22,9 +22,10 @@ class Exchange {
   }
 
   void deliver(const ExternalMessages& messages) const {
-    for (const Traffic& one : messages.traffic) deliver(MessageKind::kTraffic, one);
-    for (const Prediction& one : messages.predictions) deliver(MessageKind::kPrediction, one);
-    for (const Outcome& one : messages.outcomes) deliver(MessageKind::kOutcome, one);
+    for (const coordination::Traffic& one : messages.traffic) deliver(MessageKind::kTraffic, one);
+    for (const coordination::Prediction& one : messages.predictions)
+      deliver(MessageKind::kPrediction, one);
+    for (const coordination::Outcome& one : messages.outcomes) deliver(MessageKind::kOutcome, one);
   }
 
  private:
@@ -47,23 +48,24 @@ StepOutput plan(ControlLoop& loop, const JointStepRules& rules) {
 
 }  // namespace
 
-std::vector<Report> joint_step(std::span<ControlLoop* const> loops, const Observation& observation,
-                               const JointStepRules& rules) {
+std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops,
+                                             const Observation& observation,
+                                             const JointStepRules& rules) {
   const Exchange exchange(loops, observation.step, rules);
-  std::vector<Traffic> traffic;
+  std::vector<coordination::Traffic> traffic;
   traffic.reserve(loops.size());
   for (ControlLoop* one : loops) {
     traffic.push_back(*one->begin(observation).traffic);
     if (rules.on_traffic) rules.on_traffic(one->controller(), traffic.back());
   }
   exchange.deliver(rules.external);
-  for (const Traffic& one : traffic) exchange.deliver(MessageKind::kTraffic, one);
+  for (const coordination::Traffic& one : traffic) exchange.deliver(MessageKind::kTraffic, one);
   for (ControlLoop* one : loops) static_cast<void>(one->proceed());
 
-  std::vector<Report> reports(loops.size());
+  std::vector<coordination::Report> reports(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (rules.is_late && rules.is_late(loops[i]->controller())) {
-      reports[i] = *loops[i]->fall_back(FallbackReason::kLate).report;
+      reports[i] = *loops[i]->fall_back(coordination::FallbackReason::kLate).report;
       continue;
     }
     const StepOutput output = plan(*loops[i], rules);
@@ -76,8 +78,9 @@ std::vector<Report> joint_step(std::span<ControlLoop* const> loops, const Observ
   return reports;
 }
 
-std::vector<Report> joint_step(std::span<Controller* const> controllers,
-                               const Observation& observation, const JointStepRules& rules) {
+std::vector<coordination::Report> joint_step(std::span<Controller* const> controllers,
+                                             const Observation& observation,
+                                             const JointStepRules& rules) {
   std::vector<ControlLoop> loops;
   std::vector<ControlLoop*> pointers;
   loops.reserve(controllers.size());
@@ -85,4 +88,4 @@ std::vector<Report> joint_step(std::span<Controller* const> controllers,
   return joint_step(pointers, observation, rules);
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -6,7 +6,7 @@
 
 #include "planner/controller/control_loop.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// One message to one receiver, for rules that lose some.
 struct Delivery {
@@ -18,9 +18,9 @@ struct Delivery {
 
 /// Messages of vehicles that are not stepped.
 struct ExternalMessages {
-  std::vector<Traffic> traffic{};
-  std::vector<Prediction> predictions{};  ///< available before any vehicle plans
-  std::vector<Outcome> outcomes{};
+  std::vector<coordination::Traffic> traffic{};
+  std::vector<coordination::Prediction> predictions{};  ///< available before any vehicle plans
+  std::vector<coordination::Outcome> outcomes{};
 };
 
 /// Conditions of a joint step.
@@ -32,9 +32,9 @@ struct JointStepRules {
   std::function<bool(const Controller&)> is_late{};
   /// Receives the traffic that a controller publishes, before any controller plans: its plan in
   /// force is still the one that the step began with. May be absent.
-  std::function<void(const Controller&, const Traffic&)> on_traffic{};
+  std::function<void(const Controller&, const coordination::Traffic&)> on_traffic{};
   /// Receives the prediction of a controller, before the commit. May be absent.
-  std::function<void(const Controller&, const Prediction&)> on_prediction{};
+  std::function<void(const Controller&, const coordination::Prediction&)> on_prediction{};
   /// Calls its argument, by which a controller plans; for an owner who measures. Absent: called
   /// directly.
   std::function<void(const std::function<void()>&)> around_planning{};
@@ -47,11 +47,13 @@ struct JointStepRules {
 /// @param loops  in the order of priorities (plans_before); each controller with a plan in force,
 /// none in a step
 /// @return their reports, in the same order
-std::vector<Report> joint_step(std::span<ControlLoop* const> loops, const Observation& observation,
-                               const JointStepRules& rules = {});
+std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops,
+                                             const Observation& observation,
+                                             const JointStepRules& rules = {});
 
 /// The same for controllers without a loop of their owner.
-std::vector<Report> joint_step(std::span<Controller* const> controllers,
-                               const Observation& observation, const JointStepRules& rules = {});
+std::vector<coordination::Report> joint_step(std::span<Controller* const> controllers,
+                                             const Observation& observation,
+                                             const JointStepRules& rules = {});
 
-}  // namespace hlc
+}  // namespace hlc::controller

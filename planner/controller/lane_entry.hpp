@@ -8,7 +8,7 @@
 #include "planner/road/placement.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// The area in which a vehicle may drive that stands beside its lanes, or so askew in them that no
 /// plan within them drives off, until it is in them.
@@ -33,8 +33,8 @@ namespace hlc {
 /// obstacles as always.
 struct LaneEntry {
   bool is_possible{true};
-  bool is_certain{true};         ///< if it is impossible: no search used up its budget
-  std::optional<Corridor> area;  ///< none: the plain corridor
+  bool is_certain{true};               ///< if it is impossible: no search used up its budget
+  std::optional<road::Corridor> area;  ///< none: the plain corridor
 };
 
 inline constexpr double kEntryBack_m = 0.5;
@@ -45,16 +45,18 @@ inline constexpr double kEntryAhead_m = 0.8;
 /// @param pose_problem  makes the search problem from there in a corridor, without other vehicles
 /// @param search        called up to six times
 [[nodiscard]] LaneEntry find_lane_entry(
-    const DrivableRoute& route, const Placement& placement, const Pose& start, double reach_m,
-    const Footprint& footprint, const std::function<HorizonProblem(const Corridor&)>& pose_problem,
-    const std::function<SearchResult(const HorizonProblem&)>& search);
+    const road::DrivableRoute& route, const road::Placement& placement, const Pose& start,
+    double reach_m, const Footprint& footprint,
+    const std::function<search::HorizonProblem(const road::Corridor&)>& pose_problem,
+    const std::function<search::SearchResult(const search::HorizonProblem&)>& search);
 
 /// Whether a footprint that crosses no bound lies in the lanes. It may also stand wholly beside
 /// them, farther away than it is wide.
-[[nodiscard]] bool lies_inside(const DrivableRoute& route, const Pose& pose,
+[[nodiscard]] bool lies_inside(const road::DrivableRoute& route, const Pose& pose,
                                const Footprint& footprint);
 
 /// True if the plan's footprints from t(from) on cross none of the boundary's pieces.
-[[nodiscard]] bool keeps_to(const Plan& plan, StepIndex from, std::span<const Segment> boundary_m);
+[[nodiscard]] bool keeps_to(const coordination::Plan& plan, StepIndex from,
+                            std::span<const Segment> boundary_m);
 
-}  // namespace hlc
+}  // namespace hlc::controller

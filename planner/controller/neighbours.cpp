@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::controller {
 
-bool is_well_formed(const Outcome& /*outcome*/) { return true; }
+bool is_well_formed(const coordination::Outcome& /*outcome*/) { return true; }
 
-MissingVehicleRules rules_for_missing(const UniversalAutomaton& automaton) {
-  const VehicleParameters& vehicle = automaton.vehicle;
+coordination::MissingVehicleRules rules_for_missing(
+    const automaton::UniversalAutomaton& automaton) {
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
   return {
-      .max_speed_mps = top_speed_mps(automaton),
+      .max_speed_mps = automaton::top_speed_mps(automaton),
       .circumradius_m = 0.5 * std::hypot(vehicle.footprint.length_m, vehicle.footprint.width_m) +
                         std::sqrt(2.0) * vehicle.safety_margin_m,
       .footprint = vehicle.footprint,
@@ -22,16 +23,17 @@ std::vector<VehicleId> Neighbours::silent(std::span<const VehicleId> active) {
   for (const VehicleId other : active) {
     if (other == own_) continue;
     const StepIndex last = last_received_.try_emplace(other, now_).first->second;
-    if (now_.value >= last.value + kSilentSteps) silent.push_back(other);
+    if (now_.value >= last.value + coordination::kSilentSteps) silent.push_back(other);
   }
   return silent;
 }
 
-void Neighbours::receive(std::span<const Traffic> traffic, const Observation& observation) {
+void Neighbours::receive(std::span<const coordination::Traffic> traffic,
+                         const Observation& observation) {
   missing_.clear();
   for (const VehicleId other : observation.active) {
     if (other == own_) continue;
-    const Traffic* message = find_message(traffic, other, now_);
+    const coordination::Traffic* message = find_message(traffic, other, now_);
     if (message == nullptr) {
       missing_.push_back(other);
       continue;
@@ -48,8 +50,8 @@ bool Neighbours::is_received(VehicleId vehicle) const {
   return found != traffic_.end() && found->second.step == now_;
 }
 
-std::vector<const Traffic*> Neighbours::received() const {
-  std::vector<const Traffic*> result;
+std::vector<const coordination::Traffic*> Neighbours::received() const {
+  std::vector<const coordination::Traffic*> result;
   for (const auto& [vehicle, traffic] : traffic_) {
     if (traffic.step == now_) result.push_back(&traffic);
   }
@@ -67,18 +69,18 @@ void Neighbours::update_liveness(const Observation& observation) {
 
 void Neighbours::update_standstill(const Observation& observation) {
   for (const VehicleId other : observation.active) {
-    const MeasuredVehicle* state = observation.measured(other);
-    const bool stands = state != nullptr && is_seen_standing(*state, rules_);
+    const coordination::MeasuredVehicle* state = observation.measured(other);
+    const bool stands = state != nullptr && coordination::is_seen_standing(*state, rules_);
     const auto [last, is_first] = last_not_standing_.try_emplace(other, now_);
     if (!stands && !is_first) last->second = now_;
   }
 }
 
 bool Neighbours::stands_for_good(VehicleId vehicle, std::size_t horizon_steps) const {
-  return hlc::stands_for_good({.now = now_,
-                               .last_sign_of_life = last_sign_of_life_.at(vehicle),
-                               .last_not_standing = last_not_standing_.at(vehicle)},
-                              horizon_steps);
+  return coordination::stands_for_good({.now = now_,
+                                        .last_sign_of_life = last_sign_of_life_.at(vehicle),
+                                        .last_not_standing = last_not_standing_.at(vehicle)},
+                                       horizon_steps);
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

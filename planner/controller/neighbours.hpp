@@ -10,9 +10,9 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/missing.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
-bool is_well_formed(const Outcome& outcome);
+bool is_well_formed(const coordination::Outcome& outcome);
 
 /// The message of one vehicle in one step, if it has been received and is well-formed; otherwise
 /// nullptr.
@@ -29,16 +29,18 @@ template <class Message>
 
 /// Motion limits of a missing vehicle: over all maneuvers of the automaton, since another vehicle
 /// may drive on any subgraph.
-[[nodiscard]] MissingVehicleRules rules_for_missing(const UniversalAutomaton& automaton);
+[[nodiscard]] coordination::MissingVehicleRules rules_for_missing(
+    const automaton::UniversalAutomaton& automaton);
 
 /// One controller's knowledge of the other vehicles: received in this step, alive, standing. A
 /// value.
 class Neighbours {
  public:
   /// @param rules  for missing ones
-  Neighbours(VehicleId own, const MissingVehicleRules& rules) : own_(own), rules_(rules) {}
+  Neighbours(VehicleId own, const coordination::MissingVehicleRules& rules)
+      : own_(own), rules_(rules) {}
 
-  [[nodiscard]] const MissingVehicleRules& rules() const { return rules_; }
+  [[nodiscard]] const coordination::MissingVehicleRules& rules() const { return rules_; }
 
   /// Starts a step in which no message has been received.
   void begin_step(StepIndex step) { now_ = step; }
@@ -47,12 +49,14 @@ class Neighbours {
 
   /// Takes this step's traffic; messages of other steps or senders and malformed ones are ignored.
   /// Updates liveness and standstill.
-  void receive(std::span<const Traffic> traffic, const Observation& observation);
+  void receive(std::span<const coordination::Traffic> traffic, const Observation& observation);
 
   /// Received in this step, sorted by vehicle.
-  [[nodiscard]] std::vector<const Traffic*> received() const;
+  [[nodiscard]] std::vector<const coordination::Traffic*> received() const;
   /// @pre it was received in this step
-  [[nodiscard]] const Traffic& traffic_of(VehicleId vehicle) const { return traffic_.at(vehicle); }
+  [[nodiscard]] const coordination::Traffic& traffic_of(VehicleId vehicle) const {
+    return traffic_.at(vehicle);
+  }
   /// Active vehicles that were not received, in the order of the observation. Valid after
   /// `receive`.
   [[nodiscard]] const std::vector<VehicleId>& missing() const { return missing_; }
@@ -65,10 +69,10 @@ class Neighbours {
   [[nodiscard]] bool is_received(VehicleId vehicle) const;
 
   VehicleId own_;
-  MissingVehicleRules rules_;
+  coordination::MissingVehicleRules rules_;
   StepIndex now_;
-  std::map<VehicleId, Traffic>
-      traffic_;  ///< the last of each; of this step only if its step matches
+  /// The last of each; of this step only if its step matches
+  std::map<VehicleId, coordination::Traffic> traffic_;
   std::vector<VehicleId> missing_;
   std::map<VehicleId, StepIndex> last_received_;
   /// Last step in which the vehicle's controller may have agreed to something: received or present.
@@ -77,4 +81,4 @@ class Neighbours {
   std::map<VehicleId, StepIndex> last_not_standing_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -7,13 +7,14 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/missing.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// What is known of a coupled vehicle when planning begins. Not owned.
 struct CoupledVehicle {
-  const Traffic* traffic{};
-  const Prediction* prediction{};  ///< of a predecessor, if received; otherwise nullptr
-  bool is_predecessor{};           ///< it plans before
+  const coordination::Traffic* traffic{};
+  const coordination::Prediction*
+      prediction{};       ///< of a predecessor, if received; otherwise nullptr
+  bool is_predecessor{};  ///< it plans before
 };
 
 /// Areas that planning keeps clear of during one step because of one coupled vehicle. A rule is one
@@ -34,7 +35,7 @@ void predictions_and_standing_successors(const CoupledVehicle& other, StepIndex 
 
 /// A vehicle without received traffic. Not owned.
 struct MissingVehicle {
-  const MeasuredVehicle* measured{};
+  const coordination::MeasuredVehicle* measured{};
   bool stands_for_good{};  ///< Neighbours::stands_for_good
 };
 
@@ -44,7 +45,7 @@ struct MissingVehicle {
 /// @param now  k
 [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(
     std::span<const CoupledVehicle> coupled, CoupledObstacleRule coupled_rule,
-    std::span<const MissingVehicle> missing, const MissingVehicleRules& missing_rules,
+    std::span<const MissingVehicle> missing, const coordination::MissingVehicleRules& missing_rules,
     StepIndex now, std::size_t horizon_steps, double step_s);
 
-}  // namespace hlc
+}  // namespace hlc::controller

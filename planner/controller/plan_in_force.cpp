@@ -6,7 +6,7 @@
 
 #include "planner/automaton/deviation.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 /// Share of the safety margin that is reserved for the error of a one-step prediction.
@@ -14,23 +14,26 @@ constexpr double kUnderWayShare = 0.2;
 
 }  // namespace
 
-PlanInForce::PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton,
-                         const Maneuver& standstill, DeviationRules rules, const Pose& measured,
-                         StepIndex step)
+PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+                         const automaton::Maneuver& standstill, DeviationRules rules,
+                         const Pose& measured, StepIndex step)
     : automaton_(std::move(automaton)),
       standstill_(&standstill),
       rules_(rules),
-      plan_(step, pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
+      plan_(step,
+            automaton::pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
             standstill, automaton_),
       announced_(plan_.areas_from(step)),
       seen_{.step = step, .time_s = 0.0, .pose = measured} {
-  for (const Trim& trim : automaton_->trims) {
-    is_at_limit_.push_back(is_at_steering_limit(trim, automaton_->vehicle, automaton_->identified));
+  for (const automaton::Trim& trim : automaton_->trims) {
+    is_at_limit_.push_back(
+        automaton::is_at_steering_limit(trim, automaton_->vehicle, automaton_->identified));
   }
 }
 
-DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepIndex now) {
-  const VehicleParameters& vehicle = automaton_->vehicle;
+DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle* own,
+                                            StepIndex now) {
+  const vehicle::VehicleParameters& vehicle = automaton_->vehicle;
   const double step_s = automaton_->step_s;
   moved_.reset();
   outside_area_m_ = {};
@@ -50,7 +53,7 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   seen_.step.value -= steps_back;
   seen_.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
   if (is_lost_) return_to_driven_plan(now);
-  const State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
+  const vehicle::State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
   deviation_m_ = deviation_from(plan_);
   const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
   const bool is_outside =
@@ -59,8 +62,9 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
   const DeviationCheck result{
       .deviation_m = deviation_m_, .is_disturbed = is_outside, .is_lost = is_lost_};
   if (!is_outside && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
-  const bool stands = plan_.end().value + steps_back <= now.value &&
-                      std::abs(own->speed_mps) <= MissingVehicleRules{}.standing_speed_mps;
+  const bool stands =
+      plan_.end().value + steps_back <= now.value &&
+      std::abs(own->speed_mps) <= coordination::MissingVehicleRules{}.standing_speed_mps;
   if (is_outside && stands) {
     ReplacedPlans replaced = std::move(replaced_);
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
@@ -68,17 +72,18 @@ DeviationCheck PlanInForce::check_deviation(const MeasuredVehicle* own, StepInde
     deviation_m_ = result.deviation_m;
     return {.deviation_m = deviation_m_, .is_disturbed = false, .is_reanchored = true};
   }
-  moved_ = plan_.moved(planned.pose, pose_of_measured(own->pose, planned.steering_rad, vehicle,
-                                                      automaton_->identified));
+  moved_ = plan_.moved(planned.pose, automaton::pose_of_measured(own->pose, planned.steering_rad,
+                                                                 vehicle, automaton_->identified));
   if (!is_outside && !stays_inside_announced(*moved_, now)) moved_.reset();
   if (is_outside) note_outside(own->pose, own->speed_mps, now);
   return result;
 }
 
 /// At the last sight.
-double PlanInForce::deviation_from(const Plan& plan) const {
-  const State planned = plan.state_at(seen_.step, seen_.time_s, automaton_->vehicle);
-  return footprint_deviation_m(seen_.pose, planned, automaton_->vehicle, automaton_->identified);
+double PlanInForce::deviation_from(const coordination::Plan& plan) const {
+  const vehicle::State planned = plan.state_at(seen_.step, seen_.time_s, automaton_->vehicle);
+  return automaton::footprint_deviation_m(seen_.pose, planned, automaton_->vehicle,
+                                          automaton_->identified);
 }
 
 void PlanInForce::return_to_driven_plan(StepIndex now) {
@@ -88,8 +93,8 @@ void PlanInForce::return_to_driven_plan(StepIndex now) {
     const bool was_in_force =
         former->plan.first() <= seen_.step && former->announced.first <= seen_.step;
     if (!was_in_force || deviation_from(former->plan) > margin_m) continue;
-    const Plan driven = former->plan;
-    const OccupiedAreas announced = former->announced;
+    const coordination::Plan driven = former->plan;
+    const coordination::OccupiedAreas announced = former->announced;
     replaced_.add(std::exchange(plan_, driven), std::exchange(announced_, announced), now);
     return replaced_.doubt(now);
   }
@@ -111,7 +116,7 @@ bool PlanInForce::is_inside_announced(const Pose& measured, StepIndex step,
 
 /// True if a vehicle that follows `plan` from now on stays in the area announced for the current
 /// step.
-bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const {
+bool PlanInForce::stays_inside_announced(const coordination::Plan& plan, StepIndex now) const {
   const double reserve_m = kUnderWayShare * automaton_->vehicle.safety_margin_m;
   const std::vector<PredictedInstant> drive =
       predicted_drive(plan, seen_, {now.value + 1}, *automaton_);
@@ -123,7 +128,8 @@ bool PlanInForce::stays_inside_announced(const Plan& plan, StepIndex now) const 
 /// `way` and the areas in which a disturbed vehicle can be during the step.
 ConvexPolygon PlanInForce::with_step(ConvexPolygon way, StepIndex step) const {
   std::vector<ConvexPolygon> areas{std::move(way)};
-  const auto add = [&](const Plan& plan, const OccupiedAreas& announced) {
+  const auto add = [&](const coordination::Plan& plan,
+                       const coordination::OccupiedAreas& announced) {
     if (step < announced.first || step < plan.first()) return;
     areas.push_back(driven_or_braked_area(plan, announced, step, automaton_->vehicle));
   };
@@ -137,11 +143,12 @@ ConvexPolygon PlanInForce::with_step(ConvexPolygon way, StepIndex step) const {
 
 /// The areas of the other plans that may be driven grow from step to step: the vehicle may have
 /// stopped anywhere on the way.
-OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
+coordination::OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   const std::vector<const ReplacedPlans::Former*> former = replaced_.doubtful();
   StepIndex end = plan_.end();
   for (const ReplacedPlans::Former* one : former) end = std::max(end, one->plan.end());
-  OccupiedAreas areas{.first = from, .areas_m = {}, .final_area_m = announced_.final_area_m};
+  coordination::OccupiedAreas areas{
+      .first = from, .areas_m = {}, .final_area_m = announced_.final_area_m};
   if (from < end) areas.areas_m.reserve(end.value - from.value);
   for (StepIndex step = from; step < end; ++step.value) {
     areas.areas_m.push_back(announced_.during(step));
@@ -164,7 +171,7 @@ double PlanInForce::tolerated_m() const {
   return rules_.tolerated_drift_share * automaton_->vehicle.safety_margin_m;
 }
 
-bool PlanInForce::may_drift(const Plan& candidate) const {
+bool PlanInForce::may_drift(const coordination::Plan& candidate) const {
   if (deviation_m_ > tolerated_m()) return true;
   for (StepIndex step = seen_.step; step <= candidate.end(); ++step.value) {
     if (is_at_limit_[candidate.trim_at(step).index]) return true;
@@ -172,13 +179,16 @@ bool PlanInForce::may_drift(const Plan& candidate) const {
   return false;
 }
 
-OccupiedAreas PlanInForce::areas_of(const Plan& candidate, StepIndex next) const {
+coordination::OccupiedAreas PlanInForce::areas_of(const coordination::Plan& candidate,
+                                                  StepIndex next) const {
   if (!may_drift(candidate)) return candidate.areas_from(next);
   return areas_with_drift(candidate, next, seen_, *automaton_, tolerated_m());
 }
 
-void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex now) {
-  OccupiedAreas announced{.first = now, .areas_m = {}, .final_area_m = areas.final_area_m};
+void PlanInForce::replace(coordination::Plan candidate, const coordination::OccupiedAreas& areas,
+                          StepIndex now) {
+  coordination::OccupiedAreas announced{
+      .first = now, .areas_m = {}, .final_area_m = areas.final_area_m};
   announced.areas_m.reserve(1 + areas.areas_m.size());
   announced.areas_m.push_back(announced_.during(now));
   announced.areas_m.insert(announced.areas_m.end(), areas.areas_m.begin(), areas.areas_m.end());
@@ -186,4 +196,4 @@ void PlanInForce::replace(Plan candidate, const OccupiedAreas& areas, StepIndex 
                 std::exchange(announced_, std::move(announced)), now);
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -9,7 +9,7 @@
 #include "planner/coordination/missing.hpp"
 #include "planner/coordination/plan.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// Shares of the safety margin that decide on the reaction to a deviation from the plan.
 struct DeviationRules {
@@ -92,53 +92,56 @@ class PlanInForce {
  public:
   /// Standing at the pose measured at t(step). `standstill` is the equilibrium trim's self-loop;
   /// the automaton owns it.
-  PlanInForce(std::shared_ptr<const UniversalAutomaton> automaton, const Maneuver& standstill,
-              DeviationRules rules, const Pose& measured, StepIndex step);
+  PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+              const automaton::Maneuver& standstill, DeviationRules rules, const Pose& measured,
+              StepIndex step);
 
-  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] const coordination::Plan& plan() const { return plan_; }
 
   /// Compares the vehicle's state in the list of step `now` (nullptr: none) with the plan.
   /// @pre now does not decrease
-  DeviationCheck check_deviation(const MeasuredVehicle* own, StepIndex now);
+  DeviationCheck check_deviation(const coordination::MeasuredVehicle* own, StepIndex now);
 
   /// The plan that a new plan continues: the plan in force, moved to the vehicle's real pose under
   /// rule 3 or 4. Valid after `check_deviation`.
-  [[nodiscard]] const Plan& base() const { return moved_ ? *moved_ : plan_; }
+  [[nodiscard]] const coordination::Plan& base() const { return moved_ ? *moved_ : plan_; }
   /// True if `base` is not the plan in force itself. Valid after `check_deviation`.
   [[nodiscard]] bool is_moved() const { return moved_.has_value(); }
 
   /// Areas of the plan in force from t(from) on, as the others must know them (rule 4). @pre from
   /// is the step of `check_deviation` or the next
-  [[nodiscard]] OccupiedAreas announced_areas(StepIndex from) const;
+  [[nodiscard]] coordination::OccupiedAreas announced_areas(StepIndex from) const;
 
   /// False if a vehicle that drives `candidate`, a plan that continues `base()`, certainly stays
   /// within the margin: it is on the plan, and all trims have steering to spare. Valid after
   /// `check_deviation`.
-  [[nodiscard]] bool may_drift(const Plan& candidate) const;
+  [[nodiscard]] bool may_drift(const coordination::Plan& candidate) const;
 
   /// Areas of a plan that continues `base()`, from t(next) on, with its drift (rule 2).
-  [[nodiscard]] OccupiedAreas areas_of(const Plan& candidate, StepIndex next) const;
+  [[nodiscard]] coordination::OccupiedAreas areas_of(const coordination::Plan& candidate,
+                                                     StepIndex next) const;
 
   /// Puts `candidate` in force, of which `areas` from t(now + 1) on have been announced. The plan
   /// before is kept for some steps, and with it the automaton of its maneuvers.
-  void replace(Plan candidate, const OccupiedAreas& areas, StepIndex now);
+  void replace(coordination::Plan candidate, const coordination::OccupiedAreas& areas,
+               StepIndex now);
 
  private:
   [[nodiscard]] ConvexPolygon with_step(ConvexPolygon way, StepIndex step) const;
   [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
                                          double reserve_m = 0.0) const;
-  [[nodiscard]] double deviation_from(const Plan& plan) const;
+  [[nodiscard]] double deviation_from(const coordination::Plan& plan) const;
   void return_to_driven_plan(StepIndex now);
   void note_outside(const Pose& pose, double speed_mps, StepIndex now);
   [[nodiscard]] double tolerated_m() const;
-  [[nodiscard]] bool stays_inside_announced(const Plan& plan, StepIndex now) const;
+  [[nodiscard]] bool stays_inside_announced(const coordination::Plan& plan, StepIndex now) const;
 
-  std::shared_ptr<const UniversalAutomaton> automaton_;
-  const Maneuver* standstill_;
+  std::shared_ptr<const automaton::UniversalAutomaton> automaton_;
+  const automaton::Maneuver* standstill_;
   DeviationRules rules_;
   std::vector<bool> is_at_limit_;  ///< of each trim, is_at_steering_limit
-  Plan plan_;
-  OccupiedAreas announced_;  ///< announced areas of the plan, and one step before
+  coordination::Plan plan_;
+  coordination::OccupiedAreas announced_;  ///< announced areas of the plan, and one step before
   ReplacedPlans replaced_;
   bool is_lost_{};
 
@@ -146,9 +149,9 @@ class PlanInForce {
   SeenAt seen_;  ///< the last sight
   double seen_speed_mps_{};
   double deviation_m_{};
-  std::optional<Plan> moved_;  ///< the plan moved to the vehicle's real pose
+  std::optional<coordination::Plan> moved_;  ///< the plan moved to the vehicle's real pose
   /// Where a vehicle that is disturbed was seen, and may have braked from there, with margin.
   ConvexPolygon outside_area_m_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

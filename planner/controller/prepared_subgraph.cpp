@@ -4,15 +4,15 @@
 
 #include "planner/search/search_tables.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
-PreparedSubgraph prepare_subgraph(std::shared_ptr<const Subgraph> subgraph,
-                                  std::size_t horizon_steps, const SearchOptions& search) {
-  auto reachable = std::make_shared<const ReachableSets>(*subgraph, horizon_steps + 1);
-  auto tables = make_search_tables(*subgraph, *reachable, search);
+PreparedSubgraph prepare_subgraph(std::shared_ptr<const automaton::Subgraph> subgraph,
+                                  std::size_t horizon_steps, const search::SearchOptions& search) {
+  auto reachable = std::make_shared<const automaton::ReachableSets>(*subgraph, horizon_steps + 1);
+  auto tables = search::make_search_tables(*subgraph, *reachable, search);
   return {.subgraph = std::move(subgraph),
           .reachable = std::move(reachable),
           .tables = std::move(tables)};
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

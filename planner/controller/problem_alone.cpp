@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 /// Boundary pieces this far beyond the reach of the plan are kept, so that none is missed.
@@ -11,13 +11,13 @@ constexpr double kBoundaryReserve_m = 0.4;
 
 }  // namespace
 
-HorizonProblem problem_alone(const Traffic& own, const RouteTracker& tracker,
-                             const Corridor& corridor, double reach_m,
-                             const UniversalAutomaton& automaton,
-                             const ControllerOptions& options) {
+search::HorizonProblem problem_alone(const coordination::Traffic& own, const RouteTracker& tracker,
+                                     const road::Corridor& corridor, double reach_m,
+                                     const automaton::UniversalAutomaton& automaton,
+                                     const ControllerOptions& options) {
   const double s_m = tracker.s_m().value();
-  HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
-  Reference reference = reference_points(
+  search::HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
+  road::Reference reference = road::reference_points(
       tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps,
       options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
   problem.reference_m = std::move(reference.points_m);
@@ -27,7 +27,8 @@ HorizonProblem problem_alone(const Traffic& own, const RouteTracker& tracker,
   return problem;
 }
 
-HorizonProblem one_step_later(HorizonProblem problem, const Traffic& own) {
+search::HorizonProblem one_step_later(search::HorizonProblem problem,
+                                      const coordination::Traffic& own) {
   problem.start = own.next_pose;
   problem.start_trim = own.next_trim;
   problem.incumbent.clear();
@@ -41,4 +42,4 @@ HorizonProblem one_step_later(HorizonProblem problem, const Traffic& own) {
   return problem;
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -6,20 +6,22 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// The problem of a vehicle without all others: from the pose announced in its traffic, along its
 /// route from its place there on, within the corridor as far as it may get.
 /// @param reach_m  how far the vehicle can get in a horizon
 /// @pre the tracker has selected a route
-[[nodiscard]] HorizonProblem problem_alone(const Traffic& own, const RouteTracker& tracker,
-                                           const Corridor& corridor, double reach_m,
-                                           const UniversalAutomaton& automaton,
-                                           const ControllerOptions& options);
+[[nodiscard]] search::HorizonProblem problem_alone(const coordination::Traffic& own,
+                                                   const RouteTracker& tracker,
+                                                   const road::Corridor& corridor, double reach_m,
+                                                   const automaton::UniversalAutomaton& automaton,
+                                                   const ControllerOptions& options);
 
 /// The problem one step later, if all vehicles keep to their plans: from the vehicle's next pose,
 /// every step's reference and obstacles a step earlier, the last ones extrapolated. Without its
 /// incumbent, whose maneuvers may no longer exist.
-[[nodiscard]] HorizonProblem one_step_later(HorizonProblem problem, const Traffic& own);
+[[nodiscard]] search::HorizonProblem one_step_later(search::HorizonProblem problem,
+                                                    const coordination::Traffic& own);
 
-}  // namespace hlc
+}  // namespace hlc::controller

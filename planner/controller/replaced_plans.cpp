@@ -5,7 +5,7 @@
 
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 /// Braking distance per speed.
@@ -20,27 +20,30 @@ Pose braked(const Pose& pose, double speed_mps) {
 
 }  // namespace
 
-ConvexPolygon braking_area(const Pose& pose, double speed_mps, const VehicleParameters& vehicle) {
+ConvexPolygon braking_area(const Pose& pose, double speed_mps,
+                           const vehicle::VehicleParameters& vehicle) {
   const auto area_at = [&vehicle](const Pose& where) {
     return footprint_area(vehicle.footprint, where, vehicle.safety_margin_m);
   };
   return convex_hull(std::vector{area_at(pose), area_at(braked(pose, speed_mps))});
 }
 
-ConvexPolygon driven_or_braked_area(const Plan& plan, const OccupiedAreas& announced,
-                                    StepIndex step, const VehicleParameters& vehicle) {
+ConvexPolygon driven_or_braked_area(const coordination::Plan& plan,
+                                    const coordination::OccupiedAreas& announced, StepIndex step,
+                                    const vehicle::VehicleParameters& vehicle) {
   const ConvexPolygon& driven = announced.during(step);
   if (step >= plan.end()) return driven;
   std::vector<ConvexPolygon> areas{driven};
   for (const StepIndex at : {step, StepIndex{step.value + 1}}) {
-    const State state = plan.state_at(at, 0.0, vehicle);
+    const vehicle::State state = plan.state_at(at, 0.0, vehicle);
     areas.push_back(footprint_area(vehicle.footprint, braked(state.pose, state.speed_mps),
                                    vehicle.safety_margin_m));
   }
   return convex_hull(areas);
 }
 
-void ReplacedPlans::add(Plan plan, OccupiedAreas announced, StepIndex in) {
+void ReplacedPlans::add(coordination::Plan plan, coordination::OccupiedAreas announced,
+                        StepIndex in) {
   formers_.push_back(std::make_shared<const Former>(std::move(plan), std::move(announced), in));
 }
 
@@ -58,4 +61,4 @@ std::vector<const ReplacedPlans::Former*> ReplacedPlans::doubtful() const {
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

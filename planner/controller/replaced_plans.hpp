@@ -7,7 +7,7 @@
 
 #include "planner/coordination/plan.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// Area of a vehicle that drives `plan` during the step, or drops its command then and brakes: the
 /// announced area, and, from its pose at the beginning and at the end of the step, the area of
@@ -15,11 +15,13 @@ namespace hlc {
 ///
 /// The lab's stop law takes a vehicle of 0.4 ... 1.2 m/s on by 0.20 ... 0.24 s times its speed, up
 /// to 40 mm to the inside of a curve, never to its outside.
-[[nodiscard]] ConvexPolygon driven_or_braked_area(const Plan& plan, const OccupiedAreas& announced,
-                                                  StepIndex step, const VehicleParameters& vehicle);
+[[nodiscard]] ConvexPolygon driven_or_braked_area(const coordination::Plan& plan,
+                                                  const coordination::OccupiedAreas& announced,
+                                                  StepIndex step,
+                                                  const vehicle::VehicleParameters& vehicle);
 /// Area of braking straight on from the pose to standstill. @param pose  yaw
 [[nodiscard]] ConvexPolygon braking_area(const Pose& pose, double speed_mps,
-                                         const VehicleParameters& vehicle);
+                                         const vehicle::VehicleParameters& vehicle);
 
 /// Plans that were in force before the present one, each as long as the vehicle may still drive it:
 /// the commands of the newer ones may have been lost. A value; copies share the plans.
@@ -31,13 +33,14 @@ class ReplacedPlans {
   static constexpr std::uint64_t kDrivableSteps = 10;
 
   struct Former {
-    Plan plan;
-    OccupiedAreas announced;  ///< as the others knew them, from the step before it came into force
+    coordination::Plan plan;
+    /// As the others knew them, from the step before it came into force
+    coordination::OccupiedAreas announced;
     StepIndex replaced_in;
   };
 
   /// @pre `in` does not decrease
-  void add(Plan plan, OccupiedAreas announced, StepIndex in);
+  void add(coordination::Plan plan, coordination::OccupiedAreas announced, StepIndex in);
   /// The list of step `now` shows the vehicle: plans that it can no longer drive are removed. A
   /// vehicle that is not seen may stand anywhere on any of them.
   void forget(StepIndex now);
@@ -52,4 +55,4 @@ class ReplacedPlans {
   std::optional<StepIndex> doubted_until_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 /// The path is searched this far behind the last projection, for a vehicle that was moved a little.
@@ -15,7 +15,7 @@ constexpr double kUnfitCost_m = 1e6;
 
 }  // namespace
 
-RouteTracker::RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes)
+RouteTracker::RouteTracker(std::shared_ptr<const std::vector<road::DrivableRoute>> routes)
     : routes_(std::move(routes)) {
   HLC_DEMAND(!routes_->empty());
 }
@@ -23,10 +23,10 @@ RouteTracker::RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> rou
 void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
   std::optional<double> least_m;
   for (std::size_t i = 0; i < routes_->size(); ++i) {
-    const DrivableRoute& route = (*routes_)[i];
-    const Placement placement = placement_on(route, pose, footprint);
+    const road::DrivableRoute& route = (*routes_)[i];
+    const road::Placement placement = road::placement_on(route, pose, footprint);
     const double cost_m =
-        placement_cost_m(placement) + (fits(placement, route) ? 0.0 : kUnfitCost_m);
+        road::placement_cost_m(placement) + (road::fits(placement, route) ? 0.0 : kUnfitCost_m);
     if (least_m && cost_m >= *least_m) continue;
     least_m = cost_m;
     route_ = i;
@@ -35,18 +35,18 @@ void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
   s_m_ = placement_->s_m;
 }
 
-Placement RouteTracker::place(const Pose& pose, const Footprint& footprint) {
-  Placement placement = placement_on(route(), pose, footprint);
+road::Placement RouteTracker::place(const Pose& pose, const Footprint& footprint) {
+  road::Placement placement = road::placement_on(route(), pose, footprint);
   s_m_ = placement.s_m;
   return placement;
 }
 
 double RouteTracker::project(const Point& position_m, double reach_m) const {
-  const ReferencePath& path = route().path;
+  const road::ReferencePath& path = route().path;
   if (!s_m_) return path.project(position_m).s_m;
   return path
       .project_within(position_m, *s_m_ - kProjectionBack_m, *s_m_ + reach_m + kProjectionBack_m)
       .s_m;
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

@@ -7,20 +7,20 @@
 
 #include "planner/road/placement.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// The route that a vehicle follows, and its place there. A value; the routes are shared.
 class RouteTracker {
  public:
   /// @param routes  the permitted ones, at least one
-  explicit RouteTracker(std::shared_ptr<const std::vector<DrivableRoute>> routes);
+  explicit RouteTracker(std::shared_ptr<const std::vector<road::DrivableRoute>> routes);
 
-  [[nodiscard]] const std::vector<DrivableRoute>& routes() const { return *routes_; }
+  [[nodiscard]] const std::vector<road::DrivableRoute>& routes() const { return *routes_; }
   /// The selected route; before the first `select_route` the first of all.
-  [[nodiscard]] const DrivableRoute& route() const { return (*routes_)[route_]; }
+  [[nodiscard]] const road::DrivableRoute& route() const { return (*routes_)[route_]; }
   /// Of the last `select_route`.
-  [[nodiscard]] const std::optional<Placement>& placement() const { return placement_; }
-  [[nodiscard]] bool fits_route() const { return placement_ && fits(*placement_, route()); }
+  [[nodiscard]] const std::optional<road::Placement>& placement() const { return placement_; }
+  [[nodiscard]] bool fits_route() const { return placement_ && road::fits(*placement_, route()); }
   /// Arc length on the route; none before the first `select_route`.
   [[nodiscard]] const std::optional<double>& s_m() const { return s_m_; }
 
@@ -28,7 +28,7 @@ class RouteTracker {
   /// @param pose  the planner's (heading, not yaw)
   void select_route(const Pose& pose, const Footprint& footprint);
   /// The place of the pose on the selected route, independent of the former place.
-  Placement place(const Pose& pose, const Footprint& footprint);
+  road::Placement place(const Pose& pose, const Footprint& footprint);
   /// Advances to the position. @param reach_m  as for `project`
   void advance(const Point& position_m, double reach_m) { s_m_ = project(position_m, reach_m); }
 
@@ -37,10 +37,10 @@ class RouteTracker {
   [[nodiscard]] double project(const Point& position_m, double reach_m) const;
 
  private:
-  std::shared_ptr<const std::vector<DrivableRoute>> routes_;
+  std::shared_ptr<const std::vector<road::DrivableRoute>> routes_;
   std::size_t route_{};
-  std::optional<Placement> placement_;
+  std::optional<road::Placement> placement_;
   std::optional<double> s_m_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::controller

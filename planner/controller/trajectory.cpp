@@ -5,19 +5,20 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
-std::vector<TimedPoint> sample_trajectory(const Plan& plan, StepIndex step, double interval_s,
-                                          double until_s, double step_s,
-                                          const VehicleParameters& vehicle) {
+namespace hlc::controller {
+std::vector<TimedPoint> sample_trajectory(const coordination::Plan& plan, StepIndex step,
+                                          double interval_s, double until_s, double step_s,
+                                          const vehicle::VehicleParameters& vehicle) {
   const auto per_step = static_cast<std::int64_t>(std::llround(step_s / interval_s));
   HLC_DEMAND(per_step > 0, step_s, interval_s);
   std::vector<TimedPoint> samples;
   if (step > plan.first()) {
     const StepIndex before{step.value - 1};
-    samples.push_back(
-        timed_point(-interval_s, plan.state_at(before, step_s - interval_s, vehicle), vehicle));
+    samples.push_back(vehicle::timed_point(
+        -interval_s, plan.state_at(before, step_s - interval_s, vehicle), vehicle));
   } else {
-    TimedPoint sample = timed_point(-interval_s, plan.state_at(step, 0.0, vehicle), vehicle);
+    TimedPoint sample =
+        vehicle::timed_point(-interval_s, plan.state_at(step, 0.0, vehicle), vehicle);
     sample.position_m -= interval_s * sample.velocity_mps;
     samples.push_back(sample);
   }
@@ -27,10 +28,10 @@ std::vector<TimedPoint> sample_trajectory(const Plan& plan, StepIndex step, doub
   for (std::int64_t i = 0; i <= count; ++i) {
     const StepIndex at{step.value + static_cast<std::uint64_t>(i / per_step)};
     const double rest_s = static_cast<double>(i % per_step) * interval_s;
-    samples.push_back(timed_point(static_cast<double>(i) * interval_s,
-                                  plan.state_at(at, rest_s, vehicle), vehicle));
+    samples.push_back(vehicle::timed_point(static_cast<double>(i) * interval_s,
+                                           plan.state_at(at, rest_s, vehicle), vehicle));
   }
   return samples;
 }
 
-}  // namespace hlc
+}  // namespace hlc::controller

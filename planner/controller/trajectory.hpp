@@ -5,7 +5,7 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/geometry/timed_curve.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 
 /// Time between the points of a command unless a lab sets it (LabLimits::point_interval_s).
 inline constexpr double kPointInterval_s = 0.05;
@@ -15,9 +15,9 @@ inline constexpr double kPointInterval_s = 0.05;
 /// Velocities are the derivatives of the positions (single-track model: v in the direction heading
 /// + slip).
 /// @pre interval_s > 0 divides the step length
-[[nodiscard]] std::vector<TimedPoint> sample_trajectory(const Plan& plan, StepIndex step,
-                                                        double interval_s, double until_s,
-                                                        double step_s,
-                                                        const VehicleParameters& vehicle);
+[[nodiscard]] std::vector<TimedPoint> sample_trajectory(const coordination::Plan& plan,
+                                                        StepIndex step, double interval_s,
+                                                        double until_s, double step_s,
+                                                        const vehicle::VehicleParameters& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::controller

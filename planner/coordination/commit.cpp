@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 template <class AreaAt>
@@ -46,4 +46,4 @@ CommitVerdict commit_by_votes(const CommitInputs& inputs) {
   return all_agree ? CommitVerdict::kInForce : CommitVerdict::kFallback;
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

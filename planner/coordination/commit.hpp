@@ -5,7 +5,7 @@
 
 #include "planner/coordination/messages.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 enum class CommitVerdict {
   kInForce,      ///< the new plan comes into force
@@ -91,4 +91,4 @@ inline constexpr CommitRule kAgreedCommit{.needs_votes = true, .decide = &commit
 [[nodiscard]] bool are_free(const OccupiedAreas& a, const ConvexPolygon& area_m, StepIndex from,
                             std::size_t steps);
 
-}  // namespace hlc
+}  // namespace hlc::coordination

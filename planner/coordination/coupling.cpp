@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic) {
   std::ranges::sort(traffic, {}, [](const Traffic* one) { return one->vehicle; });
@@ -60,4 +60,4 @@ std::vector<VehicleId> CouplingGraph::component(VehicleId vehicle) const {
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

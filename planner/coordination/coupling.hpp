@@ -6,7 +6,7 @@
 
 #include "planner/coordination/messages.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 /// Which vehicles may meet within the horizon: i and j are coupled if their reachable areas
 /// intersect (undirected). The result is the same in every controller that received the same
@@ -30,4 +30,4 @@ class CouplingGraph {
   std::vector<boost::container::small_vector<std::size_t, 8>> neighbours_;  ///< each sorted
 };
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 bool are_well_formed(const OccupiedAreas& areas, StepIndex first) {
@@ -28,4 +28,4 @@ const ConvexPolygon& OccupiedAreas::during(StepIndex step) const {
   return offset < areas_m.size() ? areas_m[offset] : final_area_m;
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -8,7 +8,7 @@
 #include "planner/geometry/pose.hpp"
 
 /// What controllers publish in one control step, as plain data.
-namespace hlc {
+namespace hlc::coordination {
 
 /// Area that a vehicle occupies under one plan, step by step, in the map's frame; safety margin
 /// included.
@@ -56,4 +56,4 @@ struct Outcome {
   bool wants_fallback{};  ///< commit rule `agreed`: the sender had to fall back
 };
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hlc {
+namespace hlc::coordination {
 
 ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                              const MissingVehicleRules& rules) {
@@ -34,4 +34,4 @@ ConvexPolygon standing_area(const MeasuredVehicle& measured, const MissingVehicl
   return footprint_area(rules.footprint, measured.pose, rules.safety_margin_m);
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -5,7 +5,7 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 /// State of a vehicle in the state list.
 struct MeasuredVehicle {
@@ -65,4 +65,4 @@ struct Silence {
 [[nodiscard]] ConvexPolygon standing_area(const MeasuredVehicle& measured,
                                           const MissingVehicleRules& rules);
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -5,9 +5,10 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
-Plan::Plan(StepIndex first, const Pose& pose, const Maneuver& standstill, const Owner& owner)
+Plan::Plan(StepIndex first, const Pose& pose, const automaton::Maneuver& standstill,
+           const Owner& owner)
     : Plan(first, pose, Entry(owner, &standstill)) {}
 
 Plan::Plan(StepIndex first, const Pose& pose, Entry standstill)
@@ -32,12 +33,15 @@ const Plan::Entry& Plan::entry_during(StepIndex step) const {
   return i < maneuvers_.size() ? maneuvers_[i] : standstill_;
 }
 
-const Maneuver& Plan::maneuver_during(StepIndex step) const { return *entry_during(step); }
+const automaton::Maneuver& Plan::maneuver_during(StepIndex step) const {
+  return *entry_during(step);
+}
 
 TrimId Plan::trim_at(StepIndex step) const { return maneuver_during(step).from; }
 
-State Plan::state_at(StepIndex step, double time_s, const VehicleParameters& vehicle) const {
-  State state = hlc::state_at(maneuver_during(step), time_s, vehicle);
+vehicle::State Plan::state_at(StepIndex step, double time_s,
+                              const vehicle::VehicleParameters& vehicle) const {
+  vehicle::State state = automaton::state_at(maneuver_during(step), time_s, vehicle);
   state.pose = compose(pose_at(step), state.pose);
   return state;
 }
@@ -52,12 +56,12 @@ OccupiedAreas Plan::areas_from(StepIndex from) const {
   return areas;
 }
 
-Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
-                     const Maneuver& standstill, const Owner& owner) const {
+Plan Plan::continued(StepIndex step, const std::vector<const automaton::Maneuver*>& continuation,
+                     const automaton::Maneuver& standstill, const Owner& owner) const {
   return continued(step, continuation, Entry(owner, &standstill));
 }
 
-Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
+Plan Plan::continued(StepIndex step, const std::vector<const automaton::Maneuver*>& continuation,
                      const Entry& standstill) const {
   const StepIndex keep_from{
       std::max(first_.value, step.value < 2 ? std::uint64_t{0} : step.value - 2)};
@@ -70,7 +74,7 @@ Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continu
     result.poses_.push_back(compose(result.poses_.back(), maneuver->displacement));
   };
   for (StepIndex kept = keep_from; kept < step; ++kept.value) append(entry_during(kept));
-  for (const Maneuver* maneuver : continuation) {
+  for (const automaton::Maneuver* maneuver : continuation) {
     const TrimId at = result.maneuvers_.empty() ? standstill_->from : result.maneuvers_.back()->to;
     HLC_DEMAND(maneuver->from == at, maneuver->from.index, at.index);
     append(Entry(standstill, maneuver));
@@ -80,4 +84,4 @@ Plan Plan::continued(StepIndex step, const std::vector<const Maneuver*>& continu
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

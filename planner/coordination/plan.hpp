@@ -6,7 +6,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/coordination/messages.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 /// A plan of one vehicle: maneuvers (and self-loops of trims) one after the other, step by step
 /// from t(first) on, then standing at the last pose forever. Because steps are numbered by time,
@@ -17,24 +17,27 @@ namespace hlc {
 /// maneuver of it; without an owner the maneuvers must outlive the plan.
 class Plan {
  public:
-  using Owner = std::shared_ptr<const UniversalAutomaton>;
+  using Owner = std::shared_ptr<const automaton::UniversalAutomaton>;
 
   /// Standing at `pose` from t(first) on.
   /// @param standstill  self-loop of the equilibrium trim
   /// @param owner       of it
-  Plan(StepIndex first, const Pose& pose, const Maneuver& standstill, const Owner& owner = {});
+  Plan(StepIndex first, const Pose& pose, const automaton::Maneuver& standstill,
+       const Owner& owner = {});
 
   /// This plan until t(step), then `continuation`, then `standstill`; what lies before t(step - 2)
   /// is forgotten.
   /// @param owner  of both
   /// @pre continuation starts with the trim of this plan at t(step) and ends in the trim whose
   /// self-loop is `standstill`
-  [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
-                               const Maneuver& standstill, const Owner& owner = {}) const;
+  [[nodiscard]] Plan continued(StepIndex step,
+                               const std::vector<const automaton::Maneuver*>& continuation,
+                               const automaton::Maneuver& standstill,
+                               const Owner& owner = {}) const;
   /// The same where the new plan ends in the equilibrium trim in which this one does, and is of the
   /// same automaton.
   [[nodiscard]] Plan continued(StepIndex step,
-                               const std::vector<const Maneuver*>& continuation) const {
+                               const std::vector<const automaton::Maneuver*>& continuation) const {
     return continued(step, continuation, standstill_);
   }
 
@@ -48,20 +51,21 @@ class Plan {
   [[nodiscard]] const Pose& pose_at(StepIndex step) const;
   [[nodiscard]] TrimId trim_at(StepIndex step) const;
   /// The maneuver driven in [t(step), t(step + 1)].
-  [[nodiscard]] const Maneuver& maneuver_during(StepIndex step) const;
+  [[nodiscard]] const automaton::Maneuver& maneuver_during(StepIndex step) const;
   /// Planned state at t(step) + time_s, 0 <= time_s <= one step. @pre step >= first()
-  [[nodiscard]] State state_at(StepIndex step, double time_s,
-                               const VehicleParameters& vehicle) const;
+  [[nodiscard]] vehicle::State state_at(StepIndex step, double time_s,
+                                        const vehicle::VehicleParameters& vehicle) const;
   /// Areas from t(from) on, and of standing at the end. The last of them holds the final one up to
   /// 2 um (swept areas are rounded outwards by 1 um, their corners mitred). @pre from >= first()
   [[nodiscard]] OccupiedAreas areas_from(StepIndex from) const;
 
  private:
   /// Shares its automaton, if that was given.
-  using Entry = std::shared_ptr<const Maneuver>;
+  using Entry = std::shared_ptr<const automaton::Maneuver>;
 
   Plan(StepIndex first, const Pose& pose, Entry standstill);
-  [[nodiscard]] Plan continued(StepIndex step, const std::vector<const Maneuver*>& continuation,
+  [[nodiscard]] Plan continued(StepIndex step,
+                               const std::vector<const automaton::Maneuver*>& continuation,
                                const Entry& standstill) const;
   [[nodiscard]] const Entry& entry_during(StepIndex step) const;
 
@@ -71,4 +75,4 @@ class Plan {
   std::vector<Pose> poses_;  ///< at t(first_ + i), one more than maneuvers
 };
 
-}  // namespace hlc
+}  // namespace hlc::coordination

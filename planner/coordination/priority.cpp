@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 Priority constant_priority(VehicleId vehicle) { return {vehicle.value}; }
 
@@ -31,4 +31,4 @@ std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
   return 0;
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -6,7 +6,7 @@
 
 #include "planner/coordination/coupling.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 /// Smaller plans earlier. Priorities of two vehicles differ.
 struct Priority {
@@ -27,4 +27,4 @@ struct Priority {
 /// Vehicles of one level plan at the same time.
 [[nodiscard]] std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::coordination

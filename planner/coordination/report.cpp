@@ -1,6 +1,6 @@
 #include "planner/coordination/report.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 const char* to_string(StepStatus status) {
   switch (status) {
@@ -56,4 +56,4 @@ const char* to_string(PlanQuality quality) {
   return "unknown";
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -5,7 +5,7 @@
 
 #include "planner/coordination/messages.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 /// What a controller does in a step.
 enum class StepStatus : std::uint8_t {
@@ -72,4 +72,4 @@ struct Report {
   double deviation_m{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::coordination

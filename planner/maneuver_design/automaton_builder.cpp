@@ -15,33 +15,34 @@
 #include "planner/maneuver_design/unit_cost.hpp"
 #include "planner/maneuver_design/weighted_sum.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// A criterion whose range over the optima of others is smaller than this, relative, does not
 /// contradict them.
 constexpr double kNoSpread = 1e-6;
 
-void complete(Maneuver& maneuver, const AutomatonConfiguration& configuration) {
+void complete(automaton::Maneuver& maneuver, const AutomatonConfiguration& configuration) {
   maneuver.displacement = maneuver.states.back().pose;
-  SweptAreas areas = swept_areas(maneuver, configuration.vehicle, configuration.identified);
+  automaton::SweptAreas areas =
+      automaton::swept_areas(maneuver, configuration.vehicle, configuration.identified);
   maneuver.swept_area_m = std::move(areas.swept_area_m);
   maneuver.lane_area_m = std::move(areas.lane_area_m);
 }
 
-Maneuver self_loop(TrimId id, const AutomatonConfiguration& configuration) {
-  const Trim& trim = configuration.trims[id.index];
-  Maneuver step;
+automaton::Maneuver self_loop(TrimId id, const AutomatonConfiguration& configuration) {
+  const automaton::Trim& trim = configuration.trims[id.index];
+  automaton::Maneuver step;
   step.from = id;
   step.to = id;
-  step.label = kSelfLoopLabel;
+  step.label = automaton::kSelfLoopLabel;
   step.duration_s = configuration.step_s;
-  step.inputs.assign(configuration.intervals, Input{});
+  step.inputs.assign(configuration.intervals, vehicle::Input{});
   for (std::size_t k = 0; k <= configuration.intervals; ++k) {
     const double time_s = configuration.step_s * static_cast<double>(k) /
                           static_cast<double>(configuration.intervals);
-    const Pose pose =
-        trim_motion(Pose{}, trim.speed_mps, trim.steering_rad, time_s, configuration.vehicle);
+    const Pose pose = vehicle::trim_motion(Pose{}, trim.speed_mps, trim.steering_rad, time_s,
+                                           configuration.vehicle);
     step.states.push_back({pose, trim.speed_mps, trim.steering_rad});
   }
   for (const std::string& name : criterion_names()) {
@@ -53,7 +54,7 @@ Maneuver self_loop(TrimId id, const AutomatonConfiguration& configuration) {
   return step;
 }
 
-std::vector<CriterionValue> unit_costs(const Trim& trim,
+std::vector<CriterionValue> unit_costs(const automaton::Trim& trim,
                                        const AutomatonConfiguration& configuration) {
   std::vector<CriterionValue> costs;
   for (const std::string& name : criterion_names()) {
@@ -66,10 +67,10 @@ std::vector<CriterionValue> unit_costs(const Trim& trim,
 /// The place of the trims of the first subgraph with this edge; empty if none has it.
 std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
   for (std::size_t i = 0; i < c.places.subgraphs.size(); ++i) {
-    const SubgraphSpec& subgraph = c.subgraphs[i];
-    const std::vector<TrimPair> pairs =
-        rule_edges(subgraph.rule, c.trims, subgraph.trims, c.vehicle, c.limits, c.step_s);
-    if (std::ranges::binary_search(pairs, edge) && !labels_of(subgraph, edge).empty()) {
+    const automaton::SubgraphSpec& subgraph = c.subgraphs[i];
+    const std::vector<TrimPair> pairs = automaton::rule_edges(
+        subgraph.rule, c.trims, subgraph.trims, c.vehicle, c.limits, c.step_s);
+    if (std::ranges::binary_search(pairs, edge) && !automaton::labels_of(subgraph, edge).empty()) {
       return c.places.subgraphs[i].trims;
     }
   }
@@ -88,8 +89,8 @@ std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
                               configuration.criteria[task.criterion].label + "): " + reason);
 }
 
-UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration) {
-  UniversalAutomaton automaton;
+automaton::UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration) {
+  automaton::UniversalAutomaton automaton;
   automaton.vehicle = configuration.vehicle;
   automaton.limits = configuration.limits;
   automaton.identified = configuration.identified;
@@ -114,10 +115,10 @@ ManeuverProblem mirrored(ManeuverProblem problem) {
 /// Mirrored along the direction of travel. (0 - x, since -0 is printed unlike 0.)
 template <class Motion>
 void mirror_motion(Motion& motion) {
-  for (Input& input : motion.inputs) {
+  for (vehicle::Input& input : motion.inputs) {
     input.steering_rate_radps = 0.0 - input.steering_rate_radps;
   }
-  for (State& state : motion.states) {
+  for (vehicle::State& state : motion.states) {
     state.pose.y_m = 0.0 - state.pose.y_m;
     state.pose.heading_rad = 0.0 - state.pose.heading_rad;
     state.steering_rad = 0.0 - state.steering_rad;
@@ -130,8 +131,8 @@ ManeuverSolution mirrored(ManeuverSolution solution) {
 }
 
 /// The areas are not mirrored: the identified vehicle is asymmetric.
-Maneuver mirrored(Maneuver maneuver, const TrimPair& edge,
-                  const AutomatonConfiguration& configuration) {
+automaton::Maneuver mirrored(automaton::Maneuver maneuver, const TrimPair& edge,
+                             const AutomatonConfiguration& configuration) {
   maneuver.from = edge.from;
   maneuver.to = edge.to;
   mirror_motion(maneuver);
@@ -140,10 +141,10 @@ Maneuver mirrored(Maneuver maneuver, const TrimPair& edge,
 }
 
 /// For each trim the one that steers as much to the other side; itself if there is none.
-std::vector<TrimId> mirror_trims(const std::vector<Trim>& trims) {
+std::vector<TrimId> mirror_trims(const std::vector<automaton::Trim>& trims) {
   std::vector<TrimId> images;
   for (std::size_t i = 0; i < trims.size(); ++i) {
-    const Trim image{trims[i].speed_mps, 0.0 - trims[i].steering_rad};
+    const automaton::Trim image{trims[i].speed_mps, 0.0 - trims[i].steering_rad};
     const auto found = std::ranges::find(trims, image);
     images.push_back({found == trims.end() ? i : static_cast<std::size_t>(found - trims.begin())});
   }
@@ -231,22 +232,23 @@ void add_bound(const FrontPoint& point, const DesignTask& task,
 /// Pairs of different trims that are needed, sorted.
 std::set<TrimPair> needed_pairs(const AutomatonConfiguration& configuration) {
   std::set<TrimPair> needed;
-  const auto add = [&](EdgeRule rule, const std::vector<TrimId>& trims,
-                       const SubgraphSpec* subgraph) {
-    for (const TrimPair& pair : rule_edges(rule, configuration.trims, trims, configuration.vehicle,
-                                           configuration.limits, configuration.step_s)) {
+  const auto add = [&](automaton::EdgeRule rule, const std::vector<TrimId>& trims,
+                       const automaton::SubgraphSpec* subgraph) {
+    for (const TrimPair& pair :
+         automaton::rule_edges(rule, configuration.trims, trims, configuration.vehicle,
+                               configuration.limits, configuration.step_s)) {
       if (pair.from == pair.to) continue;
-      if (subgraph != nullptr && labels_of(*subgraph, pair).empty()) continue;
+      if (subgraph != nullptr && automaton::labels_of(*subgraph, pair).empty()) continue;
       needed.insert(pair);
     }
   };
-  for (const SubgraphSpec& subgraph : configuration.subgraphs) {
+  for (const automaton::SubgraphSpec& subgraph : configuration.subgraphs) {
     add(subgraph.rule, subgraph.trims, &subgraph);
   }
   if (configuration.edges == EdgeChoice::kAll) {
     std::vector<TrimId> all;
     for (std::size_t i = 0; i < configuration.trims.size(); ++i) all.push_back({i});
-    add(EdgeRule::kReachable, all, nullptr);
+    add(automaton::EdgeRule::kReachable, all, nullptr);
   }
   return needed;
 }
@@ -262,7 +264,7 @@ std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration
   return tasks;
 }
 
-ManeuverProblem problem_between(const Trim& from, const Trim& to,
+ManeuverProblem problem_between(const automaton::Trim& from, const automaton::Trim& to,
                                 const AutomatonConfiguration& configuration) {
   ManeuverProblem problem;
   problem.from = from;
@@ -284,7 +286,7 @@ ManeuverProblem problem_between(const Trim& from, const Trim& to,
   return problem;
 }
 
-Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task) {
+automaton::Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task) {
   ManeuverProblem problem = problem_between(configuration.trims[task.edge.from.index],
                                             configuration.trims[task.edge.to.index], configuration);
   if (const auto& point = configuration.criteria[task.criterion].front_point) {
@@ -292,7 +294,7 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   }
   ManeuverSolution solution =
       solved(problem, *make_cost(problem, task, configuration), task, configuration);
-  Maneuver maneuver;
+  automaton::Maneuver maneuver;
   maneuver.from = task.edge.from;
   maneuver.to = task.edge.to;
   maneuver.label = configuration.criteria[task.criterion].label;
@@ -301,7 +303,7 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   maneuver.states = std::move(solution.states);
   maneuver.criteria = std::move(solution.criteria);
   complete(maneuver, configuration);
-  if (const std::string fault = validate(maneuver, without_maneuvers(configuration));
+  if (const std::string fault = automaton::validate(maneuver, without_maneuvers(configuration));
       !fault.empty()) {
     fail(task, configuration, configuration.places.intervals, "more",
          fault + " with " + std::to_string(configuration.intervals) + " intervals");
@@ -309,11 +311,11 @@ Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& t
   return maneuver;
 }
 
-std::vector<Maneuver> design(const AutomatonConfiguration& configuration,
-                             const std::vector<DesignTask>& tasks,
-                             const std::function<void()>& before_each) {
+std::vector<automaton::Maneuver> design(const AutomatonConfiguration& configuration,
+                                        const std::vector<DesignTask>& tasks,
+                                        const std::function<void()>& before_each) {
   const std::vector<TrimId> mirror = mirror_trims(configuration.trims);
-  std::vector<Maneuver> designed;
+  std::vector<automaton::Maneuver> designed;
   std::map<std::pair<TrimPair, std::size_t>, std::size_t> places;  // of edge and criterion
   for (const DesignTask& task : tasks) {
     if (before_each) before_each();
@@ -328,24 +330,24 @@ std::vector<Maneuver> design(const AutomatonConfiguration& configuration,
   return designed;
 }
 
-UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
-                             std::vector<Maneuver> designed) {
-  UniversalAutomaton automaton = without_maneuvers(configuration);
+automaton::UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
+                                        std::vector<automaton::Maneuver> designed) {
+  automaton::UniversalAutomaton automaton = without_maneuvers(configuration);
   for (std::size_t i = 0; i < configuration.trims.size(); ++i) {
     automaton.unit_costs.push_back(unit_costs(configuration.trims[i], configuration));
     automaton.maneuvers.push_back(self_loop(TrimId{i}, configuration));
   }
-  for (Maneuver& maneuver : designed) automaton.maneuvers.push_back(std::move(maneuver));
+  for (automaton::Maneuver& maneuver : designed) automaton.maneuvers.push_back(std::move(maneuver));
   return automaton;
 }
 
-UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) {
+automaton::UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration) {
   return assembled(configuration, design(configuration, design_tasks(configuration)));
 }
 
-std::shared_ptr<const UniversalAutomaton> build_shared_automaton(
+std::shared_ptr<const automaton::UniversalAutomaton> build_shared_automaton(
     const AutomatonConfiguration& configuration) {
-  return std::make_shared<const UniversalAutomaton>(build_automaton(configuration));
+  return std::make_shared<const automaton::UniversalAutomaton>(build_automaton(configuration));
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -9,11 +9,12 @@
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// The optimal control problem between two trims of that vehicle, with its limits, including the
 /// friction circle.
-[[nodiscard]] ManeuverProblem problem_between(const Trim& from, const Trim& to,
+[[nodiscard]] ManeuverProblem problem_between(const automaton::Trim& from,
+                                              const automaton::Trim& to,
                                               const AutomatonConfiguration& configuration);
 
 /// One maneuver to be designed.
@@ -40,27 +41,29 @@ struct DesignTask {
 /// @throws std::invalid_argument with one line naming configuration, edge, label and reason if the
 /// maneuver is infeasible or was not found (see ManeuverSolution::reason), or if its intervals are
 /// so long that one Runge-Kutta step does not follow the model (see validate)
-[[nodiscard]] Maneuver design(const AutomatonConfiguration& configuration, const DesignTask& task);
+[[nodiscard]] automaton::Maneuver design(const AutomatonConfiguration& configuration,
+                                         const DesignTask& task);
 
 /// The same for many, one after the other, in their order. Of two mirrored ones only the first is
 /// solved.
 /// @param before_each  called before each; its exceptions end the design
-[[nodiscard]] std::vector<Maneuver> design(const AutomatonConfiguration& configuration,
-                                           const std::vector<DesignTask>& tasks,
-                                           const std::function<void()>& before_each = {});
+[[nodiscard]] std::vector<automaton::Maneuver> design(
+    const AutomatonConfiguration& configuration, const std::vector<DesignTask>& tasks,
+    const std::function<void()>& before_each = {});
 
 /// The automaton: every trim's self-loop (exact arc, label "trim"), then the designed maneuvers in
 /// their order.
-[[nodiscard]] UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
-                                           std::vector<Maneuver> designed);
+[[nodiscard]] automaton::UniversalAutomaton assembled(const AutomatonConfiguration& configuration,
+                                                      std::vector<automaton::Maneuver> designed);
 
 /// All three steps.
 ///
 /// The same configuration gives the same automaton, bit for bit, on one machine.
-[[nodiscard]] UniversalAutomaton build_automaton(const AutomatonConfiguration& configuration);
-
-/// The same, ready for a Subgraph.
-[[nodiscard]] std::shared_ptr<const UniversalAutomaton> build_shared_automaton(
+[[nodiscard]] automaton::UniversalAutomaton build_automaton(
     const AutomatonConfiguration& configuration);
 
-}  // namespace hlc
+/// The same, ready for a Subgraph.
+[[nodiscard]] std::shared_ptr<const automaton::UniversalAutomaton> build_shared_automaton(
+    const AutomatonConfiguration& configuration);
+
+}  // namespace hlc::maneuver_design

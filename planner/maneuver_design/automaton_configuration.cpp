@@ -12,14 +12,15 @@
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
-std::vector<Trim> listed_trims(const Node& file, const VehicleParameters& vehicle,
-                               const VehicleLimits& limits) {
-  std::vector<Trim> trims;
+std::vector<automaton::Trim> listed_trims(const Node& file,
+                                          const vehicle::VehicleParameters& vehicle,
+                                          const vehicle::VehicleLimits& limits) {
+  std::vector<automaton::Trim> trims;
   for (const Node& entry : file.list("trims")) {
-    const Trim trim = read_trim(entry, vehicle, limits);
+    const automaton::Trim trim = automaton::read_trim(entry, vehicle, limits);
     entry.check_no_unknown_keys();
     if (std::find(trims.begin(), trims.end(), trim) != trims.end()) {
       entry.fail("different from the other trims");
@@ -27,7 +28,7 @@ std::vector<Trim> listed_trims(const Node& file, const VehicleParameters& vehicl
     trims.push_back(trim);
   }
   if (std::none_of(trims.begin(), trims.end(),
-                   [](const Trim& trim) { return trim.is_equilibrium(); })) {
+                   [](const automaton::Trim& trim) { return trim.is_equilibrium(); })) {
     file.fail("trims", "a list with at least one trim of speed 0");
   }
   return trims;
@@ -48,19 +49,19 @@ std::vector<double> increasing_numbers(const Node& map, const std::string& key,
 
 /// Standstill, then every speed with every steering angle that friction circle and curvature limit
 /// permit.
-std::vector<Trim> grid_trims(const Node& file, const VehicleParameters& vehicle,
-                             const VehicleLimits& limits) {
+std::vector<automaton::Trim> grid_trims(const Node& file, const vehicle::VehicleParameters& vehicle,
+                                        const vehicle::VehicleLimits& limits) {
   const Node grid = file.map("trims");
   const std::vector<double> speeds =
       increasing_numbers(grid, "speeds_mps", above(0.0, limits.speed_max_mps));
   const std::vector<double> steering = increasing_numbers(
       grid, "steering_rad", between(-limits.steering_max_rad, limits.steering_max_rad));
   grid.check_no_unknown_keys();
-  std::vector<Trim> trims{{}};
+  std::vector<automaton::Trim> trims{{}};
   for (const double speed_mps : speeds) {
     for (const double steering_rad : steering) {
-      if (is_within_friction({{}, speed_mps, steering_rad}, {}, vehicle, limits) &&
-          is_within_curvature({{}, speed_mps, steering_rad}, {}, vehicle, limits)) {
+      if (vehicle::is_within_friction({{}, speed_mps, steering_rad}, {}, vehicle, limits) &&
+          vehicle::is_within_curvature({{}, speed_mps, steering_rad}, {}, vehicle, limits)) {
         trims.push_back({speed_mps, steering_rad});
       }
     }
@@ -68,8 +69,8 @@ std::vector<Trim> grid_trims(const Node& file, const VehicleParameters& vehicle,
   return trims;
 }
 
-std::vector<Trim> read_trims(const Node& file, const VehicleParameters& vehicle,
-                             const VehicleLimits& limits) {
+std::vector<automaton::Trim> read_trims(const Node& file, const vehicle::VehicleParameters& vehicle,
+                                        const vehicle::VehicleLimits& limits) {
   if (file.is_list("trims")) return listed_trims(file, vehicle, limits);
   if (!file.has("trims") || file.is_value("trims") || limits.speed_min_mps > 0.0) {
     file.fail("trims",
@@ -100,12 +101,12 @@ LabelledCriterion read_criterion(const Node& entry) {
   }
   criterion.label = entry.required<std::string>("name");
   const std::vector<std::string> names = criterion_names();
-  if (criterion.label.empty() || criterion.label == kSelfLoopLabel ||
+  if (criterion.label.empty() || criterion.label == automaton::kSelfLoopLabel ||
       has_control_characters(criterion.label) ||
       std::find(names.begin(), names.end(), criterion.label) != names.end()) {
     entry.fail("name", fmt::format("one line of text and unique: neither empty, nor '{}', "
                                    "nor a criterion's",
-                                   kSelfLoopLabel));
+                                   automaton::kSelfLoopLabel));
   }
   if (entry.has("minimise")) {
     read_front_point(entry, criterion);
@@ -169,9 +170,10 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   AutomatonConfiguration configuration;
   configuration.source = path.string();
   const Node vehicle = file.map("vehicle");
-  configuration.vehicle = read_vehicle(vehicle);
-  configuration.limits = read_limits(file.map("limits"));
-  configuration.identified = read_identified(vehicle, configuration.vehicle, configuration.limits);
+  configuration.vehicle = automaton::read_vehicle(vehicle);
+  configuration.limits = automaton::read_limits(file.map("limits"));
+  configuration.identified =
+      automaton::read_identified(vehicle, configuration.vehicle, configuration.limits);
   vehicle.check_no_unknown_keys();
   configuration.trims = read_trims(file, configuration.vehicle, configuration.limits);
   configuration.step_s = file.required<double>("step_s", above(0.0, 100.0));
@@ -184,7 +186,7 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
           ? EdgeChoice::kAll
           : EdgeChoice::kSubgraphs;
   configuration.criteria = read_criteria(file);
-  configuration.subgraphs = read_subgraphs(
+  configuration.subgraphs = automaton::read_subgraphs(
       file, {configuration.trims, configuration.vehicle, configuration.limits, configuration.step_s,
              configuration.horizon_steps, labels_of(configuration.criteria)});
   configuration.places = places_of(file, configuration);
@@ -192,16 +194,16 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
   return configuration;
 }
 
-bool uses(const SubgraphSpec& subgraph, const std::string& label) {
+bool uses(const automaton::SubgraphSpec& subgraph, const std::string& label) {
   const auto holds = [&label](const std::vector<std::string>& labels) {
     return std::find(labels.begin(), labels.end(), label) != labels.end();
   };
   return holds(subgraph.labels) ||
          std::any_of(subgraph.edges.begin(), subgraph.edges.end(),
-                     [&](const EdgeLabels& edge) { return holds(edge.labels); });
+                     [&](const automaton::EdgeLabels& edge) { return holds(edge.labels); });
 }
 
-AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
+AutomatonConfiguration needed_by(const automaton::SubgraphSpec& subgraph,
                                  AutomatonConfiguration configuration) {
   configuration.edges = EdgeChoice::kSubgraphs;
   std::erase_if(configuration.criteria, [&](const LabelledCriterion& criterion) {
@@ -217,4 +219,4 @@ AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
   return configuration;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

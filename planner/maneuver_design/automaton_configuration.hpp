@@ -7,7 +7,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// A point of the Pareto front of two criteria (epsilon-constraint): J_minimised is least among the
 /// maneuvers with J_bounded <= best + share (worst - best), where best is the optimum of J_bounded
@@ -48,17 +48,17 @@ struct ConfigurationPlaces {
 /// Source of a universal automaton. File: see launch_scripts/automata/paper.yaml.
 struct AutomatonConfiguration {
   std::string source;  ///< file it was read from, for messages
-  VehicleParameters vehicle;
-  IdentifiedVehicle identified;
-  VehicleLimits limits;
-  std::vector<Trim> trims;
+  vehicle::VehicleParameters vehicle;
+  vehicle::IdentifiedVehicle identified;
+  vehicle::VehicleLimits limits;
+  std::vector<automaton::Trim> trims;
   double step_s{0.2};  ///< duration of every maneuver and of a trim's self-loop
   std::size_t horizon_steps{
       8};                     ///< in so many steps every trim of a subgraph must reach standstill
   std::size_t intervals{20};  ///< of constant input, per maneuver
   EdgeChoice edges{EdgeChoice::kSubgraphs};
   std::vector<LabelledCriterion> criteria;
-  std::vector<SubgraphSpec> subgraphs;
+  std::vector<automaton::SubgraphSpec> subgraphs;
   ConfigurationPlaces places;  ///< empty unless read from a file
 };
 
@@ -92,11 +92,11 @@ struct AutomatonConfiguration {
     const std::filesystem::path& path);
 
 /// True if an edge of the subgraph may have that label.
-[[nodiscard]] bool uses(const SubgraphSpec& subgraph, const std::string& label);
+[[nodiscard]] bool uses(const automaton::SubgraphSpec& subgraph, const std::string& label);
 
 /// The same configuration with this subgraph alone and the labels that it uses, sufficient for a
 /// run that stays on one subgraph. Building it takes as long as that label does.
-[[nodiscard]] AutomatonConfiguration needed_by(const SubgraphSpec& subgraph,
+[[nodiscard]] AutomatonConfiguration needed_by(const automaton::SubgraphSpec& subgraph,
                                                AutomatonConfiguration configuration);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -11,7 +11,7 @@
 #include "planner/common/sha256.hpp"
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 std::string line_of(const LabelledCriterion& criterion) {
@@ -28,9 +28,10 @@ std::string line_of(const LabelledCriterion& criterion) {
 
 /// One line per value, in a fixed order.
 std::string canonical_text(const AutomatonConfiguration& c) {
-  std::string text = fmt::format("schema {}\nvehicle {}\nlimits {}\n", kAutomatonSchema,
-                                 to_yaml(c.vehicle, c.identified), to_yaml(c.limits));
-  for (const Trim& trim : c.trims) {
+  std::string text =
+      fmt::format("schema {}\nvehicle {}\nlimits {}\n", automaton::kAutomatonSchema,
+                  automaton::to_yaml(c.vehicle, c.identified), automaton::to_yaml(c.limits));
+  for (const automaton::Trim& trim : c.trims) {
     text += fmt::format("trim {} {}\n", shortest_text(trim.speed_mps),
                         shortest_text(trim.steering_rad));
   }
@@ -38,15 +39,16 @@ std::string canonical_text(const AutomatonConfiguration& c) {
                       c.horizon_steps, c.intervals);
   text += c.edges == EdgeChoice::kAll ? "edges all\n" : "edges subgraphs\n";
   for (const LabelledCriterion& criterion : c.criteria) text += line_of(criterion);
-  for (const SubgraphSpec& subgraph : c.subgraphs) text += "subgraph " + to_yaml(subgraph) + "\n";
+  for (const automaton::SubgraphSpec& subgraph : c.subgraphs)
+    text += "subgraph " + automaton::to_yaml(subgraph) + "\n";
   return text;
 }
 
 /// None if the file does not exist, or if a built automaton has its name.
-std::optional<std::filesystem::path> configuration_beside(const AutomatonFile& file,
+std::optional<std::filesystem::path> configuration_beside(const automaton::AutomatonFile& file,
                                                           const std::filesystem::path& path) {
   std::filesystem::path beside = path.parent_path() / file.configuration_file;
-  if (!std::filesystem::exists(beside) || is_automaton_file(beside)) return std::nullopt;
+  if (!std::filesystem::exists(beside) || automaton::is_automaton_file(beside)) return std::nullopt;
   return beside;
 }
 
@@ -56,9 +58,10 @@ std::string configuration_sha256(const AutomatonConfiguration& configuration) {
   return sha256_of(canonical_text(configuration));
 }
 
-AutomatonFile file_of(const AutomatonConfiguration& configuration, UniversalAutomaton automaton,
-                      std::optional<std::size_t> chosen_intervals) {
-  AutomatonFile file;
+automaton::AutomatonFile file_of(const AutomatonConfiguration& configuration,
+                                 automaton::UniversalAutomaton automaton,
+                                 std::optional<std::size_t> chosen_intervals) {
+  automaton::AutomatonFile file;
   file.configuration_file = std::filesystem::path(configuration.source).filename().string();
   file.configuration_sha256 = configuration_sha256(configuration);
   file.chosen_intervals = chosen_intervals;
@@ -67,30 +70,31 @@ AutomatonFile file_of(const AutomatonConfiguration& configuration, UniversalAuto
     file.labels.push_back(criterion.label);
   }
   file.subgraphs = configuration.subgraphs;
-  file.automaton = std::make_shared<const UniversalAutomaton>(std::move(automaton));
+  file.automaton = std::make_shared<const automaton::UniversalAutomaton>(std::move(automaton));
   return file;
 }
 
-void check_is_current(const AutomatonFile& file, const std::filesystem::path& path,
+void check_is_current(const automaton::AutomatonFile& file, const std::filesystem::path& path,
                       const std::filesystem::path& configuration_path) {
   const AutomatonConfiguration configuration = read_automaton_configuration(configuration_path);
   if (configuration_sha256(configuration) == file.configuration_sha256) return;
   throw std::invalid_argument(fmt::format(
       "{}: stale, built from another state of {}, must be built from its current state; rebuild "
       "it: {}",
-      path.string(), configuration_path.string(), rebuild_command(file, path, configuration_path)));
+      path.string(), configuration_path.string(),
+      automaton::rebuild_command(file, path, configuration_path)));
 }
 
-AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {
-  AutomatonFile file = read_automaton_file(path);
+automaton::AutomatonFile read_current_automaton_file(const std::filesystem::path& path) {
+  automaton::AutomatonFile file = automaton::read_automaton_file(path);
   const auto configuration = configuration_beside(file, path);
   if (configuration) check_is_current(file, path, *configuration);
   return file;
 }
 
 AutomatonConfiguration read_configuration_of(const std::filesystem::path& path) {
-  if (!is_automaton_file(path)) return read_automaton_configuration(path);
-  const AutomatonFile file = read_automaton_file(path);
+  if (!automaton::is_automaton_file(path)) return read_automaton_configuration(path);
+  const automaton::AutomatonFile file = automaton::read_automaton_file(path);
   const auto beside = configuration_beside(file, path);
   if (!beside) {
     throw std::invalid_argument(
@@ -103,4 +107,4 @@ AutomatonConfiguration read_configuration_of(const std::filesystem::path& path) 
   return configuration;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -2,17 +2,17 @@
 
 #include "planner/vehicle/lateral_acceleration.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double Comfort::value(const StateVector& x, const Input& u) const {
-  const double lateral = lateral_acceleration(x, vehicle_).value_mps2;
+double Comfort::value(const vehicle::StateVector& x, const vehicle::Input& u) const {
+  const double lateral = vehicle::lateral_acceleration(x, vehicle_).value_mps2;
   return weights_.longitudinal * u.acceleration_mps2 * u.acceleration_mps2 +
          weights_.lateral * lateral * lateral +
          weights_.steering_rate * u.steering_rate_radps * u.steering_rate_radps;
 }
 
-CostGradient Comfort::gradient(const StateVector& x, const Input& u) const {
-  const LateralAcceleration lateral = lateral_acceleration(x, vehicle_);
+CostGradient Comfort::gradient(const vehicle::StateVector& x, const vehicle::Input& u) const {
+  const vehicle::LateralAcceleration lateral = vehicle::lateral_acceleration(x, vehicle_);
   const double slope = 2.0 * weights_.lateral * lateral.value_mps2;
   CostGradient gradient;
   gradient.state(3) = slope * lateral.by_speed;
@@ -22,4 +22,4 @@ CostGradient Comfort::gradient(const StateVector& x, const Input& u) const {
   return gradient;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Factors of the three squares, so that their units can be added up.
 struct ComfortWeights {
@@ -16,15 +16,16 @@ struct ComfortWeights {
 /// "comfort".
 class Comfort final : public RunningCost {
  public:
-  explicit Comfort(const VehicleParameters& vehicle, const ComfortWeights& weights = {})
+  explicit Comfort(const vehicle::VehicleParameters& vehicle, const ComfortWeights& weights = {})
       : vehicle_(vehicle), weights_(weights) {}
 
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] double value(const vehicle::StateVector& x, const vehicle::Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override;
 
  private:
-  VehicleParameters vehicle_;
+  vehicle::VehicleParameters vehicle_;
   ComfortWeights weights_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -11,31 +11,35 @@
 #include "planner/maneuver_design/travel_time.hpp"
 #include "planner/maneuver_design/weighted_sum.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using Cost = std::unique_ptr<RunningCost>;
 
 struct Criterion {
   const char* name;
-  Cost (*make)(const VehicleParameters& vehicle);
+  Cost (*make)(const vehicle::VehicleParameters& vehicle);
 };
 
-Cost make_j3(const VehicleParameters& /*vehicle*/) {
+Cost make_j3(const vehicle::VehicleParameters& /*vehicle*/) {
   return std::make_unique<WeightedSum>(std::vector<WeightedCost>{
       {0.5, std::make_shared<Distance>()}, {0.5, std::make_shared<Effort>()}});
 }
 
 const std::array<Criterion, 7> kCriteria{{
-    {"J1", [](const VehicleParameters&) -> Cost { return std::make_unique<Distance>(); }},
-    {"J2", [](const VehicleParameters&) -> Cost { return std::make_unique<Effort>(); }},
+    {"J1", [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<Distance>(); }},
+    {"J2", [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<Effort>(); }},
     {"J3", make_j3},
-    {"comfort", [](const VehicleParameters& v) -> Cost { return std::make_unique<Comfort>(v); }},
-    {"energy", [](const VehicleParameters&) -> Cost { return std::make_unique<Energy>(); }},
+    {"comfort",
+     [](const vehicle::VehicleParameters& v) -> Cost { return std::make_unique<Comfort>(v); }},
+    {"energy",
+     [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<Energy>(); }},
     {"stopping_distance",
-     [](const VehicleParameters&) -> Cost { return std::make_unique<StoppingDistance>(); }},
+     [](const vehicle::VehicleParameters&) -> Cost {
+       return std::make_unique<StoppingDistance>();
+     }},
     {"travel_time",
-     [](const VehicleParameters&) -> Cost { return std::make_unique<TravelTime>(); }},
+     [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<TravelTime>(); }},
 }};
 
 }  // namespace
@@ -49,7 +53,7 @@ std::vector<std::string> criterion_names() {
 }
 
 std::unique_ptr<RunningCost> make_criterion(const std::string& name,
-                                            const VehicleParameters& vehicle) {
+                                            const vehicle::VehicleParameters& vehicle) {
   std::string names;
   for (const Criterion& criterion : kCriteria) {
     if (name == criterion.name) {
@@ -60,4 +64,4 @@ std::unique_ptr<RunningCost> make_criterion(const std::string& name,
   throw std::invalid_argument("criterion = " + name + ", must be one of " + names);
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -6,7 +6,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Names of all criteria, as they stand in configurations and as labels of maneuvers:
 ///
@@ -23,7 +23,7 @@ namespace hlc {
 
 /// The criterion of that name, for that vehicle.
 /// @throws std::invalid_argument naming the known names
-[[nodiscard]] std::unique_ptr<RunningCost> make_criterion(const std::string& name,
-                                                          const VehicleParameters& vehicle);
+[[nodiscard]] std::unique_ptr<RunningCost> make_criterion(
+    const std::string& name, const vehicle::VehicleParameters& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,16 +4,18 @@
 
 #include "planner/vehicle/path_curvature.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double CurvatureLimit::value(const StateVector& x, const Input& u) const {
-  return factor() * course_rate(x, u, vehicle_).value_radps - turning_speed(x(3)).value_mps;
+double CurvatureLimit::value(const vehicle::StateVector& x, const vehicle::Input& u) const {
+  return factor() * vehicle::course_rate(x, u, vehicle_).value_radps -
+         vehicle::turning_speed(x(3)).value_mps;
 }
 
-CostGradient CurvatureLimit::gradient(const StateVector& x, const Input& u) const {
-  const CourseRate rate = course_rate(x, u, vehicle_);
+CostGradient CurvatureLimit::gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const {
+  const vehicle::CourseRate rate = vehicle::course_rate(x, u, vehicle_);
   CostGradient gradient;
-  gradient.state(3) = factor() * rate.by_speed - turning_speed(x(3)).by_speed;
+  gradient.state(3) = factor() * rate.by_speed - vehicle::turning_speed(x(3)).by_speed;
   gradient.state(4) = factor() * rate.by_steering;
   gradient.input.y() = factor() * rate.by_steering_rate;
   return gradient;
@@ -26,4 +28,4 @@ std::string CurvatureLimit::name() const {
   return text.str();
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/path_constraint.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// g = (+-course rate / curvature_max - sqrt(v^2 + creep^2)) / (1 m/s), see path_curvature.hpp:
 /// bounds the curvature of the driven path to the left (+) or to the right (-). One side is one
@@ -12,11 +12,12 @@ class CurvatureLimit final : public PathConstraint {
   enum class Side { kLeft, kRight };
 
   /// @pre curvature_max_per_m > 0
-  CurvatureLimit(Side side, double curvature_max_per_m, const VehicleParameters& vehicle)
+  CurvatureLimit(Side side, double curvature_max_per_m, const vehicle::VehicleParameters& vehicle)
       : side_(side), curvature_max_per_m_(curvature_max_per_m), vehicle_(vehicle) {}
 
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] double value(const vehicle::StateVector& x, const vehicle::Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override;
   [[nodiscard]] std::string name() const override;
 
  private:
@@ -26,7 +27,7 @@ class CurvatureLimit final : public PathConstraint {
 
   Side side_;
   double curvature_max_per_m_;
-  VehicleParameters vehicle_;
+  vehicle::VehicleParameters vehicle_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

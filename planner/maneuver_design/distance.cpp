@@ -1,15 +1,15 @@
 #include "planner/maneuver_design/distance.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double Distance::value(const StateVector& x, const Input& /*u*/) const {
+double Distance::value(const vehicle::StateVector& x, const vehicle::Input& /*u*/) const {
   return -x.head<2>().squaredNorm();
 }
 
-CostGradient Distance::gradient(const StateVector& x, const Input& /*u*/) const {
+CostGradient Distance::gradient(const vehicle::StateVector& x, const vehicle::Input& /*u*/) const {
   CostGradient gradient;
   gradient.state.head<2>() = -2.0 * x.head<2>();
   return gradient;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

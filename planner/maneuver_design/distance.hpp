@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// The paper's J1: l = -(s_x^2 + s_y^2) [m^2], with s measured from the maneuver's start. Least for
 /// a motion that gets far early.
@@ -12,9 +12,10 @@ namespace hlc {
 /// everywhere, and nearly flat in the steering: values are much more reproducible than end poses.
 class Distance final : public RunningCost {
  public:
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] double value(const vehicle::StateVector& x, const vehicle::Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override;
   [[nodiscard]] bool depends_on_pose() const override { return true; }
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 bool dominates(const Objectives& a, const Objectives& b, const Objectives& tolerance) {
   HLC_DEMAND(a.size() == b.size() && (tolerance.size() == 0 || tolerance.size() == a.size()),
@@ -85,4 +85,4 @@ std::size_t knee_point(const std::vector<Objectives>& points) {
   return static_cast<std::size_t>(knee - points.begin());
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Values of several objectives of one solution; all are minimised.
 using Objectives = Eigen::VectorXd;
@@ -43,4 +43,4 @@ struct ObjectiveRange {
 };
 [[nodiscard]] ObjectiveRange range_of(const std::vector<Objectives>& points);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// The paper's J2: l = u_v^2 + u_delta^2 [m^2/s^4 and rad^2/s^2 added up as they are, as in the
 /// paper].
@@ -12,8 +12,9 @@ namespace hlc {
 /// ddelta^2) / T.
 class Effort final : public RunningCost {
  public:
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] double value(const vehicle::StateVector& x, const vehicle::Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override;
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -1,6 +1,6 @@
 #include "planner/maneuver_design/energy.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// max(a, 0) without its kink, and its slope: between 0 and the band's end the cubic that joins
@@ -23,11 +23,11 @@ PositivePart positive_part(double a) {
 
 }  // namespace
 
-double Energy::value(const StateVector& x, const Input& u) const {
+double Energy::value(const vehicle::StateVector& x, const vehicle::Input& u) const {
   return positive_part(u.acceleration_mps2).value * x(3);
 }
 
-CostGradient Energy::gradient(const StateVector& x, const Input& u) const {
+CostGradient Energy::gradient(const vehicle::StateVector& x, const vehicle::Input& u) const {
   const PositivePart part = positive_part(u.acceleration_mps2);
   CostGradient gradient;
   gradient.state(3) = part.value;
@@ -35,4 +35,4 @@ CostGradient Energy::gradient(const StateVector& x, const Input& u) const {
   return gradient;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

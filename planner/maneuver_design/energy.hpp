@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 inline constexpr double kCoastingBand_mps2 = 0.02;
 
@@ -18,8 +18,9 @@ inline constexpr double kCoastingBand_mps2 = 0.02;
 /// / band: below max(u_v, 0) by at most 0.15 times the band, and equal to it elsewhere.
 class Energy final : public RunningCost {
  public:
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] double value(const vehicle::StateVector& x, const vehicle::Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override;
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

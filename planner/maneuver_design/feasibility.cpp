@@ -7,7 +7,7 @@
 
 #include "planner/maneuver_design/shooting.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 struct Words {
@@ -25,10 +25,10 @@ Words words_of(const Channel& channel) {
 /// True if each trim alone satisfies every g_i.
 bool trims_satisfy_path_constraints(const ManeuverProblem& problem, std::ostream& reason) {
   bool good = true;
-  for (const Trim& trim : {problem.from, problem.to}) {
-    const State state{Pose{}, trim.speed_mps, trim.steering_rad};
+  for (const automaton::Trim& trim : {problem.from, problem.to}) {
+    const vehicle::State state{Pose{}, trim.speed_mps, trim.steering_rad};
     for (const auto& constraint : problem.path_constraints) {
-      if (constraint->value(to_vector(state), Input{}) > kPathTolerance) {
+      if (constraint->value(vehicle::to_vector(state), vehicle::Input{}) > kPathTolerance) {
         reason << "trim of speed " << trim.speed_mps << " m/s and steering " << trim.steering_rad
                << " rad violates the " << constraint->name() << "; ";
         good = false;
@@ -81,27 +81,28 @@ Feasibility feasibility_of(const ManeuverProblem& problem) {
   return result;
 }
 
-ConstraintResiduals residuals_of(const ManeuverProblem& problem, const std::vector<Input>& inputs,
-                                 const std::vector<State>& states, double duration_s) {
-  const VehicleLimits& limits = problem.limits;
+ConstraintResiduals residuals_of(const ManeuverProblem& problem,
+                                 const std::vector<vehicle::Input>& inputs,
+                                 const std::vector<vehicle::State>& states, double duration_s) {
+  const vehicle::VehicleLimits& limits = problem.limits;
   ConstraintResiduals r;
   r.end_speed_mps = std::abs(states.back().speed_mps - problem.to.speed_mps);
   r.end_steering_rad = std::abs(states.back().steering_rad - problem.to.steering_rad);
-  for (const Input& u : inputs) {
+  for (const vehicle::Input& u : inputs) {
     r.acceleration_mps2 =
         std::max(r.acceleration_mps2, std::abs(u.acceleration_mps2) - limits.acceleration_mps2);
     r.steering_rate_radps = std::max(r.steering_rate_radps,
                                      std::abs(u.steering_rate_radps) - limits.steering_rate_radps);
   }
-  for (const State& x : states) {
+  for (const vehicle::State& x : states) {
     r.speed_mps = std::max(
         {r.speed_mps, x.speed_mps - limits.speed_max_mps, limits.speed_min_mps - x.speed_mps});
     r.steering_rad = std::max(r.steering_rad, std::abs(x.steering_rad) - limits.steering_max_rad);
   }
   for (const auto& constraint : problem.path_constraints) {
     for (std::size_t k = 0; k < inputs.size(); ++k) {
-      r.path = std::max({r.path, constraint->value(to_vector(states[k]), inputs[k]),
-                         constraint->value(to_vector(states[k + 1]), inputs[k])});
+      r.path = std::max({r.path, constraint->value(vehicle::to_vector(states[k]), inputs[k]),
+                         constraint->value(vehicle::to_vector(states[k + 1]), inputs[k])});
     }
   }
   for (const CostBound& bound : problem.cost_bounds) {
@@ -113,7 +114,7 @@ ConstraintResiduals residuals_of(const ManeuverProblem& problem, const std::vect
   return r;
 }
 
-bool within_tolerance(const ConstraintResiduals& r, const VehicleLimits& limits) {
+bool within_tolerance(const ConstraintResiduals& r, const vehicle::VehicleLimits& limits) {
   const double t = kFeasibilityTolerance;
   return r.end_speed_mps <= t * limits.speed_max_mps &&
          r.end_steering_rad <= t * limits.steering_max_rad &&
@@ -123,4 +124,4 @@ bool within_tolerance(const ConstraintResiduals& r, const VehicleLimits& limits)
          r.path <= kPathTolerance && r.cost_bound <= kPathTolerance;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

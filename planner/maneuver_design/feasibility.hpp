@@ -5,7 +5,7 @@
 
 #include "planner/maneuver_design/maneuver_problem.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Necessary conditions from the bounds on inputs and states, checked before solving: each input
 /// must be able to make its change in the given time, and the trims must lie within the bounds.
@@ -30,14 +30,15 @@ struct ConstraintResiduals {
 
 /// How far a motion violates the constraints of a problem.
 [[nodiscard]] ConstraintResiduals residuals_of(const ManeuverProblem& problem,
-                                               const std::vector<Input>& inputs,
-                                               const std::vector<State>& states, double duration_s);
+                                               const std::vector<vehicle::Input>& inputs,
+                                               const std::vector<vehicle::State>& states,
+                                               double duration_s);
 
 /// Tolerances: 1e-9 relative to each bound, 1e-8 for g, which has none.
 inline constexpr double kFeasibilityTolerance = 1e-9;
 inline constexpr double kPathTolerance = 1e-8;
 
 [[nodiscard]] bool within_tolerance(const ConstraintResiduals& residuals,
-                                    const VehicleLimits& limits);
+                                    const vehicle::VehicleLimits& limits);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

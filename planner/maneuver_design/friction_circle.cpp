@@ -4,16 +4,18 @@
 
 #include "planner/vehicle/lateral_acceleration.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double FrictionCircle::value(const StateVector& x, const Input& u) const {
+double FrictionCircle::value(const vehicle::StateVector& x, const vehicle::Input& u) const {
   const double longitudinal = u.acceleration_mps2 / acceleration_max_mps2_;
-  const double lateral = lateral_acceleration(x, vehicle_).value_mps2 / acceleration_max_mps2_;
+  const double lateral =
+      vehicle::lateral_acceleration(x, vehicle_).value_mps2 / acceleration_max_mps2_;
   return longitudinal * longitudinal + lateral * lateral - 1.0;
 }
 
-CostGradient FrictionCircle::gradient(const StateVector& x, const Input& u) const {
-  const LateralAcceleration lateral = lateral_acceleration(x, vehicle_);
+CostGradient FrictionCircle::gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const {
+  const vehicle::LateralAcceleration lateral = vehicle::lateral_acceleration(x, vehicle_);
   const double factor = 2.0 / (acceleration_max_mps2_ * acceleration_max_mps2_);
   CostGradient gradient;
   gradient.state(3) = factor * lateral.value_mps2 * lateral.by_speed;
@@ -28,4 +30,4 @@ std::string FrictionCircle::name() const {
   return text.str();
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

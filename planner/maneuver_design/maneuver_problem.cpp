@@ -1,8 +1,8 @@
 #include "planner/maneuver_design/maneuver_problem.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-State start_state(const ManeuverProblem& problem) {
+vehicle::State start_state(const ManeuverProblem& problem) {
   return {Pose{}, problem.from.speed_mps, problem.from.steering_rad};
 }
 
@@ -24,4 +24,4 @@ Channel steering_channel(const ManeuverProblem& p) {
           p.limits.steering_max_rad};
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

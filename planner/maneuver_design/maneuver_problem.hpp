@@ -10,7 +10,7 @@
 #include "planner/maneuver_design/path_constraint.hpp"
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Range of a free duration. @pre 0 < min_s <= max_s
 struct DurationRange {
@@ -48,19 +48,19 @@ struct CostBound {
 /// interval with the interval's input; inside an interval it may exceed 0 by its curvature there,
 /// O((T / N)^2).
 struct ManeuverProblem {
-  Trim from;
-  Trim to;
+  automaton::Trim from;
+  automaton::Trim to;
   double duration_s{0.2};  ///< T; where the search starts if T is free
   std::size_t intervals{20};
-  VehicleParameters vehicle;
-  VehicleLimits limits;
+  vehicle::VehicleParameters vehicle;
+  vehicle::VehicleLimits limits;
   std::optional<DurationRange> free_duration{};                           ///< absent: T is fixed
   std::vector<std::shared_ptr<const PathConstraint>> path_constraints{};  ///< g_i
   std::vector<CostBound> cost_bounds{};
 };
 
 /// The start state of every maneuver.
-[[nodiscard]] State start_state(const ManeuverProblem& problem);
+[[nodiscard]] vehicle::State start_state(const ManeuverProblem& problem);
 
 /// One of the two inputs with the state that it drives: u_v and v, or u_delta and delta.
 struct Channel {
@@ -79,4 +79,4 @@ struct Channel {
 [[nodiscard]] Channel speed_channel(const ManeuverProblem& problem);
 [[nodiscard]] Channel steering_channel(const ManeuverProblem& problem);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 #include "planner/maneuver_design/pareto_subproblems.hpp"
 #include "planner/maneuver_design/two_criteria_front.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 void mark_dominated(const SingleOptima& optima, ParetoFront& front) {
@@ -126,4 +126,4 @@ ParetoFront weighted_sum_front(const ParetoProblem& problem, const ParetoOptions
   return front_by(fill_weighted, problem, options);
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -8,7 +8,7 @@
 #include "planner/maneuver_design/dominance.hpp"
 #include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// One maneuver, several criteria (paper, Eq. 2 and Fig. 1).
 struct ParetoProblem {
@@ -72,4 +72,4 @@ struct ParetoFront {
 [[nodiscard]] ParetoFront weighted_sum_front(const ParetoProblem& problem,
                                              const ParetoOptions& options = {});
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -6,7 +6,7 @@
 #include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/weighted_sum.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kNoRange = 1e-6;  // relative to the size of a criterion
@@ -103,7 +103,7 @@ bool is_optimal(const ManeuverSolution& solution, ParetoFront& front) {
 }
 
 ManeuverSolution bounded(const ParetoProblem& problem, const SingleOptima& optima,
-                         const std::vector<double>& eps, const std::vector<Input>& start) {
+                         const std::vector<double>& eps, const std::vector<vehicle::Input>& start) {
   ManeuverProblem maneuver = problem.maneuver;
   for (std::size_t i = 0; i < eps.size(); ++i) {
     maneuver.cost_bounds.push_back(bound_on(problem, optima, i + 1, eps[i]));
@@ -140,4 +140,4 @@ std::vector<double> equal_steps(const SingleOptima& optima, std::size_t criterio
   return steps;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

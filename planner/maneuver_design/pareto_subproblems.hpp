@@ -5,7 +5,7 @@
 
 #include "planner/maneuver_design/pareto_front.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Common to the methods of pareto_front.hpp: the problems solved for one point each.
 
@@ -45,7 +45,7 @@ bool is_optimal(const ManeuverSolution& solution, ParetoFront& front);
 /// @param start  inputs to start from; empty: the solver's guess, also if `start` leads nowhere
 [[nodiscard]] ManeuverSolution bounded(const ParetoProblem& problem, const SingleOptima& optima,
                                        const std::vector<double>& eps,
-                                       const std::vector<Input>& start);
+                                       const std::vector<vehicle::Input>& start);
 
 /// min sum_i w_i J_i / (worst_i - best_i)
 [[nodiscard]] ManeuverSolution weighted(const ParetoProblem& problem, const SingleOptima& optima,
@@ -72,4 +72,4 @@ class ProgressCounter {
   std::size_t done_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

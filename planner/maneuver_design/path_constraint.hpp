@@ -4,7 +4,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Constraint g(x, u) <= 0 along a maneuver (paper, Eq. 2), beyond the bounds on inputs and states.
 ///
@@ -13,11 +13,13 @@ namespace hlc {
 class PathConstraint {
  public:
   virtual ~PathConstraint() = default;
-  [[nodiscard]] virtual double value(const StateVector& x, const Input& u) const = 0;
+  [[nodiscard]] virtual double value(const vehicle::StateVector& x,
+                                     const vehicle::Input& u) const = 0;
   /// dg/dx and dg/du.
-  [[nodiscard]] virtual CostGradient gradient(const StateVector& x, const Input& u) const = 0;
+  [[nodiscard]] virtual CostGradient gradient(const vehicle::StateVector& x,
+                                              const vehicle::Input& u) const = 0;
   /// Its name in messages, with the bound.
   [[nodiscard]] virtual std::string name() const = 0;
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

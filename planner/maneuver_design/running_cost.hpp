@@ -4,12 +4,12 @@
 
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Derivatives of a running cost at one state and input.
 struct CostGradient {
-  StateVector state{StateVector::Zero()};          ///< dl/dx
-  Eigen::Vector2d input{Eigen::Vector2d::Zero()};  ///< dl/du, u = (u_v, u_delta)
+  vehicle::StateVector state{vehicle::StateVector::Zero()};  ///< dl/dx
+  Eigen::Vector2d input{Eigen::Vector2d::Zero()};            ///< dl/du, u = (u_v, u_delta)
 };
 
 /// Running cost l(x, u) of a criterion J = integral_0^T l(x, u) dt (paper, Section 3); J is
@@ -19,8 +19,10 @@ struct CostGradient {
 class RunningCost {
  public:
   virtual ~RunningCost() = default;
-  [[nodiscard]] virtual double value(const StateVector& x, const Input& u) const = 0;
-  [[nodiscard]] virtual CostGradient gradient(const StateVector& x, const Input& u) const = 0;
+  [[nodiscard]] virtual double value(const vehicle::StateVector& x,
+                                     const vehicle::Input& u) const = 0;
+  [[nodiscard]] virtual CostGradient gradient(const vehicle::StateVector& x,
+                                              const vehicle::Input& u) const = 0;
   /// True if l depends on the pose, so that a shift of the pose changes J. Otherwise l(x, 0) is
   /// constant along a trim: the trim's unit cost.
   [[nodiscard]] virtual bool depends_on_pose() const { return false; }
@@ -29,4 +31,4 @@ class RunningCost {
   [[nodiscard]] virtual bool has_many_optima() const { return false; }
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

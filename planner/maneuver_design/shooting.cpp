@@ -4,13 +4,13 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// One stage of a Runge-Kutta step: where it evaluates model and cost, and the values there.
 struct Stage {
-  StateVector x;
-  StateVector derivative;
+  vehicle::StateVector x;
+  vehicle::StateVector derivative;
   double running_cost{};
 };
 using Stages = std::array<Stage, 4>;
@@ -21,18 +21,18 @@ constexpr std::array<double, 4> kLead{0.0, 0.5, 0.5, 1.0};
 
 struct Step {
   Stages stages;
-  StateVector end;
+  vehicle::StateVector end;
 };
 
-Step stepped(const StateVector& x, const Input& u, double h, const RunningCost& cost,
-             const VehicleParameters& vehicle) {
+Step stepped(const vehicle::StateVector& x, const vehicle::Input& u, double h,
+             const RunningCost& cost, const vehicle::VehicleParameters& vehicle) {
   Step step;
   step.end = x;
-  StateVector k = StateVector::Zero();
+  vehicle::StateVector k = vehicle::StateVector::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
     Stage& stage = step.stages[i];
     stage.x = x + kLead[i] * h * k;
-    k = derivative(stage.x, u, vehicle);
+    k = vehicle::derivative(stage.x, u, vehicle);
     stage.derivative = k;
     stage.running_cost = cost.value(stage.x, u);
     step.end += kWeights[i] * h * k;
@@ -42,18 +42,18 @@ Step stepped(const StateVector& x, const Input& u, double h, const RunningCost& 
 
 /// One step backwards. In: lambda = dJ/d(end of the step). Out: lambda = dJ/d(start of the step),
 /// and the step's share of dJ/du is returned; its share of dJ/dh is added to `dh`.
-Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
-                             const RunningCost& cost, const VehicleParameters& vehicle,
-                             StateVector& lambda, double& dh) {
-  const InputJacobian B = input_jacobian();
-  const StateVector end = lambda;
+Eigen::Vector2d stepped_back(const Stages& stages, const vehicle::Input& u, double h,
+                             const RunningCost& cost, const vehicle::VehicleParameters& vehicle,
+                             vehicle::StateVector& lambda, double& dh) {
+  const vehicle::InputJacobian B = vehicle::input_jacobian();
+  const vehicle::StateVector end = lambda;
   Eigen::Vector2d du = Eigen::Vector2d::Zero();
-  StateVector dk = kWeights[3] * h * end;  // dJ/dk of the current stage
+  vehicle::StateVector dk = kWeights[3] * h * end;  // dJ/dk of the current stage
   for (std::size_t i = 4; i-- > 0;) {
     const Stage& stage = stages[i];
     const CostGradient l = cost.gradient(stage.x, u);
-    const StateVector dx = state_jacobian(stage.x, vehicle).transpose() * dk +
-                           kWeights[i] * h * l.state;  // dJ/d(stage.x)
+    const vehicle::StateVector dx = vehicle::state_jacobian(stage.x, vehicle).transpose() * dk +
+                                    kWeights[i] * h * l.state;  // dJ/d(stage.x)
     du += B.transpose() * dk + kWeights[i] * h * l.input;
     lambda += dx;
     dh += kWeights[i] * (end.dot(stage.derivative) + stage.running_cost);
@@ -67,8 +67,9 @@ Eigen::Vector2d stepped_back(const Stages& stages, const Input& u, double h,
 
 }  // namespace
 
-Shot shoot(const State& start, const std::vector<Input>& inputs, double duration_s,
-           const RunningCost& cost, const VehicleParameters& vehicle, WithGradient with_gradient) {
+Shot shoot(const vehicle::State& start, const std::vector<vehicle::Input>& inputs,
+           double duration_s, const RunningCost& cost, const vehicle::VehicleParameters& vehicle,
+           WithGradient with_gradient) {
   HLC_DEMAND(!inputs.empty() && duration_s > 0.0, inputs.size(), duration_s);
   const double h = duration_s / static_cast<double>(inputs.size());
   Shot shot;
@@ -76,8 +77,8 @@ Shot shoot(const State& start, const std::vector<Input>& inputs, double duration
   shot.states.push_back(start);
   std::vector<Stages> stages;
   stages.reserve(with_gradient == WithGradient::kYes ? inputs.size() : 0);
-  StateVector x = to_vector(start);
-  for (const Input& u : inputs) {
+  vehicle::StateVector x = vehicle::to_vector(start);
+  for (const vehicle::Input& u : inputs) {
     const Step step = stepped(x, u, h, cost, vehicle);
     for (std::size_t i = 0; i < 4; ++i) {
       shot.cost += kWeights[i] * h * step.stages[i].running_cost;
@@ -86,11 +87,11 @@ Shot shoot(const State& start, const std::vector<Input>& inputs, double duration
       stages.push_back(step.stages);
     }
     x = step.end;
-    shot.states.push_back(to_state(x));
+    shot.states.push_back(vehicle::to_state(x));
   }
   if (with_gradient == WithGradient::kYes) {
     shot.gradient.resize(inputs.size());
-    StateVector lambda = StateVector::Zero();
+    vehicle::StateVector lambda = vehicle::StateVector::Zero();
     double dh = 0.0;
     for (std::size_t i = inputs.size(); i-- > 0;) {
       shot.gradient[i] = stepped_back(stages[i], inputs[i], h, cost, vehicle, lambda, dh);
@@ -100,4 +101,4 @@ Shot shoot(const State& start, const std::vector<Input>& inputs, double duration
   return shot;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

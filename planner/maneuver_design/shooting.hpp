@@ -5,12 +5,12 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// A motion with intervals of equal length of constant input, and its cost.
 struct Shot {
-  std::vector<State> states;  ///< at the interval bounds: one more than there are inputs
-  double cost{};              ///< J
+  std::vector<vehicle::State> states;  ///< at the interval bounds: one more than there are inputs
+  double cost{};                       ///< J
   /// dJ/du of each interval, u = (u_v, u_delta); empty if not asked for.
   std::vector<Eigen::Vector2d> gradient;
   double duration_gradient{};  ///< dJ/dT with the inputs kept; 0 if not asked for
@@ -25,8 +25,8 @@ enum class WithGradient { kNo, kYes };
 /// of two more simulations.
 ///
 /// @pre inputs is not empty, duration_s > 0
-[[nodiscard]] Shot shoot(const State& start, const std::vector<Input>& inputs, double duration_s,
-                         const RunningCost& cost, const VehicleParameters& vehicle,
-                         WithGradient with_gradient);
+[[nodiscard]] Shot shoot(const vehicle::State& start, const std::vector<vehicle::Input>& inputs,
+                         double duration_s, const RunningCost& cost,
+                         const vehicle::VehicleParameters& vehicle, WithGradient with_gradient);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

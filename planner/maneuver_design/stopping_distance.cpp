@@ -1,15 +1,16 @@
 #include "planner/maneuver_design/stopping_distance.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double StoppingDistance::value(const StateVector& x, const Input& /*u*/) const {
+double StoppingDistance::value(const vehicle::StateVector& x, const vehicle::Input& /*u*/) const {
   return x.head<2>().squaredNorm();
 }
 
-CostGradient StoppingDistance::gradient(const StateVector& x, const Input& /*u*/) const {
+CostGradient StoppingDistance::gradient(const vehicle::StateVector& x,
+                                        const vehicle::Input& /*u*/) const {
   CostGradient gradient;
   gradient.state.head<2>() = 2.0 * x.head<2>();
   return gradient;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -1,9 +1,14 @@
 #include "planner/maneuver_design/travel_time.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double TravelTime::value(const StateVector& /*x*/, const Input& /*u*/) const { return 1.0; }
+double TravelTime::value(const vehicle::StateVector& /*x*/, const vehicle::Input& /*u*/) const {
+  return 1.0;
+}
 
-CostGradient TravelTime::gradient(const StateVector& /*x*/, const Input& /*u*/) const { return {}; }
+CostGradient TravelTime::gradient(const vehicle::StateVector& /*x*/,
+                                  const vehicle::Input& /*u*/) const {
+  return {};
+}
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -13,7 +13,7 @@
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr int kMaxIterations = 1000;
@@ -56,7 +56,7 @@ double rounded(double value) {
 /// The motion between two points of a drive; nothing if it turns more than a quarter turn or on a
 /// smaller circle than the vehicle can.
 std::optional<DriveSample> sample_between(const DrivePoint& begin, const DrivePoint& end,
-                                          const VehicleParameters& vehicle) {
+                                          const vehicle::VehicleParameters& vehicle) {
   const double turn_rad = wrap_angle(end.pose.heading_rad - begin.pose.heading_rad);
   const Point chord = end.pose.position_m() - begin.pose.position_m();
   const double chord_m = chord.norm();
@@ -70,12 +70,12 @@ std::optional<DriveSample> sample_between(const DrivePoint& begin, const DrivePo
   const double ahead_m = chord.dot(Point(std::cos(middle_rad), std::sin(middle_rad)));
   const double sign = ahead_m < 0.0 ? -1.0 : 1.0;
   return DriveSample{sign * speed_mps,
-                     steering_for_curvature_rad(sign * turn_rad / arc_m, vehicle)};
+                     vehicle::steering_for_curvature_rad(sign * turn_rad / arc_m, vehicle)};
 }
 
 /// Speed and steering of the forward samples, within the limits and divided by `unit`.
 std::vector<Point> forward_points(const std::vector<DriveSample>& drive, const Point& unit,
-                                  const VehicleLimits& limits) {
+                                  const vehicle::VehicleLimits& limits) {
   std::vector<Point> points;
   for (const DriveSample& sample : drive) {
     if (sample.speed_mps < kSlowestDrive_mps) continue;
@@ -111,15 +111,16 @@ std::vector<std::size_t> converge_centres(const std::vector<Point>& points,
 }
 
 /// @param moving  neighbours in their order may be the same
-void check_chosen(const std::vector<ChosenTrim>& moving, const VehicleParameters& vehicle,
-                  const VehicleLimits& limits) {
+void check_chosen(const std::vector<ChosenTrim>& moving, const vehicle::VehicleParameters& vehicle,
+                  const vehicle::VehicleLimits& limits) {
   for (const ChosenTrim& one : moving) {
-    if (!is_within_friction({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle, limits)) {
+    if (!vehicle::is_within_friction({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle,
+                                     limits)) {
       throw std::invalid_argument(
           "the vehicle was driven beyond the friction circle of the limits");
     }
-    if (!is_within_curvature({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle,
-                             limits)) {
+    if (!vehicle::is_within_curvature({{}, one.trim.speed_mps, one.trim.steering_rad}, {}, vehicle,
+                                      limits)) {
       throw std::invalid_argument("the vehicle was driven beyond the curvature of the limits");
     }
   }
@@ -134,7 +135,7 @@ void check_chosen(const std::vector<ChosenTrim>& moving, const VehicleParameters
 bool is_reversing(const DriveSample& sample) { return sample.speed_mps <= -kSlowestDrive_mps; }
 
 std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, double window_s,
-                                       const VehicleParameters& vehicle) {
+                                       const vehicle::VehicleParameters& vehicle) {
   std::vector<DriveSample> samples;
   std::size_t end = 0;
   for (const DrivePoint& begin : points) {
@@ -146,8 +147,8 @@ std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points, do
 }
 
 std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std::size_t count,
-                                     const VehicleParameters& vehicle,
-                                     const VehicleLimits& limits) {
+                                     const vehicle::VehicleParameters& vehicle,
+                                     const vehicle::VehicleLimits& limits) {
   HLC_DEMAND(count >= 2, count);
   const Point unit{limits.speed_max_mps, limits.steering_max_rad};
   const std::vector<Point> points = forward_points(drive, unit, limits);
@@ -177,4 +178,4 @@ std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive, std:
   return chosen;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

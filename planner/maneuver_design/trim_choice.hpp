@@ -5,7 +5,7 @@
 
 #include "planner/automaton/automaton.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Pose of a vehicle at a time of a drive.
 struct DrivePoint {
@@ -31,11 +31,11 @@ inline constexpr double kSlowestDrive_mps = 0.05;
 /// @pre times increase, window_s > 0
 [[nodiscard]] std::vector<DriveSample> drive_samples(const std::vector<DrivePoint>& points,
                                                      double window_s,
-                                                     const VehicleParameters& vehicle);
+                                                     const vehicle::VehicleParameters& vehicle);
 
 /// A trim and the share of the drive that it represents, in 0 ... 1.
 struct ChosenTrim {
-  Trim trim;
+  automaton::Trim trim;
   double share{};
 };
 
@@ -55,7 +55,7 @@ struct ChosenTrim {
 /// @pre count >= 2
 [[nodiscard]] std::vector<ChosenTrim> choose_trims(const std::vector<DriveSample>& drive,
                                                    std::size_t count,
-                                                   const VehicleParameters& vehicle,
-                                                   const VehicleLimits& limits);
+                                                   const vehicle::VehicleParameters& vehicle,
+                                                   const vehicle::VehicleLimits& limits);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

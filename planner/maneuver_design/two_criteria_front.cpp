@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kEvenEnough = 0.02;  // of the mean distance between neighbours
@@ -151,4 +151,4 @@ void fill_two_criteria(const ParetoProblem& problem, SingleOptima& optima,
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -1,24 +1,26 @@
 #include "planner/maneuver_design/unit_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-std::optional<double> unit_cost(const Trim& trim, const RunningCost& cost) {
+std::optional<double> unit_cost(const automaton::Trim& trim, const RunningCost& cost) {
   if (cost.depends_on_pose()) {
     return std::nullopt;
   }
-  return cost.value(to_vector({Pose{}, trim.speed_mps, trim.steering_rad}), Input{});
+  return cost.value(vehicle::to_vector({Pose{}, trim.speed_mps, trim.steering_rad}),
+                    vehicle::Input{});
 }
 
-double trim_step_cost(const Trim& trim, double duration_s, const RunningCost& cost,
-                      const VehicleParameters& vehicle) {
+double trim_step_cost(const automaton::Trim& trim, double duration_s, const RunningCost& cost,
+                      const vehicle::VehicleParameters& vehicle) {
   if (const std::optional<double> per_second = unit_cost(trim, cost)) {
     return duration_s * *per_second;
   }
   constexpr int kPieces = 64;
   const auto at = [&](double share) {
-    const Pose pose =
-        trim_motion(Pose{}, trim.speed_mps, trim.steering_rad, share * duration_s, vehicle);
-    return cost.value(to_vector({pose, trim.speed_mps, trim.steering_rad}), Input{});
+    const Pose pose = vehicle::trim_motion(Pose{}, trim.speed_mps, trim.steering_rad,
+                                           share * duration_s, vehicle);
+    return cost.value(vehicle::to_vector({pose, trim.speed_mps, trim.steering_rad}),
+                      vehicle::Input{});
   };
   double sum = 0.0;
   for (int i = 0; i < kPieces; ++i) {
@@ -27,4 +29,4 @@ double trim_step_cost(const Trim& trim, double duration_s, const RunningCost& co
   return sum * duration_s / (6.0 * kPieces);
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
-double WeightedSum::value(const StateVector& x, const Input& u) const {
+double WeightedSum::value(const vehicle::StateVector& x, const vehicle::Input& u) const {
   double sum = 0.0;
   for (const WeightedCost& term : terms_) {
     sum += term.weight * term.cost->value(x, u);
@@ -14,7 +14,7 @@ double WeightedSum::value(const StateVector& x, const Input& u) const {
   return sum;
 }
 
-CostGradient WeightedSum::gradient(const StateVector& x, const Input& u) const {
+CostGradient WeightedSum::gradient(const vehicle::StateVector& x, const vehicle::Input& u) const {
   CostGradient sum;
   for (const WeightedCost& term : terms_) {
     const CostGradient gradient = term.cost->gradient(x, u);
@@ -53,4 +53,4 @@ WeightedSum normalised_sum(std::vector<WeightedCost> terms,
   return WeightedSum(std::move(terms));
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

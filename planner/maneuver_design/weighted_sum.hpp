@@ -5,7 +5,7 @@
 
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// One term of a weighted sum.
 struct WeightedCost {
@@ -20,8 +20,9 @@ class WeightedSum final : public RunningCost {
  public:
   explicit WeightedSum(std::vector<WeightedCost> terms) : terms_(std::move(terms)) {}
 
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override;
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override;
+  [[nodiscard]] double value(const vehicle::StateVector& x, const vehicle::Input& u) const override;
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override;
   [[nodiscard]] bool depends_on_pose() const override;
   [[nodiscard]] bool has_many_optima() const override;
 
@@ -44,4 +45,4 @@ struct CriterionRange {
 [[nodiscard]] WeightedSum normalised_sum(std::vector<WeightedCost> terms,
                                          const std::vector<CriterionRange>& ranges);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

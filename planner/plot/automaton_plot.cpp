@@ -5,7 +5,7 @@
 
 #include "planner/plot/svg_plot.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 constexpr double kTrimRadius_px = 9.0;
@@ -31,13 +31,15 @@ std::vector<std::string> colours_of(const std::vector<std::string>& labels) {
   return colours;
 }
 
-Eigen::Vector2d place_of(const Trim& trim) { return {trim.steering_rad, trim.speed_mps}; }
+Eigen::Vector2d place_of(const automaton::Trim& trim) {
+  return {trim.steering_rad, trim.speed_mps};
+}
 
 /// True if another trim lies on the straight line between the two.
-bool passes_a_trim(const Maneuver& m, const std::vector<Trim>& trims) {
+bool passes_a_trim(const automaton::Maneuver& m, const std::vector<automaton::Trim>& trims) {
   const Eigen::Vector2d from = place_of(trims[m.from.index]);
   const Eigen::Vector2d along = place_of(trims[m.to.index]) - from;
-  return std::ranges::any_of(trims, [&](const Trim& trim) {
+  return std::ranges::any_of(trims, [&](const automaton::Trim& trim) {
     const Eigen::Vector2d offset = place_of(trim) - from;
     const double share = offset.dot(along) / along.squaredNorm();
     return share > 1e-6 && share < 1.0 - 1e-6 && (offset - share * along).norm() < 1e-6;
@@ -46,13 +48,13 @@ bool passes_a_trim(const Maneuver& m, const std::vector<Trim>& trims) {
 
 }  // namespace
 
-std::string automaton_plot(const AutomatonFile& file) {
-  const UniversalAutomaton& automaton = *file.automaton;
+std::string automaton_plot(const automaton::AutomatonFile& file) {
+  const automaton::UniversalAutomaton& automaton = *file.automaton;
   const std::vector<std::string> colours = colours_of(file.labels);
   PlotPanel panel;
   panel.x_label = "steering angle [rad]";
   panel.y_label = "speed [m/s]";
-  for (const Maneuver& m : automaton.maneuvers) {
+  for (const automaton::Maneuver& m : automaton.maneuvers) {
     if (m.from == m.to) continue;
     const bool has_opposite = automaton.find(m.to, m.from, m.label) != nullptr;
     if (has_opposite && m.to < m.from) continue;  // drawn with the opposite one
@@ -86,4 +88,4 @@ std::string automaton_plot(const AutomatonFile& file) {
                 {panel}, 1, {.width_px = 900.0, .height_px = 620.0});
 }
 
-}  // namespace hlc
+}  // namespace hlc::plot

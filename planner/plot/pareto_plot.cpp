@@ -6,7 +6,7 @@
 
 #include "planner/plot/svg_plot.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 using Eigen::Vector2d;
@@ -17,7 +17,7 @@ std::string rounded(double value) {
   return text;
 }
 
-std::string colour_of(std::size_t point, const ParetoFront& front) {
+std::string colour_of(std::size_t point, const maneuver_design::ParetoFront& front) {
   const std::size_t last = std::max<std::size_t>(front.points.size() - 1, 1);
   return red_to_blue(static_cast<double>(point) / static_cast<double>(last));
 }
@@ -29,8 +29,9 @@ std::string label_of(const std::string& criterion) {
 }
 
 /// One line per maneuver.
-PlotPanel lines_of(const ParetoFront& front,
-                   const std::function<std::vector<Vector2d>(const ManeuverSolution&)>& points) {
+PlotPanel lines_of(
+    const maneuver_design::ParetoFront& front,
+    const std::function<std::vector<Vector2d>(const maneuver_design::ManeuverSolution&)>& points) {
   PlotPanel panel;
   for (std::size_t i = 0; i < front.points.size(); ++i) {
     panel.lines.push_back({points(front.points[i].solution), colour_of(i, front)});
@@ -38,9 +39,9 @@ PlotPanel lines_of(const ParetoFront& front,
   return panel;
 }
 
-PlotPanel over_time(const ParetoFront& front, const std::string& title, const std::string& label,
-                    double (*value)(const State&)) {
-  PlotPanel panel = lines_of(front, [value](const ManeuverSolution& solution) {
+PlotPanel over_time(const maneuver_design::ParetoFront& front, const std::string& title,
+                    const std::string& label, double (*value)(const vehicle::State&)) {
+  PlotPanel panel = lines_of(front, [value](const maneuver_design::ManeuverSolution& solution) {
     std::vector<Vector2d> points;
     for (std::size_t k = 0; k < solution.states.size(); ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(solution.states.size() - 1);
@@ -55,9 +56,9 @@ PlotPanel over_time(const ParetoFront& front, const std::string& title, const st
 }
 
 /// Steps: an input is constant on each interval.
-PlotPanel input_over_time(const ParetoFront& front, const std::string& title,
-                          const std::string& label, double Input::*value) {
-  PlotPanel panel = lines_of(front, [value](const ManeuverSolution& solution) {
+PlotPanel input_over_time(const maneuver_design::ParetoFront& front, const std::string& title,
+                          const std::string& label, double vehicle::Input::*value) {
+  PlotPanel panel = lines_of(front, [value](const maneuver_design::ManeuverSolution& solution) {
     std::vector<Vector2d> points;
     const double interval_s =
         solution.duration_s / static_cast<double>(std::max<std::size_t>(solution.inputs.size(), 1));
@@ -74,22 +75,23 @@ PlotPanel input_over_time(const ParetoFront& front, const std::string& title,
   return panel;
 }
 
-PlotPanel front_panel(const ParetoFront& front, const ParetoFront& weighted_sums,
+PlotPanel front_panel(const maneuver_design::ParetoFront& front,
+                      const maneuver_design::ParetoFront& weighted_sums,
                       const ParetoDescription& description) {
   PlotPanel panel;
   panel.title = "Pareto front";
   panel.x_label = label_of(description.criteria[1]);
   panel.y_label = label_of(description.criteria[0]);
-  const auto at = [](const ParetoPoint& point) {
+  const auto at = [](const maneuver_design::ParetoPoint& point) {
     return Vector2d(point.objectives(1), point.objectives(0));
   };
   for (std::size_t i = 0; i < front.points.size(); ++i) {
     panel.marks.push_back({at(front.points[i]), colour_of(i, front)});
   }
-  for (const ParetoPoint& point : weighted_sums.points) {
+  for (const maneuver_design::ParetoPoint& point : weighted_sums.points) {
     panel.marks.push_back({at(point), "#666666", Mark::kCross, 2.5});
   }
-  const std::size_t knee = knee_point(front.objectives());
+  const std::size_t knee = maneuver_design::knee_point(front.objectives());
   panel.marks.push_back({at(front.points[knee]), "#000000", Mark::kRing, 7.0});
   panel.legend = {
       {"optimum of " + description.criteria[1], colour_of(0, front)},
@@ -101,11 +103,12 @@ PlotPanel front_panel(const ParetoFront& front, const ParetoFront& weighted_sums
 
 }  // namespace
 
-std::string pareto_plot(const ParetoFront& front, const ParetoFront& weighted_sums,
+std::string pareto_plot(const maneuver_design::ParetoFront& front,
+                        const maneuver_design::ParetoFront& weighted_sums,
                         const ParetoDescription& description) {
-  PlotPanel positions = lines_of(front, [](const ManeuverSolution& solution) {
+  PlotPanel positions = lines_of(front, [](const maneuver_design::ManeuverSolution& solution) {
     std::vector<Vector2d> points;
-    for (const State& state : solution.states) points.push_back(state.pose.position_m());
+    for (const vehicle::State& state : solution.states) points.push_back(state.pose.position_m());
     return points;
   });
   positions.title = "Positions";
@@ -119,16 +122,17 @@ std::string pareto_plot(const ParetoFront& front, const ParetoFront& weighted_su
       "Pareto-optimal maneuvers from (" + rounded(description.from.speed_mps) + " m/s, " +
       rounded(description.from.steering_rad) + " rad) to (" + rounded(description.to.speed_mps) +
       " m/s, " + rounded(description.to.steering_rad) + " rad) in " + duration + " s";
-  return svg_of(
-      title,
-      {front_panel(front, weighted_sums, description), positions,
-       over_time(front, "Orientations", "psi [rad]",
-                 [](const State& state) { return state.pose.heading_rad; }),
-       input_over_time(front, "Inputs: acceleration", "u_v [m/s²]", &Input::acceleration_mps2),
-       input_over_time(front, "Inputs: steering rate", "u_delta [rad/s]",
-                       &Input::steering_rate_radps),
-       over_time(front, "Speeds", "v [m/s]", [](const State& state) { return state.speed_mps; })},
-      3);
+  return svg_of(title,
+                {front_panel(front, weighted_sums, description), positions,
+                 over_time(front, "Orientations", "psi [rad]",
+                           [](const vehicle::State& state) { return state.pose.heading_rad; }),
+                 input_over_time(front, "Inputs: acceleration", "u_v [m/s²]",
+                                 &vehicle::Input::acceleration_mps2),
+                 input_over_time(front, "Inputs: steering rate", "u_delta [rad/s]",
+                                 &vehicle::Input::steering_rate_radps),
+                 over_time(front, "Speeds", "v [m/s]",
+                           [](const vehicle::State& state) { return state.speed_mps; })},
+                3);
 }
 
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -7,7 +7,7 @@
 #include "planner/plot/svg_elements.hpp"
 #include "planner/plot/ticks.hpp"
 
-namespace hlc::svg {
+namespace hlc::plot::svg {
 namespace {
 
 using Eigen::Vector2d;
@@ -102,4 +102,4 @@ std::string axes_of(const Frame& frame) {
   return out;
 }
 
-}  // namespace hlc::svg
+}  // namespace hlc::plot::svg

@@ -7,7 +7,7 @@
 #include "planner/plot/svg_plot.hpp"
 
 /// From the units of a panel's axes to pixels.
-namespace hlc::svg {
+namespace hlc::plot::svg {
 
 using Range = Eigen::AlignedBox2d;
 
@@ -52,4 +52,4 @@ struct Frame {
 /// Grid, ticks, labels and title of the panel.
 [[nodiscard]] std::string axes_of(const Frame& frame);
 
-}  // namespace hlc::svg
+}  // namespace hlc::plot::svg

@@ -5,7 +5,7 @@
 
 #include "planner/plot/svg_elements.hpp"
 
-namespace hlc::svg {
+namespace hlc::plot::svg {
 namespace {
 
 using Eigen::Vector2d;
@@ -112,4 +112,4 @@ std::string legend_row(const std::vector<PlotLegend>& row, const Vector2d& middl
   return out;
 }
 
-}  // namespace hlc::svg
+}  // namespace hlc::plot::svg

@@ -6,7 +6,7 @@
 
 #include "planner/plot/plot_frame.hpp"
 
-namespace hlc::svg {
+namespace hlc::plot::svg {
 
 /// The panel's legend, in its corner.
 [[nodiscard]] std::string legend_of(const Frame& frame);
@@ -19,4 +19,4 @@ namespace hlc::svg {
 [[nodiscard]] std::string legend_row(const std::vector<PlotLegend>& row,
                                      const Eigen::Vector2d& middle_px);
 
-}  // namespace hlc::svg
+}  // namespace hlc::plot::svg

@@ -8,7 +8,7 @@
 #include "planner/plot/svg_plot.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 constexpr char kReferenceColour[] = "#2ca02c";
@@ -23,12 +23,12 @@ PlotLine outline(const ConvexPolygon& area_m, const std::string& colour, double 
   return {.points = std::move(points), .colour = colour, .width_px = width_px, .stroke = stroke};
 }
 
-std::string colour_of(std::size_t step, const HorizonProblem& problem) {
+std::string colour_of(std::size_t step, const search::HorizonProblem& problem) {
   const std::size_t last = std::max<std::size_t>(problem.horizon_steps() - 1, 1);
   return red_to_blue(static_cast<double>(step) / static_cast<double>(last));
 }
 
-void add_surroundings(const HorizonProblem& problem, PlotPanel& panel) {
+void add_surroundings(const search::HorizonProblem& problem, PlotPanel& panel) {
   for (const Segment& segment : problem.boundary_m) {
     panel.lines.push_back({.points = {segment.from_m, segment.to_m}, .colour = kBoundaryColour});
   }
@@ -43,7 +43,8 @@ void add_surroundings(const HorizonProblem& problem, PlotPanel& panel) {
   }
 }
 
-void add_plan(const ProblemFile& file, const SearchResult& result, PlotPanel& panel) {
+void add_plan(const scenario::ProblemFile& file, const search::SearchResult& result,
+              PlotPanel& panel) {
   const Footprint& footprint = file.subgraph->automaton().vehicle.footprint;
   Pose from = file.problem.start;
   panel.marks.push_back({.at = from.position_m(), .colour = kPlanColour, .mark = Mark::kCross});
@@ -60,12 +61,12 @@ void add_plan(const ProblemFile& file, const SearchResult& result, PlotPanel& pa
   }
 }
 
-std::string subtitle(const SearchResult& result) {
+std::string subtitle(const search::SearchResult& result) {
   char text[96];
-  if (result.status == SearchStatus::kFallback) {
-    std::snprintf(text, sizeof(text), "no plan (%s)", to_string(result.reason));
+  if (result.status == search::SearchStatus::kFallback) {
+    std::snprintf(text, sizeof(text), "no plan (%s)", search::to_string(result.reason));
   } else {
-    std::snprintf(text, sizeof(text), "plan: %s, cost %.4g m²", to_string(result.status),
+    std::snprintf(text, sizeof(text), "plan: %s, cost %.4g m²", search::to_string(result.status),
                   result.cost);
   }
   return text;
@@ -73,8 +74,8 @@ std::string subtitle(const SearchResult& result) {
 
 }  // namespace
 
-std::string problem_plot(const ProblemFile& file, const SearchResult& result) {
-  const HorizonProblem& problem = file.problem;
+std::string problem_plot(const scenario::ProblemFile& file, const search::SearchResult& result) {
+  const search::HorizonProblem& problem = file.problem;
   PlotPanel panel;
   panel.title = subtitle(result);
   panel.x_label = "x [m]";
@@ -100,4 +101,4 @@ std::string problem_plot(const ProblemFile& file, const SearchResult& result) {
   return svg_of(title, {panel}, 1, {.width_px = 900.0, .height_px = 700.0});
 }
 
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -6,7 +6,7 @@
 
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 constexpr double kBetweenArrows_m = 1.0;
@@ -15,7 +15,7 @@ constexpr double kThinnest_px = 1.6;
 constexpr double kThicker_px = 1.8;  ///< a path drawn before another
 
 /// Arrow heads along the path, the first at `from_m`.
-void add_direction(const ReferencePath& path, double from_m, PlotPanel& panel) {
+void add_direction(const road::ReferencePath& path, double from_m, PlotPanel& panel) {
   for (double s_m = from_m; s_m + kArrow_m < path.length_m(); s_m += kBetweenArrows_m) {
     panel.arrows.push_back({.from = path.at(s_m), .to = path.at(s_m + kArrow_m)});
   }
@@ -23,12 +23,12 @@ void add_direction(const ReferencePath& path, double from_m, PlotPanel& panel) {
 
 }  // namespace
 
-std::optional<LaneletMap> map_of(const Scenario& scenario) {
+std::optional<road::LaneletMap> map_of(const scenario::Scenario& scenario) {
   if (!scenario.map_file) return std::nullopt;
-  return read_lanelet_map(*scenario.map_file);
+  return road::read_lanelet_map(*scenario.map_file);
 }
 
-void add_lanes(const LaneletMap& map, PlotPanel& panel) {
+void add_lanes(const road::LaneletMap& map, PlotPanel& panel) {
   for (const auto& [id, lanelet] : map.lanelets) {
     PlotArea area{.points = {lanelet.left_m.begin(), lanelet.left_m.end()}, .fill = "#f0f0f0"};
     area.points.insert(area.points.end(), lanelet.right_m.rbegin(), lanelet.right_m.rend());
@@ -40,25 +40,26 @@ void add_lanes(const LaneletMap& map, PlotPanel& panel) {
   }
 }
 
-PlotLine path_line(const ReferencePath& path) {
+PlotLine path_line(const road::ReferencePath& path) {
   PlotLine line{.points = {path.points_m().begin(), path.points_m().end()}};
   if (path.is_closed()) line.points.push_back(path.points_m().front());
   return line;
 }
 
-std::string car_colour(const Scenario& scenario, std::size_t vehicle) {
+std::string car_colour(const scenario::Scenario& scenario, std::size_t vehicle) {
   static const std::map<std::string, std::string> kNames{
       {"red", "#d62728"}, {"blue", "#1f4fd8"}, {"green", "#2ca02c"}};
   const auto named = kNames.find(scenario.vehicles[vehicle].name);
   return named != kNames.end() ? named->second : series_colour(vehicle);
 }
 
-std::string scenario_plot(const Scenario& scenario, const std::optional<LaneletMap>& map) {
+std::string scenario_plot(const scenario::Scenario& scenario,
+                          const std::optional<road::LaneletMap>& map) {
   PlotPanel panel{.x_label = "x [m]", .y_label = "y [m]", .equal_scale = true};
   if (map) add_lanes(*map, panel);
   const std::size_t count = scenario.vehicles.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const ScenarioVehicle& vehicle = scenario.vehicles[i];
+    const scenario::ScenarioVehicle& vehicle = scenario.vehicles[i];
     PlotLine line = path_line(vehicle.path);
     line.colour = car_colour(scenario, i);
     line.width_px = kThinnest_px;
@@ -75,8 +76,9 @@ std::string scenario_plot(const Scenario& scenario, const std::optional<LaneletM
   }
   const Footprint& footprint = scenario.subgraph->automaton().vehicle.footprint;
   for (std::size_t i = 0; i < count; ++i) {
-    const ScenarioVehicle& vehicle = scenario.vehicles[i];
-    const ConvexPolygon area = footprint_area(footprint, measured_start(scenario, vehicle));
+    const scenario::ScenarioVehicle& vehicle = scenario.vehicles[i];
+    const ConvexPolygon area =
+        footprint_area(footprint, scenario::measured_start(scenario, vehicle));
     panel.front_areas.push_back({.points = {area.vertices_m.begin(), area.vertices_m.end()},
                                  .fill = car_colour(scenario, i),
                                  .stroke = "#000000"});
@@ -89,4 +91,4 @@ std::string scenario_plot(const Scenario& scenario, const std::optional<LaneletM
                 1, {.width_px = 900.0, .height_px = 800.0});
 }
 
-}  // namespace hlc
+}  // namespace hlc::plot

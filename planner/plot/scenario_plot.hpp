@@ -7,25 +7,25 @@
 #include "planner/road/lanelet_map.hpp"
 #include "planner/scenario/scenario.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 
 /// The scenario's map; nothing on open ground. @throws std::runtime_error as read_lanelet_map
-[[nodiscard]] std::optional<LaneletMap> map_of(const Scenario& scenario);
+[[nodiscard]] std::optional<road::LaneletMap> map_of(const scenario::Scenario& scenario);
 
 /// Lanes in grey with their bounds.
-void add_lanes(const LaneletMap& map, PlotPanel& panel);
+void add_lanes(const road::LaneletMap& map, PlotPanel& panel);
 
 /// A path as one line, back to its first point if it is closed.
-[[nodiscard]] PlotLine path_line(const ReferencePath& path);
+[[nodiscard]] PlotLine path_line(const road::ReferencePath& path);
 
 /// A vehicle with a name such as "red" has that colour, others one by their index in the scenario.
-[[nodiscard]] std::string car_colour(const Scenario& scenario, std::size_t vehicle);
+[[nodiscard]] std::string car_colour(const scenario::Scenario& scenario, std::size_t vehicle);
 
 /// The paper's Fig. 3, as SVG: lanes, the vehicles' reference paths with their direction,
 /// footprints (without margin) and ids at the start. Paths that share a lane are drawn with widths
 /// that differ.
 /// @param map  absent: open ground
-[[nodiscard]] std::string scenario_plot(const Scenario& scenario,
-                                        const std::optional<LaneletMap>& map);
+[[nodiscard]] std::string scenario_plot(const scenario::Scenario& scenario,
+                                        const std::optional<road::LaneletMap>& map);
 
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace hlc::svg {
+namespace hlc::plot::svg {
 namespace {
 
 using Eigen::Vector2d;
@@ -55,4 +55,4 @@ std::string dashes_of(Stroke stroke) {
   return stroke == Stroke::kDashed ? " stroke-dasharray=\"5 4\"" : "";
 }
 
-}  // namespace hlc::svg
+}  // namespace hlc::plot::svg

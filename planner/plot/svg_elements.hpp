@@ -6,7 +6,7 @@
 #include "planner/plot/svg_plot.hpp"
 
 /// The SVG elements of plots, at places in pixels (x to the right, y down).
-namespace hlc::svg {
+namespace hlc::plot::svg {
 
 /// With two decimals: a hundredth of a pixel.
 [[nodiscard]] std::string number(double value);
@@ -30,4 +30,4 @@ namespace hlc::svg {
 /// The attribute of a stroke's dashes, beginning with a blank; nothing if it is solid.
 [[nodiscard]] std::string dashes_of(Stroke stroke);
 
-}  // namespace hlc::svg
+}  // namespace hlc::plot::svg

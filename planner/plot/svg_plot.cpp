@@ -9,7 +9,7 @@
 #include "planner/plot/plot_legend.hpp"
 #include "planner/plot/svg_elements.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 using Eigen::Vector2d;
@@ -145,4 +145,4 @@ std::string series_colour(std::size_t series) {
   return kColours.at(series % kColours.size());
 }
 
-}  // namespace hlc
+}  // namespace hlc::plot

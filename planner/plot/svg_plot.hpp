@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hlc {
+namespace hlc::plot {
 
 /// A small writer of plots as SVG: panels with axes, ticks, areas, lines, dots, arrows and a
 /// legend. The same input gives the same bytes.
@@ -105,4 +105,4 @@ struct PlotSize {
 /// Ten colours for series; repeated after the last.
 [[nodiscard]] std::string series_colour(std::size_t series);
 
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::plot {
 
 std::vector<double> nice_ticks(double min, double max, std::size_t count) {
   const double rough = (max - min) / static_cast<double>(std::max<std::size_t>(count, 1));
@@ -38,4 +38,4 @@ std::vector<double> log_ticks(double min, double max) {
   return decades.size() >= 3 ? decades : ticks_of({1.0, 2.0, 5.0});
 }
 
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hlc {
+namespace hlc::plot {
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) that cover [min, max], about `count` of
 /// them, from the first at or above min to the last at or below max. @pre min < max
@@ -13,4 +13,4 @@ namespace hlc {
 /// and five times them as well. @pre 0 < min < max
 [[nodiscard]] std::vector<double> log_ticks(double min, double max);
 
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -7,7 +7,7 @@
 
 #include "planner/policy/look_ahead_rollout.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 LookAhead::LookAhead(LookAheadSettings settings) : settings_(std::move(settings)) {}
 
@@ -16,7 +16,7 @@ std::optional<SubgraphRequest> LookAhead::propose(const PolicyView& /*view*/) {
   return settings_.candidates[*chosen_];
 }
 
-void LookAhead::look_ahead(const Controller& controller, const PreparedFor& prepared) {
+void LookAhead::look_ahead(const controller::Controller& controller, const PreparedFor& prepared) {
   constexpr double kUnknown_m2 = std::numeric_limits<double>::infinity();
   const LookAheadRolloutSettings rollout{
       .steps = settings_.steps,
@@ -25,8 +25,8 @@ void LookAhead::look_ahead(const Controller& controller, const PreparedFor& prep
       .most_expansions = settings_.steps * settings_.max_expansions};
   std::vector<double> costs_m2;
   for (const SubgraphRequest& candidate : settings_.candidates) {
-    const auto on_candidate = [&](Controller& ahead) {
-      const PreparedSubgraph& now = prepared(candidate, ahead);
+    const auto on_candidate = [&](controller::Controller& ahead) {
+      const controller::PreparedSubgraph& now = prepared(candidate, ahead);
       if (ahead.prepared_subgraph().subgraph != now.subgraph) ahead.switch_to(now);
     };
     costs_m2.push_back(rollout_cost_m2(controller, rollout, on_candidate).value_or(kUnknown_m2));
@@ -45,4 +45,4 @@ std::unique_ptr<Policy> make_policy_of(const LookAheadSettings& settings) {
   return std::make_unique<LookAhead>(settings);
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

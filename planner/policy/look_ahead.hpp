@@ -7,7 +7,7 @@
 
 #include "planner/policy/policy.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 /// Proposes the candidate whose look-ahead rollout over the next steps (look_ahead_rollout.hpp)
 /// costs least.
@@ -23,7 +23,7 @@ class LookAhead final : public Policy {
   std::optional<SubgraphRequest> propose(const PolicyView& view) override;
   std::vector<SubgraphRequest> choices() const override { return settings_.candidates; }
   bool looks_ahead() const override { return true; }
-  void look_ahead(const Controller& controller, const PreparedFor& prepared) override;
+  void look_ahead(const controller::Controller& controller, const PreparedFor& prepared) override;
 
  private:
   LookAheadSettings settings_;
@@ -32,4 +32,4 @@ class LookAhead final : public Policy {
 
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const LookAheadSettings& settings);
 
-}  // namespace hlc
+}  // namespace hlc::policy

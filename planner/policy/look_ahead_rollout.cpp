@@ -6,30 +6,32 @@
 #include "planner/controller/followed_plan.hpp"
 #include "planner/controller/joint_step.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 namespace {
 
 /// Range of the path searched for a vehicle, around its reach in a step.
 constexpr double kProjection_m = 0.5;
 
 /// The areas from t(step) on. @pre step >= areas.first
-OccupiedAreas rest_of(const OccupiedAreas& areas, StepIndex step) {
+coordination::OccupiedAreas rest_of(const coordination::OccupiedAreas& areas, StepIndex step) {
   const std::size_t past = std::min(step.value - areas.first.value, areas.areas_m.size());
-  OccupiedAreas rest{.first = step, .areas_m = {}, .final_area_m = areas.final_area_m};
+  coordination::OccupiedAreas rest{
+      .first = step, .areas_m = {}, .final_area_m = areas.final_area_m};
   rest.areas_m.assign(areas.areas_m.begin() + static_cast<std::ptrdiff_t>(past),
                       areas.areas_m.end());
   if (rest.areas_m.empty()) rest.areas_m.push_back(areas.final_area_m);
   return rest;
 }
 
-Traffic traffic_of(const Controller::AnnouncedPlan& plan, StepIndex step) {
-  Traffic traffic{.vehicle = plan.vehicle,
-                  .step = step,
-                  .next_pose = {},
-                  .next_trim = {},
-                  .running = rest_of(plan.areas, step),
-                  .reachable_area_m = {},
-                  .silent = {}};
+coordination::Traffic traffic_of(const controller::Controller::AnnouncedPlan& plan,
+                                 StepIndex step) {
+  coordination::Traffic traffic{.vehicle = plan.vehicle,
+                                .step = step,
+                                .next_pose = {},
+                                .next_trim = {},
+                                .running = rest_of(plan.areas, step),
+                                .reachable_area_m = {},
+                                .silent = {}};
   std::vector<ConvexPolygon> areas = traffic.running.areas_m;
   areas.push_back(traffic.running.final_area_m);
   traffic.reachable_area_m = convex_hull(areas);
@@ -37,10 +39,10 @@ Traffic traffic_of(const Controller::AnnouncedPlan& plan, StepIndex step) {
 }
 
 /// Messages of the others in that step.
-ExternalMessages published_by(const std::vector<Controller::AnnouncedPlan>& others,
-                              StepIndex step) {
-  ExternalMessages published;
-  for (const Controller::AnnouncedPlan& other : others) {
+controller::ExternalMessages published_by(
+    const std::vector<controller::Controller::AnnouncedPlan>& others, StepIndex step) {
+  controller::ExternalMessages published;
+  for (const controller::Controller::AnnouncedPlan& other : others) {
     published.traffic.push_back(traffic_of(other, step));
     published.predictions.push_back({.vehicle = other.vehicle,
                                      .step = step,
@@ -51,22 +53,25 @@ ExternalMessages published_by(const std::vector<Controller::AnnouncedPlan>& othe
   return published;
 }
 
-Report step(Controller& controller, StepIndex now,
-            const std::vector<Controller::AnnouncedPlan>& others) {
-  Observation observation{.step = now,
-                          .active = {controller.options().vehicle},
-                          .states = {on_its_plan(controller, now)},
-                          .present = {}};
-  for (const Controller::AnnouncedPlan& other : others) observation.active.push_back(other.vehicle);
+coordination::Report step(controller::Controller& controller, StepIndex now,
+                          const std::vector<controller::Controller::AnnouncedPlan>& others) {
+  controller::Observation observation{.step = now,
+                                      .active = {controller.options().vehicle},
+                                      .states = {controller::on_its_plan(controller, now)},
+                                      .present = {}};
+  for (const controller::Controller::AnnouncedPlan& other : others)
+    observation.active.push_back(other.vehicle);
   std::ranges::sort(observation.active);
   observation.present = observation.active;
-  Controller* const alone[]{&controller};
-  return joint_step(alone, observation, {.external = published_by(others, now)}).front();
+  controller::Controller* const alone[]{&controller};
+  return controller::joint_step(alone, observation, {.external = published_by(others, now)})
+      .front();
 }
 
-double weighted(const Maneuver& maneuver, const std::vector<PlanningWeight>& weights) {
+double weighted(const automaton::Maneuver& maneuver,
+                const std::vector<search::PlanningWeight>& weights) {
   double sum_m2 = 0.0;
-  for (const PlanningWeight& weight : weights) {
+  for (const search::PlanningWeight& weight : weights) {
     const auto value =
         std::ranges::find(maneuver.criteria, weight.criterion, &CriterionValue::name);
     if (value != maneuver.criteria.end()) sum_m2 += weight.weight_m2 * value->value;
@@ -76,15 +81,15 @@ double weighted(const Maneuver& maneuver, const std::vector<PlanningWeight>& wei
 
 }  // namespace
 
-std::optional<double> rollout_cost_m2(const Controller& controller,
+std::optional<double> rollout_cost_m2(const controller::Controller& controller,
                                       const LookAheadRolloutSettings& settings,
                                       const BeforeStep& before_step) {
   if (!controller.has_plan() || !controller.path_s_m()) return std::nullopt;
-  const std::vector<Controller::AnnouncedPlan> others = controller.announced_plans();
-  const ReferencePath& path = controller.route().path;
+  const std::vector<controller::Controller::AnnouncedPlan> others = controller.announced_plans();
+  const road::ReferencePath& path = controller.route().path;
   const double ahead_m =
       controller.options().reference_speed_mps * controller.subgraph().automaton().step_s;
-  Controller ahead = controller;
+  controller::Controller ahead = controller;
   ahead.set_max_expansions(settings.max_expansions);
   std::uint64_t expansions_left = settings.most_expansions;
   double s_m = *controller.path_s_m();
@@ -93,10 +98,10 @@ std::optional<double> rollout_cost_m2(const Controller& controller,
   for (std::size_t i = 0; i < settings.steps; ++i) {
     ++now.value;
     before_step(ahead);
-    const Report report = step(ahead, now, others);
+    const coordination::Report report = step(ahead, now, others);
     if (report.expanded > expansions_left) return std::nullopt;
     expansions_left -= report.expanded;
-    const Plan& plan = ahead.plan_in_force();
+    const coordination::Plan& plan = ahead.plan_in_force();
     const StepIndex next{now.value + 1};
     const Point reached_m = plan.pose_at({next.value + 1}).position_m();
     s_m = path.project_within(plan.pose_at(next).position_m(), s_m - kProjection_m,
@@ -108,4 +113,4 @@ std::optional<double> rollout_cost_m2(const Controller& controller,
   return cost_m2;
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

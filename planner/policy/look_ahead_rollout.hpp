@@ -7,18 +7,18 @@
 
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 struct LookAheadRolloutSettings {
   std::size_t steps{8};
-  std::vector<PlanningWeight> criterion_weights;
+  std::vector<search::PlanningWeight> criterion_weights;
   std::size_t max_expansions{};   ///< of each search
   std::size_t most_expansions{};  ///< of all searches together: a step may need several
 };
 
 /// Called before each step of a look-ahead rollout with the stepped controller, which it may
 /// switch.
-using BeforeStep = std::function<void(Controller&)>;
+using BeforeStep = std::function<void(controller::Controller&)>;
 
 /// Simulates the vehicle over the next steps in a closed loop: the controller is stepped as usual,
 /// its vehicle follows the plan exactly, and the other vehicles drive the plans announced in the
@@ -35,8 +35,8 @@ using BeforeStep = std::function<void(Controller&)>;
 /// @param controller  after a step; it is not changed
 /// @return sum of c_k over the steps; none for a controller without a plan or a place on its path,
 /// or if most_expansions do not suffice: the rollout ends with the step that exceeds them
-[[nodiscard]] std::optional<double> rollout_cost_m2(const Controller& controller,
+[[nodiscard]] std::optional<double> rollout_cost_m2(const controller::Controller& controller,
                                                     const LookAheadRolloutSettings& settings,
                                                     const BeforeStep& before_step);
 
-}  // namespace hlc
+}  // namespace hlc::policy

@@ -9,19 +9,19 @@
 #include "planner/controller/controller.hpp"
 #include "planner/policy/policy_settings.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 /// Inputs of a policy before step k.
 struct PolicyView {
-  double time_s{};                    ///< since the experiment's first step
-  const Report* last{};               ///< of step k - 1; none in the first step
-  std::optional<double> battery_v{};  ///< none if unknown
+  double time_s{};                     ///< since the experiment's first step
+  const coordination::Report* last{};  ///< of step k - 1; none in the first step
+  std::optional<double> battery_v{};   ///< none if unknown
 };
 
 /// The subgraph of a request for a controller at its current place: with the speed limits that hold
 /// there.
-using PreparedFor =
-    std::function<const PreparedSubgraph&(const SubgraphRequest& request, const Controller&)>;
+using PreparedFor = std::function<const controller::PreparedSubgraph&(
+    const SubgraphRequest& request, const controller::Controller&)>;
 
 /// Proposes the subgraph to plan on. One object per vehicle; may have a state.
 class Policy {
@@ -38,9 +38,10 @@ class Policy {
   [[nodiscard]] virtual bool looks_ahead() const { return false; }
   /// Called after a step if a proposal may be needed in the next one, when the step's messages and
   /// command are published. @pre the controller is not in the middle of a step
-  virtual void look_ahead(const Controller& /*controller*/, const PreparedFor& /*prepared*/) {}
+  virtual void look_ahead(const controller::Controller& /*controller*/,
+                          const PreparedFor& /*prepared*/) {}
 };
 
 [[nodiscard]] std::unique_ptr<Policy> make_policy(const PolicySettings& settings);
 
-}  // namespace hlc
+}  // namespace hlc::policy

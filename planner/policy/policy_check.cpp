@@ -13,18 +13,19 @@
 #include "planner/policy/speed_zones.hpp"
 #include "planner/search/edge_costs.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 namespace {
 
-void check(const Subgraph& subgraph, const ReconfigurationSettings& settings,
-           const std::optional<LabLimits>& lab) {
-  if (const std::string fault = lab ? validate_for_lab(subgraph, *lab) : ""; !fault.empty()) {
+void check(const automaton::Subgraph& subgraph, const ReconfigurationSettings& settings,
+           const std::optional<vehicle::LabLimits>& lab) {
+  if (const std::string fault = lab ? automaton::validate_for_lab(subgraph, *lab) : "";
+      !fault.empty()) {
     throw std::invalid_argument("subgraph " + subgraph.spec().name + ": " + fault);
   }
   for (const PolicySettings& one : settings.policies) {
     const auto* look_ahead = std::get_if<LookAheadSettings>(&one);
     if (look_ahead == nullptr) continue;
-    static_cast<void>(EdgeCosts(subgraph, look_ahead->criterion_weights, 1));
+    static_cast<void>(search::EdgeCosts(subgraph, look_ahead->criterion_weights, 1));
   }
 }
 
@@ -40,11 +41,12 @@ std::vector<SubgraphRequest> requests_of(const ReconfigurationSettings& settings
   return requests;
 }
 
-void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& settings,
-                           std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
+void check_reconfiguration(const automaton::Subgraph& base, const ReconfigurationSettings& settings,
+                           std::size_t horizon_steps,
+                           const std::optional<vehicle::LabLimits>& lab) {
   const std::vector<double> limits = limits_mps(settings.zones);
   for (const SubgraphRequest& request : requests_of(settings)) {
-    check(*requested_subgraph(base, request, horizon_steps), settings, lab);
+    check(*automaton::requested_subgraph(base, request, horizon_steps), settings, lab);
     for (const double limit_mps : limits) {
       try {
         check(*limited_subgraph(base, request, limit_mps, horizon_steps), settings, lab);
@@ -56,4 +58,4 @@ void check_reconfiguration(const Subgraph& base, const ReconfigurationSettings& 
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

@@ -7,7 +7,7 @@
 #include "planner/automaton/subgraph_request.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 /// A part of the map with a speed limit: a rectangle in the map's frame.
 struct SpeedZone {
@@ -51,7 +51,7 @@ struct BatteryPolicySettings {
 struct LookAheadSettings {
   std::vector<SubgraphRequest> candidates;  ///< at least two
   std::size_t steps{8};
-  std::vector<PlanningWeight> criterion_weights;
+  std::vector<search::PlanningWeight> criterion_weights;
   /// Another candidate is proposed only if it costs less by at least this share; in [0, 1).
   double least_gain{0.05};
   std::size_t max_expansions{};  ///< of each search in a rollout (LookAheadRolloutSettings)
@@ -79,4 +79,4 @@ struct ReconfigurationSettings {
   friend bool operator==(const ReconfigurationSettings&, const ReconfigurationSettings&) = default;
 };
 
-}  // namespace hlc
+}  // namespace hlc::policy

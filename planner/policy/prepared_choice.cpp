@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
-namespace hlc {
+namespace hlc::policy {
 namespace {
 
 /// Most edges from a trim that planning may start from to an enabled one. Every exit edge leads one
 /// nearer, so any way is a shortest one.
-std::size_t most_exit_steps(const Subgraph& subgraph) {
+std::size_t most_exit_steps(const automaton::Subgraph& subgraph) {
   std::size_t most = 0;
   for (const TrimId start : subgraph.start_trims()) {
     std::size_t steps = 0;
     for (TrimId at = start; !subgraph.is_enabled(at); ++steps) {
       const auto edges = subgraph.successors(at);
       const auto exit =
-          std::ranges::find_if(edges, [at](const Edge& edge) { return edge.to != at; });
+          std::ranges::find_if(edges, [at](const automaton::Edge& edge) { return edge.to != at; });
       if (exit == edges.end()) break;  // standing, forever
       at = exit->to;
     }
@@ -24,11 +24,11 @@ std::size_t most_exit_steps(const Subgraph& subgraph) {
   return most;
 }
 
-double top_speed_of(const Subgraph& subgraph) {
+double top_speed_of(const automaton::Subgraph& subgraph) {
   double top_mps = 0.0;
   for (const TrimId trim : subgraph.trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
-      top_mps = std::max(top_mps, top_speed_mps(*edge.maneuver));
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
+      top_mps = std::max(top_mps, automaton::top_speed_mps(*edge.maneuver));
     }
   }
   return top_mps;
@@ -36,36 +36,39 @@ double top_speed_of(const Subgraph& subgraph) {
 
 }  // namespace
 
-std::shared_ptr<const Subgraph> limited_subgraph(
-    const Subgraph& base, const SubgraphRequest& request, double limit_mps,
-    std::size_t horizon_steps, const std::shared_ptr<const UniversalAutomaton>& automaton) {
+std::shared_ptr<const automaton::Subgraph> limited_subgraph(
+    const automaton::Subgraph& base, const SubgraphRequest& request, double limit_mps,
+    std::size_t horizon_steps,
+    const std::shared_ptr<const automaton::UniversalAutomaton>& automaton) {
   SubgraphRequest limited = request;
   limited.max_speed_mps = std::min(limit_mps, request.max_speed_mps.value_or(limit_mps));
   limited.max_speed_mps =
       std::min(*limited.max_speed_mps, base.spec().max_speed_mps.value_or(limit_mps));
   try {
-    return requested_subgraph(base, limited, horizon_steps, automaton);
+    return automaton::requested_subgraph(base, limited, horizon_steps, automaton);
   } catch (const std::invalid_argument&) {
     if (limited == SubgraphRequest{.max_speed_mps = limited.max_speed_mps}) throw;
     return limited_subgraph(base, {}, limit_mps, horizon_steps);
   }
 }
 
-PreparedChoice::PreparedChoice(const PreparedSubgraph& base, const SubgraphRequest& request,
-                               std::span<const double> limits_mps, std::size_t horizon_steps,
-                               const SearchOptions& search,
-                               const std::shared_ptr<const UniversalAutomaton>& automaton) {
-  const auto prepared = [&](std::shared_ptr<const Subgraph> subgraph) {
-    return prepare_subgraph(std::move(subgraph), horizon_steps, search);
+PreparedChoice::PreparedChoice(
+    const controller::PreparedSubgraph& base, const SubgraphRequest& request,
+    std::span<const double> limits_mps, std::size_t horizon_steps,
+    const search::SearchOptions& search,
+    const std::shared_ptr<const automaton::UniversalAutomaton>& automaton) {
+  const auto prepared = [&](std::shared_ptr<const automaton::Subgraph> subgraph) {
+    return controller::prepare_subgraph(std::move(subgraph), horizon_steps, search);
   };
   const bool is_base = request == SubgraphRequest{};
-  const PreparedSubgraph without_limit =
+  const controller::PreparedSubgraph without_limit =
       is_base ? base
-              : prepared(requested_subgraph(*base.subgraph, request, horizon_steps, automaton));
+              : prepared(automaton::requested_subgraph(*base.subgraph, request, horizon_steps,
+                                                       automaton));
   by_limit_.emplace(std::nullopt, without_limit);
   const std::optional<double> own_mps = without_limit.subgraph->spec().max_speed_mps;
   for (const double limit_mps : limits_mps) {
-    const PreparedSubgraph limited =
+    const controller::PreparedSubgraph limited =
         own_mps && *own_mps <= limit_mps
             ? without_limit
             : prepared(
@@ -76,4 +79,4 @@ PreparedChoice::PreparedChoice(const PreparedSubgraph& base, const SubgraphReque
   top_speed_mps_ = top_speed_of(*without_limit.subgraph);
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

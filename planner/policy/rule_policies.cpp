@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-namespace hlc {
+namespace hlc::policy {
 namespace {
 
 /// Times are multiples of a step, which a double does not represent exactly.
@@ -36,8 +36,9 @@ class SituationPolicy final : public Policy {
   explicit SituationPolicy(SituationPolicySettings settings) : settings_(std::move(settings)) {}
 
   std::optional<SubgraphRequest> propose(const PolicyView& view) override {
-    const Report* last = view.last;
-    if (last != nullptr && (!last->coupled.empty() || last->status == StepStatus::kFallback)) {
+    const coordination::Report* last = view.last;
+    if (last != nullptr &&
+        (!last->coupled.empty() || last->status == coordination::StepStatus::kFallback)) {
       last_conflict_s_ = view.time_s;
     }
     const bool is_over = view.time_s - last_conflict_s_ > settings_.after_conflict_s + kRounding_s;
@@ -84,4 +85,4 @@ std::unique_ptr<Policy> make_policy_of(const BatteryPolicySettings& settings) {
   return std::make_unique<BatteryPolicy>(settings);
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

@@ -4,7 +4,7 @@
 
 #include "planner/policy/policy.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 /// Policies that need nothing but the view; they are specified at their settings.
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const TimePolicySettings& settings);
@@ -12,4 +12,4 @@ namespace hlc {
 /// An unknown battery voltage counts as unchanged.
 [[nodiscard]] std::unique_ptr<Policy> make_policy_of(const BatteryPolicySettings& settings);
 
-}  // namespace hlc
+}  // namespace hlc::policy

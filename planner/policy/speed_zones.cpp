@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::policy {
 namespace {
 
 constexpr double kInterval_m = 0.01;
@@ -32,7 +32,7 @@ std::optional<double> limit_at(std::span<const SpeedZone> zones, const Point& po
   return limit;
 }
 
-std::optional<double> limit_on(std::span<const SpeedZone> zones, const ReferencePath& path,
+std::optional<double> limit_on(std::span<const SpeedZone> zones, const road::ReferencePath& path,
                                double s_m, double ahead_m) {
   std::optional<double> limit;
   if (zones.empty()) return limit;
@@ -44,4 +44,4 @@ std::optional<double> limit_on(std::span<const SpeedZone> zones, const Reference
   return limit;
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

@@ -7,7 +7,7 @@
 #include "planner/policy/policy_settings.hpp"
 #include "planner/road/reference_path.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 /// The limits of all zones, each once, from the lowest.
 [[nodiscard]] std::vector<double> limits_mps(std::span<const SpeedZone> zones);
@@ -20,6 +20,7 @@ namespace hlc {
 /// none. The path is checked every centimetre.
 /// @pre ahead_m >= 0
 [[nodiscard]] std::optional<double> limit_on(std::span<const SpeedZone> zones,
-                                             const ReferencePath& path, double s_m, double ahead_m);
+                                             const road::ReferencePath& path, double s_m,
+                                             double ahead_m);
 
-}  // namespace hlc
+}  // namespace hlc::policy

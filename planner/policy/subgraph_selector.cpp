@@ -6,7 +6,7 @@
 #include "planner/policy/policy_check.hpp"
 #include "planner/policy/speed_zones.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 namespace {
 
 /// Times are multiples of a step, which a double does not represent exactly.
@@ -16,14 +16,14 @@ constexpr std::size_t kStepsUntilItSlowsDown = 3;
 
 }  // namespace
 
-SubgraphSelector::SubgraphSelector(const Controller& controller,
+SubgraphSelector::SubgraphSelector(const controller::Controller& controller,
                                    const ReconfigurationSettings& settings)
     : base_(controller.prepared_subgraph()),
       zones_(settings.zones),
-      limits_mps_(hlc::limits_mps(zones_)),
+      limits_mps_(policy::limits_mps(zones_)),
       step_s_(base_.subgraph->automaton().step_s),
       min_stay_s_(settings.min_stay_s) {
-  const ControllerOptions& options = controller.options();
+  const controller::ControllerOptions& options = controller.options();
   for (const SubgraphRequest& request : requests_of(settings)) {
     choices_.emplace_back(request, PreparedChoice(base_, request, limits_mps_,
                                                   options.horizon_steps, options.search));
@@ -49,7 +49,7 @@ const PreparedChoice& SubgraphSelector::prepared(const SubgraphRequest& request)
   return found->second;
 }
 
-std::optional<double> SubgraphSelector::limit_for(const Controller& controller,
+std::optional<double> SubgraphSelector::limit_for(const controller::Controller& controller,
                                                   StepIndex step) const {
   if (zones_.empty() || !controller.has_plan()) return std::nullopt;
   const std::optional<double> s_m =
@@ -82,11 +82,11 @@ void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
   proposed_since_ = step;
 }
 
-bool SubgraphSelector::begin_step(Controller& controller, StepIndex step,
+bool SubgraphSelector::begin_step(controller::Controller& controller, StepIndex step,
                                   std::optional<StepIndex> start, std::optional<double> battery_v) {
   if (start) let_policies_choose(step, *start, battery_v);
   const PreparedChoice& choice = operator_ ? *operator_ : prepared(proposed_);
-  const PreparedSubgraph& next = choice.under(limit_for(controller, step));
+  const controller::PreparedSubgraph& next = choice.under(limit_for(controller, step));
   if (next.subgraph == controller.prepared_subgraph().subgraph) return false;
   controller.switch_to(next);
   return true;
@@ -96,12 +96,13 @@ bool SubgraphSelector::looks_ahead() const {
   return !operator_ && std::ranges::any_of(policies_, &Policy::looks_ahead);
 }
 
-void SubgraphSelector::end_step(const Controller& controller, const Report& report,
-                                bool may_look_ahead) {
+void SubgraphSelector::end_step(const controller::Controller& controller,
+                                const coordination::Report& report, bool may_look_ahead) {
   last_ = report;
   if (operator_ || !may_look_ahead) return;
-  const auto limited = [this](const SubgraphRequest& request,
-                              const Controller& one) -> const PreparedSubgraph& {
+  const auto limited =
+      [this](const SubgraphRequest& request,
+             const controller::Controller& one) -> const controller::PreparedSubgraph& {
     return prepared(request).under(limit_for(one, {one.last_step().value + 1}));
   };
   for (std::size_t i = 0; i < policies_.size(); ++i) {
@@ -109,4 +110,4 @@ void SubgraphSelector::end_step(const Controller& controller, const Report& repo
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::policy

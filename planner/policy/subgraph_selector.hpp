@@ -11,7 +11,7 @@
 #include "planner/policy/policy_settings.hpp"
 #include "planner/policy/prepared_choice.hpp"
 
-namespace hlc {
+namespace hlc::policy {
 
 /// Decides before every step which subgraph a vehicle's controller plans on, and switches it. In
 /// this order:
@@ -38,10 +38,11 @@ class SubgraphSelector {
  public:
   /// @param controller  on the scenario's own subgraph
   /// @pre check_reconfiguration throws nothing
-  SubgraphSelector(const Controller& controller, const ReconfigurationSettings& settings);
+  SubgraphSelector(const controller::Controller& controller,
+                   const ReconfigurationSettings& settings);
 
   /// The scenario's own subgraph and the limits: base of the preparation of an operator's request.
-  [[nodiscard]] const PreparedSubgraph& base() const { return base_; }
+  [[nodiscard]] const controller::PreparedSubgraph& base() const { return base_; }
   [[nodiscard]] const std::vector<double>& limits_mps() const { return limits_mps_; }
   /// How far ahead zones are searched; never decreases.
   [[nodiscard]] double zone_ahead_m() const { return zone_ahead_m_; }
@@ -54,24 +55,26 @@ class SubgraphSelector {
   /// @param start  the experiment's first step, from which time counts; none: not begun, policies
   /// are not called yet
   /// @return true if the controller was switched
-  bool begin_step(Controller& controller, StepIndex step, std::optional<StepIndex> start,
-                  std::optional<double> battery_v);
+  bool begin_step(controller::Controller& controller, StepIndex step,
+                  std::optional<StepIndex> start, std::optional<double> battery_v);
 
   /// True if policies look ahead after the next step.
   [[nodiscard]] bool looks_ahead() const;
   /// To be called after a step, when its messages and command are published.
   /// @param may_look_ahead  false: there is no time for policies to look ahead
-  void end_step(const Controller& controller, const Report& report, bool may_look_ahead = true);
+  void end_step(const controller::Controller& controller, const coordination::Report& report,
+                bool may_look_ahead = true);
 
  private:
   static constexpr std::size_t kNoPolicyCounts = static_cast<std::size_t>(-1);
 
   [[nodiscard]] const PreparedChoice& prepared(const SubgraphRequest& request) const;
-  [[nodiscard]] std::optional<double> limit_for(const Controller& controller, StepIndex step) const;
+  [[nodiscard]] std::optional<double> limit_for(const controller::Controller& controller,
+                                                StepIndex step) const;
   void see_zones_for(const PreparedChoice& choice);
   void let_policies_choose(StepIndex step, StepIndex start, std::optional<double> battery_v);
 
-  PreparedSubgraph base_;
+  controller::PreparedSubgraph base_;
   std::vector<SpeedZone> zones_;
   std::vector<double> limits_mps_;
   double zone_ahead_m_{};
@@ -81,11 +84,11 @@ class SubgraphSelector {
   std::vector<std::pair<SubgraphRequest, PreparedChoice>> choices_;
 
   std::shared_ptr<const PreparedChoice> operator_;
-  std::optional<Report> last_;
+  std::optional<coordination::Report> last_;
   SubgraphRequest proposed_;                  ///< by the policies
   std::size_t proposed_by_{kNoPolicyCounts};  ///< index of the proposing policy
   std::optional<StepIndex> proposed_since_;   ///< none: the policies have not changed it yet
   std::size_t counts_{kNoPolicyCounts};       ///< the first with an opinion in the last step
 };
 
-}  // namespace hlc
+}  // namespace hlc::policy

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace hlc {
+namespace hlc::road {
 
 CommonRoadWriter::CommonRoadWriter(const CommonRoadHead& head) {
   PushDeclaration("xml version=\"1.0\" encoding=\"UTF-8\"");
@@ -89,4 +89,4 @@ void CommonRoadWriter::add_adjacent(const char* name,
   close();
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

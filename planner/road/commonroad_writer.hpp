@@ -6,7 +6,7 @@
 
 #include "planner/road/lanelet_map.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// Metadata of a CommonRoad file.
 struct CommonRoadHead {
@@ -45,4 +45,4 @@ class CommonRoadWriter : private tinyxml2::XMLPrinter {
   void add_adjacent(const char* name, const std::optional<Lanelet::Adjacent>& adjacent);
 };
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 /// Points closer than this coincide [m]; far smaller than any gap for a footprint.
@@ -76,4 +76,4 @@ std::vector<Segment> Corridor::boundary_m(double from_s_m, double to_s_m) const 
   return boundary;
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -5,7 +5,7 @@
 
 #include "planner/geometry/polygon.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 enum class Side { kLeft, kRight };
 
@@ -17,8 +17,8 @@ class Corridor {
  public:
   struct Piece {
     Segment segment;
-    double
-        from_s_m{};   ///< may be below 0 or above the route's length: s is meant modulo the length
+    /// May be below 0 or above the route's length: s is meant modulo the length
+    double from_s_m{};
     double to_s_m{};  ///< >= from_s_m
   };
 
@@ -68,4 +68,4 @@ class Corridor {
   Box ground_m_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::road

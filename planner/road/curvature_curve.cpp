@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 constexpr double kMaxStep_m = 0.005;
 }
@@ -55,4 +55,4 @@ Pose CurvatureCurve::after_knot(std::size_t i, double distance_m) const {
   return {.x_m = position.x(), .y_m = position.y(), .heading_rad = heading(distance_m)};
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

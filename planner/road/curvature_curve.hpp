@@ -4,7 +4,7 @@
 
 #include "planner/geometry/pose.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// A curve given by its curvature kappa(s), piecewise linear in the arc length s between knots:
 ///
@@ -37,4 +37,4 @@ class CurvatureCurve {
   std::vector<Pose> poses_;  ///< at the knots
 };
 
-}  // namespace hlc
+}  // namespace hlc::road

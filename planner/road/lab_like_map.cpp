@@ -9,7 +9,7 @@
 
 #include "planner/road/curvature_curve.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 using Knots = std::vector<CurvatureCurve::Knot>;
@@ -243,4 +243,4 @@ RoadNetwork lab_like_map() {
   return network;
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

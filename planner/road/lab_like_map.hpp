@@ -5,7 +5,7 @@
 
 #include "planner/road/lanelet_map.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// A circuit of a map, by name.
 struct NamedRoute {
@@ -33,4 +33,4 @@ struct RoadNetwork {
 /// bound. The same on every call.
 [[nodiscard]] RoadNetwork lab_like_map();
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -13,7 +13,7 @@
 #include "planner/common/text_file.hpp"
 #include "planner/road/commonroad_writer.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 using tinyxml2::XMLElement;
@@ -238,4 +238,4 @@ void write_lanelet_map(const LaneletMap& map, const std::filesystem::path& file)
   write_file(file, to_commonroad_xml(map));
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

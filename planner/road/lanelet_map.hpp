@@ -9,7 +9,7 @@
 
 #include "planner/geometry/polygon.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// Number of a lanelet in its file, at least 1.
 using LaneletId = int;
@@ -67,4 +67,4 @@ struct LaneletMap {
 /// @throws std::runtime_error if the file cannot be written
 void write_lanelet_map(const LaneletMap& map, const std::filesystem::path& file);
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 constexpr double kSlack_m = 0.1;
@@ -50,4 +50,4 @@ std::optional<double> lap_s(const ReferencePath& path, const Progress& progress,
   return std::nullopt;
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -7,7 +7,7 @@
 
 #include "planner/road/reference_path.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// A sequence of positions relative to a path.
 struct Progress {
@@ -35,4 +35,4 @@ struct Progress {
 /// plans; its first plan is driven from step 1 on.
 inline constexpr std::size_t kFirstStepDriven = 1;
 
-}  // namespace hlc
+}  // namespace hlc::road

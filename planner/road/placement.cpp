@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -186,4 +186,4 @@ Corridor widened(const DrivableRoute& route, const Widening& widening) {
   return {std::move(bounds), corridor.route_length_m(), ground};
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -6,7 +6,7 @@
 #include "planner/road/corridor.hpp"
 #include "planner/road/reference_path.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// A route that a vehicle may take: its path and drivable area.
 struct DrivableRoute {
@@ -66,4 +66,4 @@ struct Widening {
 /// contains the corridor, is closed like it and lies on the map where the corridor does.
 [[nodiscard]] Corridor widened(const DrivableRoute& route, const Widening& widening);
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 /// Above the rounding of a distance.
@@ -122,4 +122,4 @@ ReferencePath::Projection ReferencePath::project_within(const Point& point_m, do
   return best;
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -5,7 +5,7 @@
 
 #include "planner/geometry/pose.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// A polyline, parametrised by arc length s [m]; closed paths continue at s = length with s = 0.
 class ReferencePath {
@@ -51,4 +51,4 @@ class ReferencePath {
   std::vector<double> s_m_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::road

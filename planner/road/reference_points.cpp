@@ -2,7 +2,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 std::vector<double> half_speed_last(double /*current_speed_mps*/, double reference_speed_mps,
                                     std::size_t horizon_steps) {
@@ -33,4 +33,4 @@ Reference reference_points(const ReferencePath& path, double start_s_m, double c
   return reference;
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -5,7 +5,7 @@
 
 #include "planner/road/reference_path.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// Spacing of a plan's reference points: the speed of each of the `horizon_steps` steps [m/s]. A
 /// rule is one function; the profile chooses it.
@@ -37,4 +37,4 @@ struct Reference {
                                          std::size_t horizon_steps, double step_s,
                                          ReferenceRule rule);
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 /// Points closer than this coincide [m]; far smaller than any gap for a footprint.
@@ -159,4 +159,4 @@ Route build_route(const LaneletMap& map, const std::vector<LaneletId>& lanelets,
   return route;
 }
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -6,7 +6,7 @@
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/reference_path.hpp"
 
-namespace hlc {
+namespace hlc::road {
 
 /// The route of one vehicle: its path and drivable area.
 struct Route {
@@ -39,4 +39,4 @@ inline constexpr double kMaxJointGap_m = 0.005;
 [[nodiscard]] Route build_route(const LaneletMap& map, const std::vector<LaneletId>& lanelets,
                                 bool closed);
 
-}  // namespace hlc
+}  // namespace hlc::road

@@ -9,7 +9,7 @@
 #include "planner/policy/subgraph_selector.hpp"
 #include "planner/scenario/scenario.hpp"
 
-namespace hlc {
+namespace hlc::rollout {
 
 /// Controllers stepped together, each with a vehicle that follows its plan perfectly: planning and
 /// coordination only, for look-ahead, campaigns and tests.
@@ -17,38 +17,41 @@ class Rollout {
  public:
   /// @param controllers  one per vehicle, any order
   /// @param starts       planned pose of each at the start, standing
-  Rollout(std::vector<std::unique_ptr<Controller>> controllers, const std::vector<Pose>& starts);
+  Rollout(std::vector<std::unique_ptr<controller::Controller>> controllers,
+          const std::vector<Pose>& starts);
 
   /// From the next step on every controller follows these zones and policies, and must not be
   /// switched otherwise. No battery is measured. @pre all are on the subgraphs of their scenario
-  void choose_by(const ReconfigurationSettings& settings);
+  void choose_by(const policy::ReconfigurationSettings& settings);
 
   /// An independent copy of the vehicles in the same state; loses no messages, and stays on the
   /// current subgraphs.
   [[nodiscard]] Rollout clone() const;
 
   /// Messages for which this is true are lost. None by default.
-  void lose(std::function<bool(const Delivery&)> is_lost) { rules_.is_lost = std::move(is_lost); }
+  void lose(std::function<bool(const controller::Delivery&)> is_lost) {
+    rules_.is_lost = std::move(is_lost);
+  }
 
   /// One control step of all vehicles; reports in the order of priorities.
-  std::vector<Report> step();
+  std::vector<coordination::Report> step();
 
   [[nodiscard]] StepIndex next_step() const { return next_step_; }
-  [[nodiscard]] const std::vector<std::unique_ptr<Controller>>& controllers() const {
+  [[nodiscard]] const std::vector<std::unique_ptr<controller::Controller>>& controllers() const {
     return controllers_;
   }
 
  private:
   Rollout() = default;
-  [[nodiscard]] std::vector<MeasuredVehicle> measure(StepIndex step) const;
+  [[nodiscard]] std::vector<coordination::MeasuredVehicle> measure(StepIndex step) const;
 
-  std::vector<std::unique_ptr<Controller>> controllers_;
-  std::vector<SubgraphSelector> choices_;  ///< in the order of the controllers, or none
-  JointStepRules rules_;
+  std::vector<std::unique_ptr<controller::Controller>> controllers_;
+  std::vector<policy::SubgraphSelector> choices_;  ///< in the order of the controllers, or none
+  controller::JointStepRules rules_;
   StepIndex next_step_{0};
 };
 
 /// All vehicles of the scenario, standing at their starts, with its policy, if it has one.
-[[nodiscard]] Rollout make_rollout(const Scenario& scenario);
+[[nodiscard]] Rollout make_rollout(const scenario::Scenario& scenario);
 
-}  // namespace hlc
+}  // namespace hlc::rollout

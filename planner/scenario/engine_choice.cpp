@@ -6,26 +6,27 @@
 #include "planner/search/ompl/ompl_engine.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 constexpr std::string_view kThroughOmpl = "ompl_";
 
 }  // namespace
 
-void choose_engine(const std::string& name, SearchOptions& search) {
+void choose_engine(const std::string& name, search::SearchOptions& search) {
   const bool is_through_ompl = name.starts_with(kThroughOmpl);
   try {
-    search.engine = engine_from_name(is_through_ompl ? name.substr(kThroughOmpl.size()) : name);
+    search.engine =
+        search::engine_from_name(is_through_ompl ? name.substr(kThroughOmpl.size()) : name);
   } catch (const std::invalid_argument&) {
     throw std::invalid_argument("engine = " + name + ", must be one of " + kEngineChoices);
   }
-  search.factory = is_through_ompl ? make_ompl_engine : nullptr;
+  search.factory = is_through_ompl ? search::make_ompl_engine : nullptr;
 }
 
-std::string engine_name(const SearchOptions& search) {
-  const std::string name = to_string(search.engine);
-  return search.factory == make_ompl_engine ? std::string(kThroughOmpl) + name : name;
+std::string engine_name(const search::SearchOptions& search) {
+  const std::string name = search::to_string(search.engine);
+  return search.factory == search::make_ompl_engine ? std::string(kThroughOmpl) + name : name;
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -4,7 +4,7 @@
 
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// The names of the engines in scenarios, problem files and command lines.
 ///
@@ -19,10 +19,10 @@ inline constexpr char kEngineChoices[] =
 
 /// Sets `engine` and `factory`.
 /// @throws std::invalid_argument, "engine = NAME, must be ...", for any other name
-void choose_engine(const std::string& name, SearchOptions& search);
+void choose_engine(const std::string& name, search::SearchOptions& search);
 
 /// The name for which `choose_engine` gives these options; with another factory the name of
 /// `engine`.
-[[nodiscard]] std::string engine_name(const SearchOptions& search);
+[[nodiscard]] std::string engine_name(const search::SearchOptions& search);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -5,11 +5,11 @@
 #include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
-LabLimits read_lab(const std::filesystem::path& file, double step_s) {
+vehicle::LabLimits read_lab(const std::filesystem::path& file, double step_s) {
   const Node node = Node::read_yaml(file);
-  LabLimits lab;
+  vehicle::LabLimits lab;
   lab.curvature_min_per_m = node.required<double>("curvature_min_per_m", between(-1e4, 0.0));
   lab.curvature_max_per_m = node.required<double>("curvature_max_per_m", between(0.0, 1e4));
   lab.acceleration_max_mps2 = node.required<double>("acceleration_max_mps2", above(0.0, 1e4));
@@ -31,4 +31,4 @@ LabLimits read_lab(const std::filesystem::path& file, double step_s) {
   return lab;
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

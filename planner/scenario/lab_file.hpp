@@ -4,12 +4,12 @@
 
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// Reads the limits and the area of a lab's vehicles (launch_scripts/labs/*.yaml): all members of
 /// LabLimits, the coordinates in a map `area`.
 /// @param step_s  of the automaton: a multiple of point_interval_s
 /// @throws std::invalid_argument with one line: file, line, key, value, bound
-[[nodiscard]] LabLimits read_lab(const std::filesystem::path& file, double step_s);
+[[nodiscard]] vehicle::LabLimits read_lab(const std::filesystem::path& file, double step_s);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -13,7 +13,7 @@
 #include "planner/policy/policy_check.hpp"
 #include "planner/scenario/search_values.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 constexpr double kLongest_s = 86'400.0;
@@ -51,8 +51,8 @@ std::pair<double, double> read_range(const Node& node, const std::string& key) {
   return {from, to};
 }
 
-SpeedZone read_zone(const Node& node) {
-  SpeedZone zone;
+policy::SpeedZone read_zone(const Node& node) {
+  policy::SpeedZone zone;
   std::tie(zone.min_x_m, zone.max_x_m) = read_range(node, "x_m");
   std::tie(zone.min_y_m, zone.max_y_m) = read_range(node, "y_m");
   zone.max_speed_mps = node.required<double>("max_speed_mps", above(0.0));
@@ -60,8 +60,8 @@ SpeedZone read_zone(const Node& node) {
   return zone;
 }
 
-TimePolicySettings read_time(const Node& rule) {
-  TimePolicySettings settings;
+policy::TimePolicySettings read_time(const Node& rule) {
+  policy::TimePolicySettings settings;
   double last_s = 0.0;
   for (const Node& node : rule.list("time")) {
     const bool is_first = settings.changes.empty();
@@ -75,19 +75,19 @@ TimePolicySettings read_time(const Node& rule) {
   return settings;
 }
 
-SituationPolicySettings read_situation(const Node& rule) {
+policy::SituationPolicySettings read_situation(const Node& rule) {
   const Node node = rule.map("situation");
-  SituationPolicySettings settings{.open_road = read_request(node.map("open_road")),
-                                   .conflict = read_request(node.map("conflict"))};
+  policy::SituationPolicySettings settings{.open_road = read_request(node.map("open_road")),
+                                           .conflict = read_request(node.map("conflict"))};
   settings.after_conflict_s = node.optional<double>("after_conflict_s", settings.after_conflict_s,
                                                     between(0.0, kLongest_s));
   node.check_no_unknown_keys();
   return settings;
 }
 
-BatteryPolicySettings read_battery(const Node& rule) {
+policy::BatteryPolicySettings read_battery(const Node& rule) {
   const Node node = rule.map("battery");
-  BatteryPolicySettings settings;
+  policy::BatteryPolicySettings settings;
   settings.below_v = node.required<double>("below_v", above(0.0, kMostVolts));
   settings.back_above_v = node.optional<double>("back_above_v", settings.below_v,
                                                 between(settings.below_v, kMostVolts));
@@ -96,9 +96,9 @@ BatteryPolicySettings read_battery(const Node& rule) {
   return settings;
 }
 
-LookAheadSettings read_look_ahead(const Node& rule) {
+policy::LookAheadSettings read_look_ahead(const Node& rule) {
   const Node node = rule.map("look_ahead");
-  LookAheadSettings settings;
+  policy::LookAheadSettings settings;
   for (const Node& candidate : node.list("candidates")) {
     settings.candidates.push_back(read_request(candidate));
   }
@@ -110,18 +110,18 @@ LookAheadSettings read_look_ahead(const Node& rule) {
   settings.criterion_weights = read_criterion_weights(node);
   settings.least_gain =
       node.optional<double>("least_gain", settings.least_gain, between(0.0, 0.99));
-  const std::size_t most = kMostLookAheadExpansions / (candidates * settings.steps);
+  const std::size_t most = policy::kMostLookAheadExpansions / (candidates * settings.steps);
   settings.max_expansions = node.required<std::size_t>("max_expansions", at_least(1.0));
   if (settings.max_expansions > most) {
     node.fail("max_expansions",
               fmt::format("in 1 ... {}: with {} candidates over {} steps {} in all", most,
-                          candidates, settings.steps, kMostLookAheadExpansions));
+                          candidates, settings.steps, policy::kMostLookAheadExpansions));
   }
   node.check_no_unknown_keys();
   return settings;
 }
 
-PolicySettings read_rule(const Node& node) {
+policy::PolicySettings read_rule(const Node& node) {
   const std::vector<std::string> keys = node.keys();
   if (keys.size() == 1) {
     const std::string& kind = keys.front();
@@ -133,8 +133,8 @@ PolicySettings read_rule(const Node& node) {
   node.fail("a map of one key: time, situation, battery or look_ahead");
 }
 
-ReconfigurationSettings read_policy(const Node& node) {
-  ReconfigurationSettings settings;
+policy::ReconfigurationSettings read_policy(const Node& node) {
+  policy::ReconfigurationSettings settings;
   for (const Node& zone : node.optional_list("zones")) {
     settings.zones.push_back(read_zone(zone));
   }
@@ -152,11 +152,11 @@ ReconfigurationSettings read_policy(const Node& node) {
 
 }  // namespace
 
-std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenario) {
-  std::map<std::string, ReconfigurationSettings> policies;
+std::map<std::string, policy::ReconfigurationSettings> read_policies(const Node& scenario) {
+  std::map<std::string, policy::ReconfigurationSettings> policies;
   const Node node = scenario.optional_map("policies");
   for (const std::string& name : node.keys()) {
-    if (name == kNoPolicy) {
+    if (name == policy::kNoPolicy) {
       throw std::invalid_argument(scenario.place("policies") + ": policy '" + name +
                                   "', must be another name: it means no policy");
     }
@@ -166,13 +166,13 @@ std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenari
 }
 
 void check_policy(const Node& scenario, const std::string& name,
-                  const ReconfigurationSettings& settings, const Subgraph& base,
-                  std::size_t horizon_steps, const std::optional<LabLimits>& lab) {
+                  const policy::ReconfigurationSettings& settings, const automaton::Subgraph& base,
+                  std::size_t horizon_steps, const std::optional<vehicle::LabLimits>& lab) {
   try {
-    check_reconfiguration(base, settings, horizon_steps, lab);
+    policy::check_reconfiguration(base, settings, horizon_steps, lab);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scenario.map("policies").place(name) + ": " + error.what());
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -10,7 +10,7 @@
 #include "planner/policy/policy_settings.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// Reads the map `policies` of a scenario, by name. Each entry (specified in planner/policy):
 ///
@@ -31,13 +31,14 @@ namespace hlc {
 ///     trims_on, trims_off   lists of numbers from 1
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
-[[nodiscard]] std::map<std::string, ReconfigurationSettings> read_policies(const Node& scenario);
+[[nodiscard]] std::map<std::string, policy::ReconfigurationSettings> read_policies(
+    const Node& scenario);
 
 /// Tries every request of the policy, and the limit of every zone (check_reconfiguration).
 /// @throws std::invalid_argument with one line: the place of the policies, its name and why one of
 /// its requests is infeasible
 void check_policy(const Node& scenario, const std::string& name,
-                  const ReconfigurationSettings& settings, const Subgraph& base,
-                  std::size_t horizon_steps, const std::optional<LabLimits>& lab);
+                  const policy::ReconfigurationSettings& settings, const automaton::Subgraph& base,
+                  std::size_t horizon_steps, const std::optional<vehicle::LabLimits>& lab);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

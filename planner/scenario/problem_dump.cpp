@@ -11,10 +11,10 @@
 
 #include "planner/scenario/problem_file.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file,
-                         SubgraphSpec declared)
+                         automaton::SubgraphSpec declared)
     : folder_(std::move(folder)),
       automaton_file_(std::filesystem::absolute(automaton_file).lexically_normal()),
       declared_(std::move(declared)) {
@@ -26,16 +26,16 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
   }
 }
 
-void ProblemDump::write(const Controller& controller) const {
-  const ControllerOptions& options = controller.options();
+void ProblemDump::write(const controller::Controller& controller) const {
+  const controller::ControllerOptions& options = controller.options();
   if (controller.subgraph().spec() != declared_) {
     throw std::runtime_error(
         fmt::format("problems on subgraph '{}' cannot be written: {} does not declare it",
                     controller.subgraph().spec().name, automaton_file_.string()));
   }
-  const auto write_all = [&](std::span<const HorizonProblem> problems, const char* what) {
+  const auto write_all = [&](std::span<const search::HorizonProblem> problems, const char* what) {
     std::size_t number = 0;
-    for (const HorizonProblem& problem : problems) {
+    for (const search::HorizonProblem& problem : problems) {
       const std::string name =
           fmt::format("vehicle_{}_step_{:010}_{}_{}.json", options.vehicle.value,
                       controller.last_step().value, what, ++number);
@@ -50,4 +50,4 @@ void ProblemDump::write(const Controller& controller) const {
   write_all(controller.problems(), "search");
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

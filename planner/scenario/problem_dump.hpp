@@ -4,7 +4,7 @@
 
 #include "planner/controller/controller.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// Writes the planning problems of a controller, one file each (problem_file.hpp), so that every
 /// planning step can be replayed alone.
@@ -22,17 +22,17 @@ class ProblemDump {
   /// @param declared        the subgraph of that file which is planned on
   /// @throws std::invalid_argument if the folder cannot be made or is not writable
   ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file,
-              SubgraphSpec declared);
+              automaton::SubgraphSpec declared);
 
   /// The problems of the controller's last step. Reads the controller only.
   /// @throws std::runtime_error naming the file if it cannot be written, or the subgraph if another
   /// one was requested meanwhile: a problem can only name one that the automaton's file declares
-  void write(const Controller& controller) const;
+  void write(const controller::Controller& controller) const;
 
  private:
   std::filesystem::path folder_;
   std::filesystem::path automaton_file_;
-  SubgraphSpec declared_;
+  automaton::SubgraphSpec declared_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::scenario

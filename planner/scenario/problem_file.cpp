@@ -16,7 +16,7 @@
 #include "planner/scenario/search_values.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 /// A vertex of a polygon may lie this far inside the line of its neighbours: rounding.
@@ -56,9 +56,10 @@ std::string quoted(const std::string& text) { return nlohmann::json(text).dump()
 
 // ---- reading
 
-const Allowed kCoordinates = between(-HorizonProblem::kLargest_m, HorizonProblem::kLargest_m);
-const Allowed kHeadings =
-    between(-HorizonProblem::kLargestHeading_rad, HorizonProblem::kLargestHeading_rad);
+const Allowed kCoordinates =
+    between(-search::HorizonProblem::kLargest_m, search::HorizonProblem::kLargest_m);
+const Allowed kHeadings = between(-search::HorizonProblem::kLargestHeading_rad,
+                                  search::HorizonProblem::kLargestHeading_rad);
 
 Point read_point(const Node& node) {
   const auto xy = node.entries(2, "[x, y]");
@@ -128,12 +129,13 @@ Segment read_segment(const Node& node) {
   return {read_point(ends[0]), read_point(ends[1])};
 }
 
-TrimId read_trim(const Node& node, const Subgraph& subgraph) {
+TrimId read_trim(const Node& node, const automaton::Subgraph& subgraph) {
   const auto trims = static_cast<double>(subgraph.automaton().trims.size());
   return {node.required<std::size_t>("trim", between(1.0, trims)) - 1};
 }
 
-void read_start(const Node& node, const Subgraph& subgraph, HorizonProblem& problem) {
+void read_start(const Node& node, const automaton::Subgraph& subgraph,
+                search::HorizonProblem& problem) {
   node.check_keys({"x", "y", "psi", "trim"});
   problem.start.x_m = node.required<double>("x", kCoordinates);
   problem.start.y_m = node.required<double>("y", kCoordinates);
@@ -142,15 +144,16 @@ void read_start(const Node& node, const Subgraph& subgraph, HorizonProblem& prob
 }
 
 /// A maneuver of the whole automaton: a plan in force may hold disabled ones.
-std::vector<const Maneuver*> read_incumbent(const Node& root, const Subgraph& subgraph,
-                                            const HorizonProblem& problem) {
-  std::vector<const Maneuver*> incumbent;
+std::vector<const automaton::Maneuver*> read_incumbent(const Node& root,
+                                                       const automaton::Subgraph& subgraph,
+                                                       const search::HorizonProblem& problem) {
+  std::vector<const automaton::Maneuver*> incumbent;
   TrimId from = problem.start_trim;
   for (const Node& entry :
        root.optional_list("incumbent", problem.horizon_steps(), "one {trim, label} per step")) {
     entry.check_keys({"trim", "label"});
     const TrimId to = read_trim(entry, subgraph);
-    const Maneuver* maneuver =
+    const automaton::Maneuver* maneuver =
         subgraph.automaton().find(from, to, entry.required<std::string>("label"));
     if (maneuver == nullptr) {
       entry.fail(fmt::format("a maneuver of the automaton from trim {}", from.index + 1));
@@ -161,7 +164,7 @@ std::vector<const Maneuver*> read_incumbent(const Node& root, const Subgraph& su
   return incumbent;
 }
 
-std::string weights_text(const std::vector<PlanningWeight>& weights) {
+std::string weights_text(const std::vector<search::PlanningWeight>& weights) {
   std::string text;
   for (const auto& [criterion, weight_m2] : weights) {
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", quoted(criterion),
@@ -170,12 +173,13 @@ std::string weights_text(const std::vector<PlanningWeight>& weights) {
   return "{" + text + "}";
 }
 
-SearchOptions read_search(const Node& node, const Subgraph& subgraph) {
+search::SearchOptions read_search(const Node& node, const automaton::Subgraph& subgraph) {
   node.check_keys({"engine", "cost_to_go", "max_expansions", "criterion_weights"});
-  SearchOptions search;
+  search::SearchOptions search;
   if (const auto engine = read_engine(node)) choose_engine(*engine, search);
   if (node.has("cost_to_go")) {
-    search.cost_to_go = read_named(node, "cost_to_go", cost_to_go_from_name, kCostToGoNames);
+    search.cost_to_go =
+        read_named(node, "cost_to_go", search::cost_to_go_from_name, search::kCostToGoNames);
   }
   search.max_expansions = read_max_expansions(node);
   search.criterion_weights = read_criterion_weights(node);
@@ -183,8 +187,8 @@ SearchOptions read_search(const Node& node, const Subgraph& subgraph) {
   return search;
 }
 
-HorizonProblem read_problem(const Node& root, const Subgraph& subgraph) {
-  HorizonProblem problem;
+search::HorizonProblem read_problem(const Node& root, const automaton::Subgraph& subgraph) {
+  search::HorizonProblem problem;
   const auto n = root.required<std::size_t>("horizon_steps", between(1.0, kMaxProblemSteps));
   const std::string per_step = fmt::format("one per step, {} of them (horizon_steps)", n);
   const double step_s = subgraph.automaton().step_s;
@@ -225,7 +229,7 @@ std::filesystem::path automaton_of(const Node& root, const std::filesystem::path
 }
 
 ProblemFile read_rest(const Node& root, std::filesystem::path automaton_file,
-                      std::shared_ptr<const Subgraph> subgraph) {
+                      std::shared_ptr<const automaton::Subgraph> subgraph) {
   ProblemFile file;
   file.automaton_file = std::move(automaton_file);
   file.subgraph = std::move(subgraph);
@@ -237,7 +241,7 @@ ProblemFile read_rest(const Node& root, std::filesystem::path automaton_file,
 }  // namespace
 
 std::string to_text(const ProblemFile& file) {
-  const HorizonProblem& problem = file.problem;
+  const search::HorizonProblem& problem = file.problem;
   std::string text = "{";
   const auto add = [&text](const char* key, const std::string& value) {
     text += (text.size() == 1 ? "\n  \"" : ",\n  \"") + std::string(key) + "\": " + value;
@@ -263,7 +267,7 @@ std::string to_text(const ProblemFile& file) {
   }
   if (problem.avoids_steering_limit) add("avoids_steering_limit", "true");
   if (!problem.incumbent.empty()) {
-    add("incumbent", list(problem.incumbent, ", ", [](const Maneuver* maneuver) {
+    add("incumbent", list(problem.incumbent, ", ", [](const automaton::Maneuver* maneuver) {
           return fmt::format(R"({{"trim": {}, "label": {}}})", maneuver->to.index + 1,
                              quoted(maneuver->label));
         }));
@@ -273,7 +277,7 @@ std::string to_text(const ProblemFile& file) {
           ? ""
           : ", \"criterion_weights\": " + weights_text(file.search.criterion_weights);
   add("search", fmt::format(R"({{"engine": "{}", "cost_to_go": "{}", "max_expansions": {}{}}})",
-                            engine_name(file.search), to_string(file.search.cost_to_go),
+                            engine_name(file.search), search::to_string(file.search.cost_to_go),
                             file.search.max_expansions, weights));
   return text + "\n}\n";
 }
@@ -289,8 +293,9 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
       automaton_file ? *automaton_file : automaton_of(root, path);
   const auto wanted = root.required<std::string>("subgraph");
   bool is_unknown = false;
-  const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
-    const SubgraphSpec* spec = find_subgraph(offered, wanted);
+  const auto choose =
+      [&](const std::vector<automaton::SubgraphSpec>& offered) -> const automaton::SubgraphSpec& {
+    const automaton::SubgraphSpec* spec = find_subgraph(offered, wanted);
     is_unknown = spec == nullptr;
     if (is_unknown) root.fail("subgraph", "one of " + names_of(offered));
     return *spec;
@@ -312,19 +317,20 @@ ProblemFile read_problem_file(const std::filesystem::path& path,
 }
 
 ProblemFile read_problem_file(const std::filesystem::path& path,
-                              std::shared_ptr<const Subgraph> subgraph) {
+                              std::shared_ptr<const automaton::Subgraph> subgraph) {
   const Node root = read_root(path);
   static_cast<void>(root.required<std::string>("subgraph", one_of({subgraph->spec().name})));
   return read_rest(root, automaton_of(root, path), std::move(subgraph));
 }
 
 void check_can_be_searched(const ProblemFile& file) {
-  check_search_options(file.search);
-  if (needs_reference_speeds(file.search.cost_to_go) && file.problem.reference_speed_mps.empty()) {
+  search::check_search_options(file.search);
+  if (search::needs_reference_speeds(file.search.cost_to_go) &&
+      file.problem.reference_speed_mps.empty()) {
     throw std::invalid_argument(
         std::string("reference_speed is missing, must be one per step: the cost-to-go ") +
-        to_string(file.search.cost_to_go) + " needs them");
+        search::to_string(file.search.cost_to_go) + " needs them");
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -9,14 +9,14 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// A single planning problem as in a file: the problem, its subgraph and search options.
 struct ProblemFile {
   std::filesystem::path automaton_file;
-  std::shared_ptr<const Subgraph> subgraph;
-  HorizonProblem problem;
-  SearchOptions search;
+  std::shared_ptr<const automaton::Subgraph> subgraph;
+  search::HorizonProblem problem;
+  search::SearchOptions search;
 };
 
 /// Longest horizon of a file.
@@ -66,10 +66,10 @@ void write_problem_file(const ProblemFile& file, const std::filesystem::path& pa
 /// The same with a given subgraph of the automaton: for programs that read many files. The file's
 /// own `automaton` is not read, its `subgraph` must be this one.
 [[nodiscard]] ProblemFile read_problem_file(const std::filesystem::path& path,
-                                            std::shared_ptr<const Subgraph> subgraph);
+                                            std::shared_ptr<const automaton::Subgraph> subgraph);
 
 /// @throws std::invalid_argument as check_search_options, or if that search needs data that the
 /// problem lacks (reference speeds)
 void check_can_be_searched(const ProblemFile& file);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -2,27 +2,27 @@
 
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::scenario {
 
 Profile profile_from_name(const std::string& name) {
   if (name == "default") {
     return {.name = name,
-            .reference_rule = half_speed_last,
-            .engine = Engine::kBranchAndBound,
-            .cost_to_go = CostToGo::kReachable,
+            .reference_rule = road::half_speed_last,
+            .engine = search::Engine::kBranchAndBound,
+            .cost_to_go = search::CostToGo::kReachable,
             .strategies = {}};
   }
   if (name == "2022") {
     return {.name = name,
-            .reference_rule = half_speed_last,
-            .engine = Engine::kBestFirst,
-            .cost_to_go = CostToGo::kReferenceSpeed,
-            .strategies = {.commit = kAgreedCommit,
-                           .coupled_obstacles = &predictions_and_standing_successors,
-                           .incumbent = &no_incumbent,
+            .reference_rule = road::half_speed_last,
+            .engine = search::Engine::kBestFirst,
+            .cost_to_go = search::CostToGo::kReferenceSpeed,
+            .strategies = {.commit = coordination::kAgreedCommit,
+                           .coupled_obstacles = &controller::predictions_and_standing_successors,
+                           .incumbent = &controller::no_incumbent,
                            .standstill_timeout = nullptr}};
   }
   throw std::invalid_argument("--profile = " + name + ", must be one of default, 2022");
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

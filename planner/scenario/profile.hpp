@@ -6,16 +6,16 @@
 #include "planner/road/reference_points.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// A named set of rules for planning and coordination. A profile is data: no code depends on its
 /// name.
 struct Profile {
   std::string name;
-  ReferenceRule reference_rule{half_speed_last};
-  Engine engine{};
-  CostToGo cost_to_go{};
-  ControllerStrategies strategies{};
+  road::ReferenceRule reference_rule{road::half_speed_last};
+  search::Engine engine{};
+  search::CostToGo cost_to_go{};
+  controller::ControllerStrategies strategies{};
 };
 
 /// |                           | `default`                       | `2022`                       |
@@ -32,4 +32,4 @@ struct Profile {
 /// @throws std::invalid_argument for any other name
 [[nodiscard]] Profile profile_from_name(const std::string& name);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

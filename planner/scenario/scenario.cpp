@@ -11,7 +11,7 @@
 #include "planner/scenario/scenario_inputs.hpp"
 #include "planner/scenario/scenario_values.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 Scenario read_scenario(const ScenarioChoices& choices) {
   const ScenarioValues values = parse_scenario(Node::read_yaml(choices.file), choices.file);
@@ -19,8 +19,8 @@ Scenario read_scenario(const ScenarioChoices& choices) {
 }
 
 Scenario read_scenario(const ScenarioChoices& choices,
-                       std::shared_ptr<const UniversalAutomaton> automaton,
-                       const std::vector<SubgraphSpec>& subgraphs) {
+                       std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+                       const std::vector<automaton::SubgraphSpec>& subgraphs) {
   const ScenarioValues values = parse_scenario(Node::read_yaml(choices.file), choices.file);
   return assemble_scenario(values, load_inputs(values, choices, std::move(automaton), subgraphs),
                            choices);
@@ -43,38 +43,39 @@ const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
                                           fmt::join(known, ", ")));
 }
 
-PreparedSubgraph prepare_subgraph_of(const Scenario& scenario) {
-  return prepare_subgraph(scenario.subgraph, scenario.horizon_steps, scenario.search);
+controller::PreparedSubgraph prepare_subgraph_of(const Scenario& scenario) {
+  return controller::prepare_subgraph(scenario.subgraph, scenario.horizon_steps, scenario.search);
 }
 
-std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id) {
+std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id) {
   return make_controller(scenario, id, prepare_subgraph_of(scenario));
 }
 
-std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id,
-                                            PreparedSubgraph on) {
-  std::vector<DrivableRoute> routes = scenario.routes;
+std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id,
+                                                        controller::PreparedSubgraph on) {
+  std::vector<road::DrivableRoute> routes = scenario.routes;
   const auto named = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (named != scenario.vehicles.end()) {
     routes = {{.name = named->name, .path = named->path, .corridor = named->corridor}};
   }
-  return std::make_unique<Controller>(
-      ControllerOptions{.vehicle = id,
-                        .horizon_steps = scenario.horizon_steps,
-                        .reference_speed_mps = scenario.reference_speed_mps,
-                        .reference_rule = scenario.profile.reference_rule,
-                        .strategies = scenario.profile.strategies,
-                        .search = scenario.search,
-                        .lab = scenario.lab},
+  return std::make_unique<controller::Controller>(
+      controller::ControllerOptions{.vehicle = id,
+                                    .horizon_steps = scenario.horizon_steps,
+                                    .reference_speed_mps = scenario.reference_speed_mps,
+                                    .reference_rule = scenario.profile.reference_rule,
+                                    .strategies = scenario.profile.strategies,
+                                    .search = scenario.search,
+                                    .lab = scenario.lab},
       std::move(on), std::move(routes));
 }
 
 Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle) {
-  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   Pose pose = vehicle.start;
-  pose.heading_rad = wrap_angle(
-      pose.heading_rad + yaw_minus_heading_rad(0.0, automaton.vehicle, automaton.identified));
+  pose.heading_rad =
+      wrap_angle(pose.heading_rad +
+                 automaton::yaw_minus_heading_rad(0.0, automaton.vehicle, automaton.identified));
   return pose;
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -15,16 +15,16 @@
 #include "planner/road/reference_path.hpp"
 #include "planner/scenario/profile.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// One vehicle of a scenario.
 struct ScenarioVehicle {
   VehicleId id;
   std::string name;
-  Pose start;          ///< planned pose at the start, standing
-  double start_s_m{};  ///< arc length of its place on the path
-  ReferencePath path;  ///< closed: a lap can be driven
-  Corridor corridor;
+  Pose start;                ///< planned pose at the start, standing
+  double start_s_m{};        ///< arc length of its place on the path
+  road::ReferencePath path;  ///< closed: a lap can be driven
+  road::Corridor corridor;
 };
 
 /// A run: its vehicles and routes, automaton and rules.
@@ -34,23 +34,24 @@ struct Scenario {
   std::filesystem::path automaton_file;
   std::optional<std::filesystem::path> map_file;  ///< none: open ground without lanes
   std::optional<std::filesystem::path> lab_file;  ///< none: no limits
-  std::optional<LabLimits> lab;
+  std::optional<vehicle::LabLimits> lab;
   std::size_t steps{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
   Profile profile;
-  SearchOptions search;  ///< engine: the command line's, else the file's, else the profile's
+  /// Engine: the command line's, else the file's, else the profile's
+  search::SearchOptions search;
   /// The automaton holds all that its configuration declares: other subgraphs may be requested.
   bool is_reconfigurable{};
   /// The policies of its controllers by name, and the one in force.
-  std::map<std::string, ReconfigurationSettings> policies;
+  std::map<std::string, policy::ReconfigurationSettings> policies;
   std::string policy;  ///< kNoPolicy: none
-  ReconfigurationSettings reconfiguration;
-  std::shared_ptr<const Subgraph> subgraph;
+  policy::ReconfigurationSettings reconfiguration;
+  std::shared_ptr<const automaton::Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
   /// For vehicles that the scenario does not name: its routes by name, or on a circle those of its
   /// cars.
-  std::vector<DrivableRoute> routes;
+  std::vector<road::DrivableRoute> routes;
 };
 
 /// Choices of the command line instead of the file's.
@@ -80,8 +81,8 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
 
 /// The same with a given subgraph of the automaton: for programs that read many scenarios.
 [[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices,
-                                     std::shared_ptr<const UniversalAutomaton> automaton,
-                                     const std::vector<SubgraphSpec>& subgraphs);
+                                     std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+                                     const std::vector<automaton::SubgraphSpec>& subgraphs);
 
 /// The files that a scenario was read from: its own, automaton, map, lab.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const Scenario& scenario);
@@ -91,14 +92,15 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
 
 /// The controller of one vehicle. A vehicle that the scenario names takes its own route; any other
 /// takes the scenario's route that fits best at its pose.
-[[nodiscard]] std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id);
+[[nodiscard]] std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario,
+                                                                      VehicleId id);
 /// The same on the scenario's subgraph, prepared once for many controllers.
-[[nodiscard]] std::unique_ptr<Controller> make_controller(const Scenario& scenario, VehicleId id,
-                                                          PreparedSubgraph on);
-[[nodiscard]] PreparedSubgraph prepare_subgraph_of(const Scenario& scenario);
+[[nodiscard]] std::unique_ptr<controller::Controller> make_controller(
+    const Scenario& scenario, VehicleId id, controller::PreparedSubgraph on);
+[[nodiscard]] controller::PreparedSubgraph prepare_subgraph_of(const Scenario& scenario);
 
 /// Yaw of a vehicle that stands at a planned pose (the lab's vehicles point slightly aside of their
 /// course).
 [[nodiscard]] Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

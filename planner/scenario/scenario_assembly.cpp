@@ -18,13 +18,13 @@
 #include "planner/scenario/starts.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 /// The command line's engine, otherwise the file's, otherwise the profile's.
-SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices& choices,
-                            const Profile& profile) {
-  SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
+search::SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices& choices,
+                                    const Profile& profile) {
+  search::SearchOptions search{.engine = profile.engine, .cost_to_go = profile.cost_to_go};
   search.max_expansions = values.max_expansions;
   search.criterion_weights = values.criterion_weights;
   if (values.engine) choose_engine(*values.engine, search);
@@ -34,13 +34,13 @@ SearchOptions choose_search(const ScenarioValues& values, const ScenarioChoices&
     throw std::invalid_argument(std::string("--") + error.what());
   }
   try {
-    check_search_options(search);
+    search::check_search_options(search);
   } catch (const std::invalid_argument& error) {
     if (choices.engine) {
       throw std::invalid_argument(fmt::format(
           "--engine = {} with profile {}, must be best_first or ompl_best_first: the profile's "
           "cost-to-go is {}",
-          *choices.engine, profile.name, to_string(search.cost_to_go)));
+          *choices.engine, profile.name, search::to_string(search.cost_to_go)));
     }
     values.node.fail("engine", fmt::format("with profile {}: {}", profile.name, error.what()));
   }
@@ -60,7 +60,7 @@ void check_standstill_is_near(const Node& node, const Scenario& scenario) {
 
 void check_lab(const Scenario& scenario) {
   if (!scenario.lab) return;
-  const std::string fault = validate_for_lab(*scenario.subgraph, *scenario.lab);
+  const std::string fault = automaton::validate_for_lab(*scenario.subgraph, *scenario.lab);
   if (fault.empty()) return;
   throw std::invalid_argument(
       fmt::format("{}: subgraph {}, {} by {}", scenario.automaton_file.string(),
@@ -71,10 +71,10 @@ void check_lab(const Scenario& scenario) {
 void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
                    Scenario& scenario) {
   scenario.policies = values.policies;
-  std::string known = kNoPolicy;
+  std::string known = policy::kNoPolicy;
   for (const auto& [name, settings] : values.policies) known += ", " + name;
   const auto is_known = [&](const std::string& name) {
-    return name == kNoPolicy || values.policies.contains(name);
+    return name == policy::kNoPolicy || values.policies.contains(name);
   };
   if (!is_known(values.policy)) values.node.fail("policy", "one of " + known);
   scenario.policy = choices.policy.value_or(values.policy);
@@ -89,12 +89,12 @@ void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
     check_policy(values.node, name, settings, *scenario.subgraph, scenario.horizon_steps,
                  scenario.lab);
   }
-  if (scenario.policy != kNoPolicy) {
+  if (scenario.policy != policy::kNoPolicy) {
     scenario.reconfiguration = scenario.policies.at(scenario.policy);
   }
 }
 
-Route build_route_of(const RouteValues& values, const LaneletMap& map) {
+road::Route build_route_of(const RouteValues& values, const road::LaneletMap& map) {
   const auto lanelets = values.lanelets.find(map.benchmark_id);
   if (lanelets == values.lanelets.end()) {
     values.node.fail("lanelets", "a list for the map with benchmarkID " + map.benchmark_id);
@@ -105,13 +105,13 @@ Route build_route_of(const RouteValues& values, const LaneletMap& map) {
     by_map.list(map.benchmark_id)[i].fail("a lanelet of the map " + map.benchmark_id);
   }
   try {
-    return build_route(map, lanelets->second, values.is_closed);
+    return road::build_route(map, lanelets->second, values.is_closed);
   } catch (const std::runtime_error& error) {
     by_map.fail(map.benchmark_id, fmt::format("a route that can be driven: {}", error.what()));
   }
 }
 
-ScenarioVehicle place_vehicle(const VehicleValues& values, const Route& route) {
+ScenarioVehicle place_vehicle(const VehicleValues& values, const road::Route& route) {
   // A range that bounds every arc length: only the route's own bounds hold.
   static_cast<void>(values.node.required<double>("start_m", between(0.0, route.path.length_m())));
   const double heading_rad = route.path.heading_rad_at(values.start_m);
@@ -125,9 +125,9 @@ ScenarioVehicle place_vehicle(const VehicleValues& values, const Route& route) {
           .corridor = route.corridor};
 }
 
-void add_vehicles_on_routes(const ScenarioValues& values, const LaneletMap& map,
+void add_vehicles_on_routes(const ScenarioValues& values, const road::LaneletMap& map,
                             Scenario& scenario) {
-  std::map<std::string, Route> routes;
+  std::map<std::string, road::Route> routes;
   for (const RouteValues& one : values.routes) routes.emplace(one.name, build_route_of(one, map));
   for (const auto& [name, route] : routes) {
     scenario.routes.push_back({.name = name, .path = route.path, .corridor = route.corridor});
@@ -155,7 +155,7 @@ void add_cars_on_circle(const CircleValues& circle, std::size_t cars, Scenario& 
          .name = fmt::format("car {}", i + 1),
          .start = {start.x(), start.y(), wrap_angle(angle + std::numbers::pi)},
          .start_s_m = 0.0,
-         .path = ReferencePath({start, circle.centre_m - offset}, false),
+         .path = road::ReferencePath({start, circle.centre_m - offset}, false),
          .corridor = {}});
     const ScenarioVehicle& car = scenario.vehicles.back();
     scenario.routes.push_back({.name = car.name, .path = car.path, .corridor = car.corridor});
@@ -190,10 +190,10 @@ void check_starts(const ScenarioValues& values, const Scenario& scenario) {
 void check_zones(const Node& node, const Scenario& scenario) {
   for (const auto& [name, settings] : scenario.policies) {
     for (std::size_t i = 0; i < settings.zones.size(); ++i) {
-      const std::vector<SpeedZone> zone{settings.zones[i]};
+      const std::vector<policy::SpeedZone> zone{settings.zones[i]};
       const bool is_driven_through =
-          std::ranges::any_of(scenario.routes, [&zone](const DrivableRoute& route) {
-            return limit_on(zone, route.path, 0.0, route.path.length_m()).has_value();
+          std::ranges::any_of(scenario.routes, [&zone](const road::DrivableRoute& route) {
+            return policy::limit_on(zone, route.path, 0.0, route.path.length_m()).has_value();
           });
       if (is_driven_through) continue;
       node.map("policies").map(name).list("zones")[i].fail("x_m", "a zone that a route passes");
@@ -230,4 +230,4 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   return scenario;
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -8,14 +8,15 @@
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 /// The command line's, otherwise the file's.
-const SubgraphSpec& chosen_subgraph(const ScenarioValues& values, const ScenarioChoices& choices,
-                                    const std::vector<SubgraphSpec>& subgraphs) {
+const automaton::SubgraphSpec& chosen_subgraph(
+    const ScenarioValues& values, const ScenarioChoices& choices,
+    const std::vector<automaton::SubgraphSpec>& subgraphs) {
   const std::string name = choices.subgraph.value_or(values.subgraph);
-  if (const SubgraphSpec* spec = find_subgraph(subgraphs, name)) return *spec;
+  if (const automaton::SubgraphSpec* spec = find_subgraph(subgraphs, name)) return *spec;
   if (choices.subgraph) {
     throw std::invalid_argument(
         fmt::format("subgraph {}, must be one of {}", name, names_of(subgraphs)));
@@ -34,12 +35,12 @@ ScenarioInputs load_map(const ScenarioValues& values, const ScenarioChoices& cho
   }
   inputs.map_file = choices.map_file ? choices.map_file : values.map_file;
   if (!inputs.map_file) values.node.fail("map", "text");
-  inputs.map = read_lanelet_map(*inputs.map_file);
+  inputs.map = road::read_lanelet_map(*inputs.map_file);
   return inputs;
 }
 
 ScenarioInputs with_subgraph(ScenarioInputs inputs, const ScenarioValues& values,
-                             std::shared_ptr<const Subgraph> subgraph) {
+                             std::shared_ptr<const automaton::Subgraph> subgraph) {
   inputs.subgraph = std::move(subgraph);
   if (values.lab_file) {
     inputs.lab = read_lab(*values.lab_file, inputs.subgraph->automaton().step_s);
@@ -52,7 +53,8 @@ ScenarioInputs with_subgraph(ScenarioInputs inputs, const ScenarioValues& values
 ScenarioInputs load_inputs(const ScenarioValues& values, const ScenarioChoices& choices) {
   ScenarioInputs inputs = load_map(values, choices);
   const bool may_ask_for_more = values.is_reconfigurable || !values.policies.empty();
-  const auto choose = [&](const std::vector<SubgraphSpec>& offered) -> const SubgraphSpec& {
+  const auto choose =
+      [&](const std::vector<automaton::SubgraphSpec>& offered) -> const automaton::SubgraphSpec& {
     return chosen_subgraph(values, choices, offered);
   };
   return with_subgraph(
@@ -62,11 +64,11 @@ ScenarioInputs load_inputs(const ScenarioValues& values, const ScenarioChoices& 
 }
 
 ScenarioInputs load_inputs(const ScenarioValues& values, const ScenarioChoices& choices,
-                           std::shared_ptr<const UniversalAutomaton> automaton,
-                           const std::vector<SubgraphSpec>& subgraphs) {
-  const SubgraphSpec& spec = chosen_subgraph(values, choices, subgraphs);
+                           std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+                           const std::vector<automaton::SubgraphSpec>& subgraphs) {
+  const automaton::SubgraphSpec& spec = chosen_subgraph(values, choices, subgraphs);
   return with_subgraph(load_map(values, choices), values,
-                       std::make_shared<Subgraph>(std::move(automaton), spec));
+                       std::make_shared<automaton::Subgraph>(std::move(automaton), spec));
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -11,14 +11,14 @@
 #include "planner/scenario/scenario_values.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// The files that a scenario names, read.
 struct ScenarioInputs {
   std::optional<std::filesystem::path> map_file;  ///< none: a scenario without lanes
-  std::optional<LaneletMap> map;
-  std::shared_ptr<const Subgraph> subgraph;
-  std::optional<LabLimits> lab;
+  std::optional<road::LaneletMap> map;
+  std::shared_ptr<const automaton::Subgraph> subgraph;
+  std::optional<vehicle::LabLimits> lab;
 };
 
 /// Reads map and lab, and loads the automaton or builds the part that the scenario needs
@@ -29,9 +29,9 @@ struct ScenarioInputs {
                                          const ScenarioChoices& choices);
 
 /// The same with a given automaton and its subgraphs.
-[[nodiscard]] ScenarioInputs load_inputs(const ScenarioValues& values,
-                                         const ScenarioChoices& choices,
-                                         std::shared_ptr<const UniversalAutomaton> automaton,
-                                         const std::vector<SubgraphSpec>& subgraphs);
+[[nodiscard]] ScenarioInputs load_inputs(
+    const ScenarioValues& values, const ScenarioChoices& choices,
+    std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+    const std::vector<automaton::SubgraphSpec>& subgraphs);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -10,7 +10,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/search_values.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 /// A car may be started this far off its place, to test its behaviour there.
@@ -30,7 +30,7 @@ std::vector<RouteValues> parse_routes(const Node& scenario) {
                       .node = node};
     const Node by_map = node.map("lanelets");
     for (const std::string& benchmark_id : by_map.keys()) {
-      std::vector<LaneletId>& lanelets = route.lanelets[benchmark_id];
+      std::vector<road::LaneletId>& lanelets = route.lanelets[benchmark_id];
       for (const Node& lanelet : by_map.list(benchmark_id)) {
         lanelets.push_back(lanelet.as<int>(at_least(1.0)));
       }
@@ -89,7 +89,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .criterion_weights = read_criterion_weights(node),
       .is_reconfigurable = node.optional<bool>("reconfigurable", false),
       .policies = read_policies(node),
-      .policy = node.optional<std::string>("policy", kNoPolicy),
+      .policy = node.optional<std::string>("policy", policy::kNoPolicy),
       .node = node};
   if (node.has("lab")) values.lab_file = beside(path, node.required<std::string>("lab"));
   if (node.has("circle")) {
@@ -103,4 +103,4 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
   return values;
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -13,14 +13,14 @@
 #include "planner/road/lanelet_map.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// An entry of `routes`.
 struct RouteValues {
   std::string name;
   bool is_closed{true};
-  std::map<std::string, std::vector<LaneletId>> lanelets;  ///< by the benchmarkID of the map
-  Node node;                                               ///< its place in the file, for messages
+  std::map<std::string, std::vector<road::LaneletId>> lanelets;  ///< by the benchmarkID of the map
+  Node node;  ///< its place in the file, for messages
 };
 
 /// An entry of `vehicles`.
@@ -51,9 +51,9 @@ struct ScenarioValues {
   double reference_speed_mps{};
   std::optional<std::string> engine{};  ///< as choose_engine takes it
   std::size_t max_expansions{};
-  std::vector<PlanningWeight> criterion_weights{};
+  std::vector<search::PlanningWeight> criterion_weights{};
   bool is_reconfigurable{};
-  std::map<std::string, ReconfigurationSettings> policies{};
+  std::map<std::string, policy::ReconfigurationSettings> policies{};
   std::string policy;
   std::optional<std::filesystem::path> lab_file{};
   std::optional<CircleValues> circle{};  ///< none: `map`, `routes` and `vehicles`
@@ -67,4 +67,4 @@ struct ScenarioValues {
 /// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
 [[nodiscard]] ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& path);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

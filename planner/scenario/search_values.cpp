@@ -7,12 +7,12 @@
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/search/edge_costs.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 std::optional<std::string> read_engine(const Node& node) {
   if (!node.has("engine")) return std::nullopt;
   const auto known = [](const std::string& name) {
-    SearchOptions search;
+    search::SearchOptions search;
     choose_engine(name, search);
     return name;
   };
@@ -21,24 +21,25 @@ std::optional<std::string> read_engine(const Node& node) {
 
 std::size_t read_max_expansions(const Node& node) {
   return node.optional<std::size_t>(
-      "max_expansions", SearchOptions{}.max_expansions,
-      between(1.0, static_cast<double>(SearchOptions::kMostExpansions)));
+      "max_expansions", search::SearchOptions{}.max_expansions,
+      between(1.0, static_cast<double>(search::SearchOptions::kMostExpansions)));
 }
 
-std::vector<PlanningWeight> read_criterion_weights(const Node& node) {
+std::vector<search::PlanningWeight> read_criterion_weights(const Node& node) {
   const Node map = node.optional_map("criterion_weights");
-  std::vector<PlanningWeight> weights;
+  std::vector<search::PlanningWeight> weights;
   for (const std::string& criterion : map.keys()) {
     weights.push_back(
-        {criterion, map.required<double>(criterion, between(0.0, SearchOptions::kMostWeight_m2))});
+        {criterion,
+         map.required<double>(criterion, between(0.0, search::SearchOptions::kMostWeight_m2))});
   }
   return weights;
 }
 
-void check_criterion_weights(const Node& node, const std::vector<PlanningWeight>& weights,
-                             const Subgraph& subgraph) {
-  const std::vector<std::string> known = criteria_of(subgraph);
-  for (const PlanningWeight& weight : weights) {
+void check_criterion_weights(const Node& node, const std::vector<search::PlanningWeight>& weights,
+                             const automaton::Subgraph& subgraph) {
+  const std::vector<std::string> known = search::criteria_of(subgraph);
+  for (const search::PlanningWeight& weight : weights) {
     if (std::ranges::find(known, weight.criterion) != known.end()) continue;
     node.map("criterion_weights")
         .fail(weight.criterion,
@@ -46,4 +47,4 @@ void check_criterion_weights(const Node& node, const std::vector<PlanningWeight>
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -10,7 +10,7 @@
 #include "planner/common/node.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// The value of a name.
 /// @param from_name  throws std::invalid_argument for an unknown name
@@ -34,10 +34,10 @@ template <class FromName>
 
 /// Key `criterion_weights` of a file, {criterion: m^2 per unit}; may be absent.
 /// check_criterion_weights checks the criteria.
-[[nodiscard]] std::vector<PlanningWeight> read_criterion_weights(const Node& node);
+[[nodiscard]] std::vector<search::PlanningWeight> read_criterion_weights(const Node& node);
 
 /// @throws std::invalid_argument naming the place if the automaton does not have a criterion
-void check_criterion_weights(const Node& node, const std::vector<PlanningWeight>& weights,
-                             const Subgraph& subgraph);
+void check_criterion_weights(const Node& node, const std::vector<search::PlanningWeight>& weights,
+                             const automaton::Subgraph& subgraph);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

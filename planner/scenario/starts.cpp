@@ -11,7 +11,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 /// Uniform in [0, 1), independent of the library: the standard does not fix its own distribution.
@@ -20,7 +20,7 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 }  // namespace
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(const Scenario& scenario) {
-  const VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
+  const vehicle::VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
   std::vector<ConvexPolygon> areas;
   for (std::size_t j = 0; j < scenario.vehicles.size(); ++j) {
     areas.push_back(footprint_area(parameters.footprint, scenario.vehicles[j].start,
@@ -67,4 +67,4 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
                   scenario.file.string(), scenario.vehicles.size()));
 }
 
-}  // namespace hlc
+}  // namespace hlc::scenario

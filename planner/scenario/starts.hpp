@@ -8,7 +8,7 @@
 
 #include "planner/scenario/scenario.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 
 /// Indices i < j of two vehicles whose footprints with margin overlap at the start; nothing if
 /// there are none.
@@ -25,4 +25,4 @@ namespace hlc {
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
 
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 double distance_m(const Box& box, const Point& point_m) {
@@ -30,11 +30,12 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
   return box;
 }
 
-CollisionCheck::CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable)
+CollisionCheck::CollisionCheck(const automaton::Subgraph& subgraph,
+                               const automaton::ReachableSets& reachable)
     : reachable_(reachable) {
   std::size_t max_vertices = 0;
   for (const TrimId trim : subgraph.start_trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       for (const ConvexPolygon* area_m :
            {&edge.maneuver->swept_area_m, &edge.maneuver->lane_area_m}) {
         area_radius_m_ = std::max(area_radius_m_, radius_m(*area_m));
@@ -75,7 +76,8 @@ void CollisionCheck::prepare(const HorizonProblem& problem) {
   }
 }
 
-bool CollisionCheck::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) {
+bool CollisionCheck::is_free(const automaton::Maneuver& maneuver, std::size_t step,
+                             const Frame& start) {
   return !meets_obstacle(maneuver.swept_area_m, step, start) &&
          !meets_boundary(maneuver.lane_area_m, start);
 }
@@ -98,4 +100,4 @@ bool CollisionCheck::meets_boundary(const ConvexPolygon& area_m, const Frame& st
   });
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

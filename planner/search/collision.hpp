@@ -9,7 +9,7 @@
 #include "planner/search/frame.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// Moves an area from the frame of its start into `placed` and returns its box. Allocates nothing
 /// if `placed` has the capacity.
@@ -30,7 +30,7 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 class CollisionCheck {
  public:
   /// @param reachable  belongs to `subgraph` and must outlive this object
-  CollisionCheck(const Subgraph& subgraph, const ReachableSets& reachable);
+  CollisionCheck(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable);
 
   /// @param problem  must stay unchanged until the last check
   /// @pre problem.obstacles_m is empty or has one entry per step
@@ -38,7 +38,8 @@ class CollisionCheck {
 
   /// @param step   1 ... n: the step in which the maneuver is driven
   /// @param start  pose at the begin of the maneuver
-  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start);
+  [[nodiscard]] bool is_free(const automaton::Maneuver& maneuver, std::size_t step,
+                             const Frame& start);
 
  private:
   struct Obstacle {
@@ -53,11 +54,11 @@ class CollisionCheck {
   [[nodiscard]] bool meets_obstacle(const ConvexPolygon& area_m, std::size_t step,
                                     const Frame& start);
   [[nodiscard]] bool meets_boundary(const ConvexPolygon& area_m, const Frame& start);
-  const ReachableSets& reachable_;
+  const automaton::ReachableSets& reachable_;
   double area_radius_m_{};  ///< farthest point of any maneuver's area from its start
   std::vector<std::vector<Obstacle>> obstacles_;
   std::vector<BoundaryPiece> boundary_;
   ConvexPolygon placed_;  ///< its capacity holds the largest area
 };
 
-}  // namespace hlc
+}  // namespace hlc::search

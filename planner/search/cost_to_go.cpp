@@ -5,13 +5,13 @@
 #include "planner/common/demand.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
-double longest_displacement_m(const Subgraph& subgraph) {
+double longest_displacement_m(const automaton::Subgraph& subgraph) {
   double longest_m = 0.0;
   for (const TrimId trim : subgraph.start_trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       longest_m = std::max(longest_m, edge.maneuver->displacement.position_m().norm());
     }
   }
@@ -20,10 +20,11 @@ double longest_displacement_m(const Subgraph& subgraph) {
 
 }  // namespace
 
-double distance_beyond_m(const Point& q_m, const Reach& reach) {
+double distance_beyond_m(const Point& q_m, const automaton::Reach& reach) {
   double beyond_m = std::max(0.0, q_m.norm() - reach.max_distance_m);
-  for (std::size_t i = 0; i < kReachDirections.size(); ++i) {
-    const double along_m = kReachDirections[i][0] * q_m.x() + kReachDirections[i][1] * q_m.y();
+  for (std::size_t i = 0; i < automaton::kReachDirections.size(); ++i) {
+    const double along_m =
+        automaton::kReachDirections[i][0] * q_m.x() + automaton::kReachDirections[i][1] * q_m.y();
     beyond_m = std::max(beyond_m, along_m - reach.support_m[i]);
   }
   return beyond_m;
@@ -51,7 +52,8 @@ double reference_speed_cost_to_go(const Point& position_m, std::span<const Point
   return h;
 }
 
-CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets& reachable,
+CostToGoFunction::CostToGoFunction(const automaton::Subgraph& subgraph,
+                                   const automaton::ReachableSets& reachable,
                                    const HorizonProblem& problem, CostToGo kind)
     : reachable_(reachable), reference_m_(problem.reference_m), kind_(kind) {
   const std::size_t n = problem.horizon_steps();
@@ -62,7 +64,8 @@ CostToGoFunction::CostToGoFunction(const Subgraph& subgraph, const ReachableSets
   if (kind == CostToGo::kStraightLine) {
     const double longest_m = longest_displacement_m(subgraph);
     for (std::size_t i = 1; i <= n; ++i) {
-      reach_m_.push_back(static_cast<double>(i) * longest_m + ReachableSets::allowance_m(i));
+      reach_m_.push_back(static_cast<double>(i) * longest_m +
+                         automaton::ReachableSets::allowance_m(i));
     }
   }
   if (kind == CostToGo::kReferenceSpeed) {
@@ -104,12 +107,13 @@ double CostToGoFunction::operator()(TrimId trim, std::size_t depth, const Frame&
   return h;
 }
 
-double least_cost_of_problem(const Subgraph& subgraph, const ReachableSets& reachable,
-                             const EdgeCosts& costs, const HorizonProblem& problem) {
+double least_cost_of_problem(const automaton::Subgraph& subgraph,
+                             const automaton::ReachableSets& reachable, const EdgeCosts& costs,
+                             const HorizonProblem& problem) {
   const std::size_t n = problem.horizon_steps();
   const CostToGoFunction cost_to_go(subgraph, reachable, problem, CostToGo::kReachable);
   return cost_to_go(problem.start_trim, 0, to_frame(problem.start)) +
          costs.to_go(problem.start_trim, n) + static_cast<double>(n) * costs.least();
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

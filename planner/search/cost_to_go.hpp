@@ -11,7 +11,7 @@
 #include "planner/search/frame.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// Lower bound on the distance from `q_m` to every position that `reach` contains [m]:
 ///
@@ -22,7 +22,7 @@ namespace hlc {
 ///
 /// @param q_m  in the frame of `reach`
 /// @return +infinity for the empty set
-[[nodiscard]] double distance_beyond_m(const Point& q_m, const Reach& reach);
+[[nodiscard]] double distance_beyond_m(const Point& q_m, const automaton::Reach& reach);
 
 /// Lower bound on the cost of m = reach_m.size() further steps from `position_m`:
 ///
@@ -75,7 +75,7 @@ class CostToGoFunction {
   /// @param reachable, problem  must outlive this object
   /// @pre problem.horizon_steps() <= reachable.max_steps()
   /// @pre with kReferenceSpeed: one reference speed per step
-  CostToGoFunction(const Subgraph& subgraph, const ReachableSets& reachable,
+  CostToGoFunction(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
                    const HorizonProblem& problem, CostToGo kind);
 
   /// @param depth  steps already done, 0 ... n
@@ -84,7 +84,7 @@ class CostToGoFunction {
   [[nodiscard]] double operator()(TrimId trim, std::size_t depth, const Frame& frame) const;
 
  private:
-  const ReachableSets& reachable_;
+  const automaton::ReachableSets& reachable_;
   std::span<const Point> reference_m_;
   CostToGo kind_;
   /// With kStraightLine d_1 ... d_n; with kReferenceSpeed one row of n per depth, of which n -
@@ -95,7 +95,8 @@ class CostToGoFunction {
 /// Lower bound on the cost of every plan of a problem [m^2], whatever orders the search:
 /// `kReachable` at the start and the least cost of the maneuvers themselves.
 /// @param reachable  for at least the problem's steps
-[[nodiscard]] double least_cost_of_problem(const Subgraph& subgraph, const ReachableSets& reachable,
+[[nodiscard]] double least_cost_of_problem(const automaton::Subgraph& subgraph,
+                                           const automaton::ReachableSets& reachable,
                                            const EdgeCosts& costs, const HorizonProblem& problem);
 
-}  // namespace hlc
+}  // namespace hlc::search

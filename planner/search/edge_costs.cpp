@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
-const CriterionValue* find_value(const Maneuver& maneuver, const std::string& criterion) {
+const CriterionValue* find_value(const automaton::Maneuver& maneuver,
+                                 const std::string& criterion) {
   const auto found = std::ranges::find(maneuver.criteria, criterion, &CriterionValue::name);
   return found == maneuver.criteria.end() ? nullptr : &*found;
 }
@@ -37,12 +38,12 @@ void check_weights(const std::vector<PlanningWeight>& weights,
 
 }  // namespace
 
-std::vector<std::string> criteria_of(const Subgraph& subgraph) {
-  const Edge& first = subgraph.successors(subgraph.start_trims().front()).front();
+std::vector<std::string> criteria_of(const automaton::Subgraph& subgraph) {
+  const automaton::Edge& first = subgraph.successors(subgraph.start_trims().front()).front();
   std::vector<std::string> names;
   for (const CriterionValue& value : first.maneuver->criteria) names.push_back(value.name);
   for (const TrimId trim : subgraph.start_trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       std::erase_if(names, [&edge](const std::string& name) {
         return find_value(*edge.maneuver, name) == nullptr;
       });
@@ -51,14 +52,14 @@ std::vector<std::string> criteria_of(const Subgraph& subgraph) {
   return names;
 }
 
-EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>& weights,
-                     std::size_t max_steps)
+EdgeCosts::EdgeCosts(const automaton::Subgraph& subgraph,
+                     const std::vector<PlanningWeight>& weights, std::size_t max_steps)
     : weights_(weights) {
   if (weights_.empty()) return;
   check_weights(weights_, criteria_of(subgraph));
   least_ = std::numeric_limits<double>::infinity();
   for (const TrimId trim : subgraph.start_trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       least_ = std::min(least_, weighted(*edge.maneuver));
     }
   }
@@ -71,17 +72,17 @@ EdgeCosts::EdgeCosts(const Subgraph& subgraph, const std::vector<PlanningWeight>
   }
 }
 
-double EdgeCosts::least_to_go(std::span<const Edge> edges,
+double EdgeCosts::least_to_go(std::span<const automaton::Edge> edges,
                               const std::vector<double>& after_edge) const {
   constexpr double kSurely = 1.0 - 1e-12;
   double least = std::numeric_limits<double>::infinity();
-  for (const Edge& edge : edges) {
+  for (const automaton::Edge& edge : edges) {
     least = std::min(least, kSurely * (reduced_cost(*edge.maneuver) + after_edge[edge.to.index]));
   }
   return least;
 }
 
-double EdgeCosts::weighted(const Maneuver& maneuver) const {
+double EdgeCosts::weighted(const automaton::Maneuver& maneuver) const {
   double cost = 0.0;
   for (const PlanningWeight& weight : weights_) {
     cost += weight.weight_m2 * find_value(maneuver, weight.criterion)->value;
@@ -89,7 +90,7 @@ double EdgeCosts::weighted(const Maneuver& maneuver) const {
   return cost;
 }
 
-double EdgeCosts::reduced_cost(const Maneuver& maneuver) const {
+double EdgeCosts::reduced_cost(const automaton::Maneuver& maneuver) const {
   return is_zero() ? 0.0 : weighted(maneuver) - least_;
 }
 
@@ -99,4 +100,4 @@ double EdgeCosts::to_go(TrimId trim, std::size_t steps) const {
   return to_go_[steps][trim.index];
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

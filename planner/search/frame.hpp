@@ -4,7 +4,7 @@
 
 #include "planner/geometry/pose.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// A pose whose heading is stored as a direction, so that composing poses needs no trigonometry.
 struct Frame {
@@ -29,4 +29,4 @@ struct Frame {
           a.sin_heading * b.cos_heading + a.cos_heading * b.sin_heading};
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -9,7 +9,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/geometry/polygon.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// The receding-horizon problem: find n maneuvers (or self-loops of trims) from the start that end
 /// in an equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
@@ -38,7 +38,7 @@ struct HorizonProblem {
   /// A known plan, n maneuvers from the start: the plan in force, shifted by one step and ended in
   /// standstill. Empty if there is none. An engine checks it like any other path and ignores it if
   /// it is invalid; the best path is then never worse, and is found sooner.
-  std::vector<const Maneuver*> incumbent;
+  std::vector<const automaton::Maneuver*> incumbent;
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
 };
@@ -70,8 +70,8 @@ struct SearchOptions;
 struct SearchTables;
 
 /// Makes an engine; parameters as make_search_engine.
-using EngineFactory = std::unique_ptr<SearchEngine> (*)(const Subgraph& subgraph,
-                                                        const ReachableSets& reachable,
+using EngineFactory = std::unique_ptr<SearchEngine> (*)(const automaton::Subgraph& subgraph,
+                                                        const automaton::ReachableSets& reachable,
                                                         const SearchOptions& options,
                                                         std::shared_ptr<const SearchTables> tables);
 
@@ -114,10 +114,10 @@ struct SearchResult {
   NoPath reason{NoPath::kInfeasible};
   double cost{};         ///< of the path [m^2]; 0 without one
   double lower_bound{};  ///< no path costs less [m^2]; the gap is cost - lower_bound
-  std::vector<const Maneuver*> maneuvers;  ///< n of them; empty without a path
-  std::vector<Pose> poses;                 ///< pose after each, n; empty without a path
-  std::size_t generated{};                 ///< vertices generated, the root included
-  std::size_t expanded{};                  ///< vertices whose successors were generated
+  std::vector<const automaton::Maneuver*> maneuvers;  ///< n of them; empty without a path
+  std::vector<Pose> poses;                            ///< pose after each, n; empty without a path
+  std::size_t generated{};                            ///< vertices generated, the root included
+  std::size_t expanded{};                             ///< vertices whose successors were generated
 };
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -7,7 +7,7 @@
 #include "planner/search/best_first/best_first_search.hpp"
 #include "planner/search/branch_and_bound/branch_and_bound.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 void reset(SearchResult& result) {
   result.status = SearchStatus::kFallback;
@@ -32,8 +32,8 @@ void stop_early(bool has_path, double lower_bound, SearchResult& result) {
   result.lower_bound = std::min(lower_bound, result.cost);
 }
 
-std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
-                                                 const ReachableSets& reachable,
+std::unique_ptr<SearchEngine> make_search_engine(const automaton::Subgraph& subgraph,
+                                                 const automaton::ReachableSets& reachable,
                                                  const SearchOptions& options,
                                                  std::shared_ptr<const SearchTables> tables) {
   if (options.factory != nullptr) {
@@ -46,4 +46,4 @@ std::unique_ptr<SearchEngine> make_search_engine(const Subgraph& subgraph,
                                           BranchAndBound::Instructions::kAvx512, std::move(tables));
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

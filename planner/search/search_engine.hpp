@@ -7,7 +7,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 struct SearchTables;
 
@@ -50,7 +50,7 @@ void stop_early(bool has_path, double lower_bound, SearchResult& result);
 /// @throws std::invalid_argument if the engine does not support that cost-to-go: kBranchAndBound
 /// has the bound kReachable only
 [[nodiscard]] std::unique_ptr<SearchEngine> make_search_engine(
-    const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
-    std::shared_ptr<const SearchTables> tables = nullptr);
+    const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+    const SearchOptions& options, std::shared_ptr<const SearchTables> tables = nullptr);
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -3,7 +3,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 template <class Enum, std::size_t n>
@@ -91,4 +91,4 @@ void check_search_options(const SearchOptions& options) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

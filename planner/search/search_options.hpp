@@ -4,7 +4,7 @@
 
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// The names of engines, costs-to-go and statuses in flags and files.
 ///
@@ -37,4 +37,4 @@ inline constexpr char kCostToGoNames[] = "reachable, straight_line, 2022";
 /// max_expansions is 0
 void check_search_options(const SearchOptions& options);
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -8,14 +8,14 @@
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// Tables that the fast engine computes of a subgraph before its first search: a tenth of a second
 /// for a hundred trims. They never change, so planners on the same subgraph share them, and they
 /// can be made in advance on another thread.
 struct SearchTables {
   /// @param subgraph  owns the maneuvers that the tables name: must outlive them
-  SearchTables(const Subgraph& subgraph, const ReachableSets& reachable,
+  SearchTables(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
                const SearchOptions& options);
 
   EdgeCosts costs;
@@ -25,8 +25,8 @@ struct SearchTables {
 /// The tables that the engine of `options` needs; none for an engine without any.
 /// @pre `reachable` belongs to `subgraph` and has at most 80 steps
 /// @throws std::invalid_argument as EdgeCosts
-[[nodiscard]] std::shared_ptr<const SearchTables> make_search_tables(const Subgraph& subgraph,
-                                                                     const ReachableSets& reachable,
-                                                                     const SearchOptions& options);
+[[nodiscard]] std::shared_ptr<const SearchTables> make_search_tables(
+    const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+    const SearchOptions& options);
 
-}  // namespace hlc
+}  // namespace hlc::search

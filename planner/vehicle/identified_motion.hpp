@@ -10,7 +10,7 @@
 /// Motion of the lab's identified vehicle: one explicit Euler step of the model, its inverse, and
 /// its stop law. The simulated vehicle moves by it and the on-board follower predicts with it, as
 /// in the lab, where both have the same model.
-namespace hlc {
+namespace hlc::vehicle {
 
 /// Length of one Euler step [s]: the vehicle's tick. The parameters were identified together with
 /// it.
@@ -102,4 +102,4 @@ struct VehicleMotion {
   return {.throttle = std::clamp(0.0 - 0.5 * speed_mps, -1.0, 1.0), .steering = 0.0};
 }
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::vehicle {
 
 // curvature p1 p2 delta^2 - p4 delta + curvature p1 = 0. The root nearest to 0 is written without
 // cancellation (and without a special case for curvature 0).
@@ -31,4 +31,4 @@ IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle, double ste
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

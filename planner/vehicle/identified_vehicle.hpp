@@ -2,7 +2,7 @@
 
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 
 /// Parameters p1 ... p10 of the lab's identified vehicle model and derived quantities. State: px,
 /// py, yaw, speed v; inputs throttle f and steering s in [-1, 1], battery voltage V. With delta = s
@@ -45,4 +45,4 @@ struct IdentifiedVehicle {
 /// a path that is sharper than the vehicle can drive, delta is that of full steering, |s| = 1.
 [[nodiscard]] double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

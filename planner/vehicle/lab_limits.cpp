@@ -6,7 +6,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 namespace {
 
 constexpr int kParts = 10;
@@ -136,4 +136,4 @@ std::string to_text(const FoundFault& found, const LabLimits& limits) {
   return text.str();
 }
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

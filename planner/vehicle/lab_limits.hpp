@@ -7,7 +7,7 @@
 
 #include "planner/geometry/timed_curve.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 
 /// Limits and area of a lab's vehicles. All bounds are on the curve that the vehicle interpolates
 /// from its points (interpolated in timed_curve.hpp), at any time.
@@ -67,4 +67,4 @@ struct FoundFault {
 /// "curvature = 5.2 1/m, must be in -3.96 ... 4.316", without the time.
 [[nodiscard]] std::string to_text(const FoundFault& found, const LabLimits& limits);
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

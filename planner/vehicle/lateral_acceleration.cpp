@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hlc {
+namespace hlc::vehicle {
 
 LateralAcceleration lateral_acceleration(const StateVector& x, const VehicleParameters& vehicle) {
   const double v = x(3);
@@ -19,4 +19,4 @@ bool is_within_friction(const State& state, const Input& input, const VehiclePar
   return std::hypot(input.acceleration_mps2, lateral_mps2) <= *limits.friction_mps2 * (1.0 + 1e-6);
 }
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

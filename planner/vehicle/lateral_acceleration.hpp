@@ -2,7 +2,7 @@
 
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 
 /// a_lat [m/s^2] and its derivatives.
 struct LateralAcceleration {
@@ -25,4 +25,4 @@ struct LateralAcceleration {
                                       const VehicleParameters& vehicle,
                                       const VehicleLimits& limits);
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

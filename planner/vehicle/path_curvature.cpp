@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hlc {
+namespace hlc::vehicle {
 
 // With t = tan(delta), t' = 1 + t^2, t'' = 2 t t', q = l_r / L and d = 1 + q^2 t^2:
 //
@@ -37,4 +37,4 @@ bool is_within_curvature(const State& state, const Input& input, const VehiclePa
          *limits.curvature_max_per_m * turning_speed(state.speed_mps).value_mps * (1.0 + 1e-6);
 }
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

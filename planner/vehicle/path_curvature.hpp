@@ -2,7 +2,7 @@
 
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 
 /// Rate at which the course turns, and its derivatives:
 ///
@@ -38,4 +38,4 @@ struct TurningSpeed {
                                        const VehicleParameters& vehicle,
                                        const VehicleLimits& limits);
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -4,7 +4,7 @@
 
 #include "planner/common/demand.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 namespace {
 
 /// sin(x) / x.
@@ -126,4 +126,4 @@ Pose trim_motion(const Pose& start, double speed_mps, double steering_rad, doubl
           start.y_m + chord_m * std::sin(direction_rad), start.heading_rad + turn_rad};
 }
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -7,7 +7,7 @@
 #include "planner/geometry/pose.hpp"
 #include "planner/geometry/timed_curve.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 
 /// State of the kinematic single-track model (paper, Eq. 1): x = (s_x, s_y, psi, v, delta).
 struct State {
@@ -86,4 +86,4 @@ using InputJacobian = Eigen::Matrix<double, 5, 2>;
 [[nodiscard]] Pose trim_motion(const Pose& start, double speed_mps, double steering_rad,
                                double duration_s, const VehicleParameters& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

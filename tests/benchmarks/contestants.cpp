@@ -14,30 +14,36 @@ namespace {
 
 constexpr std::size_t kNoBudget = 1'000'000'000;
 
-const std::vector<std::pair<std::string, SearchOptions>>& engines() {
-  static const std::vector<std::pair<std::string, SearchOptions>> all{
-      {"best_first_straight_line", {Engine::kBestFirst, CostToGo::kStraightLine, kNoBudget}},
-      {"best_first", {Engine::kBestFirst, CostToGo::kReachable, kNoBudget}},
-      {"branch_and_bound", {Engine::kBranchAndBound, CostToGo::kReachable, kNoBudget}},
+const std::vector<std::pair<std::string, search::SearchOptions>>& engines() {
+  static const std::vector<std::pair<std::string, search::SearchOptions>> all{
+      {"best_first_straight_line",
+       {search::Engine::kBestFirst, search::CostToGo::kStraightLine, kNoBudget}},
+      {"best_first", {search::Engine::kBestFirst, search::CostToGo::kReachable, kNoBudget}},
+      {"branch_and_bound",
+       {search::Engine::kBranchAndBound, search::CostToGo::kReachable, kNoBudget}},
       {"ompl_branch_and_bound",
-       {Engine::kBranchAndBound, CostToGo::kReachable, kNoBudget, {}, make_ompl_engine}},
+       {search::Engine::kBranchAndBound,
+        search::CostToGo::kReachable,
+        kNoBudget,
+        {},
+        search::make_ompl_engine}},
   };
   return all;
 }
 
-Solved solved_by(const SearchResult& result) {
-  return {
-      .has_plan = result.status == SearchStatus::kOptimal,
-      .stopped_early = result.status == SearchStatus::kBudget || result.reason == NoPath::kBudget,
-      .cost = result.cost,
-      .generated = result.generated,
-      .expanded = result.expanded};
+Solved solved_by(const search::SearchResult& result) {
+  return {.has_plan = result.status == search::SearchStatus::kOptimal,
+          .stopped_early = result.status == search::SearchStatus::kBudget ||
+                           result.reason == search::NoPath::kBudget,
+          .cost = result.cost,
+          .generated = result.generated,
+          .expanded = result.expanded};
 }
 
 class PlainContestant final : public Contestant {
  public:
-  explicit PlainContestant(const Subgraph& subgraph) : search_(subgraph) {}
-  void solve(const HorizonProblem& problem) override { result_ = search_.search(problem); }
+  explicit PlainContestant(const automaton::Subgraph& subgraph) : search_(subgraph) {}
+  void solve(const search::HorizonProblem& problem) override { result_ = search_.search(problem); }
   [[nodiscard]] Solved solved() const override {
     return {.has_plan = result_.feasible,
             .cost = result_.cost,
@@ -52,14 +58,17 @@ class PlainContestant final : public Contestant {
 
 class EngineContestant final : public Contestant {
  public:
-  explicit EngineContestant(std::unique_ptr<SearchEngine> engine) : engine_(std::move(engine)) {}
-  void solve(const HorizonProblem& problem) override { engine_->search(problem, stop_, result_); }
+  explicit EngineContestant(std::unique_ptr<search::SearchEngine> engine)
+      : engine_(std::move(engine)) {}
+  void solve(const search::HorizonProblem& problem) override {
+    engine_->search(problem, stop_, result_);
+  }
   [[nodiscard]] Solved solved() const override { return solved_by(result_); }
 
  private:
-  std::unique_ptr<SearchEngine> engine_;
-  std::function<bool()> stop_{never_stop};
-  SearchResult result_;
+  std::unique_ptr<search::SearchEngine> engine_;
+  std::function<bool()> stop_{search::never_stop};
+  search::SearchResult result_;
 };
 
 }  // namespace
@@ -73,13 +82,15 @@ const std::vector<std::string>& contestant_names() {
   return names;
 }
 
-std::unique_ptr<Contestant> make_contestant(const std::string& name, const Subgraph& subgraph,
-                                            const ReachableSets& reachable) {
+std::unique_ptr<Contestant> make_contestant(const std::string& name,
+                                            const automaton::Subgraph& subgraph,
+                                            const automaton::ReachableSets& reachable) {
   if (name == kPlain) return std::make_unique<PlainContestant>(subgraph);
   const auto found =
-      std::ranges::find(engines(), name, &std::pair<std::string, SearchOptions>::first);
+      std::ranges::find(engines(), name, &std::pair<std::string, search::SearchOptions>::first);
   assert(found != engines().end());
-  return std::make_unique<EngineContestant>(make_search_engine(subgraph, reachable, found->second));
+  return std::make_unique<EngineContestant>(
+      search::make_search_engine(subgraph, reachable, found->second));
 }
 
 }  // namespace hlc::test

@@ -16,7 +16,7 @@ class Contestant {
  public:
   virtual ~Contestant() = default;
   /// What is measured, and nothing else.
-  virtual void solve(const HorizonProblem& problem) = 0;
+  virtual void solve(const search::HorizonProblem& problem) = 0;
   /// What `solve` found last, without the time.
   [[nodiscard]] virtual Solved solved() const = 0;
 };
@@ -36,8 +36,8 @@ inline constexpr char kPlain[] = "plain";
 /// An engine's budget is beyond every tree of the problem sets: nothing may end before the optimum.
 /// @param name  one of contestant_names()
 /// @param subgraph, reachable  must outlive the contestant
-[[nodiscard]] std::unique_ptr<Contestant> make_contestant(const std::string& name,
-                                                          const Subgraph& subgraph,
-                                                          const ReachableSets& reachable);
+[[nodiscard]] std::unique_ptr<Contestant> make_contestant(
+    const std::string& name, const automaton::Subgraph& subgraph,
+    const automaton::ReachableSets& reachable);
 
 }  // namespace hlc::test

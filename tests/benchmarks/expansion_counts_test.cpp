@@ -21,10 +21,10 @@ struct Total {
 };
 
 Total total_of(const ProblemSet& set, const std::string& engine) {
-  const ReachableSets reachable(*set.subgraph, set.horizon_steps);
+  const automaton::ReachableSets reachable(*set.subgraph, set.horizon_steps);
   const auto contestant = make_contestant(engine, *set.subgraph, reachable);
   Total total;
-  for (const HorizonProblem& problem : set.problems) {
+  for (const search::HorizonProblem& problem : set.problems) {
     contestant->solve(problem);
     total.generated += contestant->solved().generated;
     total.expanded += contestant->solved().expanded;

@@ -63,7 +63,7 @@ struct BoundaryPiece {
 /// One search.
 class PlainRun {
  public:
-  PlainRun(const PlainSearch& search, const HorizonProblem& problem);
+  PlainRun(const PlainSearch& search, const search::HorizonProblem& problem);
   PlainResult run();
 
  private:
@@ -108,7 +108,7 @@ class PlainRun {
   Box place(const ConvexPolygon& area_m, const Vertex& parent);
 
   const PlainSearch& search_;
-  const HorizonProblem& problem_;
+  const search::HorizonProblem& problem_;
   std::size_t horizon_steps_;
   std::vector<std::vector<Obstacle>> obstacles_;
   std::vector<BoundaryPiece> boundary_;
@@ -117,7 +117,7 @@ class PlainRun {
   OpenList open_;
 };
 
-PlainRun::PlainRun(const PlainSearch& search, const HorizonProblem& problem)
+PlainRun::PlainRun(const PlainSearch& search, const search::HorizonProblem& problem)
     : search_(search), problem_(problem), horizon_steps_(problem.horizon_steps()) {
   for (const auto& areas_m : problem.obstacles_m) {
     auto& obstacles = obstacles_.emplace_back();
@@ -233,13 +233,13 @@ Box PlainRun::place(const ConvexPolygon& area_m, const Vertex& parent) {
   return box;
 }
 
-PlainSearch::PlainSearch(const Subgraph& subgraph)
+PlainSearch::PlainSearch(const automaton::Subgraph& subgraph)
     : steps_(subgraph.automaton().trims.size()),
-      distance_to_standstill_(steps_.size(), Subgraph::kNever) {
-  const UniversalAutomaton& automaton = subgraph.automaton();
+      distance_to_standstill_(steps_.size(), automaton::Subgraph::kNever) {
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
   for (const TrimId trim : subgraph.start_trims()) {
     distance_to_standstill_[trim.index] = subgraph.distance_to_standstill(trim);
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       const Pose& displacement = edge.maneuver->displacement;
       steps_[trim.index].push_back(
           {.maneuver = edge.maneuver,
@@ -247,14 +247,14 @@ PlainSearch::PlainSearch(const Subgraph& subgraph)
            .turn = {std::cos(displacement.heading_rad), std::sin(displacement.heading_rad)},
            .to = edge.to,
            .distance_to_standstill = subgraph.distance_to_standstill(edge.to),
-           .ends_at_limit = is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
-                                                 automaton.identified)});
+           .ends_at_limit = automaton::is_at_steering_limit(
+               automaton.trims[edge.to.index], automaton.vehicle, automaton.identified)});
       longest_m_ = std::max(longest_m_, displacement.position_m().norm());
     }
   }
 }
 
-PlainResult PlainSearch::search(const HorizonProblem& problem) const {
+PlainResult PlainSearch::search(const search::HorizonProblem& problem) const {
   return PlainRun(*this, problem).run();
 }
 

@@ -10,10 +10,10 @@ namespace hlc::test {
 
 struct PlainResult {
   bool feasible{false};
-  double cost{};                           ///< [m^2]; only if feasible
-  std::vector<const Maneuver*> maneuvers;  ///< n of them; empty unless feasible
-  std::size_t generated{};                 ///< vertices made, the root included
-  std::size_t expanded{};                  ///< vertices whose successors were made
+  double cost{};                                      ///< [m^2]; only if feasible
+  std::vector<const automaton::Maneuver*> maneuvers;  ///< n of them; empty unless feasible
+  std::size_t generated{};                            ///< vertices made, the root included
+  std::size_t expanded{};                             ///< vertices whose successors were made
 };
 
 /// Textbook best-first search (A*) for horizon problems: what the engines of planner/search are
@@ -38,17 +38,17 @@ struct PlainResult {
 class PlainSearch {
  public:
   /// @param subgraph  must outlive this object
-  explicit PlainSearch(const Subgraph& subgraph);
+  explicit PlainSearch(const automaton::Subgraph& subgraph);
 
   /// @pre problem.obstacles_m.size() is 0 or n
-  [[nodiscard]] PlainResult search(const HorizonProblem& problem) const;
+  [[nodiscard]] PlainResult search(const search::HorizonProblem& problem) const;
 
  private:
   friend class PlainRun;
 
   /// An edge of the subgraph: where it leads, in the frame of its start.
   struct Step {
-    const Maneuver* maneuver;
+    const automaton::Maneuver* maneuver;
     Point shift_m;
     Point turn;  ///< cosine and sine of the change of heading
     TrimId to;

@@ -12,10 +12,11 @@ namespace hlc::test::plain_search_test {
 namespace {
 
 /// The plan in the format of an engine, for `validate`.
-SearchResult as_engine_result(const PlainResult& plan, const HorizonProblem& problem) {
-  SearchResult result{.status = SearchStatus::kOptimal, .cost = plan.cost};
+search::SearchResult as_engine_result(const PlainResult& plan,
+                                      const search::HorizonProblem& problem) {
+  search::SearchResult result{.status = search::SearchStatus::kOptimal, .cost = plan.cost};
   Pose pose = problem.start;
-  for (const Maneuver* maneuver : plan.maneuvers) {
+  for (const automaton::Maneuver* maneuver : plan.maneuvers) {
     pose = compose(pose, maneuver->displacement);
     result.maneuvers.push_back(maneuver);
     result.poses.push_back(pose);
@@ -26,13 +27,13 @@ SearchResult as_engine_result(const PlainResult& plan, const HorizonProblem& pro
 /// @param surge_mps2  more than 0: maneuvers outrun their trims
 void expect_agreement_with_trying_every_path(double surge_mps2, std::size_t horizon_steps,
                                              std::uint64_t problems) {
-  const Subgraph subgraph = make_test_subgraph(surge_mps2);
+  const automaton::Subgraph subgraph = make_test_subgraph(surge_mps2);
   const PlainSearch search(subgraph);
   std::uint64_t infeasible = 0;
   for (std::uint64_t seed = 0; seed < num_seeds(problems); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    HorizonProblem problem = random_problem(subgraph, horizon_steps, random);
+    search::HorizonProblem problem = random_problem(subgraph, horizon_steps, random);
     problem.avoids_steering_limit = seed % 4 == 0;
     const ExhaustiveResult truth = exhaustive_search(subgraph, problem);
     const PlainResult plan = search.search(problem);
@@ -60,12 +61,12 @@ TEST(PlainSearch, AgreesWithTryingEveryPathOfManeuversThatOutrunTheirTrims) {
 // last point, which is put where the car may come to stand: a bound that is 1 % too large finds
 // plans that cost more.
 TEST(PlainSearch, AgreesWithTryingEveryPathWhereTheCostToGoIsTight) {
-  const Subgraph subgraph = make_test_subgraph();
+  const automaton::Subgraph subgraph = make_test_subgraph();
   const PlainSearch search(subgraph);
   for (std::uint64_t seed = 0; seed < num_seeds(300); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    HorizonProblem problem{.start_trim = TrimId{6}};
+    search::HorizonProblem problem{.start_trim = TrimId{6}};
     const double ahead_m = uniform(random, 0.0, 1.0);
     const double beside_m = uniform(random, -0.5, 0.5);
     for (int step = 1; step < 4; ++step) {
@@ -79,10 +80,10 @@ TEST(PlainSearch, AgreesWithTryingEveryPathWhereTheCostToGoIsTight) {
 }
 
 TEST(PlainSearch, TheSameProblemGivesTheSamePlanAndCounts) {
-  const Subgraph subgraph = make_test_subgraph();
+  const automaton::Subgraph subgraph = make_test_subgraph();
   const PlainSearch search(subgraph);
   std::mt19937_64 random(1);
-  const HorizonProblem problem = random_problem(subgraph, 8, random);
+  const search::HorizonProblem problem = random_problem(subgraph, 8, random);
   const PlainResult first = search.search(problem);
   const PlainResult second = search.search(problem);
   EXPECT_EQ(first.cost, second.cost);
@@ -93,7 +94,7 @@ TEST(PlainSearch, TheSameProblemGivesTheSamePlanAndCounts) {
 
 TEST(PlainSearch, ATrimThatCannotStandInTimeHasNoPlan) {
   // Of pi_7 alone with pi_1: one step from standstill.
-  const Subgraph subgraph = make_test_subgraph(make_test_automaton(), {1, 7});
+  const automaton::Subgraph subgraph = make_test_subgraph(make_test_automaton(), {1, 7});
   const PlainResult plan = PlainSearch(subgraph).search({.start_trim = TrimId{6}});
   EXPECT_FALSE(plan.feasible);
   EXPECT_EQ(plan.generated, 1U);

@@ -65,24 +65,27 @@ const Recipe& recipe(const std::string& name) {
   throw std::invalid_argument("problem set " + name + ", must be one of " + allowed);
 }
 
-std::shared_ptr<const Subgraph> built(const std::string& name,
-                                      const AutomatonConfiguration& configuration) {
-  const SubgraphSpec& spec = *std::ranges::find(configuration.subgraphs, name, &SubgraphSpec::name);
-  return std::make_shared<const Subgraph>(build_shared_automaton(needed_by(spec, configuration)),
-                                          spec);
+std::shared_ptr<const automaton::Subgraph> built(
+    const std::string& name, const maneuver_design::AutomatonConfiguration& configuration) {
+  const automaton::SubgraphSpec& spec =
+      *std::ranges::find(configuration.subgraphs, name, &automaton::SubgraphSpec::name);
+  return std::make_shared<const automaton::Subgraph>(
+      maneuver_design::build_shared_automaton(maneuver_design::needed_by(spec, configuration)),
+      spec);
 }
 
-AutomatonConfiguration shipped(const std::string& file) {
-  return read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/" + file);
+maneuver_design::AutomatonConfiguration shipped(const std::string& file) {
+  return maneuver_design::read_automaton_configuration(test::source_folder() +
+                                                       "/launch_scripts/automata/" + file);
 }
 
 /// 95 trims: standstill, and six speeds up to 0.8 m/s with fifteen steering angles, the two lowest
 /// with seventeen. The limits allow one speed and one angle up or down in a step.
-AutomatonConfiguration grid_of_95() {
+maneuver_design::AutomatonConfiguration grid_of_95() {
   constexpr double kBetweenSpeeds_mps = 0.8 / 6.0;
   constexpr double kBetweenAngles_rad = 0.06;
-  AutomatonConfiguration grid = shipped("ucar_grid_34.yaml");
-  grid.trims = {Trim{}};
+  maneuver_design::AutomatonConfiguration grid = shipped("ucar_grid_34.yaml");
+  grid.trims = {automaton::Trim{}};
   for (int speed = 1; speed <= 6; ++speed) {
     const int angles = speed <= 2 ? 8 : 7;
     for (int angle = -angles; angle <= angles; ++angle) {
@@ -91,14 +94,14 @@ AutomatonConfiguration grid_of_95() {
   }
   grid.limits.acceleration_mps2 = 1.01 * kBetweenSpeeds_mps / grid.step_s;
   grid.limits.steering_rate_radps = 1.01 * kBetweenAngles_rad / grid.step_s;
-  for (SubgraphSpec& spec : grid.subgraphs) {
+  for (automaton::SubgraphSpec& spec : grid.subgraphs) {
     spec.trims.clear();
     for (std::size_t i = 0; i < grid.trims.size(); ++i) spec.trims.push_back(TrimId{i});
   }
   return grid;
 }
 
-std::shared_ptr<const Subgraph> built_subgraph(Automaton automaton) {
+std::shared_ptr<const automaton::Subgraph> built_subgraph(Automaton automaton) {
   switch (automaton) {
     case Automaton::kPaperB:
       return built("B", shipped("paper.yaml"));
@@ -112,23 +115,23 @@ std::shared_ptr<const Subgraph> built_subgraph(Automaton automaton) {
   return nullptr;
 }
 
-std::vector<HorizonProblem> three_cars(const std::shared_ptr<const Subgraph>& subgraph, Kind kind,
-                                       std::size_t steps) {
+std::vector<search::HorizonProblem> three_cars(
+    const std::shared_ptr<const automaton::Subgraph>& subgraph, Kind kind, std::size_t steps) {
   const Lanes lanes = kind == Kind::kThreeCars ? Lanes::kNone : Lanes::kCorridor;
-  std::vector<HorizonProblem> problems = three_cars_problems(subgraph, lanes, steps);
+  std::vector<search::HorizonProblem> problems = three_cars_problems(subgraph, lanes, steps);
   if (kind == Kind::kThreeCarsIncumbent) return problems;
-  for (HorizonProblem& problem : problems) problem.incumbent.clear();
+  for (search::HorizonProblem& problem : problems) problem.incumbent.clear();
   return problems;
 }
 
 /// Of the problems with seeds 0, 1, ... the first without a plan.
-std::vector<HorizonProblem> problems_without_plan(const Subgraph& subgraph,
-                                                  std::span<const ReferencePath> routes,
-                                                  const RandomTraffic& traffic, std::size_t count) {
+std::vector<search::HorizonProblem> problems_without_plan(
+    const automaton::Subgraph& subgraph, std::span<const road::ReferencePath> routes,
+    const RandomTraffic& traffic, std::size_t count) {
   const PlainSearch search(subgraph);
-  std::vector<HorizonProblem> problems;
+  std::vector<search::HorizonProblem> problems;
   for (std::uint64_t seed = 0; problems.size() < count; ++seed) {
-    HorizonProblem problem = random_traffic_problem(subgraph, routes, traffic, seed);
+    search::HorizonProblem problem = random_traffic_problem(subgraph, routes, traffic, seed);
     if (!search.search(problem).feasible) problems.push_back(std::move(problem));
   }
   return problems;
@@ -147,8 +150,8 @@ std::span<const ProblemSetInfo> problem_set_infos() {
 
 ProblemSets::ProblemSets() : routes_(three_cars_routes()) {}
 
-std::shared_ptr<const Subgraph> ProblemSets::subgraph(Automaton automaton) {
-  std::shared_ptr<const Subgraph>& known = subgraphs_[automaton];
+std::shared_ptr<const automaton::Subgraph> ProblemSets::subgraph(Automaton automaton) {
+  std::shared_ptr<const automaton::Subgraph>& known = subgraphs_[automaton];
   if (!known) known = built_subgraph(automaton);
   return known;
 }

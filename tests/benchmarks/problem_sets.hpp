@@ -16,9 +16,9 @@ namespace hlc::test {
 /// Horizon problems of one kind, on one subgraph.
 struct ProblemSet {
   std::string name;
-  std::shared_ptr<const Subgraph> subgraph;
+  std::shared_ptr<const automaton::Subgraph> subgraph;
   std::size_t horizon_steps{};  ///< of every problem
-  std::vector<HorizonProblem> problems;
+  std::vector<search::HorizonProblem> problems;
 };
 
 /// What the sets are made on; all but kPaperA have J2 maneuvers.
@@ -67,10 +67,10 @@ class ProblemSets {
   [[nodiscard]] ProblemSet make(const std::string& name, std::size_t max_problems = 0);
 
  private:
-  [[nodiscard]] std::shared_ptr<const Subgraph> subgraph(Automaton automaton);
+  [[nodiscard]] std::shared_ptr<const automaton::Subgraph> subgraph(Automaton automaton);
 
-  std::vector<ReferencePath> routes_;  ///< of random traffic: the three cars'
-  std::map<Automaton, std::shared_ptr<const Subgraph>> subgraphs_;
+  std::vector<road::ReferencePath> routes_;  ///< of random traffic: the three cars'
+  std::map<Automaton, std::shared_ptr<const automaton::Subgraph>> subgraphs_;
 };
 
 }  // namespace hlc::test

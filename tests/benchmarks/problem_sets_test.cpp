@@ -19,17 +19,17 @@ ProblemSet make(const std::string& name, std::size_t max_problems = 0) {
 std::size_t num_changed(const ProblemSet& set) {
   const PlainSearch search(*set.subgraph);
   std::size_t changed = 0;
-  for (const HorizonProblem& problem : set.problems) {
+  for (const search::HorizonProblem& problem : set.problems) {
     const PlainResult plan = search.search(problem);
     EXPECT_TRUE(plan.feasible);
-    HorizonProblem alone = problem;
+    search::HorizonProblem alone = problem;
     alone.obstacles_m.clear();
     changed += search.search(alone).cost < plan.cost - 1e-9 ? 1U : 0U;
   }
   return changed;
 }
 
-bool has_boundary(const HorizonProblem& problem) { return !problem.boundary_m.empty(); }
+bool has_boundary(const search::HorizonProblem& problem) { return !problem.boundary_m.empty(); }
 
 TEST(ThreeCars, RedAlwaysHasAPlanAndTheOthersChangeItInThirtyStepsAndMore) {
   for (const char* name : {"three_cars", "three_cars_corridor"}) {
@@ -48,7 +48,7 @@ TEST(ThreeCars, OnlyTheCorridorHasABoundary) {
 TEST(ProblemSets, OnlyOneSetHasIncumbents) {
   for (const char* name : {"three_cars", "three_cars_corridor", "random_starts"}) {
     const ProblemSet set = make(name, 5);
-    for (const HorizonProblem& problem : set.problems) {
+    for (const search::HorizonProblem& problem : set.problems) {
       EXPECT_TRUE(problem.incumbent.empty());
     }
   }
@@ -82,7 +82,7 @@ TEST(ProblemSets, NothingOfTheInfeasibleSetsHasAPlan) {
   for (const auto& [name, problems] : {std::pair{"infeasible", 1U}, {"infeasible_random", 10U}}) {
     const ProblemSet set = make(name, problems);
     const PlainSearch search(*set.subgraph);
-    for (const HorizonProblem& problem : set.problems) {
+    for (const search::HorizonProblem& problem : set.problems) {
       EXPECT_FALSE(search.search(problem).feasible) << name;
     }
   }

@@ -35,15 +35,14 @@ struct RandomTraffic {
 /// @param routes  closed
 /// @param seed  the same gives the same problem
 /// @pre every trim that is on can stand within `horizon_steps`
-[[nodiscard]] HorizonProblem random_traffic_problem(const Subgraph& subgraph,
-                                                    std::span<const ReferencePath> routes,
-                                                    const RandomTraffic& traffic,
-                                                    std::uint64_t seed);
+[[nodiscard]] search::HorizonProblem random_traffic_problem(
+    const automaton::Subgraph& subgraph, std::span<const road::ReferencePath> routes,
+    const RandomTraffic& traffic, std::uint64_t seed);
 
 /// From standstill anywhere on the routes as above, all ground occupied during the last step:
 /// every path up to it is free and none ends.
-[[nodiscard]] HorizonProblem blocked_end_problem(const Subgraph& subgraph,
-                                                 std::span<const ReferencePath> routes,
-                                                 std::size_t horizon_steps, std::uint64_t seed);
+[[nodiscard]] search::HorizonProblem blocked_end_problem(
+    const automaton::Subgraph& subgraph, std::span<const road::ReferencePath> routes,
+    std::size_t horizon_steps, std::uint64_t seed);
 
 }  // namespace hlc::test

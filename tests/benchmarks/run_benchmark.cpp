@@ -25,8 +25,8 @@ hlc::Nanoseconds wall_clock() {
 double since_ms(hlc::Nanoseconds from) { return 1e-6 * static_cast<double>(wall_clock() - from); }
 
 /// All steps; making the controllers (their tables) is not timed: a run does it before its start.
-double rollout_ms(const hlc::Scenario& scenario) {
-  hlc::Rollout rollout = hlc::make_rollout(scenario);
+double rollout_ms(const hlc::scenario::Scenario& scenario) {
+  hlc::rollout::Rollout rollout = hlc::rollout::make_rollout(scenario);
   const hlc::Nanoseconds from = wall_clock();
   for (std::size_t i = 0; i < scenario.steps; ++i) static_cast<void>(rollout.step());
   return since_ms(from);
@@ -41,10 +41,10 @@ struct Times {
   std::vector<double> rest_ms;
 };
 
-void add_run(const hlc::Scenario& scenario, Times& times) {
-  const hlc::Experiment experiment =
-      hlc::drive_experiment(scenario, {.steps = scenario.steps, .clocks = {.wall = wall_clock}});
-  const hlc::WallTimes& wall = experiment.wall;
+void add_run(const hlc::scenario::Scenario& scenario, Times& times) {
+  const hlc::closed_loop::Experiment experiment = hlc::closed_loop::drive_experiment(
+      scenario, {.steps = scenario.steps, .clocks = {.wall = wall_clock}});
+  const hlc::closed_loop::WallTimes& wall = experiment.wall;
   const double run_ms = 1e3 * experiment.facts.wall_s;
   times.run_ms.push_back(run_ms);
   times.planning_ms.push_back(1e3 * wall.planning_s);
@@ -61,8 +61,8 @@ void print(const char* what, const std::vector<double>& sample, double run_s) {
   std::printf("\n");
 }
 
-void run(const hlc::ScenarioChoices& choices, std::size_t repeats) {
-  const hlc::Scenario scenario = hlc::read_scenario(choices);
+void run(const hlc::scenario::ScenarioChoices& choices, std::size_t repeats) {
+  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
   const double run_s = static_cast<double>(scenario.steps) * scenario.subgraph->automaton().step_s;
   Times times;
   for (std::size_t i = 0; i < repeats; ++i) {
@@ -85,18 +85,18 @@ void run(const hlc::ScenarioChoices& choices, std::size_t repeats) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Times whole runs of a scenario within this process.", "run_benchmark"};
-  hlc::ScenarioChoices choices;
+  hlc::scenario::ScenarioChoices choices;
   std::size_t repeats = 20;
-  hlc::declare_scenario_flags(app, choices);
+  hlc::apps::declare_scenario_flags(app, choices);
   app.get_option("--scenario")->required(false)->capture_default_str();
   choices.file = "launch_scripts/scenarios/paper_three_cars.yaml";
   app.add_option("--steps", choices.steps, "instead of the scenario's")
-      ->check(hlc::whole(1, 100000));
+      ->check(hlc::apps::whole(1, 100000));
   app.add_option("--repeats", repeats, "how often")
-      ->check(hlc::whole(1, 10000))
+      ->check(hlc::apps::whole(1, 10000))
       ->capture_default_str();
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::exit_code_of(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  return hlc::apps::exit_code_of(
       "run_benchmark", [&] { run(choices, repeats); }, kExitFailed);
 }

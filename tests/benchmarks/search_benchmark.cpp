@@ -17,14 +17,15 @@
 namespace {
 
 struct Choices {
-  hlc::OutputFile json{"--json", {}};
+  hlc::apps::OutputFile json{"--json", {}};
   std::vector<std::string> sets;
   std::size_t problems{};  ///< 0: all
   std::string only;
   bool lists{};
 };
 
-hlc::test::Solved timed(hlc::test::Contestant& contestant, const hlc::HorizonProblem& problem) {
+hlc::test::Solved timed(hlc::test::Contestant& contestant,
+                        const hlc::search::HorizonProblem& problem) {
   const auto begin = std::chrono::steady_clock::now();
   contestant.solve(problem);
   const auto end = std::chrono::steady_clock::now();
@@ -34,7 +35,7 @@ hlc::test::Solved timed(hlc::test::Contestant& contestant, const hlc::HorizonPro
 }
 
 hlc::test::SetReport measure(const hlc::test::ProblemSet& set, const std::string& only) {
-  const hlc::ReachableSets reachable(*set.subgraph, set.horizon_steps);
+  const hlc::automaton::ReachableSets reachable(*set.subgraph, set.horizon_steps);
   std::vector<hlc::test::EngineRun> runs;
   std::vector<std::unique_ptr<hlc::test::Contestant>> contestants;
   for (const std::string& name : hlc::test::contestant_names()) {
@@ -50,7 +51,7 @@ hlc::test::SetReport measure(const hlc::test::ProblemSet& set, const std::string
       // one.
       const std::size_t next = (i + turn) % runs.size();
       // As in a controller, the problem was created immediately before.
-      const hlc::HorizonProblem posed = set.problems[i];
+      const hlc::search::HorizonProblem posed = set.problems[i];
       runs[next].solved.push_back(timed(*contestants[next], posed));
     }
   }
@@ -71,8 +72,8 @@ void list() {
 
 /// True if every engine's every plan was a best one.
 bool run(const Choices& choices) {
-  hlc::check_output_files({choices.json});
-  hlc::check_each_once("--sets", choices.sets);
+  hlc::apps::check_output_files({choices.json});
+  hlc::apps::check_each_once("--sets", choices.sets);
   hlc::test::ProblemSets sets;
   std::vector<hlc::test::SetReport> reports;
   for (const std::string& name : choices.sets) {
@@ -103,20 +104,20 @@ bool run(const Choices& choices) {
 int main(int argc, char** argv) {
   CLI::App app{"Measures the search engines against a plain reference search.", "search_benchmark"};
   Choices choices{.sets = all_sets()};
-  hlc::declare_output(app, choices.json, "also write the figures to this file (JSON)");
+  hlc::apps::declare_output(app, choices.json, "also write the figures to this file (JSON)");
   app.add_option("--sets", choices.sets, "problem sets, separated by commas (default: all)")
       ->delimiter(',')
-      ->check(hlc::among(all_sets()));
+      ->check(hlc::apps::among(all_sets()));
   app.add_option("--problems", choices.problems, "only the first so many of each set")
-      ->check(hlc::whole(1, 1000000));
+      ->check(hlc::apps::whole(1, 1000000));
   app.add_option("--only", choices.only, "run this engine alone, once per problem")
-      ->check(hlc::among(hlc::test::contestant_names()));
+      ->check(hlc::apps::among(hlc::test::contestant_names()));
   app.add_flag("--list", choices.lists, "name the sets and end");
   app.footer(
       "Exit codes: 0 success, 1 an engine's plan is not optimal or something failed, 2 invalid "
       "input.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::exit_code_of("search_benchmark", [&choices] {
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("search_benchmark", [&choices] {
     if (!choices.lists) return run(choices) ? 0 : 1;
     list();
     return 0;

@@ -25,7 +25,7 @@ struct ThreeCarsStart {
 inline constexpr ThreeCarsStart kThreeCarsStart{.blue_m = 6.5, .green_m = 4.5};
 
 /// The closed routes of red, blue and green.
-[[nodiscard]] std::vector<ReferencePath> three_cars_routes();
+[[nodiscard]] std::vector<road::ReferencePath> three_cars_routes();
 
 /// Red's planning problems, step by step, in scenario `paper_three_cars` (map, routes, reference
 /// speed, horizon, profile `default` but the authors' later spacing of reference points) with
@@ -34,8 +34,8 @@ inline constexpr ThreeCarsStart kThreeCarsStart{.blue_m = 6.5, .green_m = 4.5};
 ///
 /// Steps in which red had nothing to search are left out.
 /// @param subgraph  of the paper's automaton
-[[nodiscard]] std::vector<HorizonProblem> three_cars_problems(
-    const std::shared_ptr<const Subgraph>& subgraph, Lanes lanes, std::size_t steps,
+[[nodiscard]] std::vector<search::HorizonProblem> three_cars_problems(
+    const std::shared_ptr<const automaton::Subgraph>& subgraph, Lanes lanes, std::size_t steps,
     const ThreeCarsStart& start = kThreeCarsStart);
 
 }  // namespace hlc::test

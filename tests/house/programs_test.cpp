@@ -11,7 +11,7 @@
 
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ TEST(Programs, EveryProgramOfADocumentIsBuiltByTheScript) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::test

@@ -12,7 +12,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 
-namespace hlc {
+namespace hlc::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ TEST(RunTests, RefusesAFolderWithoutTestsAndNamesThoseThatHaveThem) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::test

@@ -15,7 +15,7 @@
 
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,4 +225,4 @@ TEST(WordList, NamesAreReadByTheirWords) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::test

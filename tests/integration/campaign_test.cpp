@@ -45,19 +45,19 @@ std::string trace_with_processes(const Same& same, int steps) {
 
 TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
   const int steps = GetParam().steps;
-  const Scenario scenario = read_scenario(
+  const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
        .profile = GetParam().profile,
        .policy = GetParam().policy.empty() ? std::nullopt : std::optional(GetParam().policy)});
-  const ExperimentOptions options{.steps = static_cast<std::uint64_t>(steps),
-                                  .noise_seed = GetParam().noise_seed};
-  const Experiment experiment = drive_experiment(scenario, options);
-  const std::vector<StepRecord> rows =
-      step_records(experiment.reports, experiment.drives, experiment.facts);
+  const closed_loop::ExperimentOptions options{.steps = static_cast<std::uint64_t>(steps),
+                                               .noise_seed = GetParam().noise_seed};
+  const closed_loop::Experiment experiment = closed_loop::drive_experiment(scenario, options);
+  const std::vector<result::StepRecord> rows =
+      result::step_records(experiment.reports, experiment.drives, experiment.facts);
   EXPECT_EQ(rows.size(), static_cast<std::size_t>(steps) * scenario.vehicles.size());
-  const std::string trace =
-      summarize(describe(scenario, options.noise_seed), experiment.facts, rows, experiment.drives)
-          .trace_sha256;
+  const std::string trace = result::summarize(result::describe(scenario, options.noise_seed),
+                                              experiment.facts, rows, experiment.drives)
+                                .trace_sha256;
   EXPECT_EQ(trace_with_processes(GetParam(), steps), trace);
 }
 

@@ -21,7 +21,7 @@
 namespace {
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   std::vector<int> vehicle_ids;
   std::string out;
 };
@@ -31,7 +31,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_ids", flags.vehicle_ids, "whose commands")
       ->delimiter(',')
       ->required()
-      ->check(hlc::vehicle_id_range());
+      ->check(hlc::apps::vehicle_id_range());
   app.add_option("--out", flags.out, "file for the commands")->required();
   app.footer(
       "Ends with the lab control or the last of the middlewares. Exit codes: 0 success, 2 invalid "
@@ -45,15 +45,15 @@ class Recorder {
       : file_(std::fopen(flags.out.c_str(), "w"), std::fclose),
         lab_({.name = "command_recorder",
               .domain_id = flags.network.dds_domain,
-              .role = hlc::DomainRole::kLab,
-              .transport = hlc::transport_from_name(flags.network.transport),
-              .lease = hlc::run_time(flags.network.simulated_time).lease,
+              .role = hlc::dds::DomainRole::kLab,
+              .transport = hlc::dds::transport_from_name(flags.network.transport),
+              .lease = hlc::machine::run_time(flags.network.simulated_time).lease,
               .discovery_server = flags.network.discovery_server()},
              [this] { signal_.notify(); }) {
     if (!file_) throw std::invalid_argument("--out = " + flags.out + ", cannot be written");
     for (const int id : flags.vehicle_ids) {
       const auto vehicle = static_cast<std::uint8_t>(id);
-      readers_.try_emplace(vehicle, lab_, hlc::topics::vehicle_command(vehicle),
+      readers_.try_emplace(vehicle, lab_, hlc::dds::topics::vehicle_command(vehicle),
                            [this](const hlc::TrajectoryCommand& command) {
                              signal_.post([&] { commands_.push_back(command); });
                            });
@@ -87,22 +87,22 @@ class Recorder {
   }
 
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  hlc::Signal signal_;
+  hlc::time::Signal signal_;
   std::vector<hlc::TrajectoryCommand> commands_;
   bool stop_{};
-  hlc::Participant lab_;
-  std::map<std::uint8_t, hlc::Reader<hlc::TrajectoryCommand>> readers_;
+  hlc::dds::Participant lab_;
+  std::map<std::uint8_t, hlc::dds::Reader<hlc::TrajectoryCommand>> readers_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"Writes every trajectory command of the lab domain to a file.", "command_recorder"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitDied)) return *code;
-  return hlc::run_program(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitDied)) return *code;
+  return hlc::apps::run_program(
       "command_recorder", signals, [&] { return std::make_shared<Recorder>(flags); },
       [](Recorder& recorder) { recorder.stop(); });
 }

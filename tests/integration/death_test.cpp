@@ -19,10 +19,10 @@ using namespace std::chrono_literals;
 
 /// The vehicle stood when the stop symbol came: so the plan stopped it, not the braking. It brakes
 /// for the last SimulatedVehicle::kBrakingTicks rows, whatever the time.
-void expect_stood_before_the_stop(const Drive& drive, const std::string& id) {
+void expect_stood_before_the_stop(const result::Drive& drive, const std::string& id) {
   constexpr std::size_t kBrakingTicks = 50;
   ASSERT_GT(drive.size(), kBrakingTicks) << "vehicle " << id;
-  const DrivenSample& at_stop = drive[drive.size() - 1 - kBrakingTicks];
+  const result::DrivenSample& at_stop = drive[drive.size() - 1 - kBrakingTicks];
   EXPECT_LT(std::abs(at_stop.speed_mps), 0.05) << "vehicle " << id;
 }
 
@@ -75,7 +75,7 @@ TEST_P(ProcessDeath, IsNamedAndTheOthersStand) {
   if (death.signal == SIGSTOP) lab[death.victim].send(SIGKILL);
   EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
 
-  const Drives drives = lab.drives();
+  const result::Drives drives = lab.drives();
   ASSERT_EQ(drives.size(), 3U);
   for (const auto& [number, drive] : drives) {
     const std::string id = std::to_string(number);

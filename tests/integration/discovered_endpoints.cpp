@@ -11,12 +11,15 @@
 
 namespace hlc::test {
 
+namespace fdds = dds::fdds;
+namespace frtps = dds::frtps;
+
 class DiscoveredEndpoints::Listener : public fdds::DomainParticipantListener {
  public:
-  explicit Listener(const ParticipantOptions& options) {
-    set_up_library();  // the lab's types: without them their announcements crash the process
+  explicit Listener(const dds::ParticipantOptions& options) {
+    dds::set_up_library();  // the lab's types: without them their announcements crash the process
     participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<fdds::DomainId_t>(options.domain_id), participant_qos(options), this,
+        static_cast<fdds::DomainId_t>(options.domain_id), dds::participant_qos(options), this,
         fdds::StatusMask::none());
     if (participant_ == nullptr) throw std::runtime_error("the domain cannot be joined");
   }
@@ -71,7 +74,7 @@ class DiscoveredEndpoints::Listener : public fdds::DomainParticipantListener {
   fdds::DomainParticipant* participant_{};
 };
 
-DiscoveredEndpoints::DiscoveredEndpoints(const ParticipantOptions& options)
+DiscoveredEndpoints::DiscoveredEndpoints(const dds::ParticipantOptions& options)
     : listener_(std::make_unique<Listener>(options)) {}
 
 DiscoveredEndpoints::~DiscoveredEndpoints() = default;

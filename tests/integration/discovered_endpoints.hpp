@@ -24,7 +24,7 @@ struct Endpoint {
 class DiscoveredEndpoints {
  public:
   /// @throws std::runtime_error if the domain cannot be joined
-  explicit DiscoveredEndpoints(const ParticipantOptions& options);
+  explicit DiscoveredEndpoints(const dds::ParticipantOptions& options);
   ~DiscoveredEndpoints();
 
   /// All that were announced so far, whether or not they are still there.

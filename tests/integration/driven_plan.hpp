@@ -20,21 +20,21 @@ inline constexpr Nanoseconds kForever = ~Nanoseconds{0};
 /// the same plan do not.
 /// @return nothing if the vehicle followed no command at `from`, or one that was not recorded, or
 /// has no record of [from, to]
-[[nodiscard]] std::optional<double> farthest_from_plan_m(const Drive& drive,
+[[nodiscard]] std::optional<double> farthest_from_plan_m(const result::Drive& drive,
                                                          const Commands& commands,
                                                          std::uint8_t vehicle, Nanoseconds from,
                                                          Nanoseconds to);
 
 /// Time since which the vehicle stands until `to`, or the end of its record: slower than counts as
 /// standing (MissingVehicleRules). Nothing if it does not stand then.
-[[nodiscard]] std::optional<Nanoseconds> standing_since(const Drive& drive, Nanoseconds to);
+[[nodiscard]] std::optional<Nanoseconds> standing_since(const result::Drive& drive, Nanoseconds to);
 
 /// How close all driven footprints came to each other. A vehicle whose record has ended stands
 /// where it was seen last and can still be hit: but not those of `ended`, whose own processes died,
 /// so that the simulated cars stopped instantly, which no plan predicts. They count as long
 /// as their records last.
-[[nodiscard]] Encounters driven_encounters(const std::vector<VehicleDescription>& vehicles,
-                                           const Drives& drives,
-                                           const std::set<std::uint8_t>& ended = {});
+[[nodiscard]] result::Encounters driven_encounters(
+    const std::vector<result::VehicleDescription>& vehicles, const result::Drives& drives,
+    const std::set<std::uint8_t>& ended = {});
 
 }  // namespace hlc::test

@@ -27,8 +27,8 @@ TrajectoryCommand straight(double seconds, Nanoseconds create_stamp) {
 }
 
 /// Drives straight(seconds), and follows that command.
-Drive drive(double seconds, Nanoseconds create_stamp, Nanoseconds end = 3 * kSecond) {
-  Drive samples;
+result::Drive drive(double seconds, Nanoseconds create_stamp, Nanoseconds end = 3 * kSecond) {
+  result::Drive samples;
   for (Nanoseconds t = 0; t <= end; t += kTick) {
     const double t_s = 1e-9 * static_cast<double>(t);
     samples.push_back({.t = t,
@@ -55,8 +55,8 @@ TEST(DrivenPlan, WhoFollowsItsPlanIsNowhereFarFromIt) {
 }
 
 TEST(DrivenPlan, WhoDrivesANewerPlanShowsAgainstTheOneItFollowedAtTheBegin) {
-  Drive driven = drive(2.0, 7);
-  for (DrivenSample& sample : driven) {
+  result::Drive driven = drive(2.0, 7);
+  for (result::DrivenSample& sample : driven) {
     if (sample.t > kSecond) sample.command_create = 8;
   }
   const Commands commands = commands_of({straight(1.5, 7), straight(2.0, 8)});
@@ -73,7 +73,7 @@ TEST(DrivenPlan, NothingIsSaidOfAPlanThatWasNotRecordedOrOfNoTime) {
 }
 
 TEST(DrivenPlan, StandingCountsFromTheLastTimeThatTheVehicleMoved) {
-  Drive driven = drive(1.0, 7);
+  result::Drive driven = drive(1.0, 7);
   EXPECT_EQ(standing_since(driven, kForever), kSecond);
   EXPECT_EQ(standing_since(driven, kSecond / 2), std::nullopt);
   driven[100].speed_mps = -0.3;  // at 2 s
@@ -81,16 +81,17 @@ TEST(DrivenPlan, StandingCountsFromTheLastTimeThatTheVehicleMoved) {
 }
 
 TEST(DrivenPlan, AVehicleWhoseProcessDiedIsNoObstacleAfterwardsAndAnyOtherIs) {
-  VehicleDescription one{.id = {1}, .footprint = {0.2, 0.1}};
-  VehicleDescription two{.id = {2}, .footprint = {0.2, 0.1}};
-  Drives drives;
+  result::VehicleDescription one{.id = {1}, .footprint = {0.2, 0.1}};
+  result::VehicleDescription two{.id = {2}, .footprint = {0.2, 0.1}};
+  result::Drives drives;
   drives[1] = drive(2.0, 7);
-  for (DrivenSample sample : drive(2.0, 7, kSecond)) {  // ahead by 0.5 m, ends at 1 s at 1.5 m
+  for (result::DrivenSample sample :
+       drive(2.0, 7, kSecond)) {  // ahead by 0.5 m, ends at 1 s at 1.5 m
     sample.pose.x_m += 0.5;
     drives[2].push_back(sample);
   }
   EXPECT_EQ(driven_encounters({one, two}, drives).collisions, 1U);
-  const Encounters close = driven_encounters({one, two}, drives, {2});
+  const result::Encounters close = driven_encounters({one, two}, drives, {2});
   EXPECT_EQ(close.collisions, 0U);
   EXPECT_NEAR(close.min_distance_m.value(), 0.3, 1e-9);
 }

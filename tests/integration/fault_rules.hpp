@@ -20,7 +20,7 @@ inline constexpr Nanoseconds kStandingTime = 2'500'000'000;
 /// its plan. (Without noise undisturbed cars keep to it within 1 mm.)
 inline constexpr double kTrackingTolerance_m = 0.010;
 
-inline void expect_only_the_last_plan(const Drive& drive, const Commands& commands,
+inline void expect_only_the_last_plan(const result::Drive& drive, const Commands& commands,
                                       std::uint8_t vehicle, Nanoseconds fault, Nanoseconds to) {
   const auto farthest_m = farthest_from_plan_m(drive, commands, vehicle, fault + kReactionTime, to);
   ASSERT_TRUE(farthest_m) << "vehicle " << int{vehicle} << " follows no plan";
@@ -28,7 +28,8 @@ inline void expect_only_the_last_plan(const Drive& drive, const Commands& comman
 }
 
 /// And stays there to the end of its record.
-inline void expect_stands_in_time(const Drive& drive, std::uint8_t vehicle, Nanoseconds fault) {
+inline void expect_stands_in_time(const result::Drive& drive, std::uint8_t vehicle,
+                                  Nanoseconds fault) {
   ASSERT_FALSE(drive.empty()) << "vehicle " << int{vehicle};
   ASSERT_GT(drive.back().t, fault + kStandingTime) << "vehicle " << int{vehicle};
   const auto since = standing_since(drive, drive.back().t);
@@ -39,14 +40,14 @@ inline void expect_stands_in_time(const Drive& drive, std::uint8_t vehicle, Nano
 /// No driven footprints touch, of cars that have all been seen. @param ended  see driven_encounters
 inline void expect_nobody_was_touched(const RunProcesses& run,
                                       const std::set<std::uint8_t>& ended = {}) {
-  const auto vehicles = describe(run.scenario(), std::nullopt).vehicles;
-  const Drives drives = run.drives();
-  for (const VehicleDescription& vehicle : vehicles) {
+  const auto vehicles = result::describe(run.scenario(), std::nullopt).vehicles;
+  const result::Drives drives = run.drives();
+  for (const result::VehicleDescription& vehicle : vehicles) {
     const auto drive = drives.find(vehicle.id.value);
     ASSERT_TRUE(drive != drives.end() && !drive->second.empty())
         << "vehicle " << int{vehicle.id.value} << " has no record";
   }
-  const Encounters close = driven_encounters(vehicles, drives, ended);
+  const result::Encounters close = driven_encounters(vehicles, drives, ended);
   ASSERT_TRUE(close.min_distance_m) << "no two vehicles were seen at one time";
   EXPECT_EQ(close.collisions, 0U);
 }

@@ -52,10 +52,10 @@ class FaultyRun {
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     return eventually(120s, [&] {
       const std::vector<ReportRecord> so_far = lab.reports();
-      const std::optional<Report> own = last_report(so_far, victim);
+      const std::optional<coordination::Report> own = last_report(so_far, victim);
       if (planned_steps(so_far, victim) < 10 || !own) return false;
       return std::ranges::any_of(own->coupled, [&](VehicleId other) {
-        const std::optional<Report> near = last_report(so_far, other);
+        const std::optional<coordination::Report> near = last_report(so_far, other);
         return near && distance_m(near->planned_pose, own->planned_pose) < kNear_m;
       });
     });
@@ -67,7 +67,7 @@ class FaultyRun {
     EXPECT_TRUE(
         eventually(60s, [&] { return is_newest_sent_whole(lab.commands(), victim.value); }));
     lab[process].send(signal);
-    fault = real_time_now();
+    fault = time::real_time_now();
   }
 
   /// To be called when the run has ended, before anything is asked of the records. No run has a
@@ -119,7 +119,7 @@ class FaultyRun {
 
   LabProcesses lab;
   Nanoseconds fault{};
-  Drives drives;
+  result::Drives drives;
   Commands commands;
   std::vector<ReportRecord> records;
 
@@ -137,10 +137,10 @@ class FaultyRun {
                                                     StepIndex from = {}) const {
     std::optional<StepIndex> first;
     for (const ReportRecord& record : records) {
-      const Report& report = record.report;
+      const coordination::Report& report = record.report;
       const bool fits = report.vehicle.value == vehicle && report.step >= from &&
                         is_among(victim_, report.missing) &&
-                        has_planned == (report.status == StepStatus::kPlanned);
+                        has_planned == (report.status == coordination::StepStatus::kPlanned);
       if (fits && (!first || report.step < *first)) first = report.step;
     }
     return first;
@@ -155,10 +155,11 @@ class FaultyRun {
     constexpr Nanoseconds kStandsForGood = 2'000'000'000;
     const double top_speed_mps = top_speed_of(lab.scenario());
     for (const ReportRecord& record : records) {
-      const Report& report = record.report;
-      if (report.status != StepStatus::kPlanned || !is_among(victim_, report.missing)) continue;
+      const coordination::Report& report = record.report;
+      if (report.status != coordination::StepStatus::kPlanned || !is_among(victim_, report.missing))
+        continue;
       const Nanoseconds now = report.step.value * kPeriod;
-      const auto seen = driven_pose_at(drives.at(victim_.value), now - kStateDelay);
+      const auto seen = result::driven_pose_at(drives.at(victim_.value), now - kStateDelay);
       const auto stands = standing_since(drives.at(victim_.value), now);
       const auto command = commands.find({report.vehicle.value, now + kListOffset});
       if (!seen || command == commands.end() || (stands && *stands + kStandsForGood < now)) {
@@ -166,7 +167,7 @@ class FaultyRun {
       }
       ++num_plans;
       for (std::uint64_t j = 1; j <= lab.scenario().horizon_steps; ++j) {
-        const auto planned = sample(command->second.points, now + j * kPeriod);
+        const auto planned = tracking::sample(command->second.points, now + j * kPeriod);
         if (!planned) {
           ADD_FAILURE() << "command of step " << report.step.value << " ends before its plan";
           break;
@@ -180,9 +181,9 @@ class FaultyRun {
     return num_plans;
   }
 
-  static double top_speed_of(const Scenario& scenario) {
+  static double top_speed_of(const scenario::Scenario& scenario) {
     double top_mps = 0.0;
-    for (const Trim& trim : scenario.subgraph->automaton().trims) {
+    for (const automaton::Trim& trim : scenario.subgraph->automaton().trims) {
       top_mps = std::max(top_mps, trim.speed_mps);
     }
     return top_mps;
@@ -240,12 +241,12 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   ASSERT_TRUE(run.drives_near_another(kVictim)) << run.lab.log("lab_control");
   run.strike(kVictim, "high_level_controller_2", SIGSTOP);
   const auto is_missed = [&] {
-    const std::optional<Report> last = last_report(run.lab.reports(), {1});
+    const std::optional<coordination::Report> last = last_report(run.lab.reports(), {1});
     return last && is_among(kVictim, last->missing) &&
-           real_time_now() > run.fault + 2 * kReactionTime;
+           time::real_time_now() > run.fault + 2 * kReactionTime;
   };
   const bool was_missed = eventually(60s, is_missed);
-  const Nanoseconds goes_on = real_time_now();
+  const Nanoseconds goes_on = time::real_time_now();
   run.lab["high_level_controller_2"].send(SIGCONT);
   ASSERT_TRUE(was_missed);
   const StepIndex after{goes_on / kPeriod + 1};
@@ -274,11 +275,11 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
   ASSERT_TRUE(run.drives_near_another(kVictim)) << run.lab.log("lab_control");
   run.strike(kVictim, "high_level_controller_2", SIGSTOP);
   const bool was_dead = eventually(60s, [&] {
-    const std::optional<Report> last = last_report(run.lab.reports(), {1});
-    return last && last->status == StepStatus::kMinimalRiskStop &&
-           real_time_now() > run.fault + kStandingTime;
+    const std::optional<coordination::Report> last = last_report(run.lab.reports(), {1});
+    return last && last->status == coordination::StepStatus::kMinimalRiskStop &&
+           time::real_time_now() > run.fault + kStandingTime;
   });
-  const Nanoseconds goes_on = real_time_now();
+  const Nanoseconds goes_on = time::real_time_now();
   run.lab["high_level_controller_2"].send(SIGCONT);
   ASSERT_TRUE(was_dead);
   EXPECT_EQ(run.lab["lab_control"].wait_for(60s), 4) << run.lab.log("lab_control");

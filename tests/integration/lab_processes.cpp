@@ -18,8 +18,8 @@ std::string number(double value) {
   return text;
 }
 
-ScenarioChoices choices_of(const LabOptions& options) {
-  ScenarioChoices choices{.file = options.scenario, .profile = options.profile};
+scenario::ScenarioChoices choices_of(const LabOptions& options) {
+  scenario::ScenarioChoices choices{.file = options.scenario, .profile = options.profile};
   if (!options.scenario.ends_with(".yaml")) {
     choices.file =
         test::source_folder() + "/launch_scripts/scenarios/" + options.scenario + ".yaml";
@@ -29,7 +29,7 @@ ScenarioChoices choices_of(const LabOptions& options) {
   return choices;
 }
 
-std::vector<std::string> scenario_flags(const ScenarioChoices& choices) {
+std::vector<std::string> scenario_flags(const scenario::ScenarioChoices& choices) {
   std::vector<std::string> flags{"--scenario=" + choices.file.string(),
                                  "--profile=" + choices.profile};
   if (choices.policy) flags.push_back("--policy=" + *choices.policy);
@@ -59,11 +59,11 @@ LabProcesses::LabProcesses(const LabOptions& options)
     commands_[name] = std::move(command);
   };
   std::string ids;
-  for (const ScenarioVehicle& vehicle : scenario().vehicles) {
+  for (const scenario::ScenarioVehicle& vehicle : scenario().vehicles) {
     const std::string id = std::to_string(vehicle.id.value);
     const std::string local = "--middleware_domain=" + std::to_string(lab + vehicle.id.value);
     ids += (ids.empty() ? "" : ",") + id;
-    const Pose pose = measured_start(scenario(), vehicle);
+    const Pose pose = scenario::measured_start(scenario(), vehicle);
     auto car = common("vehicle_sim");
     car.insert(car.end(), {"--vehicle_id=" + id,
                            "--pose=" + number(pose.x_m) + "," + number(pose.y_m) + "," +

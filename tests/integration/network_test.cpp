@@ -34,7 +34,7 @@ void expect_good_end(LabOverNetwork& lab) {
 /// Until `to` each car has driven only what it was driving half a second after the fault.
 void expect_only_the_last_plans(const LabOverNetwork& lab, Nanoseconds fault, Nanoseconds to) {
   const Commands commands = lab.commands();
-  const Drives drives = lab.drives();
+  const result::Drives drives = lab.drives();
   ASSERT_EQ(drives.size(), std::size_t{kVehicles});
   for (const auto& [id, drive] : drives) {
     expect_only_the_last_plan(drive, commands, id, fault, to);
@@ -49,16 +49,16 @@ TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThe
   LabOverNetwork lab(network, 100);
   ASSERT_TRUE(eventually(120s, [&] { return planned_steps(lab.reports(), {2}) >= 15; }))
       << lab.log("lab_control") << lab.log("machine_2");
-  const Nanoseconds before = real_time_now();
+  const Nanoseconds before = time::real_time_now();
   network.cut_off(2);
-  const Nanoseconds fault = real_time_now();
+  const Nanoseconds fault = time::real_time_now();
   // The fault lasts a second, with the time that the commands take.
   const Nanoseconds rest =
       before + kNanosecondsPerSecond - std::min(fault, before + kNanosecondsPerSecond);
   ::usleep(static_cast<useconds_t>(rest / 1000));
-  const Nanoseconds joined = real_time_now();
+  const Nanoseconds joined = time::real_time_now();
   ASSERT_TRUE(network.join(2));
-  const Nanoseconds after = real_time_now();
+  const Nanoseconds after = time::real_time_now();
   EXPECT_THAT(lab.still_running_after(180s), testing::IsEmpty());
   expect_only_the_last_plans(lab, fault, joined);
   expect_nobody_was_touched(lab);
@@ -75,13 +75,13 @@ TEST(OverNetwork, WhileAMachineIsCutOffForASecondOnlyTheLastPlansAreDrivenAndThe
   std::map<std::uint8_t, StepIndex> missed_first;
   std::map<std::uint8_t, StepIndex> complete_last;
   for (const ReportRecord& record : lab.reports()) {
-    const Report& report = record.report;
-    if (report.status == StepStatus::kStandby) continue;
+    const coordination::Report& report = record.report;
+    if (report.status == coordination::StepStatus::kStandby) continue;
     const bool misses = report.vehicle.value == 2
                             ? is_among({1}, report.missing) && is_among({3}, report.missing)
                             : is_among({2}, report.missing);
     if (misses) missed_first.try_emplace(report.vehicle.value, report.step);
-    if (report.missing.empty() && report.status == StepStatus::kPlanned) {
+    if (report.missing.empty() && report.status == coordination::StepStatus::kPlanned) {
       complete_last[report.vehicle.value] = report.step;
     }
   }
@@ -100,10 +100,10 @@ TEST(OverNetwork, AMachineThatStaysCutOffLeavesEverybodyStanding) {
   ASSERT_TRUE(eventually(120s, [&] { return planned_steps(lab.reports(), {2}) >= 15; }))
       << lab.log("lab_control") << lab.log("machine_2");
   network.cut_off(2);
-  const Nanoseconds fault = real_time_now();
+  const Nanoseconds fault = time::real_time_now();
   EXPECT_EQ(lab["lab_control"].wait_for(60s), 4) << lab.log("lab_control");
   EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
-  expect_only_the_last_plans(lab, fault, real_time_now());
+  expect_only_the_last_plans(lab, fault, time::real_time_now());
   for (const auto& [id, drive] : lab.drives()) expect_stands_in_time(drive, id, fault);
   expect_nobody_was_touched(lab);
 }

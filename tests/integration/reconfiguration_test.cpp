@@ -52,10 +52,10 @@ class Reconfiguration : public testing::Test {
 
   /// Fastest of a vehicle in the second before now.
   [[nodiscard]] double top_speed_mps(std::uint8_t vehicle) const {
-    const Nanoseconds now = real_time_now();
+    const Nanoseconds now = time::real_time_now();
     double top_mps = 0.0;
-    const Drives drives = lab_.drives();
-    for (const DrivenSample& sample : drives.at(vehicle)) {
+    const result::Drives drives = lab_.drives();
+    for (const result::DrivenSample& sample : drives.at(vehicle)) {
       if (sample.t + kNanosecondsPerSecond > now) top_mps = std::max(top_mps, sample.speed_mps);
     }
     return top_mps;
@@ -106,7 +106,7 @@ TEST_F(Reconfiguration, NewWeightsAreSolvedBesideTheRunAndDrivenOn) {
   EXPECT_EQ(asked.code, 0) << asked.output;
   EXPECT_THAT(asked.output, HasSubstr("vehicle 2: in force from step"));
   EXPECT_THAT(asked.output, HasSubstr("B, weights J1 0.9 J2 0.1"));
-  const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
+  const StepIndex after{time::real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(
       eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 10; }));
   EXPECT_TRUE(eventually(kPatience, [&] {
@@ -134,7 +134,7 @@ TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
   const Asked unanswered = ask({"--vehicle=7", "--timeout_s=1"});
   EXPECT_EQ(unanswered.code, 3);
   EXPECT_THAT(unanswered.output, HasSubstr("high_level_controller_7"));
-  const StepIndex after{real_time_now() / kNanosecondsPerSecond * 5};
+  const StepIndex after{time::real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(
       eventually(kPatience, [&] { return planned_steps(lab_.reports(), {2}, after) >= 5; }));
   expect_good_end();
@@ -148,9 +148,9 @@ class ReconfigurationInAZone : public Reconfiguration {
   [[nodiscard]] bool has_planned_on(const std::string& subgraph, StepIndex since) const {
     const std::vector<ReportRecord> records = lab_.reports();
     return std::ranges::any_of(records, [&](const ReportRecord& record) {
-      const Report& report = record.report;
+      const coordination::Report& report = record.report;
       return report.vehicle == VehicleId{2} && report.step >= since &&
-             report.status == StepStatus::kPlanned && report.subgraph == subgraph;
+             report.status == coordination::StepStatus::kPlanned && report.subgraph == subgraph;
     });
   }
 };
@@ -164,11 +164,11 @@ TEST_F(ReconfigurationInAZone, TheZonesLimitIsLaidOnWhatTheOperatorAsksFor) {
   EXPECT_TRUE(drives_in_and_out("J2", {}));
   const Asked comfort = ask({"--vehicle=2", "--criterion=comfort"});
   EXPECT_EQ(comfort.code, 0) << comfort.output;
-  const StepIndex since{real_time_now() / kNanosecondsPerSecond * 5};
+  const StepIndex since{time::real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(drives_in_and_out("J2, label comfort", since));
   const Asked own = ask({"--vehicle=2"});
   EXPECT_EQ(own.code, 0) << own.output;
-  EXPECT_TRUE(drives_in_and_out("J2", {real_time_now() / kNanosecondsPerSecond * 5 + 2}));
+  EXPECT_TRUE(drives_in_and_out("J2", {time::real_time_now() / kNanosecondsPerSecond * 5 + 2}));
   expect_good_end();
 }
 

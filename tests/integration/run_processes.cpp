@@ -23,8 +23,8 @@ std::filesystem::path new_run_folder() {
 
 }  // namespace
 
-RunProcesses::RunProcesses(const ScenarioChoices& choices)
-    : scenario_(read_scenario(choices)), folder_(new_run_folder()) {}
+RunProcesses::RunProcesses(const scenario::ScenarioChoices& choices)
+    : scenario_(scenario::read_scenario(choices)), folder_(new_run_folder()) {}
 
 RunProcesses::~RunProcesses() {
   running_.clear();
@@ -54,10 +54,11 @@ std::filesystem::path RunProcesses::commands_file(const std::string& recorder) c
 
 std::vector<ReportRecord> RunProcesses::reports() const { return reports_so_far(folder_); }
 
-Drives RunProcesses::drives() const {
+result::Drives RunProcesses::drives() const {
   std::vector<std::uint8_t> ids;
-  for (const ScenarioVehicle& vehicle : scenario_.vehicles) ids.push_back(vehicle.id.value);
-  return read_drives(folder_, ids);
+  for (const scenario::ScenarioVehicle& vehicle : scenario_.vehicles)
+    ids.push_back(vehicle.id.value);
+  return record::read_drives(folder_, ids);
 }
 
 Commands RunProcesses::commands() const {

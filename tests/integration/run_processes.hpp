@@ -27,19 +27,19 @@ class RunProcesses {
   /// Waits for all that were started. Names of those that still run at the deadline.
   [[nodiscard]] std::vector<std::string> still_running_after(std::chrono::seconds time);
 
-  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
+  [[nodiscard]] const scenario::Scenario& scenario() const { return scenario_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// What the process has printed.
   [[nodiscard]] std::string log(const std::string& name) const { return read_text(log_file(name)); }
   /// So far; as are drives and commands.
   [[nodiscard]] std::vector<ReportRecord> reports() const;
   /// The vehicles' own records.
-  [[nodiscard]] Drives drives() const;
+  [[nodiscard]] result::Drives drives() const;
   /// Of all command_recorders.
   [[nodiscard]] Commands commands() const;
 
  protected:
-  explicit RunProcesses(const ScenarioChoices& choices);
+  explicit RunProcesses(const scenario::ScenarioChoices& choices);
   /// Keeps the folder if the test has failed, or if `keep_folder` was called.
   ~RunProcesses();
 
@@ -51,7 +51,7 @@ class RunProcesses {
   [[nodiscard]] std::filesystem::path commands_file(const std::string& recorder) const;
 
  private:
-  Scenario scenario_;
+  scenario::Scenario scenario_;
   std::filesystem::path folder_;
   bool keeps_folder_{};
   std::map<std::string, ChildProcess> running_;

@@ -11,11 +11,12 @@ namespace hlc::test {
 std::vector<ReportRecord> reports_so_far(const std::filesystem::path& run_folder) {
   const std::filesystem::path file = run_folder / "reports.csv";
   if (read_text(file).find('\n') == std::string::npos) return {};
-  return read_reports(file);
+  return record::read_reports(file);
 }
 
-std::optional<Report> last_report(const std::vector<ReportRecord>& records, VehicleId vehicle) {
-  std::optional<Report> last;
+std::optional<coordination::Report> last_report(const std::vector<ReportRecord>& records,
+                                                VehicleId vehicle) {
+  std::optional<coordination::Report> last;
   for (const ReportRecord& record : records) {
     if (record.report.vehicle == vehicle && (!last || record.report.step > last->step)) {
       last = record.report;
@@ -27,9 +28,9 @@ std::optional<Report> last_report(const std::vector<ReportRecord>& records, Vehi
 std::size_t planned_steps(const std::vector<ReportRecord>& records, VehicleId vehicle,
                           StepIndex first) {
   return static_cast<std::size_t>(std::ranges::count_if(records, [&](const ReportRecord& record) {
-    const Report& report = record.report;
+    const coordination::Report& report = record.report;
     return report.vehicle == vehicle && report.step >= first &&
-           report.status == StepStatus::kPlanned;
+           report.status == coordination::StepStatus::kPlanned;
   }));
 }
 

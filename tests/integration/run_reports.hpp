@@ -13,8 +13,8 @@ namespace hlc::test {
 /// Of a run that is under way; none while there is no file with a heading.
 [[nodiscard]] std::vector<ReportRecord> reports_so_far(const std::filesystem::path& run_folder);
 
-[[nodiscard]] std::optional<Report> last_report(const std::vector<ReportRecord>& records,
-                                                VehicleId vehicle);
+[[nodiscard]] std::optional<coordination::Report> last_report(
+    const std::vector<ReportRecord>& records, VehicleId vehicle);
 
 /// Number of steps in which the vehicle planned, from `first` on.
 [[nodiscard]] std::size_t planned_steps(const std::vector<ReportRecord>& records, VehicleId vehicle,

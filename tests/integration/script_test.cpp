@@ -93,8 +93,8 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
 std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> searched_vertices(
     const std::filesystem::path& reports) {
   std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> vertices;
-  for (const ReportRecord& record : read_reports(reports)) {
-    const Report& report = record.report;
+  for (const ReportRecord& record : record::read_reports(reports)) {
+    const coordination::Report& report = record.report;
     if (report.expanded == 0) continue;
     char name[64];
     std::snprintf(name, sizeof(name), "vehicle_%u_step_%010llu", unsigned{report.vehicle.value},
@@ -299,7 +299,7 @@ TEST_P(KilledProcess, IsStartedAgainByOneCommandAndTheRunGoesOn) {
   EXPECT_EQ(facts["exit_code"], 0) << "of lab control";
 
   // The whole drive, in which the car is never elsewhere at once.
-  const Drive drive = read_drive(drive_file(out, 2));
+  const result::Drive drive = record::read_drive(record::drive_file(out, 2));
   ASSERT_FALSE(drive.empty());
   EXPECT_GT(drive.back().t - drive.front().t, 15 * kNanosecondsPerSecond);
   constexpr double kTickWay_m = 0.05;

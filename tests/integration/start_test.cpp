@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 
 const std::string kScripts = test::source_folder() + "/launch_scripts/";
 constexpr Nanoseconds kPeriod = 200'000'000;
-constexpr double kStanding_mps = MissingVehicleRules{}.standing_speed_mps;
+constexpr double kStanding_mps = coordination::MissingVehicleRules{}.standing_speed_mps;
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   ASSERT_NE(text.find(from), std::string::npos) << from;
@@ -35,7 +35,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-double way_m(const Drive& drive) {
+double way_m(const result::Drive& drive) {
   double way_m = 0.0;
   for (std::size_t i = 1; i < drive.size(); ++i) {
     way_m += (drive[i].pose.position_m() - drive[i - 1].pose.position_m()).norm();
@@ -64,9 +64,9 @@ TEST_F(Start, ACarBesideItsLaneDrivesOntoItsReference) {
   lab.start_all();
   ASSERT_THAT(lab.still_running_after(60s), testing::IsEmpty());
   EXPECT_EQ(lab["lab_control"].wait_for(0ms), 0) << lab.log("lab_control");
-  const Drive drive = read_drive(drive_file(lab.folder(), 1));
-  const ReferencePath path = read_scenario({.file = file}).vehicles.front().path;
-  const auto error_m = [&path](const DrivenSample& sample) {
+  const result::Drive drive = record::read_drive(record::drive_file(lab.folder(), 1));
+  const road::ReferencePath path = scenario::read_scenario({.file = file}).vehicles.front().path;
+  const auto error_m = [&path](const result::DrivenSample& sample) {
     return path.project(sample.pose.position_m()).distance_m;
   };
   EXPECT_NEAR(error_m(drive.front()), 0.09, 0.001);
@@ -92,7 +92,7 @@ TEST_F(Start, ACarThatFitsNoRouteStandsAndItsControllerSaysHowFarItIsOff) {
   const std::string log = lab.log("high_level_controller_1");
   EXPECT_NE(log.find("fits no route: nearest is"), std::string::npos) << log;
   EXPECT_NE(log.find("mm beyond the lanes (must be <= 150 mm)"), std::string::npos) << log;
-  EXPECT_LT(way_m(read_drive(drive_file(lab.folder(), 1))), 1e-6);
+  EXPECT_LT(way_m(record::read_drive(record::drive_file(lab.folder(), 1))), 1e-6);
 }
 
 struct Setting {
@@ -125,9 +125,9 @@ class ReturningRun {
         << lab.log("lab_control");
     lab[name].send(SIGKILL);
     ASSERT_EQ(lab[name].wait_for(kPatience), 128 + SIGKILL);
-    killed = real_time_now();
+    killed = time::real_time_now();
     ASSERT_TRUE(eventually(kPatience, [&] {
-      const DrivenSample now = lab.drives().at(id.value).back();
+      const result::DrivenSample now = lab.drives().at(id.value).back();
       return now.t > killed + kNanosecondsPerSecond && std::abs(now.speed_mps) <= kStanding_mps;
     }));
     noticed["lab_control"] = name + " died";
@@ -137,11 +137,11 @@ class ReturningRun {
           << process_name << ": " << lab.log(process_name);
     }
     lab.start(name);
-    const Nanoseconds again = real_time_now();
+    const Nanoseconds again = time::real_time_now();
     EXPECT_TRUE(eventually(kPatience, [&] {
       return way_m(between(lab.drives().at(id.value), again, kForever)) > 1.0;
     })) << lab.log(name);
-    driven_on = real_time_now();
+    driven_on = time::real_time_now();
   }
 
   void expect_good_end() {
@@ -160,17 +160,17 @@ class ReturningRun {
   [[nodiscard]] std::uint64_t steps_until_it_plans(VehicleId id) const {
     std::optional<std::uint64_t> first;
     for (const ReportRecord& record : lab.reports()) {
-      const Report& report = record.report;
+      const coordination::Report& report = record.report;
       if (report.vehicle != id || report.step.value * kPeriod <= killed) continue;
       first = first.value_or(report.step.value);
-      if (report.status == StepStatus::kPlanned) return report.step.value - *first;
+      if (report.status == coordination::StepStatus::kPlanned) return report.step.value - *first;
     }
     return ~std::uint64_t{0};
   }
 
-  static Drive between(const Drive& drive, Nanoseconds from, Nanoseconds to) {
-    Drive part;
-    std::ranges::copy_if(drive, std::back_inserter(part), [&](const DrivenSample& sample) {
+  static result::Drive between(const result::Drive& drive, Nanoseconds from, Nanoseconds to) {
+    result::Drive part;
+    std::ranges::copy_if(drive, std::back_inserter(part), [&](const result::DrivenSample& sample) {
       return sample.t > from && sample.t < to;
     });
     return part;
@@ -221,11 +221,12 @@ TEST(ReturnAlone, OfAControllerStopsNobodyWhoIsNotCoupled) {
   ReturningRun run(file, "loopback");
   ASSERT_NO_FATAL_FAILURE(run.kill_and_start_again("high_level_controller", {2}));
   run.expect_good_end();
-  const Drives drives = run.lab.drives();
+  const result::Drives drives = run.lab.drives();
   for (const std::uint8_t other : std::vector<std::uint8_t>{1, 3}) {
-    const Drive meanwhile = ReturningRun::between(drives.at(other), run.killed, run.driven_on);
+    const result::Drive meanwhile =
+        ReturningRun::between(drives.at(other), run.killed, run.driven_on);
     ASSERT_FALSE(meanwhile.empty());
-    EXPECT_GT(std::ranges::min(meanwhile, {}, &DrivenSample::speed_mps).speed_mps, 0.3)
+    EXPECT_GT(std::ranges::min(meanwhile, {}, &result::DrivenSample::speed_mps).speed_mps, 0.3)
         << "vehicle " << int{other};
   }
 }

@@ -155,14 +155,14 @@ TEST(Wire, EveryEndpointIsAnnouncedAsTheLabsContractSays) {
   LabProcesses lab(
       {.scenario = "paper_red_alone", .steps = 4000, .simulated_time = false, .transport = "lab"});
   lab.start_all();  // before our own participants, whose sockets they would inherit
-  const auto listen = [&](int domain, DomainRole role) {
+  const auto listen = [&](int domain, dds::DomainRole role) {
     return DiscoveredEndpoints(
-        {.name = "listener", .domain_id = domain, .role = role, .transport = Transport::kLab});
+        {.name = "listener", .domain_id = domain, .role = role, .transport = dds::Transport::kLab});
   };
-  const DiscoveredEndpoints on_lab = listen(lab.lab_domain(), DomainRole::kLab);
-  const DiscoveredEndpoints on_local = listen(lab.lab_domain() + 1, DomainRole::kLocal);
+  const DiscoveredEndpoints on_lab = listen(lab.lab_domain(), dds::DomainRole::kLab);
+  const DiscoveredEndpoints on_local = listen(lab.lab_domain() + 1, dds::DomainRole::kLocal);
   const DiscoveredEndpoints on_own =
-      listen(default_controller_domain(lab.lab_domain()), DomainRole::kController);
+      listen(dds::default_controller_domain(lab.lab_domain()), dds::DomainRole::kController);
   const auto own_topics = [&] {
     std::set<std::string> topics;
     for (const Endpoint& endpoint : on_own.so_far()) topics.insert(endpoint.topic);

@@ -9,7 +9,7 @@ constexpr VehicleId kCar{1};
 constexpr Footprint kFootprint{.length_m = 0.2, .width_m = 0.1};
 constexpr Nanoseconds kAnnouncedPeriod = 200 * kNanosecondsPerMillisecond;
 
-OccupiedAreas stands_at(std::uint64_t first, double x_m) {
+coordination::OccupiedAreas stands_at(std::uint64_t first, double x_m) {
   return {.first = {first}, .final_area_m = footprint_area(kFootprint, {.x_m = x_m}, 0.01)};
 }
 
@@ -25,7 +25,7 @@ class Announced : public testing::Test {
   }
   void agree(std::uint64_t step, double x_m) {
     check_.predicted({.vehicle = kCar, .step = {step}, .areas = stands_at(step + 1, x_m)});
-    check_.reported({.vehicle = kCar, .step = {step}, .status = StepStatus::kPlanned},
+    check_.reported({.vehicle = kCar, .step = {step}, .status = coordination::StepStatus::kPlanned},
                     step * kAnnouncedPeriod);
   }
 

@@ -13,7 +13,7 @@ constexpr VehicleId kFirst{1};
 constexpr VehicleId kSecond{2};
 constexpr Nanoseconds kDrivenPeriod = 200 * kNanosecondsPerMillisecond;
 
-OccupiedAreas area_at(std::uint64_t first, double x_m) {
+coordination::OccupiedAreas area_at(std::uint64_t first, double x_m) {
   return {.first = {first},
           .final_area_m = footprint_area({.length_m = 0.2, .width_m = 0.2}, {.x_m = x_m})};
 }
@@ -26,8 +26,9 @@ class Driven : public testing::Test {
     agreed_m_[vehicle] = x_m;
     driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
     driven_.commanded(command(vehicle, step));
-    const Plan plan({step}, {.x_m = x_m}, standstill_);
-    driven_.reported({.vehicle = vehicle, .step = {step}, .status = StepStatus::kPlanned}, &plan);
+    const coordination::Plan plan({step}, {.x_m = x_m}, standstill_);
+    driven_.reported(
+        {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);
   }
   /// The plan in force: to stand.
   void publish(VehicleId vehicle, std::uint64_t step) {
@@ -47,7 +48,7 @@ class Driven : public testing::Test {
   }
 
   std::map<VehicleId, double> agreed_m_;
-  Maneuver standstill_;
+  automaton::Maneuver standstill_;
   DrivenPlans driven_{8, kDrivenPeriod};
   Violations violations_;
 };
@@ -107,11 +108,11 @@ TEST_F(Driven, AVehicleThatChangesOverLateAndIsThenSeenOffItsPlanIsOutOfReach) {
     drive(kFirst, 11, 10);
     receive(kFirst, 11);
     drive(kFirst, 12, 11);
-    driven_.reported(
-        {.vehicle = kFirst,
-         .step = {13},
-         .reason = is_seen_off ? FallbackReason::kDeviation : FallbackReason::kMissing},
-        nullptr);
+    driven_.reported({.vehicle = kFirst,
+                      .step = {13},
+                      .reason = is_seen_off ? coordination::FallbackReason::kDeviation
+                                            : coordination::FallbackReason::kMissing},
+                     nullptr);
     EXPECT_EQ(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod), is_seen_off);
   }
 }
@@ -122,8 +123,9 @@ TEST_F(Driven, AVehicleThatChangesOverInTimeIsInReachEvenIfItIsSeenOffItsPlan) {
     receive(kFirst, step);
     drive(kFirst, step, step);
   }
-  driven_.reported({.vehicle = kFirst, .step = {12}, .reason = FallbackReason::kDeviation},
-                   nullptr);
+  driven_.reported(
+      {.vehicle = kFirst, .step = {12}, .reason = coordination::FallbackReason::kDeviation},
+      nullptr);
   EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod));
 }
 

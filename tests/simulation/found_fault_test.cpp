@@ -12,18 +12,20 @@ namespace {
 
 constexpr Nanoseconds kMs = kNanosecondsPerMillisecond;
 
-Scenario circle(std::size_t cars) {
-  return read_scenario(
+scenario::Scenario circle(std::size_t cars) {
+  return scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/circle.yaml", .cars = cars});
 }
 
-Scenario paper(std::size_t cars, std::uint64_t starts) {
+scenario::Scenario paper(std::size_t cars, std::uint64_t starts) {
   const std::string file =
       test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
-  return with_random_starts(crowded(read_scenario({.file = file}), cars), starts);
+  return scenario::with_random_starts(crowded(scenario::read_scenario({.file = file}), cars),
+                                      starts);
 }
 
-FaultRunResult run(const Scenario& scenario, const LabSettings& lab, std::vector<Fault> faults) {
+FaultRunResult run(const scenario::Scenario& scenario, const LabSettings& lab,
+                   std::vector<Fault> faults) {
   const FaultCase the_case{
       .seed = lab.seed, .scenario = scenario, .run = {.lab = lab, .faults = std::move(faults)}};
   FaultRunResult result = FaultCampaign::run(the_case);

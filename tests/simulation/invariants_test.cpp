@@ -12,15 +12,16 @@ ConvexPolygon square_at(double x_m) {
   return footprint_area({.length_m = 0.2, .width_m = 0.2}, {.x_m = x_m});
 }
 
-Prediction standing_at(VehicleId vehicle, std::uint64_t step, double x_m) {
+coordination::Prediction standing_at(VehicleId vehicle, std::uint64_t step, double x_m) {
   return {.vehicle = vehicle,
           .step = {step},
           .is_new = true,
           .areas = {.first = {step + 1}, .areas_m = {}, .final_area_m = square_at(x_m)}};
 }
 
-Report report_of(VehicleId vehicle, std::uint64_t step, StepStatus status,
-                 FallbackReason reason = FallbackReason::kNone) {
+coordination::Report report_of(
+    VehicleId vehicle, std::uint64_t step, coordination::StepStatus status,
+    coordination::FallbackReason reason = coordination::FallbackReason::kNone) {
   return {.vehicle = vehicle, .step = {step}, .status = status, .reason = reason};
 }
 
@@ -93,12 +94,13 @@ TEST(Plans, ThatMeetAreToldWhenTheSecondComesIntoForce) {
   Violations violations;
   check.predicted(standing_at(kOne, 10, 0.0));
   check.predicted(standing_at(kTwo, 10, 0.1));
-  check.reported(report_of(kOne, 10, StepStatus::kPlanned), nullptr, 0, violations);
-  check.reported(report_of(kTwo, 10, StepStatus::kFallback, FallbackReason::kConflict), nullptr, 0,
-                 violations);
+  check.reported(report_of(kOne, 10, coordination::StepStatus::kPlanned), nullptr, 0, violations);
+  check.reported(report_of(kTwo, 10, coordination::StepStatus::kFallback,
+                           coordination::FallbackReason::kConflict),
+                 nullptr, 0, violations);
   EXPECT_TRUE(violations.empty());
   check.predicted(standing_at(kTwo, 11, 0.1));
-  check.reported(report_of(kTwo, 11, StepStatus::kPlanned), nullptr, 0, violations);
+  check.reported(report_of(kTwo, 11, coordination::StepStatus::kPlanned), nullptr, 0, violations);
   EXPECT_EQ(violations.size(), 1U);
 }
 
@@ -107,14 +109,16 @@ TEST(Plans, OfWhoIsOffItsPlanOrSilentForLongAreLeftOut) {
     PlansCheck check(8);
     Violations violations;
     check.predicted(standing_at(kOne, 10, 0.0));
-    check.reported(report_of(kOne, 10, StepStatus::kPlanned), nullptr, 0, violations);
+    check.reported(report_of(kOne, 10, coordination::StepStatus::kPlanned), nullptr, 0, violations);
     const std::uint64_t step = is_off ? 12 : 23;
     if (is_off) {
-      check.reported(report_of(kOne, 11, StepStatus::kFallback, FallbackReason::kDeviation),
+      check.reported(report_of(kOne, 11, coordination::StepStatus::kFallback,
+                               coordination::FallbackReason::kDeviation),
                      nullptr, 0, violations);
     }
     check.predicted(standing_at(kTwo, step, 0.1));
-    check.reported(report_of(kTwo, step, StepStatus::kPlanned), nullptr, 0, violations);
+    check.reported(report_of(kTwo, step, coordination::StepStatus::kPlanned), nullptr, 0,
+                   violations);
     EXPECT_TRUE(violations.empty());
   }
 }
@@ -125,11 +129,13 @@ TEST(Plans, OfWhoIsSilentAndHasNeverReceivedItsPlanAreLeftOut) {
       PlansCheck check(8);
       Violations violations;
       check.predicted(standing_at(kOne, 10, 0.0));
-      check.reported(report_of(kOne, 10, StepStatus::kPlanned), nullptr, 0, violations);
+      check.reported(report_of(kOne, 10, coordination::StepStatus::kPlanned), nullptr, 0,
+                     violations);
       check.received(kOne, is_received);
       const std::uint64_t step = is_silent ? 12 : 11;
       check.predicted(standing_at(kTwo, step, 0.1));
-      check.reported(report_of(kTwo, step, StepStatus::kPlanned), nullptr, 0, violations);
+      check.reported(report_of(kTwo, step, coordination::StepStatus::kPlanned), nullptr, 0,
+                     violations);
       EXPECT_EQ(violations.empty(), is_silent && !is_received);
     }
   }
@@ -166,14 +172,15 @@ TEST(Reasons, AVehicleThatStopsSaysSoInTheSameTurn) {
 TEST(Planning, WhoIsAbleHasPlannedOrFoundThatThereIsNoWay) {
   PlanningCheck check(100);
   Violations violations;
-  check.report({.report = report_of(kOne, 1, StepStatus::kPlanned)}, 50);
-  check.report({.report = report_of(kTwo, 1, StepStatus::kFallback, FallbackReason::kInfeasible)},
+  check.report({.report = report_of(kOne, 1, coordination::StepStatus::kPlanned)}, 50);
+  check.report({.report = report_of(kTwo, 1, coordination::StepStatus::kFallback,
+                                    coordination::FallbackReason::kInfeasible)},
                150);
   check.judge({2}, 200, violations);
   EXPECT_TRUE(violations.empty());
   check.judge({1, 2}, 200, violations);
   ASSERT_EQ(violations.size(), 1U);
-  check.report({.report = report_of(kOne, 2, StepStatus::kPlanned)}, 150);
+  check.report({.report = report_of(kOne, 2, coordination::StepStatus::kPlanned)}, 150);
   check.judge({1, 2}, 200, violations);
   EXPECT_EQ(violations.size(), 1U);
 }

@@ -103,7 +103,9 @@ void check_undisturbed_runs(const Flags& flags, Total& total) {
 
 CLI::App* add(CLI::App& app, const char* name, const char* what, Flags& flags) {
   CLI::App* command = app.add_subcommand(name, what);
-  command->add_option("--runs", flags.runs, "how many")->check(hlc::whole(1, 100'000))->required();
+  command->add_option("--runs", flags.runs, "how many")
+      ->check(hlc::apps::whole(1, 100'000))
+      ->required();
   command->add_flag("--keep", flags.keep, "keep the folders of runs that were not good");
   return command;
 }
@@ -117,16 +119,16 @@ int main(int argc, char** argv) {
   CLI::App* faults =
       add(app, "faults", "random faults; a run's faults follow from its seed", flags);
   faults->add_option("--seed", flags.seed, "of the first run; the others count on")
-      ->check(hlc::whole(0, 1'000'000'000))
+      ->check(hlc::apps::whole(0, 1'000'000'000))
       ->capture_default_str();
   faults->add_option("--faults_per_run", flags.faults_per_run, "how many in each run")
-      ->check(hlc::whole(1, 20))
+      ->check(hlc::apps::whole(1, 20))
       ->capture_default_str();
   const CLI::App* cycles = add(app, "cycles", "start and stop, in logical and in real time", flags);
   CLI::App* undisturbed =
       add(app, "undisturbed", "whole runs in real time; late steps are counted", flags);
   undisturbed->add_option("--steps", flags.steps, "of each run")
-      ->check(hlc::whole(1, 100'000))
+      ->check(hlc::apps::whole(1, 100'000))
       ->capture_default_str();
   for (CLI::App* command : {faults, undisturbed}) {
     command
@@ -140,7 +142,7 @@ int main(int argc, char** argv) {
       "Real processes on this machine. As root with an empty /dev/shm of its own, in which nothing "
       "may be left, and with a network per car in some runs. "
       "Exit codes: 0 every run passed, 1 a run failed, 2 invalid input.");
-  if (const auto code = hlc::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const bool is_root = hlc::test::use_own_shared_memory();
   if (!is_root) std::printf("without root: leftovers in /dev/shm and the network are left out\n");
   Total total;

@@ -38,7 +38,8 @@ constexpr auto kTimeToRecover = 6s;
 bool all_drive(const std::filesystem::path& run_folder) {
   std::set<std::uint8_t> driving;
   for (const ReportRecord& record : reports_so_far(run_folder)) {
-    if (record.report.status == StepStatus::kPlanned) driving.insert(record.report.vehicle.value);
+    if (record.report.status == coordination::StepStatus::kPlanned)
+      driving.insert(record.report.vehicle.value);
   }
   return driving.size() == kVehicles;
 }
@@ -64,10 +65,10 @@ const char* scenario_on(const std::string& transport) {
   return transport == "lab" ? "lab_three_cars" : "paper_three_cars";
 }
 
-void check_driving(const Scenario& scenario, const Drives& drives,
+void check_driving(const scenario::Scenario& scenario, const result::Drives& drives,
                    const std::set<std::uint8_t>& dead, SoakResult& result) {
-  const Encounters close =
-      driven_encounters(describe(scenario, std::nullopt).vehicles, drives, dead);
+  const result::Encounters close =
+      driven_encounters(result::describe(scenario, std::nullopt).vehicles, drives, dead);
   result.collisions = close.collisions;
   result.min_distance_m = close.min_distance_m;
   if (drives.size() != kVehicles) result.problems.emplace_back("a vehicle left no record");
@@ -86,7 +87,7 @@ void check_end(Lab& lab, SoakResult& result) {
 /// Without children, and before anything else of ours can have begun.
 void look_for_leftovers(SoakResult& result) {
   if (!use_own_shared_memory()) return;
-  for (const SharedMemoryFile& file : shared_memory_files()) {
+  for (const doctor::SharedMemoryFile& file : doctor::shared_memory_files()) {
     if (!result.may_leave_files) result.problems.push_back("left in /dev/shm: " + file.name);
     std::filesystem::remove("/dev/shm/" + file.name);  // not the next run's
   }
@@ -263,13 +264,14 @@ SoakResult run_undisturbed(int steps, const std::string& transport, bool keep) {
       result.problems.push_back("lab_control ended with " +
                                 std::to_string(result.lab_control.value_or(-1)));
     }
-    const Drives drives = lab.drives();
+    const result::Drives drives = lab.drives();
     check_driving(lab.scenario(), drives, {}, result);
-    const RunFacts facts = read_facts(lab.folder() / "run.json");
-    const std::vector<ReportRecord> reports = read_reports(lab.folder() / "reports.csv");
-    const RunSummary summary = summarize(describe(lab.scenario(), std::nullopt), facts,
-                                         step_records(reports, drives, facts), drives);
-    for (const VehicleSummary& vehicle : summary.vehicles) {
+    const result::RunFacts facts = record::read_facts(lab.folder() / "run.json");
+    const std::vector<ReportRecord> reports = record::read_reports(lab.folder() / "reports.csv");
+    const result::RunSummary summary =
+        result::summarize(result::describe(lab.scenario(), std::nullopt), facts,
+                          result::step_records(reports, drives, facts), drives);
+    for (const result::VehicleSummary& vehicle : summary.vehicles) {
       result.deadline_misses += vehicle.deadline_misses;
       result.fallback_steps += vehicle.fallback_steps;
       if (vehicle.planning_s) {

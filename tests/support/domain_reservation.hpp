@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace hlc {
+namespace hlc::test {
 
 /// Consecutive DDS domains that no other test on this machine uses during the lifetime of this
 /// object: lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count -
@@ -94,4 +94,4 @@ class DomainReservation {
   std::vector<int> locks_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::test

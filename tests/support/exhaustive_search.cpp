@@ -7,8 +7,8 @@ namespace {
 
 class Enumeration {
  public:
-  Enumeration(const Subgraph& subgraph, const HorizonProblem& problem,
-              const std::vector<PlanningWeight>& weights)
+  Enumeration(const automaton::Subgraph& subgraph, const search::HorizonProblem& problem,
+              const std::vector<search::PlanningWeight>& weights)
       : subgraph_(subgraph), problem_(problem), weights_(weights) {}
 
   ExhaustiveResult run() {
@@ -23,7 +23,7 @@ class Enumeration {
       finish(trim, cost);
       return;
     }
-    for (const Edge& edge : subgraph_.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph_.successors(trim)) {
       if (!is_allowed(edge) || !is_free(*edge.maneuver, pose, done + 1, problem_)) {
         continue;
       }
@@ -36,11 +36,11 @@ class Enumeration {
     }
   }
 
-  [[nodiscard]] bool is_allowed(const Edge& edge) const {
-    const UniversalAutomaton& automaton = subgraph_.automaton();
+  [[nodiscard]] bool is_allowed(const automaton::Edge& edge) const {
+    const automaton::UniversalAutomaton& automaton = subgraph_.automaton();
     return !problem_.avoids_steering_limit ||
-           !is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
-                                 automaton.identified);
+           !automaton::is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
+                                            automaton.identified);
   }
 
   void finish(TrimId trim, double cost) {
@@ -55,17 +55,18 @@ class Enumeration {
     }
   }
 
-  const Subgraph& subgraph_;
-  const HorizonProblem& problem_;
-  const std::vector<PlanningWeight>& weights_;
-  std::vector<const Maneuver*> path_;
+  const automaton::Subgraph& subgraph_;
+  const search::HorizonProblem& problem_;
+  const std::vector<search::PlanningWeight>& weights_;
+  std::vector<const automaton::Maneuver*> path_;
   ExhaustiveResult best_;
 };
 
 }  // namespace
 
-ExhaustiveResult exhaustive_search(const Subgraph& subgraph, const HorizonProblem& problem,
-                                   const std::vector<PlanningWeight>& weights) {
+ExhaustiveResult exhaustive_search(const automaton::Subgraph& subgraph,
+                                   const search::HorizonProblem& problem,
+                                   const std::vector<search::PlanningWeight>& weights) {
   return Enumeration(subgraph, problem, weights).run();
 }
 

@@ -6,10 +6,11 @@
 namespace hlc::test {
 namespace {
 
-bool is_switched_on(const Maneuver* maneuver, TrimId from, const Subgraph& subgraph) {
+bool is_switched_on(const automaton::Maneuver* maneuver, TrimId from,
+                    const automaton::Subgraph& subgraph) {
   const auto edges = subgraph.successors(from);
   return std::any_of(edges.begin(), edges.end(),
-                     [&](const Edge& edge) { return edge.maneuver == maneuver; });
+                     [&](const automaton::Edge& edge) { return edge.maneuver == maneuver; });
 }
 
 bool are_close(const Pose& a, const Pose& b) {
@@ -19,8 +20,8 @@ bool are_close(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-bool is_free(const Maneuver& maneuver, const Pose& start, std::size_t step,
-             const HorizonProblem& problem) {
+bool is_free(const automaton::Maneuver& maneuver, const Pose& start, std::size_t step,
+             const search::HorizonProblem& problem) {
   if (!problem.obstacles_m.empty()) {
     const ConvexPolygon swept_m = transformed(maneuver.swept_area_m, start);
     for (const ConvexPolygon& obstacle_m : problem.obstacles_m[step - 1]) {
@@ -40,9 +41,10 @@ bool is_free(const Maneuver& maneuver, const Pose& start, std::size_t step,
   return true;
 }
 
-double weighted_criteria(const Maneuver& maneuver, const std::vector<PlanningWeight>& weights) {
+double weighted_criteria(const automaton::Maneuver& maneuver,
+                         const std::vector<search::PlanningWeight>& weights) {
   double cost = 0.0;
-  for (const PlanningWeight& weight : weights) {
+  for (const search::PlanningWeight& weight : weights) {
     for (const CriterionValue& criterion : maneuver.criteria) {
       if (criterion.name == weight.criterion) cost += weight.weight_m2 * criterion.value;
     }
@@ -50,10 +52,12 @@ double weighted_criteria(const Maneuver& maneuver, const std::vector<PlanningWei
   return cost;
 }
 
-std::string validate(const SearchResult& result, const Subgraph& subgraph,
-                     const HorizonProblem& problem, const std::vector<PlanningWeight>& weights) {
+std::string validate(const search::SearchResult& result, const automaton::Subgraph& subgraph,
+                     const search::HorizonProblem& problem,
+                     const std::vector<search::PlanningWeight>& weights) {
   const std::size_t n = problem.horizon_steps();
-  if (result.status != SearchStatus::kOptimal && result.status != SearchStatus::kUnproven) {
+  if (result.status != search::SearchStatus::kOptimal &&
+      result.status != search::SearchStatus::kUnproven) {
     return "no plan";
   }
   if (result.maneuvers.size() != n || result.poses.size() != n) {
@@ -64,7 +68,7 @@ std::string validate(const SearchResult& result, const Subgraph& subgraph,
   double cost = 0.0;
   for (std::size_t step = 1; step <= n; ++step) {
     const std::string at = " in step " + std::to_string(step);
-    const Maneuver* maneuver = result.maneuvers[step - 1];
+    const automaton::Maneuver* maneuver = result.maneuvers[step - 1];
     if (!is_switched_on(maneuver, trim, subgraph)) {
       return "edge is not switched on" + at;
     }

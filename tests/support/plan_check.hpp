@@ -9,19 +9,20 @@ namespace hlc::test {
 
 /// True if the maneuver, driven from `start` in step number `step` (1 ... n), meets no obstacle of
 /// that step and no boundary. Polygon by polygon, nothing left out.
-[[nodiscard]] bool is_free(const Maneuver& maneuver, const Pose& start, std::size_t step,
-                           const HorizonProblem& problem);
+[[nodiscard]] bool is_free(const automaton::Maneuver& maneuver, const Pose& start, std::size_t step,
+                           const search::HorizonProblem& problem);
 
 /// Checks a plan against the problem, step by step: status, sizes, edges that are switched on and
 /// follow each other, poses composed from the displacements (1e-9), no collision, standstill at the
 /// end, cost (1e-9). Returns the error; empty if none.
 /// @param weights  of the maneuvers' own criteria in the cost
-[[nodiscard]] std::string validate(const SearchResult& result, const Subgraph& subgraph,
-                                   const HorizonProblem& problem,
-                                   const std::vector<PlanningWeight>& weights = {});
+[[nodiscard]] std::string validate(const search::SearchResult& result,
+                                   const automaton::Subgraph& subgraph,
+                                   const search::HorizonProblem& problem,
+                                   const std::vector<search::PlanningWeight>& weights = {});
 
 /// Sum of weight times value of the maneuver's criteria.
-[[nodiscard]] double weighted_criteria(const Maneuver& maneuver,
-                                       const std::vector<PlanningWeight>& weights);
+[[nodiscard]] double weighted_criteria(const automaton::Maneuver& maneuver,
+                                       const std::vector<search::PlanningWeight>& weights);
 
 }  // namespace hlc::test

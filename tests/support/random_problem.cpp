@@ -27,7 +27,7 @@ ConvexPolygon random_polygon(const Point& centre_m, double radius_m, std::mt1993
   return convex_hull(std::move(points_m));
 }
 
-void add_obstacle(HorizonProblem& problem, std::mt19937_64& random) {
+void add_obstacle(search::HorizonProblem& problem, std::mt19937_64& random) {
   const std::size_t n = problem.horizon_steps();
   const Point near_m = problem.reference_m[pick(random, n)];
   const Point first_m = random_point(near_m, 0.4, random);
@@ -40,7 +40,7 @@ void add_obstacle(HorizonProblem& problem, std::mt19937_64& random) {
 }
 
 /// Two polylines beside the way from behind the start through the reference.
-void add_lane(HorizonProblem& problem, std::mt19937_64& random) {
+void add_lane(search::HorizonProblem& problem, std::mt19937_64& random) {
   const Point ahead = direction(problem.start.heading_rad);
   std::vector<Point> way_m{problem.start.position_m() - 0.3 * ahead, problem.start.position_m()};
   way_m.insert(way_m.end(), problem.reference_m.begin(), problem.reference_m.end());
@@ -57,7 +57,7 @@ void add_lane(HorizonProblem& problem, std::mt19937_64& random) {
   }
 }
 
-void add_loose_segments(HorizonProblem& problem, std::mt19937_64& random) {
+void add_loose_segments(search::HorizonProblem& problem, std::mt19937_64& random) {
   for (std::size_t count = 1 + pick(random, 3); count > 0; --count) {
     const Point near_m = problem.reference_m[pick(random, problem.horizon_steps())];
     problem.boundary_m.push_back(
@@ -81,7 +81,7 @@ Pose random_pose(std::mt19937_64& random) {
   return {x_m, y_m, uniform(random, -10.0, 10.0)};
 }
 
-TrimId random_trim(const Subgraph& subgraph, std::mt19937_64& random) {
+TrimId random_trim(const automaton::Subgraph& subgraph, std::mt19937_64& random) {
   return subgraph.spec().trims[pick(random, subgraph.spec().trims.size())];
 }
 
@@ -109,9 +109,9 @@ std::vector<Point> random_reference_m(const Pose& start, std::size_t horizon_ste
   return reference_m;
 }
 
-HorizonProblem random_free_problem(const Subgraph& subgraph, std::size_t horizon_steps,
-                                   std::mt19937_64& random) {
-  HorizonProblem problem;
+search::HorizonProblem random_free_problem(const automaton::Subgraph& subgraph,
+                                           std::size_t horizon_steps, std::mt19937_64& random) {
+  search::HorizonProblem problem;
   problem.start = random_pose(random);
   problem.start_trim = random_trim(subgraph, random);
   problem.reference_m = random_reference_m(problem.start, horizon_steps, random);
@@ -121,9 +121,9 @@ HorizonProblem random_free_problem(const Subgraph& subgraph, std::size_t horizon
   return problem;
 }
 
-HorizonProblem random_problem(const Subgraph& subgraph, std::size_t horizon_steps,
-                              std::mt19937_64& random) {
-  HorizonProblem problem = random_free_problem(subgraph, horizon_steps, random);
+search::HorizonProblem random_problem(const automaton::Subgraph& subgraph,
+                                      std::size_t horizon_steps, std::mt19937_64& random) {
+  search::HorizonProblem problem = random_free_problem(subgraph, horizon_steps, random);
   problem.obstacles_m.resize(horizon_steps);
   for (std::size_t count = pick(random, 5); count > 0; --count) {
     add_obstacle(problem, random);

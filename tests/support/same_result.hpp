@@ -7,7 +7,7 @@
 namespace hlc::test {
 
 /// Expects two results to be bitwise identical.
-inline void expect_same(const SearchResult& a, const SearchResult& b) {
+inline void expect_same(const search::SearchResult& a, const search::SearchResult& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.reason, b.reason);
   EXPECT_EQ(a.cost, b.cost);

@@ -2,8 +2,8 @@
 
 namespace hlc::test {
 
-HorizonProblem straight_problem(std::size_t horizon_steps) {
-  HorizonProblem problem;
+search::HorizonProblem straight_problem(std::size_t horizon_steps) {
+  search::HorizonProblem problem;
   problem.start = {1.0, 2.0, 0.0};
   problem.start_trim = TrimId{6};
   for (std::size_t j = 1; j <= horizon_steps; ++j) {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::test {
 
 /// A new empty folder that goes with this object.
 class TemporaryFolder {
@@ -39,4 +39,4 @@ inline void put(const std::filesystem::path& file, const std::string& content) {
   std::ofstream{file, std::ios::binary} << content;
 }
 
-}  // namespace hlc
+}  // namespace hlc::test

@@ -21,7 +21,7 @@ inline constexpr char kTestLabel[] = "test";
 /// that maneuvers outrun both their trims, as those of J1 do.
 ///
 /// The areas are hulls of footprints at some times; they need not contain the whole motion.
-[[nodiscard]] std::shared_ptr<const UniversalAutomaton> make_test_automaton(
+[[nodiscard]] std::shared_ptr<const automaton::UniversalAutomaton> make_test_automaton(
     double surge_mps2 = 0.0);
 
 /// A label of a test automaton, and the surge of its maneuvers.
@@ -36,22 +36,23 @@ inline const LabelledSurge kFast{"fast", 8.0};
 inline const std::vector<std::size_t> kAllTrims{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
 
 /// The same with other trims and with one maneuver per label between every two of them.
-[[nodiscard]] std::shared_ptr<UniversalAutomaton> make_test_automaton(
-    const std::vector<Trim>& trims, const std::vector<LabelledSurge>& labels);
+[[nodiscard]] std::shared_ptr<automaton::UniversalAutomaton> make_test_automaton(
+    const std::vector<automaton::Trim>& trims, const std::vector<LabelledSurge>& labels);
 
 /// The twelve trims of the paper's Table 1.
-[[nodiscard]] std::vector<Trim> paper_trims();
+[[nodiscard]] std::vector<automaton::Trim> paper_trims();
 
 /// A subgraph with these trims, numbered from 1 as in the paper.
-[[nodiscard]] Subgraph make_test_subgraph(std::shared_ptr<const UniversalAutomaton> automaton,
-                                          const std::vector<std::size_t>& trims);
+[[nodiscard]] automaton::Subgraph make_test_subgraph(
+    std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+    const std::vector<std::size_t>& trims);
 
 /// The same with these labels, all on.
-[[nodiscard]] Subgraph make_test_subgraph(const std::vector<LabelledSurge>& labels,
-                                          const std::vector<std::size_t>& trims,
-                                          std::optional<double> max_speed_mps = {});
+[[nodiscard]] automaton::Subgraph make_test_subgraph(const std::vector<LabelledSurge>& labels,
+                                                     const std::vector<std::size_t>& trims,
+                                                     std::optional<double> max_speed_mps = {});
 
 /// All twelve trims.
-[[nodiscard]] Subgraph make_test_subgraph(double surge_mps2 = 0.0);
+[[nodiscard]] automaton::Subgraph make_test_subgraph(double surge_mps2 = 0.0);
 
 }  // namespace hlc::test

@@ -8,7 +8,7 @@
 #include "vehicle_sim/apps/missing_runs.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 std::filesystem::path folder_of_run(const EvaluationFiles& files, std::size_t run) {
@@ -17,14 +17,14 @@ std::filesystem::path folder_of_run(const EvaluationFiles& files, std::size_t ru
 
 }  // namespace
 
-std::size_t drive_campaign(const Campaign& campaign, std::size_t jobs, bool keep_runs,
+std::size_t drive_campaign(const campaign::Campaign& campaign, std::size_t jobs, bool keep_runs,
                            EvaluationFiles& files) {
   const auto is_done = [&](std::size_t run) {
     return files.has(run) && (!keep_runs || is_whole_run_folder(folder_of_run(files, run)));
   };
   for_each_number(missing_runs(campaign.runs().size(), is_done), "run", jobs, [&](std::size_t run) {
-    std::optional<DrivenRun> driven;
-    std::optional<CampaignResult> result;
+    std::optional<campaign::DrivenRun> driven;
+    std::optional<campaign::CampaignResult> result;
     std::string failure;
     try {
       driven = campaign.drive(run, machine_clocks());
@@ -45,4 +45,4 @@ std::size_t drive_campaign(const Campaign& campaign, std::size_t jobs, bool keep
   return num_failed(files.figures());
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

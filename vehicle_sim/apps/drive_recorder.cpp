@@ -8,7 +8,7 @@
 #include "hlc_bridge/record/drive_file.hpp"
 #include "planner/common/text_file.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 namespace {
 
@@ -28,7 +28,7 @@ DriveRecorder::DriveRecorder(const std::string& file, bool append) : file_(file)
   stream_.open(file, goes_on ? std::ios::app : std::ios::trunc);
   stream_.imbue(std::locale::classic());
   stream_.precision(std::numeric_limits<double>::max_digits10);
-  if (!goes_on) stream_ << kDriveHeading << '\n' << std::flush;
+  if (!goes_on) stream_ << record::kDriveHeading << '\n' << std::flush;
   check();
 }
 
@@ -36,7 +36,7 @@ void DriveRecorder::check() const {
   if (!stream_) throw std::runtime_error(file_ + ": cannot be written");
 }
 
-void DriveRecorder::write(const DrivenSample& sample) {
+void DriveRecorder::write(const result::DrivenSample& sample) {
   stream_ << sample.t << ',' << sample.pose.x_m << ',' << sample.pose.y_m << ','
           << sample.pose.heading_rad << ',' << sample.speed_mps << ',' << sample.throttle << ','
           << sample.steering << ',' << sample.command_create << '\n'
@@ -44,4 +44,4 @@ void DriveRecorder::write(const DrivenSample& sample) {
   check();
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Writes a vehicle's true motion as CSV with the heading `kDriveHeading`, one row per tick: the
 /// pose, and the inputs given then (they act 80 ms later). `hlc_bridge/record/drive_file.hpp` reads
@@ -21,7 +21,7 @@ class DriveRecorder {
   explicit DriveRecorder(const std::string& file, bool append = false);
 
   /// @throws std::runtime_error if the row cannot be written
-  void write(const DrivenSample& sample);
+  void write(const result::DrivenSample& sample);
 
  private:
   void check() const;
@@ -30,4 +30,4 @@ class DriveRecorder {
   std::ofstream stream_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -4,9 +4,9 @@
 
 #include "vehicle_sim/apps/missing_runs.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
-std::size_t drive_sweep(Sweep& sweep, std::size_t jobs, SweepFiles& files) {
+std::size_t drive_sweep(campaign::Sweep& sweep, std::size_t jobs, SweepFiles& files) {
   const std::vector<std::size_t> missing =
       missing_runs(sweep.runs().size(), [&](std::size_t run) { return files.has(run); });
   std::set<std::size_t> automata;
@@ -17,4 +17,4 @@ std::size_t drive_sweep(Sweep& sweep, std::size_t jobs, SweepFiles& files) {
   return num_failed(files.figures());
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -23,13 +23,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Choices {
-  hlc::CampaignPlan plan;
+  hlc::campaign::CampaignPlan plan;
   std::vector<std::string> scenarios{"paper_three_cars", "paper_red_alone"};
   std::filesystem::path scenario_folder;
   std::size_t jobs{1};
   bool keep_runs{false};
   std::filesystem::path out;
-  hlc::FigureChoices figures;
+  hlc::apps::FigureChoices figures;
   bool is_sweep{false};  ///< otherwise a campaign
   std::filesystem::path sweep;
 };
@@ -56,26 +56,26 @@ std::string command_line(int argc, char** argv) {
 std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
 
 /// All input of the campaign. A file that cannot be read is invalid input.
-hlc::Campaign read(Choices& choices) {
+hlc::campaign::Campaign read(Choices& choices) {
   for (const std::string& name : choices.scenarios) {
     choices.plan.scenarios.push_back(scenario_file(choices, name));
   }
   // Tables and figures identify scenarios by their names.
   std::vector<std::string> names;
   for (const auto& file : choices.plan.scenarios) names.push_back(file.stem().string());
-  hlc::check_each_once("--scenario", names);
-  hlc::check_each_once("--profile", choices.plan.profiles);
-  hlc::check_each_once("--subgraphs", choices.plan.subgraphs);
-  hlc::check_each_once("--policies", choices.plan.policies);
+  hlc::apps::check_each_once("--scenario", names);
+  hlc::apps::check_each_once("--profile", choices.plan.profiles);
+  hlc::apps::check_each_once("--subgraphs", choices.plan.subgraphs);
+  hlc::apps::check_each_once("--policies", choices.plan.policies);
   if (std::ranges::find(choices.plan.policies, "") != choices.plan.policies.end()) {
     throw std::invalid_argument("--policies: an empty name, must be a policy of the scenario");
   }
-  hlc::FigureChoices& figures = choices.figures;
+  hlc::apps::FigureChoices& figures = choices.figures;
   const auto is_asked_for = [&](const char* name) {
     return std::ranges::find(figures.names, name) != figures.names.end();
   };
   const bool draws_all = is_asked_for(kAllFigures);
-  if (draws_all) figures.names = hlc::figure_names();
+  if (draws_all) figures.names = hlc::apps::figure_names();
   if (!figures.pareto_configuration.empty() && !is_asked_for("pareto_set")) {
     throw std::invalid_argument(
         "--pareto_configuration = " + figures.pareto_configuration.string() +
@@ -85,7 +85,7 @@ hlc::Campaign read(Choices& choices) {
     figures.pareto_configuration =
         (choices.scenario_folder / "../automata/pareto_example.yaml").lexically_normal();
   }
-  figures.clocks = hlc::machine_clocks();
+  figures.clocks = hlc::apps::machine_clocks();
   const std::filesystem::path folder = figure_folder(choices);
   if (!figures.names.empty() && std::filesystem::exists(folder) &&
       !std::filesystem::is_directory(folder)) {
@@ -93,9 +93,9 @@ hlc::Campaign read(Choices& choices) {
                                 ": figures must be a folder or absent");
   }
   try {
-    hlc::check_figures(figures);
-    hlc::Campaign campaign(choices.plan);
-    const auto is_alone = [&](const hlc::CampaignRun& run) {
+    hlc::apps::check_figures(figures);
+    hlc::campaign::Campaign campaign(choices.plan);
+    const auto is_alone = [&](const hlc::campaign::CampaignRun& run) {
       return campaign.scenario_of(run).vehicles.size() == 1;
     };
     if (!draws_all && is_asked_for("distance") && std::ranges::all_of(campaign.runs(), is_alone)) {
@@ -107,35 +107,35 @@ hlc::Campaign read(Choices& choices) {
   }
 }
 
-void draw(const hlc::Campaign& campaign, Choices& choices) {
+void draw(const hlc::campaign::Campaign& campaign, Choices& choices) {
   if (choices.figures.names.empty()) return;
   choices.figures.log = [](const std::string& what) {
     std::cerr << "evaluate: drawing " << what << '\n';
   };
-  const auto files = hlc::draw_figures(campaign, choices.figures, figure_folder(choices));
+  const auto files = hlc::apps::draw_figures(campaign, choices.figures, figure_folder(choices));
   for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());
 }
 
-hlc::EvaluationOrigin origin_of(const std::string& command) {
+hlc::campaign::EvaluationOrigin origin_of(const std::string& command) {
   return {.command = command,
           .revision = hlc::program_revision(),
           .compiler = "GCC " __VERSION__,
-          .processor = hlc::this_host().cpu};
+          .processor = hlc::record::this_host().cpu};
 }
 
-hlc::Sweep read_sweep(const Choices& choices) {
+hlc::campaign::Sweep read_sweep(const Choices& choices) {
   try {
-    return hlc::Sweep(hlc::read_sweep(choices.sweep));
+    return hlc::campaign::Sweep(hlc::campaign::read_sweep(choices.sweep));
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(error.what());
   }
 }
 
 int run_sweep(const Choices& choices, const std::string& command) {
-  hlc::Sweep sweep = read_sweep(choices);
-  hlc::SweepFiles files(choices.out, sweep);
+  hlc::campaign::Sweep sweep = read_sweep(choices);
+  hlc::apps::SweepFiles files(choices.out, sweep);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed = hlc::drive_sweep(sweep, choices.jobs, files);
+  const std::size_t failed = hlc::apps::drive_sweep(sweep, choices.jobs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu do not count, %.1f s; %s\n", sweep.runs().size(), failed, wall_s,
@@ -145,16 +145,17 @@ int run_sweep(const Choices& choices, const std::string& command) {
 
 int run(Choices choices, const std::string& command) {
   if (choices.is_sweep) return run_sweep(choices, command);
-  const hlc::Campaign campaign = read(choices);
-  hlc::EvaluationFiles files(choices.out, campaign);
+  const hlc::campaign::Campaign campaign = read(choices);
+  hlc::apps::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed = hlc::drive_campaign(campaign, choices.jobs, choices.keep_runs, files);
+  const std::size_t failed =
+      hlc::apps::drive_campaign(campaign, choices.jobs, choices.keep_runs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,
               (choices.out / "table.md").c_str());
   if (!campaign.plan().policies.empty()) {
-    std::printf("\n%s", hlc::tradeoff_markdown(files.figures()).c_str());
+    std::printf("\n%s", hlc::campaign::tradeoff_markdown(files.figures()).c_str());
   }
   draw(campaign, choices);
   return failed == 0 ? 0 : 1;
@@ -183,18 +184,18 @@ void declare_campaign(CLI::App& app, Choices& choices) {
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
                  "number of starts: the scenario's own, then random ones on the routes")
-      ->check(hlc::whole(1, 100'000))
+      ->check(hlc::apps::whole(1, 100'000))
       ->capture_default_str();
   app.add_option("--seed", choices.plan.seed, "of the random starts")
-      ->check(hlc::whole(0, kLargestSeed))
+      ->check(hlc::apps::whole(0, kLargestSeed))
       ->capture_default_str();
   app.add_option("--steps", choices.plan.steps, "instead of the scenarios'")
-      ->check(hlc::whole(1, 100'000));
+      ->check(hlc::apps::whole(1, 100'000));
   app.add_option("--noise_seed", choices.plan.noise_seed,
                  "measurement noise of the simulated cars; default: none")
-      ->check(hlc::whole(0, kLargestSeed));
+      ->check(hlc::apps::whole(0, kLargestSeed));
   app.add_option("--jobs", choices.jobs, "runs at a time")
-      ->check(hlc::whole(1, 256))
+      ->check(hlc::apps::whole(1, 256))
       ->capture_default_str();
   app.add_flag("--keep_runs", choices.keep_runs,
                "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
@@ -207,11 +208,11 @@ void declare_campaign(CLI::App& app, Choices& choices) {
 
 void declare_figures(CLI::App& app, Choices& choices) {
   std::vector<std::string> figures{kAllFigures};
-  figures.insert(figures.end(), hlc::figure_names().begin(), hlc::figure_names().end());
+  figures.insert(figures.end(), hlc::apps::figure_names().begin(), hlc::apps::figure_names().end());
   app.add_option("--figures", choices.figures.names,
                  "SVG files to draw into the folder `figures` of --out, as paths,distance or all")
       ->delimiter(',')
-      ->check(hlc::among(figures));
+      ->check(hlc::apps::among(figures));
   app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
                  "automaton configuration for the figure pareto_set; default: "
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
@@ -244,9 +245,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Simulates many runs and compares them with the paper's Table 2.", "evaluate"};
   Choices choices;
   CLI::Option* sweep = declare(app, choices);
-  if (const auto code = hlc::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
   // A failed run is recorded; any other error concerns an output.
-  return hlc::exit_code_of(
+  return hlc::apps::exit_code_of(
       "evaluate", [&] { return run(choices, command_line(argc, argv)); }, kExitNotWritten);
 }

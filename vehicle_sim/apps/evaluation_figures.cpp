@@ -17,56 +17,65 @@
 #include "vehicle_sim/campaign/figure_parts.hpp"
 #include "vehicle_sim/campaign/figures.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// The maneuver of the paper's Fig. 1.
-constexpr Trim kParetoFrom{};
-constexpr Trim kParetoTo{.speed_mps = 2.3, .steering_rad = 0.62};
+constexpr automaton::Trim kParetoFrom{};
+constexpr automaton::Trim kParetoTo{.speed_mps = 2.3, .steering_rad = 0.62};
 constexpr std::size_t kParetoPoints = 31;
 
 std::string pareto_set(const fs::path& configuration) {
-  const AutomatonConfiguration c = read_automaton_configuration(configuration);
-  ParetoProblem problem{.maneuver = problem_between(kParetoFrom, kParetoTo, c)};
-  const ParetoDescription description{
+  const maneuver_design::AutomatonConfiguration c =
+      maneuver_design::read_automaton_configuration(configuration);
+  maneuver_design::ParetoProblem problem{
+      .maneuver = maneuver_design::problem_between(kParetoFrom, kParetoTo, c)};
+  const plot::ParetoDescription description{
       kParetoFrom, kParetoTo, problem.maneuver.duration_s, {"J1", "J2"}};
   for (const std::string& name : description.criteria) {
-    problem.criteria.push_back(make_criterion(name, c.vehicle));
+    problem.criteria.push_back(maneuver_design::make_criterion(name, c.vehicle));
   }
-  const ParetoOptions options{.points = kParetoPoints};
-  const ParetoFront front = epsilon_constraint_front(problem, options);
-  if (front.status != ManeuverStatus::kOptimal) {
+  const maneuver_design::ParetoOptions options{.points = kParetoPoints};
+  const maneuver_design::ParetoFront front =
+      maneuver_design::epsilon_constraint_front(problem, options);
+  if (front.status != maneuver_design::ManeuverStatus::kOptimal) {
     throw std::runtime_error(configuration.string() + ": " + front.reason);
   }
-  return pareto_plot(front, weighted_sum_front(problem, options), description);
+  return plot::pareto_plot(front, maneuver_design::weighted_sum_front(problem, options),
+                           description);
 }
 
 /// The whole automaton; a scenario holds only the part that its subgraph needs.
 std::string automaton(const fs::path& file) {
-  if (is_automaton_file(file)) return automaton_plot(read_current_automaton_file(file));
-  const AutomatonConfiguration configuration = read_automaton_configuration(file);
-  return automaton_plot(file_of(configuration, build_automaton(configuration)));
+  if (automaton::is_automaton_file(file))
+    return plot::automaton_plot(maneuver_design::read_current_automaton_file(file));
+  const maneuver_design::AutomatonConfiguration configuration =
+      maneuver_design::read_automaton_configuration(file);
+  return plot::automaton_plot(
+      maneuver_design::file_of(configuration, maneuver_design::build_automaton(configuration)));
 }
 
-using RunsFigure = std::string (*)(std::span<const DrivenRun>, const std::optional<LaneletMap>&);
+using RunsFigure = std::string (*)(std::span<const campaign::DrivenRun>,
+                                   const std::optional<road::LaneletMap>&);
 
 /// Figures that need driven runs.
 const std::vector<std::pair<std::string, RunsFigure>>& runs_figures() {
   static const std::vector<std::pair<std::string, RunsFigure>> figures{
-      {"paths", paths_figure},
-      {"error", [](auto runs, const auto&) { return error_figure(runs); }},
-      {"vertices", [](auto runs, const auto&) { return vertices_figure(runs); }},
-      {"planning_time", [](auto runs, const auto&) { return planning_time_figure(runs); }},
-      {"distance", [](auto runs, const auto&) { return distance_figure(runs); }},
-      {"subgraphs", [](auto runs, const auto&) { return subgraphs_figure(runs); }}};
+      {"paths", campaign::paths_figure},
+      {"error", [](auto runs, const auto&) { return campaign::error_figure(runs); }},
+      {"vertices", [](auto runs, const auto&) { return campaign::vertices_figure(runs); }},
+      {"planning_time",
+       [](auto runs, const auto&) { return campaign::planning_time_figure(runs); }},
+      {"distance", [](auto runs, const auto&) { return campaign::distance_figure(runs); }},
+      {"subgraphs", [](auto runs, const auto&) { return campaign::subgraphs_figure(runs); }}};
   return figures;
 }
 
 class Drawing {
  public:
-  Drawing(const Campaign& campaign, const FigureChoices& choices, fs::path folder)
+  Drawing(const campaign::Campaign& campaign, const FigureChoices& choices, fs::path folder)
       : campaign_(campaign), choices_(choices), folder_(std::move(folder)) {
     fs::create_directories(folder_);
   }
@@ -80,8 +89,8 @@ class Drawing {
         automata;  // by name; automata of one name are distinguished by the scenario
     std::set<std::string> drawn;
     std::set<fs::path> scenarios;
-    for (const CampaignRun& run : campaign_.runs()) {
-      const Scenario& scenario = campaign_.scenario_of(run);
+    for (const campaign::CampaignRun& run : campaign_.runs()) {
+      const scenario::Scenario& scenario = campaign_.scenario_of(run);
       const std::string name = run.scenario.stem().string();
       const std::string stem = scenario.automaton_file.stem().string();
       const fs::path& first = automata.try_emplace(stem, scenario.automaton_file).first->second;
@@ -91,7 +100,7 @@ class Drawing {
         write("automaton_" + figure, automaton(scenario.automaton_file));
       }
       if (is_wanted("scenario") && scenarios.insert(run.scenario).second) {
-        write("scenario_" + name, scenario_plot(scenario, map_of(scenario)));
+        write("scenario_" + name, plot::scenario_plot(scenario, plot::map_of(scenario)));
       }
     }
     if (std::ranges::any_of(runs_figures(),
@@ -116,7 +125,7 @@ class Drawing {
       const {
     std::map<std::pair<fs::path, std::string>, std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < campaign_.runs().size(); ++i) {
-      const CampaignRun& run = campaign_.runs()[i];
+      const campaign::CampaignRun& run = campaign_.runs()[i];
       if (run.start == 0) groups[{run.scenario, run.profile}].push_back(i);
     }
     return groups;
@@ -126,14 +135,15 @@ class Drawing {
     for (const auto& [group, numbers] : groups()) {
       const std::string name = group.first.stem().string() + "_" + group.second;
       choices_.log("the runs of " + name);
-      std::vector<DrivenRun> runs;
+      std::vector<campaign::DrivenRun> runs;
       for (const std::size_t i : numbers) {
         // A failed run is recorded with its reason among the campaign's.
         try {
-          DrivenRun run = campaign_.drive(i, choices_.clocks);
+          campaign::DrivenRun run = campaign_.drive(i, choices_.clocks);
           if (run.experiment.facts.exit_code != 0) continue;
           if (const std::string fault = campaign_.result_of(run).fault; !fault.empty()) {
-            choices_.log("among them " + run_name(run) + ", which does not count: " + fault);
+            choices_.log("among them " + campaign::run_name(run) +
+                         ", which does not count: " + fault);
           }
           runs.push_back(std::move(run));
         } catch (const std::exception&) {
@@ -141,7 +151,7 @@ class Drawing {
         }
       }
       if (runs.empty()) continue;
-      const std::optional<LaneletMap> map = map_of(runs.front().scenario);
+      const std::optional<road::LaneletMap> map = plot::map_of(runs.front().scenario);
       for (const auto& [figure, draw] : runs_figures()) {
         if (!is_wanted(figure)) continue;
         if (figure == "distance" && runs.front().scenario.vehicles.size() < 2) continue;
@@ -150,7 +160,7 @@ class Drawing {
     }
   }
 
-  const Campaign& campaign_;
+  const campaign::Campaign& campaign_;
   const FigureChoices& choices_;
   fs::path folder_;
   std::vector<fs::path> written_;
@@ -169,13 +179,13 @@ const std::vector<std::string>& figure_names() {
 
 void check_figures(const FigureChoices& choices) {
   if (std::ranges::find(choices.names, "pareto_set") != choices.names.end()) {
-    static_cast<void>(read_automaton_configuration(choices.pareto_configuration));
+    static_cast<void>(maneuver_design::read_automaton_configuration(choices.pareto_configuration));
   }
 }
 
-std::vector<fs::path> draw_figures(const Campaign& campaign, const FigureChoices& choices,
+std::vector<fs::path> draw_figures(const campaign::Campaign& campaign, const FigureChoices& choices,
                                    const fs::path& folder) {
   return Drawing(campaign, choices, folder).draw();
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

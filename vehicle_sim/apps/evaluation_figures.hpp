@@ -7,7 +7,7 @@
 
 #include "vehicle_sim/campaign/campaign.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Names of the figures that an evaluation can draw:
 ///
@@ -31,7 +31,7 @@ namespace hlc {
 struct FigureChoices {
   std::vector<std::string> names;               ///< of figure_names()
   std::filesystem::path pareto_configuration;   ///< automaton configuration for `pareto_set`
-  Clocks clocks;                                ///< for `planning_time`
+  closed_loop::Clocks clocks;                   ///< for `planning_time`
   std::function<void(const std::string&)> log;  ///< called with a line on what is being drawn
 };
 
@@ -45,8 +45,8 @@ void check_figures(const FigureChoices& choices);
 /// without interference. A failed run is left out.
 /// @throws std::runtime_error if a file cannot be written
 /// @return the files
-std::vector<std::filesystem::path> draw_figures(const Campaign& campaign,
+std::vector<std::filesystem::path> draw_figures(const campaign::Campaign& campaign,
                                                 const FigureChoices& choices,
                                                 const std::filesystem::path& folder);
 
-}  // namespace hlc
+}  // namespace hlc::apps

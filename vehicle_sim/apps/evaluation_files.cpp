@@ -10,13 +10,13 @@
 #include "vehicle_sim/apps/input_files.hpp"
 #include "vehicle_sim/campaign/tradeoff.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json heading_of(const Campaign& campaign) {
-  const CampaignPlan& plan = campaign.plan();
+Json heading_of(const campaign::Campaign& campaign) {
+  const campaign::CampaignPlan& plan = campaign.plan();
   Json json;
   json["scenarios"] = Json::array();
   for (const auto& file : plan.scenarios) json["scenarios"].push_back(file.filename().string());
@@ -33,13 +33,14 @@ Json heading_of(const Campaign& campaign) {
   return json;
 }
 
-RunFigures figures_of(const Campaign& campaign, std::size_t run, const Json& record) {
+campaign::RunFigures figures_of(const campaign::Campaign& campaign, std::size_t run,
+                                const Json& record) {
   return figures_of_record(record, campaign.heading_of(run));
 }
 
 }  // namespace
 
-EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& campaign)
+EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const campaign::Campaign& campaign)
     : campaign_(campaign), log_(std::move(folder), heading_of(campaign).dump()) {
   log_.check(campaign.runs().size(), [this](std::size_t run, const Json& record) {
     static_cast<void>(figures_of(campaign_, run, record));
@@ -48,23 +49,23 @@ EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const Campaign& c
                       "tradeoff_fronts.csv"});
 }
 
-void EvaluationFiles::add(std::size_t run, const CampaignResult& result) {
+void EvaluationFiles::add(std::size_t run, const campaign::CampaignResult& result) {
   Json record;
   record["run"] = run;
-  const RunFigures heading = campaign_.heading_of(run);
+  const campaign::RunFigures heading = campaign_.heading_of(run);
   record["start"] = heading.start;
   record["policy"] = heading.policy;
   record["failure"] = result.fault.empty() ? Json(nullptr) : Json(result.fault);
-  RunSummary complete = result.summary;
+  result::RunSummary complete = result.summary;
   complete.revision = program_revision();
-  complete.host = this_host();
-  record.update(Json::parse(summary_json(complete)));
-  record["figures"] = figures_record(with_figures(heading, result));
+  complete.host = record::this_host();
+  record.update(Json::parse(record::summary_json(complete)));
+  record["figures"] = figures_record(campaign::with_figures(heading, result));
   log_.append(run, record.dump());
 }
 
 void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
-  const RunFigures heading = campaign_.heading_of(run);
+  const campaign::RunFigures heading = campaign_.heading_of(run);
   Json record;
   record["run"] = run;
   record["start"] = heading.start;
@@ -76,27 +77,27 @@ void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
   log_.append(run, record.dump());
 }
 
-std::vector<RunFigures> EvaluationFiles::figures() const {
-  std::vector<RunFigures> result;
+std::vector<campaign::RunFigures> EvaluationFiles::figures() const {
+  std::vector<campaign::RunFigures> result;
   for (const auto& [run, line] : log_.records()) {
     result.push_back(figures_of(campaign_, run, Json::parse(line)));
   }
   return result;
 }
 
-void EvaluationFiles::finish(const EvaluationOrigin& origin) const {
+void EvaluationFiles::finish(const campaign::EvaluationOrigin& origin) const {
   Json results;
   results["campaign"] = Json::parse(log_.heading());
   results["runs"] = Json::array();
   for (const auto& [run, line] : log_.records()) results["runs"].push_back(Json::parse(line));
   write_file(log_.folder() / "results.json", results.dump(1) + "\n");
-  const std::vector<RunFigures> runs = figures();
-  write_file(log_.folder() / "table.md", evaluation_markdown(runs, origin));
-  write_file(log_.folder() / "table.csv", evaluation_csv(runs));
+  const std::vector<campaign::RunFigures> runs = figures();
+  write_file(log_.folder() / "table.md", campaign::evaluation_markdown(runs, origin));
+  write_file(log_.folder() / "table.csv", campaign::evaluation_csv(runs));
   if (campaign_.plan().policies.empty()) return;
-  write_file(log_.folder() / "tradeoff.md", tradeoff_markdown(runs));
-  write_file(log_.folder() / "tradeoff.csv", tradeoff_csv(runs));
-  write_file(log_.folder() / "tradeoff_fronts.csv", tradeoff_fronts_csv(runs));
+  write_file(log_.folder() / "tradeoff.md", campaign::tradeoff_markdown(runs));
+  write_file(log_.folder() / "tradeoff.csv", campaign::tradeoff_csv(runs));
+  write_file(log_.folder() / "tradeoff_fronts.csv", campaign::tradeoff_fronts_csv(runs));
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

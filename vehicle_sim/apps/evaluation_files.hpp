@@ -9,7 +9,7 @@
 #include "vehicle_sim/campaign/campaign.hpp"
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// The folder of a campaign:
 ///
@@ -32,22 +32,22 @@ class EvaluationFiles {
   /// Makes the folder, or opens that of the same campaign.
   /// @throws std::invalid_argument naming the folder if it holds anything else, or a campaign of
   /// other choices or another program
-  EvaluationFiles(std::filesystem::path folder, const Campaign& campaign);
+  EvaluationFiles(std::filesystem::path folder, const campaign::Campaign& campaign);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return log_.folder(); }
   [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written
-  void add(std::size_t run, const CampaignResult& result);
+  void add(std::size_t run, const campaign::CampaignResult& result);
   void add_failure(std::size_t run, const std::string& reason);
 
   /// Writes results.json and the tables.
-  void finish(const EvaluationOrigin& origin) const;
-  [[nodiscard]] std::vector<RunFigures> figures() const;
+  void finish(const campaign::EvaluationOrigin& origin) const;
+  [[nodiscard]] std::vector<campaign::RunFigures> figures() const;
 
  private:
-  const Campaign& campaign_;
+  const campaign::Campaign& campaign_;
   RunLog log_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -146,7 +146,7 @@ int campaign(const Choices& choices, const std::string& flags) {
   const Clock::time_point begin = Clock::now();
   {
     const Progress progress(choices.runs);
-    hlc::run_parallel(
+    hlc::apps::run_parallel(
         choices.runs, choices.jobs,
         [&](std::size_t i) {
           const std::uint64_t seed = choices.seed + i;
@@ -208,29 +208,29 @@ int main(int argc, char** argv) {
   std::vector<std::string> keep;
   choices.campaign.scenario_folder = "launch_scripts/scenarios";
   app.add_option("--cars", choices.campaign.cars, "3 ... 8; 0: as the seed has it")
-      ->check(hlc::whole(0, 8))
+      ->check(hlc::apps::whole(0, 8))
       ->capture_default_str();
   app.add_option("--runs", choices.runs, "number of runs")
-      ->check(hlc::whole(1, kLargestSeed))
+      ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();
   app.add_option("--seed", choices.seed, "of the first run; the next ones count on")
-      ->check(hlc::whole(0, kLargestSeed))
+      ->check(hlc::apps::whole(0, kLargestSeed))
       ->capture_default_str();
   app.add_option("--faults", choices.faults, "kinds of faults (default: all)")
       ->delimiter(',')
-      ->check(hlc::among(fault_names()));
+      ->check(hlc::apps::among(fault_names()));
   app.add_option("--jobs", choices.jobs, "threads (default: as many as cores)")
-      ->check(hlc::whole(1, 256));
+      ->check(hlc::apps::whole(1, 256));
   app.add_option("--scenario_folder", choices.campaign.scenario_folder, "folder of the scenarios")
       ->capture_default_str();
   app.add_option("--replay", choices.replay, "only the run of this seed")
-      ->check(hlc::whole(0, kLargestSeed));
+      ->check(hlc::apps::whole(0, kLargestSeed));
   app.add_option("--keep", keep, "with --replay: only these of its faults, from 0; or none")
       ->delimiter(',');
   app.add_option("--trace", choices.trace, "with --replay: file for what happens");
-  if (const std::optional<int> code = hlc::parse_flags(app, argc, argv)) return *code;
-  return hlc::exit_code_of("fault_simulator", [&] {
-    hlc::check_each_once("--faults", choices.faults);
+  if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("fault_simulator", [&] {
+    hlc::apps::check_each_once("--faults", choices.faults);
     if (!choices.replay && (!keep.empty() || !choices.trace.empty())) {
       throw std::invalid_argument("--keep and --trace require --replay");
     }

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -10,43 +10,46 @@ using Json = nlohmann::ordered_json;
 template <class Value>
 struct Column {
   const char* key;
-  Value RunFigures::*value;
+  Value campaign::RunFigures::*value;
 };
 
 constexpr Column<std::optional<double>> kMaybe[] = {
-    {"lap_s", &RunFigures::lap_s},
-    {"error_mean_mm", &RunFigures::error_mean_mm},
-    {"error_std_mm", &RunFigures::error_std_mm},
-    {"driven_error_mean_mm", &RunFigures::driven_error_mean_mm},
-    {"driven_error_std_mm", &RunFigures::driven_error_std_mm},
-    {"effort_per_m", &RunFigures::effort_per_m},
-    {"comfort_per_m", &RunFigures::comfort_per_m},
-    {"above_limit_share", &RunFigures::above_limit_share},
-    {"clearly_above_limit_share", &RunFigures::clearly_above_limit_share},
-    {"above_limit_max_mps", &RunFigures::above_limit_max_mps}};
+    {"lap_s", &campaign::RunFigures::lap_s},
+    {"error_mean_mm", &campaign::RunFigures::error_mean_mm},
+    {"error_std_mm", &campaign::RunFigures::error_std_mm},
+    {"driven_error_mean_mm", &campaign::RunFigures::driven_error_mean_mm},
+    {"driven_error_std_mm", &campaign::RunFigures::driven_error_std_mm},
+    {"effort_per_m", &campaign::RunFigures::effort_per_m},
+    {"comfort_per_m", &campaign::RunFigures::comfort_per_m},
+    {"above_limit_share", &campaign::RunFigures::above_limit_share},
+    {"clearly_above_limit_share", &campaign::RunFigures::clearly_above_limit_share},
+    {"above_limit_max_mps", &campaign::RunFigures::above_limit_max_mps}};
 
-constexpr Column<double> kOfAll[] = {{"generated_max", &RunFigures::generated_max},
-                                     {"generated_sum_max", &RunFigures::generated_sum_max},
-                                     {"expanded_max", &RunFigures::expanded_max},
-                                     {"expanded_sum_max", &RunFigures::expanded_sum_max},
-                                     {"deviation_max_mm", &RunFigures::deviation_max_mm}};
+constexpr Column<double> kOfAll[] = {
+    {"generated_max", &campaign::RunFigures::generated_max},
+    {"generated_sum_max", &campaign::RunFigures::generated_sum_max},
+    {"expanded_max", &campaign::RunFigures::expanded_max},
+    {"expanded_sum_max", &campaign::RunFigures::expanded_sum_max},
+    {"deviation_max_mm", &campaign::RunFigures::deviation_max_mm}};
 
-constexpr Column<std::size_t> kCounts[] = {{"fallback_steps", &RunFigures::fallback_steps},
-                                           {"collisions", &RunFigures::collisions},
-                                           {"switches", &RunFigures::switches}};
+constexpr Column<std::size_t> kCounts[] = {
+    {"fallback_steps", &campaign::RunFigures::fallback_steps},
+    {"collisions", &campaign::RunFigures::collisions},
+    {"switches", &campaign::RunFigures::switches}};
 
-constexpr Column<double> kTimes[] = {{"planning_mean_ms", &RunFigures::planning_mean_ms},
-                                     {"planning_std_ms", &RunFigures::planning_std_ms},
-                                     {"planning_max_ms", &RunFigures::planning_max_ms},
-                                     {"exceeding_step_share", &RunFigures::exceeding_step_share},
-                                     {"wall_s", &RunFigures::wall_s},
-                                     {"wall_planning_s", &RunFigures::wall_planning_s},
-                                     {"wall_coordination_s", &RunFigures::wall_coordination_s},
-                                     {"wall_vehicles_s", &RunFigures::wall_vehicles_s}};
+constexpr Column<double> kTimes[] = {
+    {"planning_mean_ms", &campaign::RunFigures::planning_mean_ms},
+    {"planning_std_ms", &campaign::RunFigures::planning_std_ms},
+    {"planning_max_ms", &campaign::RunFigures::planning_max_ms},
+    {"exceeding_step_share", &campaign::RunFigures::exceeding_step_share},
+    {"wall_s", &campaign::RunFigures::wall_s},
+    {"wall_planning_s", &campaign::RunFigures::wall_planning_s},
+    {"wall_coordination_s", &campaign::RunFigures::wall_coordination_s},
+    {"wall_vehicles_s", &campaign::RunFigures::wall_vehicles_s}};
 
 }  // namespace
 
-Json figures_record(const RunFigures& figures) {
+Json figures_record(const campaign::RunFigures& figures) {
   Json record;
   for (const auto& [key, value] : kMaybe) {
     record[key] = figures.*value ? Json(*(figures.*value)) : Json(nullptr);
@@ -60,8 +63,8 @@ Json figures_record(const RunFigures& figures) {
   return record;
 }
 
-RunFigures read_figures(const Json& record, RunFigures heading) {
-  RunFigures figures = std::move(heading);
+campaign::RunFigures read_figures(const Json& record, campaign::RunFigures heading) {
+  campaign::RunFigures figures = std::move(heading);
   for (const auto& [key, value] : kMaybe) {
     if (!record.at(key).is_null()) figures.*value = record.at(key).get<double>();
   }
@@ -74,8 +77,8 @@ RunFigures read_figures(const Json& record, RunFigures heading) {
   return figures;
 }
 
-RunFigures figures_of_record(const Json& record, RunFigures heading) {
-  RunFigures figures = std::move(heading);
+campaign::RunFigures figures_of_record(const Json& record, campaign::RunFigures heading) {
+  campaign::RunFigures figures = std::move(heading);
   const Json& failure = record.at("failure");
   if (record.contains("figures") || failure.is_null()) {
     figures = read_figures(record.at("figures"), std::move(figures));
@@ -84,4 +87,4 @@ RunFigures figures_of_record(const Json& record, RunFigures heading) {
   return figures;
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -3,7 +3,7 @@
 #include "planner/common/sha256.hpp"
 #include "planner/common/text_file.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 nlohmann::ordered_json input_files(const std::set<std::filesystem::path>& files) {
   auto list = nlohmann::ordered_json::array();
@@ -18,4 +18,4 @@ std::string this_program_sha256() {
   return hash;
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Name and SHA-256 of each file, as a list in the order of the paths: a campaign continues only if
 /// all its input files are unchanged.
@@ -15,4 +15,4 @@ namespace hlc {
 /// Of the running program: another build is another program, whatever its revision.
 [[nodiscard]] std::string this_program_sha256();
 
-}  // namespace hlc
+}  // namespace hlc::apps

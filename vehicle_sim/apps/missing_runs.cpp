@@ -6,7 +6,7 @@
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 std::vector<std::size_t> missing_runs(std::size_t runs,
                                       const std::function<bool(std::size_t)>& has) {
@@ -29,9 +29,9 @@ void for_each_number(const std::vector<std::size_t>& numbers, const std::string&
       [&](std::size_t done) { progress.show(done); });
 }
 
-std::size_t num_failed(const std::vector<RunFigures>& runs) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(runs, [](const RunFigures& run) { return !is_well_driven(run); }));
+std::size_t num_failed(const std::vector<campaign::RunFigures>& runs) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      runs, [](const campaign::RunFigures& run) { return !campaign::is_well_driven(run); }));
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -7,7 +7,7 @@
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// The numbers below `runs` without a record. Prints on stderr how many have one.
 [[nodiscard]] std::vector<std::size_t> missing_runs(std::size_t runs,
@@ -20,6 +20,6 @@ void for_each_number(const std::vector<std::size_t>& numbers, const std::string&
                      std::size_t jobs, const std::function<void(std::size_t)>& task);
 
 /// Number of runs that do not count.
-[[nodiscard]] std::size_t num_failed(const std::vector<RunFigures>& runs);
+[[nodiscard]] std::size_t num_failed(const std::vector<campaign::RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::apps

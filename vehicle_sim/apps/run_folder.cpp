@@ -12,42 +12,42 @@
 #include "planner/scenario/engine_choice.hpp"
 #include "vehicle_sim/apps/drive_recorder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 std::filesystem::path facts_file(const std::filesystem::path& folder) {
   return folder / "run.json";
 }
 
-void write_configuration(const std::filesystem::path& folder, const Scenario& scenario) {
-  keep_configuration(folder, files_of(scenario));
-  const ScenarioChoices choices{.file = scenario.file,
-                                .profile = scenario.profile.name,
-                                .engine = engine_name(scenario.search),
-                                .subgraph = scenario.subgraph->spec().name,
-                                .policy = scenario.policy,
-                                .map_file = scenario.map_file,
-                                .steps = scenario.steps,
-                                .cars = {}};
-  write_file(folder / "configuration" / "flags.yaml", flags_yaml(choices));
+void write_configuration(const std::filesystem::path& folder, const scenario::Scenario& scenario) {
+  record::keep_configuration(folder, scenario::files_of(scenario));
+  const scenario::ScenarioChoices choices{.file = scenario.file,
+                                          .profile = scenario.profile.name,
+                                          .engine = scenario::engine_name(scenario.search),
+                                          .subgraph = scenario.subgraph->spec().name,
+                                          .policy = scenario.policy,
+                                          .map_file = scenario.map_file,
+                                          .steps = scenario.steps,
+                                          .cars = {}};
+  write_file(folder / "configuration" / "flags.yaml", record::flags_yaml(choices));
 }
 
 }  // namespace
 
-void write_run_folder(const std::filesystem::path& folder, const Scenario& scenario,
-                      const Experiment& experiment) {
+void write_run_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                      const closed_loop::Experiment& experiment) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be created");
   write_configuration(folder, scenario);
   for (const auto& [id, drive] : experiment.drives) {
-    DriveRecorder file(drive_file(folder, id).string());
-    for (const DrivenSample& sample : drive) file.write(sample);
+    DriveRecorder file(record::drive_file(folder, id).string());
+    for (const result::DrivenSample& sample : drive) file.write(sample);
   }
-  ReportFile reports(folder / "reports.csv");
+  record::ReportFile reports(folder / "reports.csv");
   for (const ReportRecord& record : experiment.reports) reports.append(record);
   reports.finish();
-  write_file(facts_file(folder), facts_json(experiment.facts));
+  write_file(facts_file(folder), record::facts_json(experiment.facts));
 }
 
 // The facts are written last.
@@ -55,4 +55,4 @@ bool is_whole_run_folder(const std::filesystem::path& folder) {
   return std::filesystem::exists(facts_file(folder));
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,16 +5,16 @@
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Writes the files that the processes of this run would have written (hlc_bridge/record):
 /// run.json, reports.csv, vehicle_<id>.csv and configuration/. `summarize` and `export_commonroad`
 /// read it. An existing folder of an interrupted run is overwritten.
 /// @throws std::runtime_error naming the file that cannot be written
-void write_run_folder(const std::filesystem::path& folder, const Scenario& scenario,
-                      const Experiment& experiment);
+void write_run_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                      const closed_loop::Experiment& experiment);
 
 /// True if such a folder exists and is complete.
 [[nodiscard]] bool is_whole_run_folder(const std::filesystem::path& folder);
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -15,7 +15,7 @@
 
 #include "planner/common/text_file.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -169,4 +169,4 @@ void RunLog::append(std::size_t run, const std::string& line) {
   records_[run] = line;
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hlc {
+namespace hlc::apps {
 
 /// The file runs.jsonl in the folder of a campaign or sweep: a first line that identifies the
 /// campaign, then a line per run, written once it is driven. An interrupted campaign continues with
@@ -60,4 +60,4 @@ class RunLog {
   int lock_{-1};  ///< on the folder
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 constexpr int kColumns = 6;
@@ -36,4 +36,4 @@ Pose start_pose(std::uint8_t vehicle_id, const std::vector<double>& given) {
   return {.x_m = given[0], .y_m = given[1], .heading_rad = given[2]};
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,7 +5,7 @@
 
 #include "planner/geometry/pose.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// Vehicles with an id up to this one have a default start pose.
 inline constexpr std::uint8_t kLastDefaultStart = 23;
@@ -19,4 +19,4 @@ inline constexpr std::uint8_t kLastDefaultStart = 23;
 /// empty for an id above `kLastDefaultStart`
 [[nodiscard]] Pose start_pose(std::uint8_t vehicle_id, const std::vector<double>& given);
 
-}  // namespace hlc
+}  // namespace hlc::apps

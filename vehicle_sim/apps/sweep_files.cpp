@@ -12,12 +12,12 @@
 #include "vehicle_sim/campaign/sweep_report.hpp"
 #include "vehicle_sim/campaign/sweep_tables.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json heading_of(const Sweep& sweep) {
+Json heading_of(const campaign::Sweep& sweep) {
   Json json;
   json["sweep"] = sweep.plan().file.filename().string();
   json["files"] = input_files(sweep.files());
@@ -26,13 +26,13 @@ Json heading_of(const Sweep& sweep) {
   return json;
 }
 
-RunFigures figures_of(const Sweep& sweep, std::size_t run, const Json& record) {
+campaign::RunFigures figures_of(const campaign::Sweep& sweep, std::size_t run, const Json& record) {
   return figures_of_record(record, sweep.heading_of(run));
 }
 
 }  // namespace
 
-SweepFiles::SweepFiles(std::filesystem::path folder, const Sweep& sweep)
+SweepFiles::SweepFiles(std::filesystem::path folder, const campaign::Sweep& sweep)
     : sweep_(sweep), log_(std::move(folder), heading_of(sweep).dump()) {
   log_.check(sweep.runs().size(), [this](std::size_t run, const Json& record) {
     static_cast<void>(figures_of(sweep_, run, record));
@@ -40,8 +40,8 @@ SweepFiles::SweepFiles(std::filesystem::path folder, const Sweep& sweep)
   log_.check_outputs({"sweep.csv", "tables.csv", "sweep.md"});
 }
 
-void SweepFiles::add(std::size_t run, const SweepResult& result) {
-  const RunFigures& figures = result.figures;
+void SweepFiles::add(std::size_t run, const campaign::SweepResult& result) {
+  const campaign::RunFigures& figures = result.figures;
   Json record;
   record["run"] = run;
   record["failure"] = figures.failure.empty() ? Json() : Json(figures.failure);
@@ -52,20 +52,20 @@ void SweepFiles::add(std::size_t run, const SweepResult& result) {
   log_.append(run, record.dump());
 }
 
-std::vector<RunFigures> SweepFiles::figures() const {
+std::vector<campaign::RunFigures> SweepFiles::figures() const {
   HLC_DEMAND(log_.size() == sweep_.runs().size(), log_.size(), sweep_.runs().size());
-  std::vector<RunFigures> result;
+  std::vector<campaign::RunFigures> result;
   for (const auto& [run, line] : log_.records()) {
     result.push_back(figures_of(sweep_, run, Json::parse(line)));
   }
   return result;
 }
 
-void SweepFiles::finish(const EvaluationOrigin& origin) const {
-  const std::vector<RunFigures> runs = figures();
-  write_file(log_.folder() / "sweep.csv", sweep_csv(sweep_, runs));
-  write_file(log_.folder() / "tables.csv", sweep_tables_csv(sweep_, runs));
-  write_file(log_.folder() / "sweep.md", sweep_markdown(sweep_, runs, origin));
+void SweepFiles::finish(const campaign::EvaluationOrigin& origin) const {
+  const std::vector<campaign::RunFigures> runs = figures();
+  write_file(log_.folder() / "sweep.csv", campaign::sweep_csv(sweep_, runs));
+  write_file(log_.folder() / "tables.csv", campaign::sweep_tables_csv(sweep_, runs));
+  write_file(log_.folder() / "sweep.md", campaign::sweep_markdown(sweep_, runs, origin));
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

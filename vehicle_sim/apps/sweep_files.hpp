@@ -8,7 +8,7 @@
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 /// The folder of a sweep:
 ///
@@ -25,21 +25,21 @@ namespace hlc {
 class SweepFiles {
  public:
   /// @throws std::invalid_argument as RunLog
-  SweepFiles(std::filesystem::path folder, const Sweep& sweep);
+  SweepFiles(std::filesystem::path folder, const campaign::Sweep& sweep);
 
   [[nodiscard]] bool has(std::size_t run) const { return log_.has(run); }
 
   /// From any thread. @throws std::runtime_error if it cannot be written
-  void add(std::size_t run, const SweepResult& result);
+  void add(std::size_t run, const campaign::SweepResult& result);
 
   /// Of all runs, in the order of the sweep. @pre all are there
-  [[nodiscard]] std::vector<RunFigures> figures() const;
+  [[nodiscard]] std::vector<campaign::RunFigures> figures() const;
   /// Writes sweep.csv, sweep.md and tables.csv. @pre all runs are there
-  void finish(const EvaluationOrigin& origin) const;
+  void finish(const campaign::EvaluationOrigin& origin) const;
 
  private:
-  const Sweep& sweep_;
+  const campaign::Sweep& sweep_;
   RunLog log_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

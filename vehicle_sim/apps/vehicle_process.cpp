@@ -7,15 +7,15 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
-VehicleMachineOptions machine_options(const VehicleProcessOptions& options) {
+simulated_vehicle::VehicleMachineOptions machine_options(const VehicleProcessOptions& options) {
   return {.vehicle = options.vehicle,
           .rules = options.rules,
-          .is_among_lab_programs = options.transport == Transport::kLab,
+          .is_among_lab_programs = options.transport == dds::Transport::kLab,
           .keep_running = options.keep_running,
-          .startup_timeout = nanoseconds(options.startup_timeout)};
+          .startup_timeout = time::nanoseconds(options.startup_timeout)};
 }
 
 }  // namespace
@@ -23,22 +23,22 @@ VehicleMachineOptions machine_options(const VehicleProcessOptions& options) {
 struct VehicleProcess::LabEndpoints {
   explicit LabEndpoints(VehicleProcess& process)
       : observation_writer{process.lab_,
-                           topics::vehicle_observation(process.options_.vehicle.vehicle_id)},
+                           dds::topics::vehicle_observation(process.options_.vehicle.vehicle_id)},
         path_tracking_reader{reader<PathTrackingCommand>(process)},
         speed_curvature_reader{reader<SpeedCurvatureCommand>(process)},
         direct_reader{reader<DirectCommand>(process)} {}
 
   template <class Received>
-  static Reader<Received> reader(VehicleProcess& process) {
-    return Reader<Received>{process.lab_,
-                            topics::vehicle_command<Received>(process.options_.vehicle.vehicle_id),
-                            [&process](const Received& command) { process.shell_.post(command); }};
+  static dds::Reader<Received> reader(VehicleProcess& process) {
+    return dds::Reader<Received>{
+        process.lab_, dds::topics::vehicle_command<Received>(process.options_.vehicle.vehicle_id),
+        [&process](const Received& command) { process.shell_.post(command); }};
   }
 
-  Writer<VehicleObservation> observation_writer;
-  Reader<PathTrackingCommand> path_tracking_reader;
-  Reader<SpeedCurvatureCommand> speed_curvature_reader;
-  Reader<DirectCommand> direct_reader;
+  dds::Writer<VehicleObservation> observation_writer;
+  dds::Reader<PathTrackingCommand> path_tracking_reader;
+  dds::Reader<SpeedCurvatureCommand> speed_curvature_reader;
+  dds::Reader<DirectCommand> direct_reader;
 };
 
 VehicleProcess::VehicleProcess(VehicleProcessOptions options)
@@ -48,35 +48,37 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
                     ? std::nullopt
                     : std::optional<DriveRecorder>(std::in_place, options_.record_file,
                                                    options_.append_record)),
-      shell_(name_, VehicleMachine(machine_options(options_)),
-             options_.time.make_pacing(nanoseconds(options_.startup_timeout), wall_time_now())),
+      shell_(name_, simulated_vehicle::VehicleMachine(machine_options(options_)),
+             options_.time.make_pacing(time::nanoseconds(options_.startup_timeout),
+                                       time::wall_time_now())),
       lab_({.name = name_,
             .domain_id = options_.lab_domain,
-            .role = DomainRole::kLab,
+            .role = dds::DomainRole::kLab,
             .transport = options_.transport,
             .lease = options_.time.lease,
             .discovery_server = options_.discovery_server,
             .version = options_.version,
-            .on_loss = [this](const std::string& line) { log(name_, machine::warning(line)); }},
+            .on_loss =
+                [this](const std::string& line) { process::log(name_, machine::warning(line)); }},
            [this] { shell_.presence_changed(); }),
-      state_writer_(lab_, topics::vehicle_state(options_.vehicle.vehicle_id),
+      state_writer_(lab_, dds::topics::vehicle_state(options_.vehicle.vehicle_id),
                     [this] { shell_.presence_changed(); }),
-      ready_writer_(lab_, topics::ready_status(), [this] { shell_.presence_changed(); }),
-      request_writer_(lab_, topics::parameter_request()),
+      ready_writer_(lab_, dds::topics::ready_status(), [this] { shell_.presence_changed(); }),
+      request_writer_(lab_, dds::topics::parameter_request()),
       command_reader_(
-          lab_, topics::vehicle_command(options_.vehicle.vehicle_id),
+          lab_, dds::topics::vehicle_command(options_.vehicle.vehicle_id),
           [this](const TrajectoryCommand& command) { shell_.post(command); },
           [this] { shell_.presence_changed(); }),
-      parameter_reader_(lab_, topics::parameter(),
+      parameter_reader_(lab_, dds::topics::parameter(),
                         [this](const Parameter& parameter) { shell_.post(parameter); }),
       trigger_reader_(
-          lab_, topics::system_trigger(),
+          lab_, dds::topics::system_trigger(),
           [this](const SystemTrigger& trigger) {
             shell_.trigger(trigger.next_start);
             if (trigger.next_start == kStopSymbol) shell_.post_urgent(trigger);
           },
           [this] { shell_.presence_changed(); }) {
-  if (options_.transport == Transport::kLab) {
+  if (options_.transport == dds::Transport::kLab) {
     lab_endpoints_ = std::make_unique<LabEndpoints>(*this);
   }
 }
@@ -90,7 +92,7 @@ int VehicleProcess::run() {
   return shell_.run(*this);
 }
 
-VehiclePresence VehicleProcess::presence() const {
+simulated_vehicle::VehiclePresence VehicleProcess::presence() const {
   return {.lab = {.alive = lab_.alive(), .lost = lab_.lost()},
           .state_readers = {state_writer_.matched(), state_writer_.matched_names()},
           .command_writers = {command_reader_.matched(), command_reader_.matched_names()},
@@ -102,8 +104,8 @@ void VehicleProcess::perform(const VehicleObservation& observation) {
   if (lab_endpoints_) lab_endpoints_->observation_writer.write(observation);
 }
 
-void VehicleProcess::perform(const DrivenSample& sample) {
+void VehicleProcess::perform(const result::DrivenSample& sample) {
   if (recorder_) recorder_->write(sample);
 }
 
-}  // namespace hlc
+}  // namespace hlc::apps

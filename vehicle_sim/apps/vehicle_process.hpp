@@ -14,15 +14,15 @@
 #include "vehicle_sim/apps/drive_recorder.hpp"
 #include "vehicle_sim/vehicle/vehicle_machine.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 
 struct VehicleProcessOptions {
-  SimulatedVehicleOptions vehicle;
+  simulated_vehicle::SimulatedVehicleOptions vehicle;
   std::string version{};  ///< ParticipantOptions::version
-  Transport transport{Transport::kLab};
+  dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
-  std::optional<DiscoveryServer> discovery_server;
-  RunTime time{kRealTime};
+  std::optional<dds::DiscoveryServer> discovery_server;
+  machine::RunTime time{machine::kRealTime};
   machine::PacingRules rules{machine::real_rules(kVehicleStays)};
   bool keep_running{};  ///< VehicleMachineOptions
   std::chrono::seconds startup_timeout{30};
@@ -47,32 +47,32 @@ class VehicleProcess {
   void stop() { shell_.stop(); }
 
  private:
-  friend class Shell<VehicleMachine>;
+  friend class process::Shell<simulated_vehicle::VehicleMachine>;
   /// Endpoints for messages that only the lab's programs send and receive: on the lab's transport.
   struct LabEndpoints;
 
-  [[nodiscard]] VehiclePresence presence() const;
+  [[nodiscard]] simulated_vehicle::VehiclePresence presence() const;
   void perform(const ParameterRequest& request) { request_writer_.write(request); }
   void perform(const ReadyStatus& status) { ready_writer_.write(status); }
   void perform(const VehicleState& state) { state_writer_.write(state); }
   void perform(const VehicleObservation& observation);
-  void perform(const DrivenSample& sample);
-  void perform(const machine::LogLine& line) { log(name_, line); }
+  void perform(const result::DrivenSample& sample);
+  void perform(const machine::LogLine& line) { process::log(name_, line); }
 
   VehicleProcessOptions options_;
   std::string name_;
   std::optional<DriveRecorder> recorder_;
-  Shell<VehicleMachine> shell_;
+  process::Shell<simulated_vehicle::VehicleMachine> shell_;
 
   // Readers last: they are destroyed first, and no callback is called after that.
-  Participant lab_;
-  Writer<VehicleState> state_writer_;
-  Writer<ReadyStatus> ready_writer_;
-  Writer<ParameterRequest> request_writer_;
-  Reader<TrajectoryCommand> command_reader_;
-  Reader<Parameter> parameter_reader_;
-  Reader<SystemTrigger> trigger_reader_;
+  dds::Participant lab_;
+  dds::Writer<VehicleState> state_writer_;
+  dds::Writer<ReadyStatus> ready_writer_;
+  dds::Writer<ParameterRequest> request_writer_;
+  dds::Reader<TrajectoryCommand> command_reader_;
+  dds::Reader<Parameter> parameter_reader_;
+  dds::Reader<SystemTrigger> trigger_reader_;
   std::unique_ptr<LabEndpoints> lab_endpoints_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::apps

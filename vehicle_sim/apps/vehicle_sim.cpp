@@ -18,7 +18,7 @@ namespace {
 constexpr double kMaxGainsScale = 10.0;
 
 struct Flags {
-  hlc::NetworkFlags network;
+  hlc::apps::NetworkFlags network;
   int vehicle_id{};
   std::vector<double> pose;
   std::optional<std::uint64_t> noise_seed;
@@ -31,14 +31,14 @@ struct Flags {
 void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_id", flags.vehicle_id, "1 ... 30")
       ->required()
-      ->check(hlc::vehicle_id_range());
+      ->check(hlc::apps::vehicle_id_range());
   flags.network.declare(app);
   app.add_option("--pose", flags.pose, "x,y,yaw at the start [m, m, rad]; needed for ids above 23")
       ->delimiter(',')
       ->expected(3);
   app.add_option("--noise_seed", flags.noise_seed,
                  "measure the pose with the lab's noise (2 mm, 0.01 rad); default: exactly")
-      ->check(hlc::whole(0, std::numeric_limits<std::uint64_t>::max()));
+      ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
       ->capture_default_str();
   CLI::Option* const record =
@@ -54,23 +54,23 @@ void declare(CLI::App& app, Flags& flags) {
       "Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
-hlc::VehicleProcessOptions process_options(const Flags& flags) {
+hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
   const auto id = static_cast<std::uint8_t>(flags.vehicle_id);
-  hlc::check_domain_id("--dds_domain", flags.network.dds_domain);
+  hlc::dds::check_domain_id("--dds_domain", flags.network.dds_domain);
   if (!(flags.gains_scale >= 0.0 && flags.gains_scale <= kMaxGainsScale)) {
     throw std::invalid_argument("--gains_scale: " + std::to_string(flags.gains_scale) +
                                 ", must be in 0 ... 10");
   }
   const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForever : hlc::kVehicleStays;
   return {.vehicle = {.vehicle_id = id,
-                      .start = hlc::start_pose(id, flags.pose),
+                      .start = hlc::apps::start_pose(id, flags.pose),
                       .noise_seed = flags.noise_seed,
-                      .gains = scaled(hlc::FollowerGains{}, flags.gains_scale)},
-          .version = hlc::program_version(),
-          .transport = hlc::transport_from_name(flags.network.transport),
+                      .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale)},
+          .version = hlc::apps::program_version(),
+          .transport = hlc::dds::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
           .discovery_server = flags.network.discovery_server(),
-          .time = hlc::run_time(flags.network.simulated_time),
+          .time = hlc::machine::run_time(flags.network.simulated_time),
           .rules = flags.network.simulated_time ? hlc::machine::logical_rules()
                                                 : hlc::machine::real_rules(grace),
           .keep_running = flags.keep_running,
@@ -82,14 +82,14 @@ hlc::VehicleProcessOptions process_options(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::StopSignals signals;
+  hlc::time::StopSignals signals;
   CLI::App app{"A simulated µCar: follows commands and publishes its state, every 20 ms.",
                "vehicle_sim"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
-  return hlc::run_program(
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  return hlc::apps::run_program(
       "vehicle_sim", signals,
-      [&] { return std::make_shared<hlc::VehicleProcess>(process_options(flags)); },
-      [](hlc::VehicleProcess& process) { process.stop(); });
+      [&] { return std::make_shared<hlc::apps::VehicleProcess>(process_options(flags)); },
+      [](hlc::apps::VehicleProcess& process) { process.stop(); });
 }

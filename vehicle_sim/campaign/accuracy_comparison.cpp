@@ -10,7 +10,7 @@
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// The runs of one combination in one scenario: by subgraph in the plan's order, then start.
@@ -89,4 +89,4 @@ std::string accuracy_comparison(const Sweep& sweep, const std::vector<RunFigures
   return text + "\n";
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

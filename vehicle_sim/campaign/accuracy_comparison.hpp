@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Markdown: is a subgraph more accurate than the one that the sweep names before it, and when? For
 /// every grouping of the combinations (groupings_of) and every two neighbours of the list: in how
@@ -17,4 +17,4 @@ namespace hlc {
 [[nodiscard]] std::string accuracy_comparison(const Sweep& sweep,
                                               const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

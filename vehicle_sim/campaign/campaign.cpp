@@ -9,7 +9,7 @@
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/starts.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 std::string key_of(const CampaignRun& run) {
@@ -24,7 +24,7 @@ CampaignRun fixed(CampaignRun run) {
 }
 
 /// The scenario, switched by one of its policies.
-Scenario with_policy(Scenario scenario, const std::string& policy) {
+scenario::Scenario with_policy(scenario::Scenario scenario, const std::string& policy) {
   const auto settings = scenario.policies.find(policy);
   if (settings == scenario.policies.end()) {
     std::string known;
@@ -34,7 +34,8 @@ Scenario with_policy(Scenario scenario, const std::string& policy) {
     throw std::invalid_argument(
         "--policies = " + one_line(policy) + ", must be one of " + scenario.file.string() + ": " +
         (known.empty() ? "it has none" : known) +
-        (policy == kNoPolicy ? " (fixed subgraphs, --subgraphs, are driven without one)" : ""));
+        (policy == policy::kNoPolicy ? " (fixed subgraphs, --subgraphs, are driven without one)"
+                                     : ""));
   }
   scenario.policy = policy;
   scenario.reconfiguration = settings->second;
@@ -78,85 +79,89 @@ Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(pl
                                   same->second.string() + ", scenario names must be unique");
     }
     if (run.start > 0) {
-      static_cast<void>(with_random_starts(scenario_of(run), plan_.seed + run.start));
+      static_cast<void>(scenario::with_random_starts(scenario_of(run), plan_.seed + run.start));
     }
   }
 }
 
-Scenario Campaign::read(const CampaignRun& run) const {
+scenario::Scenario Campaign::read(const CampaignRun& run) const {
   if (run.policy) return with_policy(scenario_of(fixed(run)), *run.policy);
-  return read_scenario({.file = run.scenario,
-                        .profile = run.profile,
-                        .subgraph = run.subgraph,
-                        .policy = kNoPolicy,
-                        .steps = plan_.steps});
+  return scenario::read_scenario({.file = run.scenario,
+                                  .profile = run.profile,
+                                  .subgraph = run.subgraph,
+                                  .policy = policy::kNoPolicy,
+                                  .steps = plan_.steps});
 }
 
-const Scenario& Campaign::scenario_of(const CampaignRun& run) const {
+const scenario::Scenario& Campaign::scenario_of(const CampaignRun& run) const {
   return scenarios_.at(key_of(run));
 }
 
 std::set<std::filesystem::path> Campaign::files() const {
   std::set<std::filesystem::path> files;
   for (const auto& [key, scenario] : scenarios_) {
-    for (const std::filesystem::path& file : files_of(scenario)) files.insert(file);
+    for (const std::filesystem::path& file : scenario::files_of(scenario)) files.insert(file);
   }
   return files;
 }
 
 RunFigures Campaign::heading_of(std::size_t i) const {
   const CampaignRun& run = runs_.at(i);
-  const Scenario& scenario = scenario_of(run);
+  const scenario::Scenario& scenario = scenario_of(run);
   return {.scenario = scenario.name,
           .profile = scenario.profile.name,
           .subgraph = scenario.subgraph->spec().name,
-          .policy = run.policy.value_or(kNoPolicy),
+          .policy = run.policy.value_or(policy::kNoPolicy),
           .start = run.start};
 }
 
-DrivenRun Campaign::drive(std::size_t i, const Clocks& clocks) const {
+DrivenRun Campaign::drive(std::size_t i, const closed_loop::Clocks& clocks) const {
   const CampaignRun& run = runs_.at(i);
-  const Scenario& as_read = scenario_of(run);
-  return drive_run(run.start == 0 ? as_read : with_random_starts(as_read, plan_.seed + run.start),
-                   {.noise_seed = plan_.noise_seed, .clocks = clocks});
+  const scenario::Scenario& as_read = scenario_of(run);
+  return drive_run(
+      run.start == 0 ? as_read : scenario::with_random_starts(as_read, plan_.seed + run.start),
+      {.noise_seed = plan_.noise_seed, .clocks = clocks});
 }
 
 CampaignResult Campaign::result_of(const DrivenRun& run) const {
-  std::vector<SpeedZone> zones;
+  std::vector<policy::SpeedZone> zones;
   for (const std::string& policy : plan_.policies) {
-    for (const SpeedZone& zone : run.scenario.policies.at(policy).zones) {
+    for (const policy::SpeedZone& zone : run.scenario.policies.at(policy).zones) {
       if (std::ranges::find(zones, zone) == zones.end()) zones.push_back(zone);
     }
   }
-  return hlc::result_of(run, plan_.noise_seed, 0, zones);
+  return campaign::result_of(run, plan_.noise_seed, 0, zones);
 }
 
-DrivenRun drive_run(Scenario scenario, ExperimentOptions options) {
+DrivenRun drive_run(scenario::Scenario scenario, closed_loop::ExperimentOptions options) {
   options.steps = scenario.steps;
   DrivenRun driven{.scenario = std::move(scenario), .experiment = {}};
-  driven.experiment = drive_experiment(driven.scenario, options);
+  driven.experiment = closed_loop::drive_experiment(driven.scenario, options);
   return driven;
 }
 
 CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> noise_seed,
-                         std::uint64_t first_step, std::span<const SpeedZone> zones) {
-  const Experiment& experiment = run.experiment;
-  RunFacts facts = experiment.facts;
+                         std::uint64_t first_step, std::span<const policy::SpeedZone> zones) {
+  const closed_loop::Experiment& experiment = run.experiment;
+  result::RunFacts facts = experiment.facts;
   if (facts.exit_code != 0) throw std::runtime_error(facts.reason);
-  std::vector<StepRecord> rows = step_records(experiment.reports, experiment.drives, facts);
-  std::erase_if(rows, [first_step](const StepRecord& row) { return row.step < first_step; });
+  std::vector<result::StepRecord> rows =
+      result::step_records(experiment.reports, experiment.drives, facts);
+  std::erase_if(rows,
+                [first_step](const result::StepRecord& row) { return row.step < first_step; });
   // Encounters are searched from the first step of the facts on.
   facts.first_step = facts.first_step.value() + first_step;
   facts.steps -= std::min(facts.steps, first_step);
   CampaignResult result{
-      .summary = summarize(describe(run.scenario, noise_seed), facts, rows, experiment.drives),
+      .summary = result::summarize(result::describe(run.scenario, noise_seed), facts, rows,
+                                   experiment.drives),
       .fault = {},
       .wall = experiment.wall,
       .costs = driven_costs(rows, experiment.drives, facts, run.scenario.subgraph->automaton()),
       .excess = zone_excess(zones, experiment.drives, facts),
       .use = subgraph_use(rows)};
-  result.fault = danger_of(result.summary);
+  result.fault = result::danger_of(result.summary);
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -19,7 +19,7 @@
 #include "vehicle_sim/campaign/zone_excess.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// The runs of a campaign: every combination of scenario, profile, start, and either a fixed
 /// subgraph or the scenario's own with a policy that switches it.
@@ -48,9 +48,9 @@ struct CampaignRun {
 
 /// The result of a run of a campaign.
 struct CampaignResult {
-  RunSummary summary;  ///< without revision and host
-  std::string fault;   ///< danger_of(summary): why the run does not count; empty if it does
-  WallTimes wall;
+  result::RunSummary summary;  ///< without revision and host
+  std::string fault;           ///< danger_of(summary): why the run does not count; empty if it does
+  closed_loop::WallTimes wall;
   DrivenCosts costs;
   std::optional<ZoneExcess> excess;  ///< none without zones, or if no car entered one
   SubgraphUse use;
@@ -58,12 +58,13 @@ struct CampaignResult {
 
 /// A run with all its records.
 struct DrivenRun {
-  Scenario scenario;
-  Experiment experiment;
+  scenario::Scenario scenario;
+  closed_loop::Experiment experiment;
 };
 
 /// Drives the scenario for its own number of steps (not for that of `options`).
-[[nodiscard]] DrivenRun drive_run(Scenario scenario, ExperimentOptions options);
+[[nodiscard]] DrivenRun drive_run(scenario::Scenario scenario,
+                                  closed_loop::ExperimentOptions options);
 
 /// A run as in summary.json.
 /// @param noise_seed  of the run's measurement noise
@@ -73,7 +74,7 @@ struct DrivenRun {
 [[nodiscard]] CampaignResult result_of(const DrivenRun& run,
                                        std::optional<std::uint64_t> noise_seed,
                                        std::uint64_t first_step = 0,
-                                       std::span<const SpeedZone> zones = {});
+                                       std::span<const policy::SpeedZone> zones = {});
 
 /// Drives the runs of a plan. Automata are built or read once; `drive` may then be called by
 /// several threads.
@@ -90,7 +91,7 @@ class Campaign {
 
   /// Run number i with its series, for figures: the series are not stored, since driving again
   /// takes a tenth of a second and gives the same.
-  [[nodiscard]] DrivenRun drive(std::size_t i, const Clocks& clocks) const;
+  [[nodiscard]] DrivenRun drive(std::size_t i, const closed_loop::Clocks& clocks) const;
 
   /// The same as in summary.json. All runs of a scenario are evaluated with the same zones: those
   /// of all policies of the campaign.
@@ -98,7 +99,7 @@ class Campaign {
   [[nodiscard]] CampaignResult result_of(const DrivenRun& run) const;
 
   /// The scenario of a run as read, with the scenario's own start poses.
-  [[nodiscard]] const Scenario& scenario_of(const CampaignRun& run) const;
+  [[nodiscard]] const scenario::Scenario& scenario_of(const CampaignRun& run) const;
 
   /// All files read: scenarios, automata, maps, labs.
   [[nodiscard]] std::set<std::filesystem::path> files() const;
@@ -108,11 +109,12 @@ class Campaign {
 
  private:
   /// @pre the run's subgraph without a policy is read already
-  [[nodiscard]] Scenario read(const CampaignRun& run) const;
+  [[nodiscard]] scenario::Scenario read(const CampaignRun& run) const;
 
   CampaignPlan plan_;
   std::vector<CampaignRun> runs_;
-  std::map<std::string, Scenario> scenarios_;  ///< by what distinguishes them beside the start
+  /// By what distinguishes them beside the start
+  std::map<std::string, scenario::Scenario> scenarios_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -8,29 +8,29 @@
 #include "hlc_bridge/result/run_description.hpp"
 #include "vehicle_sim/campaign/figure_parts.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 constexpr double kShown_m = 0.6;
 
 /// A colour that no vehicle has.
-std::string pair_colour(std::size_t pair) { return series_colour(pair + 3); }
+std::string pair_colour(std::size_t pair) { return plot::series_colour(pair + 3); }
 
-PlotPanel distance_panel(const DrivenRun& run) {
-  PlotPanel panel{
+plot::PlotPanel distance_panel(const DrivenRun& run) {
+  plot::PlotPanel panel{
       .title = run_name(run), .x_label = "time [s]", .y_label = "distance of footprints [m]"};
-  const RunDescription description = describe(run.scenario, std::nullopt);
+  const result::RunDescription description = result::describe(run.scenario, std::nullopt);
   const auto [from, to] = times_of(run.experiment.facts);
   std::size_t pair = 0;
   for (std::size_t i = 0; i < description.vehicles.size(); ++i) {
     for (std::size_t j = i + 1; j < description.vehicles.size(); ++j) {
-      const VehicleDescription& a = description.vehicles[i];
-      const VehicleDescription& b = description.vehicles[j];
-      const Drives& drives = run.experiment.drives;
+      const result::VehicleDescription& a = description.vehicles[i];
+      const result::VehicleDescription& b = description.vehicles[j];
+      const result::Drives& drives = run.experiment.drives;
       PlotPoints points;
       bool is_shown = false;
-      for (const TimedDistance& one :
-           footprint_distances(a, drives.at(a.id.value), b, drives.at(b.id.value), from, to)) {
+      for (const result::TimedDistance& one : result::footprint_distances(
+               a, drives.at(a.id.value), b, drives.at(b.id.value), from, to)) {
         points.emplace_back(seconds_after(one.t, from), one.distance_m);
         is_shown = is_shown || one.distance_m < kShown_m;
       }
@@ -47,19 +47,19 @@ PlotPanel distance_panel(const DrivenRun& run) {
   panel.lines.push_back({.points = {{0.0, 0.0}, {end_s, 0.0}}, .colour = "#000000"});
   panel.lines.push_back({.points = {{0.0, margins_m}, {end_s, margins_m}},
                          .colour = kMarkColour,
-                         .stroke = Stroke::kDashed});
+                         .stroke = plot::Stroke::kDashed});
   panel.legend.push_back({.text = "contact", .colour = "#000000", .radius_px = 0.0});
   panel.legend.push_back({.text = "safety margins of both",
                           .colour = kMarkColour,
                           .radius_px = 0.0,
-                          .stroke = Stroke::kDashed});
+                          .stroke = plot::Stroke::kDashed});
   return panel;
 }
 
 }  // namespace
 
 std::string distance_figure(std::span<const DrivenRun> runs) {
-  std::vector<PlotPanel> panels;
+  std::vector<plot::PlotPanel> panels;
   double end_s = 0.0;
   for (const DrivenRun& run : runs) {
     panels.push_back(distance_panel(run));
@@ -67,9 +67,9 @@ std::string distance_figure(std::span<const DrivenRun> runs) {
     end_s = std::max(end_s, seconds_after(to, from));
   }
   share_range(panels, end_s, -0.03, kShown_m);
-  const std::vector<PlotLegend> legend = taken_legend(panels);
-  return svg_of(figure_title("Distance between driven vehicles, where below 0.6 m", runs), panels,
-                columns_for(panels.size()), kSmallPanel, legend);
+  const std::vector<plot::PlotLegend> legend = taken_legend(panels);
+  return plot::svg_of(figure_title("Distance between driven vehicles, where below 0.6 m", runs),
+                      panels, columns_for(panels.size()), kSmallPanel, legend);
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-namespace hlc {
+namespace hlc::campaign {
 
 PlotPoints decade_histogram(const std::vector<double>& sorted) {
   constexpr double kBinsPerDecade = 10.0;
@@ -40,4 +40,4 @@ PlotPoints exceedance(const std::vector<double>& sorted) {
   return points;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

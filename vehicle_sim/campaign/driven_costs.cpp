@@ -7,10 +7,10 @@
 
 #include "hlc_bridge/result/planned_motion.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
-using RowsOfVehicle = std::vector<const StepRecord*>;
+using RowsOfVehicle = std::vector<const result::StepRecord*>;
 
 /// A sum with an unknown term is unknown.
 struct CostSum {
@@ -18,7 +18,7 @@ struct CostSum {
   double sum{};
   bool is_known{true};
 
-  void add(const Maneuver* maneuver) {
+  void add(const automaton::Maneuver* maneuver) {
     is_known = is_known && maneuver != nullptr;
     if (!is_known) return;
     const auto value = std::ranges::find(maneuver->criteria, criterion, &CriterionValue::name);
@@ -31,7 +31,7 @@ struct CostSum {
   }
 };
 
-double metres_driven(const Drive& drive, Nanoseconds from, Nanoseconds to) {
+double metres_driven(const result::Drive& drive, Nanoseconds from, Nanoseconds to) {
   double metres = 0.0;
   for (std::size_t i = 1; i < drive.size(); ++i) {
     if (drive[i - 1].t < from || drive[i].t > to) continue;
@@ -42,16 +42,18 @@ double metres_driven(const Drive& drive, Nanoseconds from, Nanoseconds to) {
 
 }  // namespace
 
-DrivenCosts driven_costs(std::span<const StepRecord> rows, const Drives& drives,
-                         const RunFacts& facts, const UniversalAutomaton& automaton) {
+DrivenCosts driven_costs(std::span<const result::StepRecord> rows, const result::Drives& drives,
+                         const result::RunFacts& facts,
+                         const automaton::UniversalAutomaton& automaton) {
   std::map<VehicleId, RowsOfVehicle> by_vehicle;
-  for (const StepRecord& row : rows) by_vehicle[row.record.report.vehicle].push_back(&row);
+  for (const result::StepRecord& row : rows) by_vehicle[row.record.report.vehicle].push_back(&row);
   CostSum effort{.criterion = "J2"};
   CostSum comfort{.criterion = "comfort"};
   double metres = 0.0;
   for (const auto& [vehicle, of_vehicle] : by_vehicle) {
     for (std::size_t k = 0; k + 1 < of_vehicle.size(); ++k) {
-      const Maneuver* maneuver = maneuver_during(*of_vehicle[k], of_vehicle[k + 1], automaton);
+      const automaton::Maneuver* maneuver =
+          result::maneuver_during(*of_vehicle[k], of_vehicle[k + 1], automaton);
       effort.add(maneuver);
       comfort.add(maneuver);
     }
@@ -64,4 +66,4 @@ DrivenCosts driven_costs(std::span<const StepRecord> rows, const Drives& drives,
   return {.effort_per_m = effort.per_metre(metres), .comfort_per_m = comfort.per_metre(metres)};
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -5,7 +5,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// The costs of the driven maneuvers, per driven metre, over all vehicles: for a criterion c
 ///
@@ -25,7 +25,8 @@ struct DrivenCosts {
 /// vehicle moved.
 /// @param rows       of step_records(), those that count
 /// @param automaton  of the plans
-[[nodiscard]] DrivenCosts driven_costs(std::span<const StepRecord> rows, const Drives& drives,
-                                       const RunFacts& facts, const UniversalAutomaton& automaton);
+[[nodiscard]] DrivenCosts driven_costs(std::span<const result::StepRecord> rows,
+                                       const result::Drives& drives, const result::RunFacts& facts,
+                                       const automaton::UniversalAutomaton& automaton);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

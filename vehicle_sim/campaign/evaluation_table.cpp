@@ -6,7 +6,7 @@
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_table.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// A quantity over the starts.
@@ -158,4 +158,4 @@ std::string evaluation_csv(const std::vector<RunFigures>& runs) {
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

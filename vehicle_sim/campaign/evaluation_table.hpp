@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Origin of the figures.
 struct EvaluationOrigin {
@@ -26,4 +26,4 @@ struct EvaluationOrigin {
 /// quantity, with mean, min and max over the starts and the paper's value.
 [[nodiscard]] std::string evaluation_csv(const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -4,7 +4,7 @@
 #include <map>
 #include <regex>
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 constexpr std::size_t kReasonsShown = 20;
@@ -84,4 +84,4 @@ std::string failure_list(const std::vector<RunFigures>& runs) {
   return text + "\n";
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -5,10 +5,10 @@
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Markdown: how many runs do not count, and why. Reasons that differ in numbers only are merged,
 /// with the range of these numbers. Empty if all count.
 [[nodiscard]] std::string failure_list(const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -9,7 +9,7 @@
 #include "vehicle_sim/campaign/campaign.hpp"
 
 /// Common parts of the figures of runs.
-namespace hlc {
+namespace hlc::campaign {
 
 using PlotPoints = std::vector<Eigen::Vector2d>;
 
@@ -17,10 +17,10 @@ using PlotPoints = std::vector<Eigen::Vector2d>;
 inline constexpr char kMarkColour[] = "#444444";
 
 /// One of several panels.
-inline constexpr PlotSize kSmallPanel{.width_px = 620.0, .height_px = 340.0};
+inline constexpr plot::PlotSize kSmallPanel{.width_px = 620.0, .height_px = 340.0};
 
 /// The vehicle of highest priority.
-[[nodiscard]] const ScenarioVehicle& first_vehicle(const DrivenRun& run);
+[[nodiscard]] const scenario::ScenarioVehicle& first_vehicle(const DrivenRun& run);
 
 /// "subgraph B", "policy zones"
 [[nodiscard]] std::string run_name(const DrivenRun& run);
@@ -29,29 +29,30 @@ inline constexpr PlotSize kSmallPanel{.width_px = 620.0, .height_px = 340.0};
 [[nodiscard]] std::string figure_title(const std::string& what, std::span<const DrivenRun> runs);
 
 /// From the first step to the end of the last one.
-[[nodiscard]] std::pair<Nanoseconds, Nanoseconds> times_of(const RunFacts& facts);
+[[nodiscard]] std::pair<Nanoseconds, Nanoseconds> times_of(const result::RunFacts& facts);
 
 [[nodiscard]] double seconds_after(Nanoseconds t, Nanoseconds from);
 
-[[nodiscard]] std::vector<StepRecord> steps_of(const DrivenRun& run);
+[[nodiscard]] std::vector<result::StepRecord> steps_of(const DrivenRun& run);
 
 /// False before the start and after the end.
-[[nodiscard]] bool has_searched(const Report& report);
+[[nodiscard]] bool has_searched(const coordination::Report& report);
 
 /// A line with its entry in the legend. Every second series is dashed, so that two coinciding
 /// series are both visible (see bring_dashed_to_front).
-void add_series(std::size_t series, const std::string& name, PlotPoints points, PlotPanel& panel);
+void add_series(std::size_t series, const std::string& name, PlotPoints points,
+                plot::PlotPanel& panel);
 
 /// Lines below dashed lines remain visible.
-void bring_dashed_to_front(PlotPanel& panel);
+void bring_dashed_to_front(plot::PlotPanel& panel);
 
 /// Moves the panels' legends into one for all, each text once.
-[[nodiscard]] std::vector<PlotLegend> taken_legend(std::vector<PlotPanel>& panels);
+[[nodiscard]] std::vector<plot::PlotLegend> taken_legend(std::vector<plot::PlotPanel>& panels);
 
 /// The same ranges for all panels, from x = 0, so that they can be compared.
-void share_range(std::vector<PlotPanel>& panels, double x_max, double y_min, double y_max);
+void share_range(std::vector<plot::PlotPanel>& panels, double x_max, double y_min, double y_max);
 
 /// Two, or one for a single panel.
 [[nodiscard]] std::size_t columns_for(std::size_t panels);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

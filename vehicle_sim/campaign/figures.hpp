@@ -10,7 +10,7 @@
 /// Figures of runs, as SVG. All runs of a figure are of one scenario and profile and differ in
 /// their subgraph or policy, for which "subgraph" stands here too; "the first vehicle" is the one
 /// of highest priority, as in the paper.
-namespace hlc {
+namespace hlc::campaign {
 
 /// The paper's Fig. 4: driven paths of the first vehicle, one line per subgraph, with its lane's
 /// centre; beside it, enlarged, the place of their largest difference, measured at equal arc
@@ -18,7 +18,7 @@ namespace hlc {
 /// @param map  absent: open ground
 /// @pre at least one run; so below
 [[nodiscard]] std::string paths_figure(std::span<const DrivenRun> runs,
-                                       const std::optional<LaneletMap>& map);
+                                       const std::optional<road::LaneletMap>& map);
 
 /// Distance of the first vehicle's planned positions to its lane's centre (the table's reference
 /// error) over arc length from the start.
@@ -44,4 +44,4 @@ namespace hlc {
 /// subgraphs have different colours.
 [[nodiscard]] std::string subgraphs_figure(std::span<const DrivenRun> runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -7,7 +7,7 @@
 #include "hlc_bridge/result/statistics.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// The 97.5 % quantile of Student's distribution, to 2e-3 at least.
@@ -28,7 +28,7 @@ double student_quantile(std::size_t degrees) {
 bool Interval::is_off_zero() const { return half_width && std::abs(mean) > *half_width; }
 
 std::optional<Interval> interval_of_mean(const std::vector<double>& values) {
-  const std::optional<Statistics> sample = statistics(values);
+  const std::optional<result::Statistics> sample = result::statistics(values);
   if (!sample) return std::nullopt;
   Interval interval{.mean = sample->mean, .half_width = {}, .count = sample->count};
   if (sample->count > 1) {
@@ -54,4 +54,4 @@ std::string in_words(const std::optional<Interval>& interval, int decimals) {
   return interval->half_width ? mean + " ± " + number(*interval->half_width, decimals) : mean;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

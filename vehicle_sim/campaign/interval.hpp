@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// A mean and its uncertainty.
 struct Interval {
@@ -33,4 +33,4 @@ using ValuesByStart = std::map<std::size_t, std::vector<double>>;
 /// "24.3 ± 0.4", "24.3" without a width, "-" for nothing.
 [[nodiscard]] std::string in_words(const std::optional<Interval>& interval, int decimals);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -1,6 +1,6 @@
 #include "vehicle_sim/campaign/lap_quality.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 std::optional<LapQuality> lap_quality(const std::vector<const RunFigures*>& runs) {
   LapQuality quality;
@@ -14,4 +14,4 @@ std::optional<LapQuality> lap_quality(const std::vector<const RunFigures*>& runs
   return quality;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

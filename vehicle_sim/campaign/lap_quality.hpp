@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Quality of driven laps: means over runs.
 struct LapQuality {
@@ -17,4 +17,4 @@ struct LapQuality {
 /// Over runs that differ in their starts; nothing if one of them does not count or drove no lap.
 [[nodiscard]] std::optional<LapQuality> lap_quality(const std::vector<const RunFigures*>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

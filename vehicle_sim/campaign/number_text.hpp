@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// A number of a table with this many decimals; |value| < 1e40.
 [[nodiscard]] inline std::string number(double value, int decimals) {
@@ -12,4 +12,4 @@ namespace hlc {
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

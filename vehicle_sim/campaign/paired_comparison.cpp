@@ -10,7 +10,7 @@
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// Second minus first of the pairs with one subgraph.
@@ -147,4 +147,4 @@ std::string paired_comparison(const Sweep& sweep, const std::vector<RunFigures>&
   return pairs.markdown();
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

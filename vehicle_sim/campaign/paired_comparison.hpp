@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Markdown: the effect of each value of a setting, against the setting's first one. A pair are two
 /// runs of the same scenario, subgraph and start (hence seed), with all other settings equal: of
@@ -18,4 +18,4 @@ namespace hlc {
 [[nodiscard]] std::string paired_comparison(const Sweep& sweep,
                                             const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

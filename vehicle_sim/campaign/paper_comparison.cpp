@@ -10,7 +10,7 @@
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 constexpr std::size_t kBestShown = 10;
@@ -173,4 +173,4 @@ std::string paper_comparison(const Sweep& sweep, const std::vector<RunFigures>& 
          values_table(sweep, nearest);
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

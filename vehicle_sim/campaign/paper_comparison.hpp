@@ -7,7 +7,7 @@
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// A combination of settings compared with the paper's Table 2. The nearest is chosen by the
 /// distance over the first half of the starts (rounded up), which is therefore biased; the other
@@ -31,4 +31,4 @@ struct JudgedCombination {
 /// near as the chosen one. Empty if the paper has no cell for these runs.
 [[nodiscard]] std::string paper_comparison(const Sweep& sweep, const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

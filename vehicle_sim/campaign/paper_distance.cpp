@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 std::vector<PapersCell> compared_cells() {
@@ -55,4 +55,4 @@ std::optional<PaperDistance> paper_distance(const std::vector<RunFigures>& runs)
   return distance;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -6,7 +6,7 @@
 
 #include "vehicle_sim/campaign/paper_table.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// One of the paper's cells and ours.
 struct ComparedCell {
@@ -42,4 +42,4 @@ inline constexpr double kMaxCellFactor = 10.0;
 /// @return nothing if the paper has no cell for any of the runs
 [[nodiscard]] std::optional<PaperDistance> paper_distance(const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

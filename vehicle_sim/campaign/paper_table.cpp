@@ -1,6 +1,6 @@
 #include "vehicle_sim/campaign/paper_table.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// [%]
@@ -183,4 +183,4 @@ std::vector<PapersCell> papers_cells() {
   return cells;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -8,7 +8,7 @@
 #include "vehicle_sim/campaign/run_figures.hpp"
 
 /// The paper's Table 2 and the corresponding figures of our runs. Source: paper, Table 2.
-namespace hlc {
+namespace hlc::campaign {
 
 inline constexpr char kPaperSimulation[] = "paper_three_cars";  ///< scenario of its simulation
 inline constexpr char kPaperLab[] = "paper_red_alone";          ///< and of its lab
@@ -44,4 +44,4 @@ struct PapersCell {
 /// All of them, by scenario, subgraph, quantity.
 [[nodiscard]] std::vector<PapersCell> papers_cells();
 
-}  // namespace hlc
+}  // namespace hlc::campaign

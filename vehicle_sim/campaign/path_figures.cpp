@@ -8,7 +8,7 @@
 #include "planner/road/lap.hpp"
 #include "vehicle_sim/campaign/figure_parts.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 using Range = Eigen::AlignedBox2d;
@@ -18,7 +18,7 @@ constexpr char kCentreColour[] = "#000000";
 std::vector<Point> driven_positions(const DrivenRun& run) {
   const auto [from, to] = times_of(run.experiment.facts);
   std::vector<Point> positions_m;
-  for (const DrivenSample& sample : run.experiment.drives.at(first_vehicle(run).id.value)) {
+  for (const result::DrivenSample& sample : run.experiment.drives.at(first_vehicle(run).id.value)) {
     if (sample.t >= from && sample.t <= to) positions_m.push_back(sample.pose.position_m());
   }
   return positions_m;
@@ -26,8 +26,8 @@ std::vector<Point> driven_positions(const DrivenRun& run) {
 
 std::vector<Point> planned_positions(const DrivenRun& run) {
   std::vector<Point> positions_m;
-  for (const StepRecord& row : steps_of(run)) {
-    const Report& report = row.record.report;
+  for (const result::StepRecord& row : steps_of(run)) {
+    const coordination::Report& report = row.record.report;
     if (report.vehicle == first_vehicle(run).id) {
       positions_m.push_back(report.planned_pose.position_m());
     }
@@ -36,9 +36,10 @@ std::vector<Point> planned_positions(const DrivenRun& run) {
 }
 
 /// Positions at arc lengths 0, `step_m`, ... from the start, for at most `length_m`.
-std::vector<Point> at_arc_lengths(const ReferencePath& path, const std::vector<Point>& positions_m,
-                                  double step_m, double length_m) {
-  const Progress progress = progress_along(path, positions_m);
+std::vector<Point> at_arc_lengths(const road::ReferencePath& path,
+                                  const std::vector<Point>& positions_m, double step_m,
+                                  double length_m) {
+  const road::Progress progress = road::progress_along(path, positions_m);
   std::vector<Point> result;
   std::size_t i = 0;
   for (double s_m = 0.0; s_m <= length_m; s_m += step_m) {
@@ -52,7 +53,7 @@ std::vector<Point> at_arc_lengths(const ReferencePath& path, const std::vector<P
 /// Place of the largest distance between the runs' paths; the start if there is one run.
 Point where_they_differ(std::span<const DrivenRun> runs) {
   constexpr double kStep_m = 0.02;
-  const ReferencePath& path = first_vehicle(runs.front()).path;
+  const road::ReferencePath& path = first_vehicle(runs.front()).path;
   std::vector<std::vector<Point>> ways;
   for (const DrivenRun& run : runs) {
     ways.push_back(at_arc_lengths(path, driven_positions(run), kStep_m, path.length_m()));
@@ -79,12 +80,13 @@ PlotPoints outline(const Range& box) {
 
 }  // namespace
 
-std::string paths_figure(std::span<const DrivenRun> runs, const std::optional<LaneletMap>& map) {
+std::string paths_figure(std::span<const DrivenRun> runs,
+                         const std::optional<road::LaneletMap>& map) {
   constexpr double kHalfZoom_m = 0.45;
-  const ScenarioVehicle& vehicle = first_vehicle(runs.front());
-  PlotPanel whole{.x_label = "x [m]", .y_label = "y [m]", .equal_scale = true};
-  if (map) add_lanes(*map, whole);
-  PlotLine centre = path_line(vehicle.path);
+  const scenario::ScenarioVehicle& vehicle = first_vehicle(runs.front());
+  plot::PlotPanel whole{.x_label = "x [m]", .y_label = "y [m]", .equal_scale = true};
+  if (map) plot::add_lanes(*map, whole);
+  plot::PlotLine centre = plot::path_line(vehicle.path);
   centre.colour = kCentreColour;
   centre.width_px = 1.0;
   whole.lines.push_back(std::move(centre));
@@ -98,26 +100,26 @@ std::string paths_figure(std::span<const DrivenRun> runs, const std::optional<La
   bring_dashed_to_front(whole);
   const Point middle = where_they_differ(runs);
   const Point half = Point::Constant(kHalfZoom_m);
-  PlotPanel zoom = whole;
+  plot::PlotPanel zoom = whole;
   zoom.range = Range(middle - half, middle + half);
   zoom.title = "where they differ most";
-  zoom.legend_corner = Corner::kEmptiest;
+  zoom.legend_corner = plot::Corner::kEmptiest;
   whole.lines.push_back({.points = outline(*zoom.range), .colour = "#444444", .width_px = 1.0});
   whole.title = "the whole drive (box: enlarged on the right)";
   whole.legend.clear();
-  return svg_of(figure_title("Driven paths of the vehicle " + vehicle.name, runs), {whole, zoom}, 2,
-                {.width_px = 700.0, .height_px = 640.0});
+  return plot::svg_of(figure_title("Driven paths of the vehicle " + vehicle.name, runs),
+                      {whole, zoom}, 2, {.width_px = 700.0, .height_px = 640.0});
 }
 
 std::string error_figure(std::span<const DrivenRun> runs) {
-  const ScenarioVehicle& vehicle = first_vehicle(runs.front());
+  const scenario::ScenarioVehicle& vehicle = first_vehicle(runs.front());
   const std::string path =
       runs.front().scenario.map_file ? "the lane's centre" : "the reference path";
-  PlotPanel panel{.x_label = "arc length along " + path + ", from the start [m]",
-                  .y_label = "distance to " + path + " [mm]"};
+  plot::PlotPanel panel{.x_label = "arc length along " + path + ", from the start [m]",
+                        .y_label = "distance to " + path + " [mm]"};
   double highest_mm = 0.0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Progress progress = progress_along(vehicle.path, planned_positions(runs[i]));
+    const road::Progress progress = road::progress_along(vehicle.path, planned_positions(runs[i]));
     PlotPoints points;
     for (std::size_t k = 0; k < progress.s_m.size(); ++k) {
       const double error_mm = 1e3 * progress.distance_m[k];
@@ -133,9 +135,9 @@ std::string error_figure(std::span<const DrivenRun> runs) {
         {.points = {{lap_m, 0.0}, {lap_m, highest_mm}}, .colour = "#444444", .width_px = 1.0});
     panel.legend.push_back({.text = "one lap", .colour = "#444444", .radius_px = 0.0});
   }
-  panel.legend_corner = Corner::kEmptiest;
-  return svg_of(figure_title("Reference error of the vehicle " + vehicle.name, runs), {panel}, 1,
-                {.width_px = 1100.0, .height_px = 460.0});
+  panel.legend_corner = plot::Corner::kEmptiest;
+  return plot::svg_of(figure_title("Reference error of the vehicle " + vehicle.name, runs), {panel},
+                      1, {.width_px = 1100.0, .height_px = 460.0});
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

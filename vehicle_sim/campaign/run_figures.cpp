@@ -6,19 +6,20 @@
 
 #include "vehicle_sim/campaign/campaign.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
-std::optional<double> in_mm(const std::optional<Statistics>& error_m, double Statistics::*value) {
+std::optional<double> in_mm(const std::optional<result::Statistics>& error_m,
+                            double result::Statistics::*value) {
   return error_m ? std::optional(1e3 * ((*error_m).*value)) : std::nullopt;
 }
 
 /// Planning times of all vehicles as one sample.
-void add_planning(std::span<const VehicleSummary> vehicles, RunFigures& figures) {
+void add_planning(std::span<const result::VehicleSummary> vehicles, RunFigures& figures) {
   double count = 0.0;
   double sum_ms = 0.0;
   double exceeding = 0.0;
-  for (const VehicleSummary& vehicle : vehicles) {
+  for (const result::VehicleSummary& vehicle : vehicles) {
     if (!vehicle.planning_s) continue;
     const auto plans = static_cast<double>(vehicle.planning_s->count);
     count += plans;
@@ -30,7 +31,7 @@ void add_planning(std::span<const VehicleSummary> vehicles, RunFigures& figures)
   figures.planning_mean_ms = sum_ms / count;
   figures.exceeding_step_share = exceeding / count;
   double squares = 0.0;  // of the deviations from the common mean
-  for (const VehicleSummary& vehicle : vehicles) {
+  for (const result::VehicleSummary& vehicle : vehicles) {
     if (!vehicle.planning_s) continue;
     const auto plans = static_cast<double>(vehicle.planning_s->count);
     const double off_ms = 1e3 * vehicle.planning_s->mean - figures.planning_mean_ms;
@@ -43,20 +44,20 @@ void add_planning(std::span<const VehicleSummary> vehicles, RunFigures& figures)
 }  // namespace
 
 std::string planned_on(const std::string& subgraph, const std::string& policy) {
-  return policy == kNoPolicy ? subgraph : "policy " + policy;
+  return policy == policy::kNoPolicy ? subgraph : "policy " + policy;
 }
 
 RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   RunFigures figures = std::move(heading);
-  const RunSummary& summary = result.summary;
-  const VehicleSummary& first = summary.vehicles.front();
+  const result::RunSummary& summary = result.summary;
+  const result::VehicleSummary& first = summary.vehicles.front();
   figures.failure = result.fault;
   figures.lap_s = first.lap_s;
-  figures.error_mean_mm = in_mm(first.reference_error_m, &Statistics::mean);
-  figures.error_std_mm = in_mm(first.reference_error_m, &Statistics::std);
-  figures.driven_error_mean_mm = in_mm(first.driven_error_m, &Statistics::mean);
-  figures.driven_error_std_mm = in_mm(first.driven_error_m, &Statistics::std);
-  for (const VehicleSummary& vehicle : summary.vehicles) {
+  figures.error_mean_mm = in_mm(first.reference_error_m, &result::Statistics::mean);
+  figures.error_std_mm = in_mm(first.reference_error_m, &result::Statistics::std);
+  figures.driven_error_mean_mm = in_mm(first.driven_error_m, &result::Statistics::mean);
+  figures.driven_error_std_mm = in_mm(first.driven_error_m, &result::Statistics::std);
+  for (const result::VehicleSummary& vehicle : summary.vehicles) {
     if (vehicle.generated) {
       figures.generated_max = std::max(figures.generated_max, vehicle.generated->max);
     }
@@ -87,4 +88,4 @@ RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   return figures;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

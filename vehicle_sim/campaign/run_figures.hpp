@@ -7,7 +7,7 @@
 
 #include "planner/policy/policy_settings.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 struct CampaignResult;
 
@@ -15,8 +15,8 @@ struct CampaignResult;
 struct RunFigures {
   std::string scenario;
   std::string profile;
-  std::string subgraph;           ///< with a policy: the scenario's own, which it switches
-  std::string policy{kNoPolicy};  ///< kNoPolicy: the subgraph was fixed
+  std::string subgraph;                   ///< with a policy: the scenario's own, which it switches
+  std::string policy{policy::kNoPolicy};  ///< kNoPolicy: the subgraph was fixed
   std::size_t start{};
   std::string failure;  ///< why it does not count; empty if it does
   /// Of the vehicle of highest priority, as in the paper.
@@ -51,7 +51,9 @@ struct RunFigures {
 };
 
 /// True if a policy chose the subgraph.
-[[nodiscard]] inline bool has_policy(const RunFigures& run) { return run.policy != kNoPolicy; }
+[[nodiscard]] inline bool has_policy(const RunFigures& run) {
+  return run.policy != policy::kNoPolicy;
+}
 
 /// The subgraph or policy, as tables and figures name it: "B", "policy zones".
 [[nodiscard]] std::string planned_on(const std::string& subgraph, const std::string& policy);
@@ -71,4 +73,4 @@ struct RunFigures {
 /// @param heading  scenario, profile, subgraph, policy and start; kept
 [[nodiscard]] RunFigures with_figures(RunFigures heading, const CampaignResult& result);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -9,29 +9,30 @@
 #include "vehicle_sim/campaign/distribution.hpp"
 #include "vehicle_sim/campaign/figure_parts.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 using Range = Eigen::AlignedBox2d;
 
 /// One panel of vertices_figure; `range` is extended to its smallest and largest number.
-PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
-  PlotPanel panel{.title = run_name(run), .x_label = "time [s]", .y_label = "vertices"};
-  panel.y_scale = Scale::kLog;
+plot::PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
+  plot::PlotPanel panel{.title = run_name(run), .x_label = "time [s]", .y_label = "vertices"};
+  panel.y_scale = plot::Scale::kLog;
   const double step_s = run.scenario.subgraph->automaton().step_s;
-  const std::vector<StepRecord> rows = steps_of(run);
+  const std::vector<result::StepRecord> rows = steps_of(run);
   for (std::size_t i = 0; i < run.scenario.vehicles.size(); ++i) {
-    const ScenarioVehicle& vehicle = run.scenario.vehicles[i];
-    const std::string colour = car_colour(run.scenario, i);
-    for (const auto& [field, stroke] : {std::pair{&Report::generated, Stroke::kSolid},
-                                        std::pair{&Report::expanded, Stroke::kDashed}}) {
-      PlotLine line{.colour = colour, .width_px = 1.1, .stroke = stroke};
+    const scenario::ScenarioVehicle& vehicle = run.scenario.vehicles[i];
+    const std::string colour = plot::car_colour(run.scenario, i);
+    for (const auto& [field, stroke] :
+         {std::pair{&coordination::Report::generated, plot::Stroke::kSolid},
+          std::pair{&coordination::Report::expanded, plot::Stroke::kDashed}}) {
+      plot::PlotLine line{.colour = colour, .width_px = 1.1, .stroke = stroke};
       const auto end_piece = [&] {
         if (line.points.size() > 1) panel.lines.push_back(line);
         line.points.clear();
       };
-      for (const StepRecord& row : rows) {
-        const Report& report = row.record.report;
+      for (const result::StepRecord& row : rows) {
+        const coordination::Report& report = row.record.report;
         if (report.vehicle != vehicle.id) continue;
         const auto count = static_cast<double>(report.*field);
         if (!has_searched(report) || count < 1.0) {
@@ -49,14 +50,14 @@ PlotPanel vertices_panel(const DrivenRun& run, Range& range) {
   panel.legend.push_back({.text = "dashed: expanded",
                           .colour = "#444444",
                           .radius_px = 0.0,
-                          .stroke = Stroke::kDashed});
+                          .stroke = plot::Stroke::kDashed});
   return panel;
 }
 
 /// Sorted, in ms; without those not measured.
 std::vector<double> planning_times_ms(const DrivenRun& run) {
   std::vector<double> times_ms;
-  for (const StepRecord& row : steps_of(run)) {
+  for (const result::StepRecord& row : steps_of(run)) {
     if (has_searched(row.record.report) && row.record.planning_ns > 0) {
       times_ms.push_back(1e-6 * static_cast<double>(row.record.planning_ns));
     }
@@ -68,25 +69,25 @@ std::vector<double> planning_times_ms(const DrivenRun& run) {
 }  // namespace
 
 std::string vertices_figure(std::span<const DrivenRun> runs) {
-  std::vector<PlotPanel> panels;
+  std::vector<plot::PlotPanel> panels;
   Range range;
   for (const DrivenRun& run : runs) panels.push_back(vertices_panel(run, range));
   if (!range.isEmpty()) share_range(panels, range.max().x(), 0.8, 2.0 * range.max().y());
-  const std::vector<PlotLegend> legend = taken_legend(panels);
-  return svg_of(figure_title("Vertices of each step's search", runs), panels,
-                columns_for(panels.size()), kSmallPanel, legend);
+  const std::vector<plot::PlotLegend> legend = taken_legend(panels);
+  return plot::svg_of(figure_title("Vertices of each step's search", runs), panels,
+                      columns_for(panels.size()), kSmallPanel, legend);
 }
 
 std::string planning_time_figure(std::span<const DrivenRun> runs) {
-  PlotPanel density{.title = "distribution (ten bins a decade)",
-                    .x_label = "planning time [ms]",
-                    .y_label = "share of the plans [%]"};
-  PlotPanel tail{.title = "how many took at least so long",
-                 .x_label = "planning time [ms]",
-                 .y_label = "share of the plans [%]"};
-  density.x_scale = Scale::kLog;
-  tail.x_scale = Scale::kLog;
-  tail.y_scale = Scale::kLog;
+  plot::PlotPanel density{.title = "distribution (ten bins a decade)",
+                          .x_label = "planning time [ms]",
+                          .y_label = "share of the plans [%]"};
+  plot::PlotPanel tail{.title = "how many took at least so long",
+                       .x_label = "planning time [ms]",
+                       .y_label = "share of the plans [%]"};
+  density.x_scale = plot::Scale::kLog;
+  tail.x_scale = plot::Scale::kLog;
+  tail.y_scale = plot::Scale::kLog;
   double highest = 1.0;
   double lowest = 100.0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -104,10 +105,10 @@ std::string planning_time_figure(std::span<const DrivenRun> runs) {
     panel->legend.push_back({.text = "length of a step", .colour = kMarkColour, .radius_px = 0.0});
     bring_dashed_to_front(*panel);
   }
-  std::vector<PlotPanel> panels{std::move(density), std::move(tail)};
-  const std::vector<PlotLegend> legend = taken_legend(panels);
-  return svg_of(figure_title("Planning time of all vehicles", runs), panels, 2,
-                {.width_px = 620.0, .height_px = 460.0}, legend);
+  std::vector<plot::PlotPanel> panels{std::move(density), std::move(tail)};
+  const std::vector<plot::PlotLegend> legend = taken_legend(panels);
+  return plot::svg_of(figure_title("Planning time of all vehicles", runs), panels, 2,
+                      {.width_px = 620.0, .height_px = 460.0}, legend);
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

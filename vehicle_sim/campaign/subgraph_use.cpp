@@ -1,12 +1,12 @@
 #include "vehicle_sim/campaign/subgraph_use.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
-SubgraphUse subgraph_use(std::span<const StepRecord> rows) {
+SubgraphUse subgraph_use(std::span<const result::StepRecord> rows) {
   SubgraphUse use;
   std::map<VehicleId, std::string> last;
-  for (const StepRecord& row : rows) {
-    const Report& report = row.record.report;
+  for (const result::StepRecord& row : rows) {
+    const coordination::Report& report = row.record.report;
     const auto [before, is_first] = last.try_emplace(report.vehicle, report.subgraph);
     if (!is_first && before->second != report.subgraph) ++use.switches;
     before->second = report.subgraph;
@@ -16,4 +16,4 @@ SubgraphUse subgraph_use(std::span<const StepRecord> rows) {
   return use;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// The subgraphs of a run's plans, by the names in the vehicles' reports.
 struct SubgraphUse {
@@ -16,6 +16,6 @@ struct SubgraphUse {
 };
 
 /// @param rows  of step_records()
-[[nodiscard]] SubgraphUse subgraph_use(std::span<const StepRecord> rows);
+[[nodiscard]] SubgraphUse subgraph_use(std::span<const result::StepRecord> rows);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

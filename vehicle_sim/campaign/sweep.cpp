@@ -10,19 +10,20 @@
 #include "planner/scenario/starts.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// Only the driven subgraphs, and the part of the automaton that they need.
-AutomatonConfiguration narrowed(const SweepPlan& plan, AutomatonConfiguration configuration) {
+maneuver_design::AutomatonConfiguration narrowed(
+    const SweepPlan& plan, maneuver_design::AutomatonConfiguration configuration) {
   // Places in the file are meaningless for values of the sweep.
   configuration.places = {};
-  std::erase_if(configuration.subgraphs, [&](const SubgraphSpec& spec) {
+  std::erase_if(configuration.subgraphs, [&](const automaton::SubgraphSpec& spec) {
     return std::ranges::find(plan.subgraphs, spec.name) == plan.subgraphs.end();
   });
-  std::erase_if(configuration.criteria, [&](const LabelledCriterion& criterion) {
-    return std::ranges::none_of(configuration.subgraphs, [&](const SubgraphSpec& spec) {
-      return uses(spec, criterion.label);
+  std::erase_if(configuration.criteria, [&](const maneuver_design::LabelledCriterion& criterion) {
+    return std::ranges::none_of(configuration.subgraphs, [&](const automaton::SubgraphSpec& spec) {
+      return maneuver_design::uses(spec, criterion.label);
     });
   });
   return configuration;
@@ -30,7 +31,7 @@ AutomatonConfiguration narrowed(const SweepPlan& plan, AutomatonConfiguration co
 
 /// Changes the configuration; returns the changed values, one text for each different automaton.
 std::string apply_to_automaton(const SweepPlan& plan, const SweepCombination& combination,
-                               AutomatonConfiguration& configuration) {
+                               maneuver_design::AutomatonConfiguration& configuration) {
   std::string key;
   for (const SweepSetting& setting : sweep_settings()) {
     const SweepValue* value = value_of(plan, combination, setting.name);
@@ -49,13 +50,14 @@ std::uint64_t first_step_of(const SweepPlan& plan, const SweepCombination& combi
 }  // namespace
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combinations_of(plan_)) {
-  AutomatonConfiguration whole = read_automaton_configuration(plan_.automaton);
+  maneuver_design::AutomatonConfiguration whole =
+      maneuver_design::read_automaton_configuration(plan_.automaton);
   offered_ = whole.subgraphs;
   trims_ = whole.trims;
-  const AutomatonConfiguration as_read = narrowed(plan_, std::move(whole));
+  const maneuver_design::AutomatonConfiguration as_read = narrowed(plan_, std::move(whole));
   std::map<std::string, std::size_t> automaton_by_key;
   for (std::size_t c = 0; c < combinations_.size(); ++c) {
-    AutomatonConfiguration changed = as_read;
+    maneuver_design::AutomatonConfiguration changed = as_read;
     const std::string key = apply_to_automaton(plan_, combinations_[c], changed);
     const auto [entry, is_new] = automaton_by_key.try_emplace(key, automata_.size());
     if (is_new) automata_.push_back({.configuration = std::move(changed)});
@@ -64,11 +66,11 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combination
     for (std::size_t scenario = 0; scenario < plan_.scenarios.size(); ++scenario) {
       if (!scenarios_.contains({scenario, profile})) {
         scenarios_.emplace(std::pair{scenario, profile},
-                           read_scenario({.file = plan_.scenarios[scenario],
-                                          .profile = profile,
-                                          .subgraph = plan_.subgraphs.front(),
-                                          .policy = kNoPolicy,
-                                          .steps = plan_.steps}));
+                           scenario::read_scenario({.file = plan_.scenarios[scenario],
+                                                    .profile = profile,
+                                                    .subgraph = plan_.subgraphs.front(),
+                                                    .policy = policy::kNoPolicy,
+                                                    .steps = plan_.steps}));
       }
       for (std::size_t subgraph = 0; subgraph < plan_.subgraphs.size(); ++subgraph) {
         for (std::size_t start = 0; start < plan_.starts; ++start) {
@@ -87,7 +89,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), combinations_(combination
   }
   if (plan_.starts == 1) return;
   for (const auto& [key, scenario] : scenarios_) {
-    static_cast<void>(with_random_starts(scenario, plan_.seed + 1));
+    static_cast<void>(scenario::with_random_starts(scenario, plan_.seed + 1));
   }
 }
 
@@ -103,33 +105,33 @@ std::size_t Sweep::automaton_of(std::size_t run) const {
 void Sweep::build(std::size_t automaton) {
   DesignedAutomaton& designed = automata_.at(automaton);
   try {
-    designed.automaton = build_shared_automaton(designed.configuration);
+    designed.automaton = maneuver_design::build_shared_automaton(designed.configuration);
   } catch (const std::exception& error) {
     designed.failure = error.what();
   }
 }
 
-Scenario Sweep::scenario_of(std::size_t run) const {
+scenario::Scenario Sweep::scenario_of(std::size_t run) const {
   const SweepRun& what = runs_.at(run);
   const SweepCombination& combination = combinations_[what.combination];
   const DesignedAutomaton& designed = automata_[automaton_of(run)];
   HLC_DEMAND(designed.automaton || !designed.failure.empty());
   if (!designed.automaton) throw std::runtime_error(designed.failure);
-  Scenario scenario = scenarios_.at({what.scenario, profile_of(combination)});
-  SubgraphSpec spec =
-      *find_subgraph(designed.configuration.subgraphs, plan_.subgraphs[what.subgraph]);
+  scenario::Scenario scenario = scenarios_.at({what.scenario, profile_of(combination)});
+  automaton::SubgraphSpec spec =
+      *scenario::find_subgraph(designed.configuration.subgraphs, plan_.subgraphs[what.subgraph]);
   if (const SweepValue* trims = value_of(plan_, combination, kTrimsSetting)) {
     spec.trims = trims->trims;
   }
-  scenario.subgraph = std::make_shared<Subgraph>(designed.automaton, spec);
-  check_driving(*scenario.subgraph, scenario.horizon_steps);
+  scenario.subgraph = std::make_shared<automaton::Subgraph>(designed.automaton, spec);
+  automaton::check_driving(*scenario.subgraph, scenario.horizon_steps);
   for (const SweepSetting& setting : sweep_settings()) {
     const SweepValue* value = value_of(plan_, combination, setting.name);
     if (value != nullptr && setting.on_scenario) setting.on_scenario(*value, scenario);
   }
-  check_search_options(scenario.search);
-  if (what.start > 0) scenario = with_random_starts(scenario, plan_.seed + what.start);
-  if (overlapping_starts(scenario)) {
+  search::check_search_options(scenario.search);
+  if (what.start > 0) scenario = scenario::with_random_starts(scenario, plan_.seed + what.start);
+  if (scenario::overlapping_starts(scenario)) {
     throw std::invalid_argument(scenario.file.string() + ": cars overlap at the start");
   }
   return scenario;
@@ -138,7 +140,7 @@ Scenario Sweep::scenario_of(std::size_t run) const {
 std::set<std::filesystem::path> Sweep::files() const {
   std::set<std::filesystem::path> files{plan_.file};
   for (const auto& [key, scenario] : scenarios_) {
-    for (const std::filesystem::path& file : files_of(scenario)) files.insert(file);
+    for (const std::filesystem::path& file : scenario::files_of(scenario)) files.insert(file);
   }
   return files;
 }
@@ -166,4 +168,4 @@ SweepResult Sweep::drive(std::size_t run) const {
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

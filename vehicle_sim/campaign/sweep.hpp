@@ -11,7 +11,7 @@
 #include "vehicle_sim/campaign/run_figures.hpp"
 #include "vehicle_sim/campaign/sweep_plan.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// One run of a sweep.
 struct SweepRun {
@@ -45,7 +45,9 @@ class Sweep {
   [[nodiscard]] const std::vector<SweepRun>& runs() const { return runs_; }
 
   /// The subgraphs of the configuration, as it has them.
-  [[nodiscard]] const std::vector<SubgraphSpec>& offered_subgraphs() const { return offered_; }
+  [[nodiscard]] const std::vector<automaton::SubgraphSpec>& offered_subgraphs() const {
+    return offered_;
+  }
   [[nodiscard]] bool is_moving(TrimId trim) const { return !trims_[trim.index].is_equilibrium(); }
 
   [[nodiscard]] std::size_t num_automata() const { return automata_.size(); }
@@ -61,7 +63,7 @@ class Sweep {
 
   /// The run's scenario with the settings applied.
   /// @throws std::invalid_argument, std::runtime_error with the reason if it cannot be driven
-  [[nodiscard]] Scenario scenario_of(std::size_t run) const;
+  [[nodiscard]] scenario::Scenario scenario_of(std::size_t run) const;
 
   /// Never throws for a consequence of the settings: a run that cannot be driven fails with its
   /// reason.
@@ -70,22 +72,22 @@ class Sweep {
 
  private:
   struct DesignedAutomaton {
-    AutomatonConfiguration configuration;
-    std::shared_ptr<const UniversalAutomaton> automaton;
+    maneuver_design::AutomatonConfiguration configuration;
+    std::shared_ptr<const automaton::UniversalAutomaton> automaton;
     std::string failure;
   };
 
   [[nodiscard]] std::string profile_of(const SweepCombination& combination) const;
 
   SweepPlan plan_;
-  std::vector<SubgraphSpec> offered_;
-  std::vector<Trim> trims_;
+  std::vector<automaton::SubgraphSpec> offered_;
+  std::vector<automaton::Trim> trims_;
   std::vector<SweepCombination> combinations_;
   std::vector<SweepRun> runs_;
   std::vector<DesignedAutomaton> automata_;
   std::vector<std::size_t> automaton_of_;  ///< by combination
   /// As read, by scenario and profile, on the first subgraph of the configuration as it is.
-  std::map<std::pair<std::size_t, std::string>, Scenario> scenarios_;
+  std::map<std::pair<std::size_t, std::string>, scenario::Scenario> scenarios_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -8,7 +8,7 @@
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 std::string number_or_empty(const std::optional<double>& value, int decimals) {
@@ -62,4 +62,4 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

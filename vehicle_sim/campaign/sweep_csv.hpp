@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// One row per run, in the order of the sweep: run, combination, scenario, subgraph, start, the
 /// settings by name, then lap_s, error_mean_mm, error_std_mm, generated_max, generated_sum_max,
@@ -15,4 +15,4 @@ namespace hlc {
 /// @param runs  one per run of the sweep
 [[nodiscard]] std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -58,4 +58,4 @@ std::vector<std::vector<std::size_t>> runs_by_combination(const Sweep& sweep) {
   return numbers;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

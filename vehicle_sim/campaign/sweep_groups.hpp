@@ -6,7 +6,7 @@
 
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Indices into SweepPlan::axes.
 using Axes = std::vector<std::size_t>;
@@ -35,4 +35,4 @@ struct SweepGroup {
 /// Numbers of the runs, by combination.
 [[nodiscard]] std::vector<std::vector<std::size_t>> runs_by_combination(const Sweep& sweep);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

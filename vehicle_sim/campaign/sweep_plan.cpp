@@ -8,7 +8,7 @@
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/named_subgraph.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 constexpr char kSubsets[] = "subsets";
@@ -20,7 +20,7 @@ std::filesystem::path beside(const std::filesystem::path& file, const std::strin
 }
 
 /// The choice of trims, whatever its order in the file, with every trim of speed 0.
-SweepValue trims_value(const std::set<TrimId>& chosen, const std::vector<Trim>& trims) {
+SweepValue trims_value(const std::set<TrimId>& chosen, const std::vector<automaton::Trim>& trims) {
   SweepValue value;
   for (std::size_t i = 0; i < trims.size(); ++i) {
     if (!trims[i].is_equilibrium() && !chosen.contains(TrimId{i})) continue;
@@ -30,7 +30,8 @@ SweepValue trims_value(const std::set<TrimId>& chosen, const std::vector<Trim>& 
   return value;
 }
 
-std::vector<SweepValue> all_subsets(const Node& settings, const std::vector<Trim>& trims) {
+std::vector<SweepValue> all_subsets(const Node& settings,
+                                    const std::vector<automaton::Trim>& trims) {
   std::vector<TrimId> moving;
   for (std::size_t i = 0; i < trims.size(); ++i) {
     if (!trims[i].is_equilibrium()) moving.push_back(TrimId{i});
@@ -51,7 +52,7 @@ std::vector<SweepValue> all_subsets(const Node& settings, const std::vector<Trim
   return values;
 }
 
-SweepValue read_trims(const Node& entry, const std::vector<Trim>& trims) {
+SweepValue read_trims(const Node& entry, const std::vector<automaton::Trim>& trims) {
   if (!entry.is_list()) entry.fail("a list of trims' numbers");
   std::set<TrimId> chosen;
   for (const Node& one : entry.entries()) {
@@ -66,14 +67,14 @@ SweepValue read_trims(const Node& entry, const std::vector<Trim>& trims) {
 }
 
 SweepValue read_value(const Node& entry, const SweepSetting& setting,
-                      const std::vector<Trim>& trims) {
+                      const std::vector<automaton::Trim>& trims) {
   if (setting.name == kTrimsSetting) return read_trims(entry, trims);
   if (!setting.is_number) return {.text = entry.as<std::string>(setting.allowed)};
   const double number = entry.as<double>(setting.allowed);
   return {.text = shortest_text(number), .number = number};
 }
 
-std::vector<SweepAxis> read_axes(const Node& settings, const std::vector<Trim>& trims) {
+std::vector<SweepAxis> read_axes(const Node& settings, const std::vector<automaton::Trim>& trims) {
   std::vector<SweepAxis> axes;
   for (const SweepSetting& setting : sweep_settings()) {
     if (!settings.has(setting.name)) continue;
@@ -112,7 +113,7 @@ void read_scenarios(const Node& node, SweepPlan& plan) {
     if (!plan.scenarios.empty() && automaton != plan.automaton) {
       entry.fail("a scenario on the same automaton, " + plan.automaton.string());
     }
-    if (is_automaton_file(automaton)) {
+    if (automaton::is_automaton_file(automaton)) {
       entry.fail("a scenario on a configuration of an automaton: " + automaton.string() +
                  " is a built one");
     }
@@ -122,17 +123,18 @@ void read_scenarios(const Node& node, SweepPlan& plan) {
   if (plan.scenarios.empty()) node.fail("scenarios", "a list with at least one scenario's file");
 }
 
-void read_subgraph_names(const Node& node, const std::vector<SubgraphSpec>& offered,
+void read_subgraph_names(const Node& node, const std::vector<automaton::SubgraphSpec>& offered,
                          SweepPlan& plan) {
   for (const Node& entry : node.list("subgraphs")) {
     const auto name = entry.as<std::string>();
-    if (find_subgraph(offered, name) == nullptr) entry.fail("one of " + names_of(offered));
+    if (scenario::find_subgraph(offered, name) == nullptr)
+      entry.fail("one of " + scenario::names_of(offered));
     if (std::ranges::find(plan.subgraphs, name) != plan.subgraphs.end()) {
       entry.fail("unique");
     }
     plan.subgraphs.push_back(name);
   }
-  if (plan.subgraphs.empty()) node.fail("subgraphs", "a list of " + names_of(offered));
+  if (plan.subgraphs.empty()) node.fail("subgraphs", "a list of " + scenario::names_of(offered));
 }
 
 std::vector<std::vector<std::size_t>> read_tables(const Node& node, const SweepPlan& plan) {
@@ -179,7 +181,8 @@ SweepPlan read_sweep(const std::filesystem::path& file) {
   const Node node = Node::read_yaml(file);
   SweepPlan plan{.file = file};
   read_scenarios(node, plan);
-  const AutomatonConfiguration automaton = read_automaton_configuration(plan.automaton);
+  const maneuver_design::AutomatonConfiguration automaton =
+      maneuver_design::read_automaton_configuration(plan.automaton);
   read_subgraph_names(node, automaton.subgraphs, plan);
   plan.starts = node.optional<std::size_t>("starts", 1, between(1.0, 100000.0));
   plan.seed = node.optional<std::size_t>("seed", 1);
@@ -228,4 +231,4 @@ const SweepValue* value_of(const SweepPlan& plan, const SweepCombination& combin
   return nullptr;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -8,7 +8,7 @@
 
 #include "vehicle_sim/campaign/sweep_settings.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Values that a setting takes.
 struct SweepAxis {
@@ -65,4 +65,4 @@ using SweepCombination = std::vector<std::size_t>;
 [[nodiscard]] const SweepValue* value_of(const SweepPlan& plan, const SweepCombination& combination,
                                          const std::string& setting);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

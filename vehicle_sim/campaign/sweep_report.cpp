@@ -10,7 +10,7 @@
 #include "vehicle_sim/campaign/sweep_tables.hpp"
 #include "vehicle_sim/campaign/trims_front.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs,
                            const EvaluationOrigin& origin) {
@@ -31,4 +31,4 @@ std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& ru
          ", compiled by " + origin.compiler + "; " + origin.processor + ".\n";
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -6,7 +6,7 @@
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Markdown: the combinations compared with the paper's Table 2 (paper_comparison.hpp) or, if
 /// `trims` is swept, the front of choices (trims_front.hpp); which subgraph is more accurate
@@ -16,4 +16,4 @@ namespace hlc {
 [[nodiscard]] std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs,
                                          const EvaluationOrigin& origin);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

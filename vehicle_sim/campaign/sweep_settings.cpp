@@ -1,37 +1,39 @@
 #include "vehicle_sim/campaign/sweep_settings.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 /// The search of 2022 has neither an incumbent nor a way out after a standstill.
-void set_search(const SweepValue& value, Scenario& scenario) {
-  const Profile of = profile_from_name(value.text == "2022" ? value.text : "default");
-  scenario.search.engine =
-      value.text == "branch_and_bound" ? Engine::kBranchAndBound : Engine::kBestFirst;
+void set_search(const SweepValue& value, scenario::Scenario& scenario) {
+  const scenario::Profile of =
+      scenario::profile_from_name(value.text == "2022" ? value.text : "default");
+  scenario.search.engine = value.text == "branch_and_bound" ? search::Engine::kBranchAndBound
+                                                            : search::Engine::kBestFirst;
   scenario.search.cost_to_go = of.cost_to_go;
   scenario.profile.strategies.incumbent = of.strategies.incumbent;
   scenario.profile.strategies.standstill_timeout = of.strategies.standstill_timeout;
 }
 
-void set_drivable(const SweepValue& value, Scenario& scenario) {
+void set_drivable(const SweepValue& value, scenario::Scenario& scenario) {
   if (value.text == "lanes") return;
-  for (ScenarioVehicle& vehicle : scenario.vehicles) vehicle.corridor = Corridor();
+  for (scenario::ScenarioVehicle& vehicle : scenario.vehicles) vehicle.corridor = road::Corridor();
 }
 
-void set_wheelbase(const SweepValue& value, AutomatonConfiguration& automaton) {
-  VehicleParameters& vehicle = automaton.vehicle;
+void set_wheelbase(const SweepValue& value, maneuver_design::AutomatonConfiguration& automaton) {
+  vehicle::VehicleParameters& vehicle = automaton.vehicle;
   vehicle.rear_axle_to_cg_m *= value.number / vehicle.wheelbase_m;
   vehicle.wheelbase_m = value.number;
 }
 
-void set_reference_rule(const SweepValue& value, Scenario& scenario) {
-  scenario.profile.reference_rule = value.text == "2022" ? half_speed_last : mean_speed_first;
+void set_reference_rule(const SweepValue& value, scenario::Scenario& scenario) {
+  scenario.profile.reference_rule =
+      value.text == "2022" ? road::half_speed_last : road::mean_speed_first;
 }
 
 }  // namespace
 
 const std::vector<SweepSetting>& sweep_settings() {
-  using Automaton = AutomatonConfiguration;
+  using Automaton = maneuver_design::AutomatonConfiguration;
   using Value = SweepValue;
   static const std::vector<SweepSetting> all{
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
@@ -41,7 +43,9 @@ const std::vector<SweepSetting>& sweep_settings() {
        true,
        above(0.0, 100.0),
        {},
-       [](const Value& value, Scenario& scenario) { scenario.reference_speed_mps = value.number; }},
+       [](const Value& value, scenario::Scenario& scenario) {
+         scenario.reference_speed_mps = value.number;
+       }},
       {"drivable", false, one_of({"lanes", "everywhere"}), {}, set_drivable},
       {"acceleration_mps2",
        true,
@@ -76,11 +80,13 @@ const std::vector<SweepSetting>& sweep_settings() {
       {kTrimsSetting,
        false,
        {},
-       [](const Value&, Automaton& automaton) { automaton.edges = EdgeChoice::kAll; },
+       [](const Value&, Automaton& automaton) {
+         automaton.edges = maneuver_design::EdgeChoice::kAll;
+       },
        {}},
       {kLapSetting, false, one_of({"standing", "flying"}), {}, {}},
   };
   return all;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

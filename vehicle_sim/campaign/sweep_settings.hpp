@@ -8,7 +8,7 @@
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/scenario/scenario.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// One value of a setting.
 struct SweepValue {
@@ -42,9 +42,9 @@ struct SweepSetting {
   bool is_number{};
   Allowed allowed;
   /// Absent: the setting does not change the automaton.
-  std::function<void(const SweepValue&, AutomatonConfiguration&)> on_automaton;
+  std::function<void(const SweepValue&, maneuver_design::AutomatonConfiguration&)> on_automaton;
   /// Absent: the setting does not change the scenario after it is read with its profile.
-  std::function<void(const SweepValue&, Scenario&)> on_scenario;
+  std::function<void(const SweepValue&, scenario::Scenario&)> on_scenario;
 };
 
 /// All, in the order of the table: a later setting prevails.
@@ -56,4 +56,4 @@ inline constexpr char kLapSetting[] = "lap";
 /// The first step that counts for a flying lap: by then every car is at speed.
 inline constexpr std::uint64_t kFlyingStep = 10;
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -9,7 +9,7 @@
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 struct SweepQuantity {
@@ -151,4 +151,4 @@ std::string sweep_tables_csv(const Sweep& sweep, const std::vector<RunFigures>& 
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Results by the values of settings: for every grouping (groupings_of), scenario, group and
 /// subgraph how many runs drove a lap, and of these error of planned and of driven positions, lap
@@ -18,4 +18,4 @@ namespace hlc {
 /// (separated by semicolons), subgraph, combinations, runs, laps, quantity, mean, half_width.
 [[nodiscard]] std::string sweep_tables_csv(const Sweep& sweep, const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

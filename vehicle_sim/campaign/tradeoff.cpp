@@ -8,7 +8,7 @@
 #include "vehicle_sim/campaign/tradeoff_rows.hpp"
 #include "vehicle_sim/campaign/zone_excess.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 std::string cell_of(const std::string& name) {
@@ -156,4 +156,4 @@ std::string tradeoff_markdown(const std::vector<RunFigures>& runs) {
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

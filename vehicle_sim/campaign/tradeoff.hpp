@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/run_figures.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Rows keep the limits of the speed zones if in no start they are clearly above them
 /// (kFollowerExcess_mps) for more than this share of the time in zones.
@@ -35,4 +35,4 @@ inline constexpr double kMostAboveLimit = 0.01;
 /// hypervolume of all fixed subgraphs (`fixed`) and of these and the row together (`with`).
 [[nodiscard]] std::string tradeoff_fronts_csv(const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -5,7 +5,7 @@
 #include "vehicle_sim/campaign/tradeoff.hpp"
 #include "vehicle_sim/campaign/tradeoff_rows.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 std::string tradeoff_csv(const std::vector<RunFigures>& runs) {
   std::string text = "scenario,profile,subgraph,policy";
@@ -52,4 +52,4 @@ std::string tradeoff_fronts_csv(const std::vector<RunFigures>& runs) {
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

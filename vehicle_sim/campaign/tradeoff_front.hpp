@@ -5,12 +5,12 @@
 
 #include "planner/maneuver_design/dominance.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// The values of a fixed subgraph, or of a policy, in several quantities to be minimised.
 struct TradeoffPoint {
   bool is_policy{};
-  Objectives values;
+  maneuver_design::Objectives values;
 };
 
 /// Competition of the fixed subgraphs and the policies.
@@ -24,10 +24,10 @@ struct TradeoffFront {
 
 /// kReferenceFactor times the worst value of each quantity.
 /// @pre points is not empty, no value below 0
-[[nodiscard]] Objectives reference_of(const std::vector<TradeoffPoint>& points);
+[[nodiscard]] maneuver_design::Objectives reference_of(const std::vector<TradeoffPoint>& points);
 inline constexpr double kReferenceFactor = 1.05;
 
 [[nodiscard]] TradeoffFront front_of(const std::vector<TradeoffPoint>& points,
-                                     const Objectives& reference);
+                                     const maneuver_design::Objectives& reference);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

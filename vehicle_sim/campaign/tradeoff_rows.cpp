@@ -6,7 +6,7 @@
 #include "planner/geometry/median.hpp"
 #include "vehicle_sim/campaign/tradeoff.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 std::optional<double> percent(const std::optional<double>& share) {
@@ -104,7 +104,7 @@ std::optional<TradeoffCompetition> competition(const TradeoffGroup& group, const
   std::vector<TradeoffPoint> competing;
   for (const TradeoffRow& row : group.rows) {
     if (!row.medians[pair.x] || !row.medians[pair.y]) continue;
-    Objectives values(2);
+    maneuver_design::Objectives values(2);
     values << *row.medians[pair.x], *row.medians[pair.y];
     all.push_back({.is_policy = has_policy(row.first()), .values = values});
     if (within_limits && !row.keeps_limits) continue;
@@ -117,4 +117,4 @@ std::optional<TradeoffCompetition> competition(const TradeoffGroup& group, const
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

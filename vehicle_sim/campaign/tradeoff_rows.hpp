@@ -9,7 +9,7 @@
 #include "vehicle_sim/campaign/tradeoff_front.hpp"
 
 /// Parts of the tables of tradeoff.hpp.
-namespace hlc {
+namespace hlc::campaign {
 
 /// A column.
 struct TradeoffQuantity {
@@ -54,8 +54,8 @@ struct TradeoffGroup {
 
 /// Competition of some rows in two columns.
 struct TradeoffCompetition {
-  std::vector<const TradeoffRow*> rows;  ///< those with both values
-  Objectives reference;                  ///< of all rows with values, also those left out
+  std::vector<const TradeoffRow*> rows;   ///< those with both values
+  maneuver_design::Objectives reference;  ///< of all rows with values, also those left out
   TradeoffFront front;
 };
 
@@ -65,4 +65,4 @@ struct TradeoffCompetition {
                                                              const TradeoffPair& pair,
                                                              bool within_limits);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -7,7 +7,7 @@
 #include "vehicle_sim/campaign/lap_quality.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 namespace {
 
 const std::vector<TrimId>& trims_of(const Sweep& sweep, std::size_t combination) {
@@ -65,7 +65,7 @@ std::string markdown_of(const Sweep& sweep, const std::vector<TrimsQuality>& cho
   const TrimsQuality& smallest = *std::ranges::find_if(
       choices, [&](const TrimsQuality& one) { return one.error_mean_mm <= all.error_mean_mm; });
   text += row(sweep, smallest, "smallest, not less accurate than the largest");
-  for (const SubgraphSpec& spec : sweep.offered_subgraphs()) {
+  for (const automaton::SubgraphSpec& spec : sweep.offered_subgraphs()) {
     std::vector<TrimId> trims = spec.trims;
     std::ranges::sort(trims);
     for (const TrimsQuality& choice : choices) {
@@ -129,4 +129,4 @@ std::string trims_markdown(const Sweep& sweep, const std::vector<RunFigures>& ru
   return text;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

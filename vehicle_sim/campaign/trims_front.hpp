@@ -5,7 +5,7 @@
 
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// Quality of a choice of trims: the combination, over all starts of one scenario and subgraph.
 struct TrimsQuality {
@@ -31,4 +31,4 @@ struct TrimsQuality {
 /// @pre the plan sets `trims`
 [[nodiscard]] std::string trims_markdown(const Sweep& sweep, const std::vector<RunFigures>& runs);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

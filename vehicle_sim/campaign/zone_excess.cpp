@@ -5,10 +5,10 @@
 
 #include "planner/policy/speed_zones.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
-std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones, const Drives& drives,
-                                      const RunFacts& facts) {
+std::optional<ZoneExcess> zone_excess(std::span<const policy::SpeedZone> zones,
+                                      const result::Drives& drives, const result::RunFacts& facts) {
   const Nanoseconds from = facts.first_step.value_or(0) * facts.period;
   const Nanoseconds to = from + facts.steps * facts.period;
   std::size_t inside = 0;
@@ -16,9 +16,9 @@ std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones, const Dr
   std::size_t clearly_above = 0;
   ZoneExcess excess;
   for (const auto& [vehicle, drive] : drives) {
-    for (const DrivenSample& sample : drive) {
+    for (const result::DrivenSample& sample : drive) {
       if (sample.t < from || sample.t > to) continue;
-      const std::optional<double> limit_mps = limit_at(zones, sample.pose.position_m());
+      const std::optional<double> limit_mps = policy::limit_at(zones, sample.pose.position_m());
       if (!limit_mps) continue;
       ++inside;
       const double excess_mps = std::abs(sample.speed_mps) - *limit_mps;
@@ -37,4 +37,4 @@ std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones, const Dr
   return excess;
 }
 
-}  // namespace hlc
+}  // namespace hlc::campaign

@@ -6,7 +6,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/policy/policy_settings.hpp"
 
-namespace hlc {
+namespace hlc::campaign {
 
 /// How much vehicles exceeded the limits of speed zones, by their true states at every tick. No
 /// tolerance: a car at its limit is above it now and then, by the corrections of its follower.
@@ -23,7 +23,8 @@ inline constexpr double kFollowerExcess_mps = 0.1;
 /// From the first step to the end of the last one. A vehicle is in a zone if its position is; of
 /// several zones the lowest limit counts.
 /// @return nothing without zones, or if no vehicle entered one
-[[nodiscard]] std::optional<ZoneExcess> zone_excess(std::span<const SpeedZone> zones,
-                                                    const Drives& drives, const RunFacts& facts);
+[[nodiscard]] std::optional<ZoneExcess> zone_excess(std::span<const policy::SpeedZone> zones,
+                                                    const result::Drives& drives,
+                                                    const result::RunFacts& facts);
 
-}  // namespace hlc
+}  // namespace hlc::campaign

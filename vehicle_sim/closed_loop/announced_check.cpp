@@ -5,15 +5,15 @@
 
 namespace hlc::closed_loop {
 
-void AnnouncedCheck::published(const Traffic& traffic) {
+void AnnouncedCheck::published(const coordination::Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
   car.running = traffic.running;
   car.agreed.reset();
 }
 
-void AnnouncedCheck::reported(const Report& report, Nanoseconds at) {
+void AnnouncedCheck::reported(const coordination::Report& report, Nanoseconds at) {
   Car& car = cars_[report.vehicle];
-  if (report.status != StepStatus::kPlanned) return;
+  if (report.status != coordination::StepStatus::kPlanned) return;
   car.last_plan = at;
   if (car.predicted && car.predicted->step == report.step) {
     car.before = car.agreed ? std::move(car.agreed) : car.running;

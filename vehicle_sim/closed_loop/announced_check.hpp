@@ -30,9 +30,11 @@ class AnnouncedCheck {
   AnnouncedCheck(const Footprint& footprint, Nanoseconds period)
       : footprint_(footprint), period_(period) {}
 
-  void published(const Traffic& traffic);
-  void predicted(const Prediction& prediction) { cars_[prediction.vehicle].predicted = prediction; }
-  void reported(const Report& report, Nanoseconds at);
+  void published(const coordination::Traffic& traffic);
+  void predicted(const coordination::Prediction& prediction) {
+    cars_[prediction.vehicle].predicted = prediction;
+  }
+  void reported(const coordination::Report& report, Nanoseconds at);
   /// @param tick  its time
   void driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
               Violations& violations);
@@ -48,10 +50,10 @@ class AnnouncedCheck {
 
  private:
   struct Car {
-    std::optional<OccupiedAreas> running;  ///< of the last traffic
-    std::optional<OccupiedAreas> agreed;   ///< of a plan since then
-    std::optional<OccupiedAreas> before;   ///< of the plan before that
-    std::optional<Prediction> predicted;
+    std::optional<coordination::OccupiedAreas> running;  ///< of the last traffic
+    std::optional<coordination::OccupiedAreas> agreed;   ///< of a plan since then
+    std::optional<coordination::OccupiedAreas> before;   ///< of the plan before that
+    std::optional<coordination::Prediction> predicted;
     std::optional<Nanoseconds> outside_since;
     Nanoseconds last_plan{};
     bool is_reported{};

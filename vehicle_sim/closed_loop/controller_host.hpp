@@ -12,7 +12,7 @@ namespace hlc::closed_loop {
 /// The endpoints of a controller, as in hlc_process.cpp. There are no requests for other subgraphs.
 class ControllerHost : public Host {
  public:
-  using Machine = HlcMachine;
+  using Machine = high_level_controller::HlcMachine;
   using Host::perform;
 
   [[nodiscard]] static NodeDescription description(std::uint8_t vehicle) {
@@ -32,7 +32,7 @@ class ControllerHost : public Host {
                       {TopicId::kSystemTrigger},
                       {TopicId::kStateList, vehicle}}};
   }
-  void attach(const ProcessPlace& place, const HlcMachine& machine) {
+  void attach(const ProcessPlace& place, const high_level_controller::HlcMachine& machine) {
     set_place(place);
     machine_ = &machine;
   }
@@ -41,11 +41,11 @@ class ControllerHost : public Host {
   void receive(std::size_t topic, const Message& message, Process& process) {
     switch (topic) {
       case kReceivedTraffic:
-        return process.post(std::get<Traffic>(message));
+        return process.post(std::get<coordination::Traffic>(message));
       case kReceivedPredictions:
-        return process.post(std::get<Prediction>(message));
+        return process.post(std::get<coordination::Prediction>(message));
       case kReceivedOutcomes:
-        return process.post(std::get<Outcome>(message));
+        return process.post(std::get<coordination::Outcome>(message));
       case kRunStates:
         return process.post_urgent(std::get<RunState>(message));
       case kLists:
@@ -61,7 +61,7 @@ class ControllerHost : public Host {
     }
   }
 
-  [[nodiscard]] HlcPeers presence() const {
+  [[nodiscard]] high_level_controller::HlcPeers presence() const {
     std::set<std::string> receivers = readers(kTraffic);
     for (const std::size_t topic : {kPredictions, kOutcomes}) {
       const std::set<std::string> others = readers(topic);
@@ -75,21 +75,21 @@ class ControllerHost : public Host {
             .stop_request_readers = readers(kStopRequests).size()};
   }
 
-  void perform(const Traffic& traffic) const {
+  void perform(const coordination::Traffic& traffic) const {
     place().observer->on_traffic(traffic);
     publish(kTraffic, traffic);
   }
-  void perform(const Prediction& prediction) const {
+  void perform(const coordination::Prediction& prediction) const {
     place().observer->on_prediction(prediction);
     publish(kPredictions, prediction);
   }
-  void perform(const Outcome& outcome) const { publish(kOutcomes, outcome); }
+  void perform(const coordination::Outcome& outcome) const { publish(kOutcomes, outcome); }
   void perform(const TrajectoryCommand& command) const {
     place().observer->on_command(command);
     publish(kCommands, command);
   }
   void perform(const ReportRecord& record) const {
-    const Controller& controller = machine_->controller();
+    const controller::Controller& controller = machine_->controller();
     place().observer->on_report(record,
                                 controller.has_plan() ? &controller.plan_in_force() : nullptr);
     publish(kReports, record);
@@ -97,9 +97,9 @@ class ControllerHost : public Host {
   void perform(const ReadyStatus& status) const { publish(kReady, status); }
   void perform(const StopRequest& request) const { publish(kStopRequests, request); }
   void perform(const AutomatonAnswer& /*answer*/) const {}
-  void perform(const PrepareRequest& /*request*/) const {}
-  void perform(const DrawStep& /*step*/) const {}
-  void perform(const AfterStep& /*step*/) const {}
+  void perform(const high_level_controller::PrepareRequest& /*request*/) const {}
+  void perform(const high_level_controller::DrawStep& /*step*/) const {}
+  void perform(const high_level_controller::AfterStep& /*step*/) const {}
 
  private:
   enum Writes : std::size_t {
@@ -121,7 +121,7 @@ class ControllerHost : public Host {
     kLists
   };
 
-  const HlcMachine* machine_{};
+  const high_level_controller::HlcMachine* machine_{};
 };
 
 }  // namespace hlc::closed_loop

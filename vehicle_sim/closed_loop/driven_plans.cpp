@@ -26,7 +26,7 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
   return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
 }
 
-void DrivenPlans::published(const Traffic& traffic) {
+void DrivenPlans::published(const coordination::Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
   car.announced = traffic.running;
   if (has_newest_plan(car)) return;
@@ -38,22 +38,22 @@ void DrivenPlans::published(const Traffic& traffic) {
 
 /// Where a vehicle stands after its plan, unless its controller is mistaken or does not know
 /// either.
-void DrivenPlans::note_standing(Car& car, const Report& report) {
+void DrivenPlans::note_standing(Car& car, const coordination::Report& report) {
   car.stands.reset();
   if (!car.driven || !car.driven->areas || !car.announced) return;
-  const OccupiedAreas& areas = *car.driven->areas;
+  const coordination::OccupiedAreas& areas = *car.driven->areas;
   const bool has_run_out = report.step.value >= areas.first.value + areas.areas_m.size();
   const bool stands = car.announced->first == report.step && car.announced->areas_m.empty();
   if (has_run_out && stands && has_newest_plan(car) &&
-      report.reason != FallbackReason::kDeviation) {
+      report.reason != coordination::FallbackReason::kDeviation) {
     car.stands = car.announced;
   }
 }
 
-void DrivenPlans::reported(const Report& report, const Plan* in_force) {
+void DrivenPlans::reported(const coordination::Report& report, const coordination::Plan* in_force) {
   Car& car = cars_[report.vehicle];
   note_standing(car, report);
-  if (report.status == StepStatus::kPlanned) {
+  if (report.status == coordination::StepStatus::kPlanned) {
     if (has_newest_plan(car)) car.missed_since = report.step;
     Agreed agreed{.number = ++car.num_agreed,
                   .begin = (report.step.value + 1) * period_,
@@ -65,10 +65,11 @@ void DrivenPlans::reported(const Report& report, const Plan* in_force) {
   } else if (in_force != nullptr) {
     car.agreed = kept_plan(car, report, *in_force);
   }
-  if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby) {
+  if (report.reason == coordination::FallbackReason::kDeviation ||
+      report.status == coordination::StepStatus::kStandby) {
     car.is_mistaken = false;
   }
-  if (report.reason == FallbackReason::kDeviation && car.changed_over_late != 0 &&
+  if (report.reason == coordination::FallbackReason::kDeviation && car.changed_over_late != 0 &&
       report.step.value * period_ <= car.changed_over_late + 2 * period_) {
     car.out_of_reach_until = report.step.value * period_ + kAfterwards;
   }
@@ -80,8 +81,8 @@ void DrivenPlans::reported(const Report& report, const Plan* in_force) {
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
 /// vehicle was seen on, or one that has been anchored where it stands. The last one needs no
 /// command: what is received already counts as received.
-DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& report,
-                                               const Plan& in_force) {
+DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const coordination::Report& report,
+                                               const coordination::Plan& in_force) {
   const Pose& last_pose = in_force.pose_at(in_force.end());
   const auto is_same = [&](const AgreedPlan& plan) {
     return plan && plan->end == in_force.end() && plan->last_pose == last_pose;
@@ -95,7 +96,8 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const Report& rep
                   .last_pose = last_pose,
                   .areas = std::nullopt,
                   .is_anchored = true};
-  if (report.status != StepStatus::kStandby) anchored.areas = in_force.areas_from(report.step);
+  if (report.status != coordination::StepStatus::kStandby)
+    anchored.areas = in_force.areas_from(report.step);
   return std::make_shared<const Agreed>(std::move(anchored));
 }
 
@@ -180,13 +182,13 @@ void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
 void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
   const Car& car = cars_.at(vehicle);
   if (!is_judged(vehicle, car, tick) || car.driven->is_anchored) return;
-  const OccupiedAreas& areas = *car.driven->areas;
+  const coordination::OccupiedAreas& areas = *car.driven->areas;
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_judged(other, its, tick)) continue;
-    const OccupiedAreas& its_areas = its.stands ? *its.stands : *its.driven->areas;
+    const coordination::OccupiedAreas& its_areas = its.stands ? *its.stands : *its.driven->areas;
     const StepIndex from = std::max({now, areas.first, its_areas.first});
-    if (are_free(areas, its_areas, from, horizon_steps_) ||
+    if (coordination::are_free(areas, its_areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }

@@ -44,11 +44,13 @@ class DrivenPlans {
   DrivenPlans(std::size_t horizon_steps, Nanoseconds period)
       : horizon_steps_(horizon_steps), period_(period) {}
 
-  void predicted(const Prediction& prediction) { cars_[prediction.vehicle].predicted = prediction; }
-  void published(const Traffic& traffic);
+  void predicted(const coordination::Prediction& prediction) {
+    cars_[prediction.vehicle].predicted = prediction;
+  }
+  void published(const coordination::Traffic& traffic);
   void commanded(const TrajectoryCommand& command);
   /// What was commanded before in the same step is of the plan in force after it.
-  void reported(const Report& report, const Plan* in_force);
+  void reported(const coordination::Report& report, const coordination::Plan* in_force);
   void received(const TrajectoryCommand& command);
   /// @param follows  create_stamp of the command that is followed; 0: none
   void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
@@ -68,7 +70,7 @@ class DrivenPlans {
     Nanoseconds begin{};
     StepIndex end;  ///< with the last pose, the identity of a plan
     Pose last_pose;
-    std::optional<OccupiedAreas> areas;  ///< none: not known to anybody
+    std::optional<coordination::OccupiedAreas> areas;  ///< none: not known to anybody
     bool is_anchored{};
   };
   using AgreedPlan = std::shared_ptr<const Agreed>;
@@ -77,17 +79,17 @@ class DrivenPlans {
     AgreedPlan plan;
   };
   struct Car {
-    std::optional<Prediction> predicted;
-    std::optional<OccupiedAreas> announced;  ///< in its last traffic
-    std::optional<OccupiedAreas> stands;     ///< announced after the driven plan
+    std::optional<coordination::Prediction> predicted;
+    std::optional<coordination::OccupiedAreas> announced;  ///< in its last traffic
+    std::optional<coordination::OccupiedAreas> stands;     ///< announced after the driven plan
     AgreedPlan agreed{std::make_shared<const Agreed>()};
     std::uint64_t num_agreed{};
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
     bool is_mistaken{};
     std::deque<Sent> sent;  ///< the newest last
     bool is_commanded_to_stand{};
-    std::vector<std::pair<Nanoseconds, Nanoseconds>>
-        received;                ///< valid from, create; not yet valid
+    /// Valid from, create; not yet valid
+    std::vector<std::pair<Nanoseconds, Nanoseconds>> received;
     Nanoseconds newest_valid{};  ///< create, of those received
     Nanoseconds follows{};
     AgreedPlan driven;
@@ -95,11 +97,11 @@ class DrivenPlans {
     Nanoseconds out_of_reach_until{};
   };
 
-  static void note_standing(Car& car, const Report& report);
+  static void note_standing(Car& car, const coordination::Report& report);
   [[nodiscard]] static AgreedPlan plan_of(const Car& car, Nanoseconds create);
   [[nodiscard]] static bool has_newest_plan(const Car& car);
-  [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const Report& report,
-                                            const Plan& in_force);
+  [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const coordination::Report& report,
+                                            const coordination::Plan& in_force);
   [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
                                            Nanoseconds tick);
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;

@@ -20,23 +20,23 @@
 #include "planner/policy/subgraph_selector.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
-namespace hlc {
+namespace hlc::closed_loop {
 namespace {
 
 /// A vehicle with its controller.
 struct Member {
   std::uint8_t id;
-  SimulatedVehicle vehicle;
-  HlcCore hlc;
-  ControlLoop loop;  ///< over the controller of `hlc`
-  SubgraphSelector choice;
+  simulated_vehicle::SimulatedVehicle vehicle;
+  high_level_controller::HlcCore hlc;
+  controller::ControlLoop loop;  ///< over the controller of `hlc`
+  policy::SubgraphSelector choice;
   bool is_stop_requested{};
   bool has_left{};
 };
 
-LabRunSettings settings_of(const Scenario& scenario, std::uint64_t steps) {
-  LabRunSettings settings;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+lab_control::LabRunSettings settings_of(const scenario::Scenario& scenario, std::uint64_t steps) {
+  lab_control::LabRunSettings settings;
+  for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     settings.vehicle_ids.push_back(vehicle.id.value);
   }
   settings.period =
@@ -52,27 +52,29 @@ std::function<Nanoseconds()> or_zero(const std::function<Nanoseconds()>& clock) 
 
 class Lab {
  public:
-  Lab(const Scenario& scenario, const ExperimentOptions& options)
+  Lab(const scenario::Scenario& scenario, const ExperimentOptions& options)
       : settings_(settings_of(scenario, options.steps)),
         run_(settings_),
         rules_(options.rules),
         wall_clock_(or_zero(options.clocks.wall)),
         cpu_clock_(or_zero(options.clocks.cpu)) {
-    for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
       const std::uint8_t id = vehicle.id.value;
-      SimulatedVehicleOptions simulated{
-          .vehicle_id = id, .start = measured_start(scenario, vehicle), .gains = options.gains};
+      simulated_vehicle::SimulatedVehicleOptions simulated{
+          .vehicle_id = id,
+          .start = scenario::measured_start(scenario, vehicle),
+          .gains = options.gains};
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
-      HlcCore hlc(make_controller(scenario, vehicle.id));
-      ControlLoop loop(hlc.controller(), cpu_clock_);
-      SubgraphSelector choice(hlc.controller(), scenario.reconfiguration);
+      high_level_controller::HlcCore hlc(scenario::make_controller(scenario, vehicle.id));
+      controller::ControlLoop loop(hlc.controller(), cpu_clock_);
+      policy::SubgraphSelector choice(hlc.controller(), scenario.reconfiguration);
       members_.push_back({.id = id,
-                          .vehicle = SimulatedVehicle(simulated),
+                          .vehicle = simulated_vehicle::SimulatedVehicle(simulated),
                           .hlc = std::move(hlc),
                           .loop = std::move(loop),
                           .choice = std::move(choice)});
     }
-    std::ranges::sort(members_, plans_before,
+    std::ranges::sort(members_, coordination::plans_before,
                       [](const Member& member) { return VehicleId{member.id}; });
   }
 
@@ -130,7 +132,7 @@ class Lab {
 
   void tick(Member& member, Nanoseconds t) {
     if (member.has_left) return;
-    const SimulatedVehicle::Tick done = member.vehicle.tick(t);
+    const simulated_vehicle::SimulatedVehicle::Tick done = member.vehicle.tick(t);
     states_.add(member.id, done.state);
     experiment_.drives[member.id].push_back(done.driven);
     if (member.is_stop_requested && !member.vehicle.is_braking()) {
@@ -147,28 +149,31 @@ class Lab {
     const std::vector<std::int32_t> active(settings_.vehicle_ids.begin(),
                                            settings_.vehicle_ids.end());
     states_.forget_before(t_now);
-    const VehicleStateList list = compose_state_list(states_, t_now, settings_.period, active);
+    const VehicleStateList list =
+        middleware::compose_state_list(states_, t_now, settings_.period, active);
     std::vector<ReportRecord> reports = step_controllers(list);
     for (std::size_t i = 0; i < members_.size(); ++i) {
       Member& member = members_[i];
-      const AnswerToList answer = member.hlc.answer(list);
+      const high_level_controller::AnswerToList answer = member.hlc.answer(list);
       forward(answer.command, t_now, member);
       if (answer.copy) forward(*answer.copy, t_now, member);
-      reports[i].report = with_answer(std::move(reports[i].report), answer);
+      reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
       report(reports[i]);
-      if (reports[i].report.status == StepStatus::kStandby) continue;
+      if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
   }
 
   /// In the order of the members.
   std::vector<ReportRecord> step_controllers(const VehicleStateList& list) {
-    Observation observation;
+    controller::Observation observation;
     bool begins = true;
     for (Member& member : members_) {
       observation = member.hlc.observe(list).value();
       if (!member.hlc.has_begun()) member.hlc.note(list, observation);
-      begins = member.hlc.begins(list, observation, StartRule::kTogether, std::nullopt) && begins;
+      begins = member.hlc.begins(list, observation, high_level_controller::StartRule::kTogether,
+                                 std::nullopt) &&
+               begins;
     }
     observation.present = observation.active;
     if (begins && !start_) start_ = observation.step;
@@ -176,8 +181,9 @@ class Lab {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       Member& member = members_[i];
       const Nanoseconds from_cpu = cpu_clock_();
-      static_cast<void>(member.choice.begin_step(member.hlc.controller(), observation.step, start_,
-                                                 battery_voltage_v(list, VehicleId{member.id})));
+      static_cast<void>(member.choice.begin_step(
+          member.hlc.controller(), observation.step, start_,
+          high_level_controller::battery_voltage_v(list, VehicleId{member.id})));
       records[i].planning_ns = cpu_clock_() - from_cpu;
     }
     if (begins) {
@@ -190,18 +196,18 @@ class Lab {
     return records;
   }
 
-  void run_step(const Observation& observation, std::vector<ReportRecord>& records) {
-    std::vector<ControlLoop*> loops;
+  void run_step(const controller::Observation& observation, std::vector<ReportRecord>& records) {
+    std::vector<controller::ControlLoop*> loops;
     for (Member& member : members_) loops.push_back(&member.loop);
     double planning_s = 0.0;
-    JointStepRules rules = rules_;
+    controller::JointStepRules rules = rules_;
     rules.around_planning = [&](const std::function<void()>& plan) {
       const Nanoseconds from = wall_clock_();
       plan();
       planning_s += seconds_since(from);
     };
     const Nanoseconds from = wall_clock_();
-    std::vector<Report> reports = joint_step(loops, observation, rules);
+    std::vector<coordination::Report> reports = controller::joint_step(loops, observation, rules);
     const double step_s = seconds_since(from);
     for (std::size_t i = 0; i < reports.size(); ++i) {
       records[i].report = std::move(reports[i]);
@@ -218,7 +224,8 @@ class Lab {
 
   static void forward(const TrajectoryCommand& command, Nanoseconds t_now, Member& member) {
     const std::vector<std::uint8_t> own{member.id};
-    if (check_command(command, t_now, t_now, own).forward) member.vehicle.receive(command);
+    if (middleware::check_command(command, t_now, t_now, own).forward)
+      member.vehicle.receive(command);
   }
 
   void stop() {
@@ -229,8 +236,8 @@ class Lab {
   }
 
   void write_facts() {
-    const LabRunResult& result = run_.result();
-    RunFacts& facts = experiment_.facts;
+    const lab_control::LabRunResult& result = run_.result();
+    result::RunFacts& facts = experiment_.facts;
     facts.simulated_time = true;
     facts.vehicle_ids = settings_.vehicle_ids;
     facts.period = settings_.period;
@@ -242,13 +249,13 @@ class Lab {
     facts.died = result.deaths;
   }
 
-  LabRunSettings settings_;
-  LogicalRun run_;
-  JointStepRules rules_;
+  lab_control::LabRunSettings settings_;
+  lab_control::LogicalRun run_;
+  controller::JointStepRules rules_;
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
-  StateBuffer states_;
+  middleware::StateBuffer states_;
   std::optional<StepIndex> start_;  ///< first step of the experiment, once it has begun
   std::set<std::string> alive_;
   std::set<std::string> lost_;
@@ -257,8 +264,8 @@ class Lab {
 
 }  // namespace
 
-Experiment drive_experiment(const Scenario& scenario, const ExperimentOptions& options) {
+Experiment drive_experiment(const scenario::Scenario& scenario, const ExperimentOptions& options) {
   return Lab(scenario, options).drive();
 }
 
-}  // namespace hlc
+}  // namespace hlc::closed_loop

@@ -10,7 +10,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/tracking/follower.hpp"
 
-namespace hlc {
+namespace hlc::closed_loop {
 
 /// Clocks for measured times; without a clock they are 0. Nothing else depends on them.
 struct Clocks {
@@ -24,10 +24,10 @@ struct ExperimentOptions {
   std::uint64_t steps{150};
   /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
   std::optional<std::uint64_t> noise_seed{};
-  FollowerGains gains{};
+  tracking::FollowerGains gains{};
   Clocks clocks{};
   /// Disturbances of the controllers' steps. Default: no losses, no delays.
-  JointStepRules rules{};
+  controller::JointStepRules rules{};
 };
 
 /// Wall time of a run by part. The rest of RunFacts::wall_s: state lists, commands, lab control,
@@ -40,9 +40,9 @@ struct WallTimes {
 
 /// The content of a run folder.
 struct Experiment {
-  RunFacts facts;
+  result::RunFacts facts;
   std::vector<ReportRecord> reports;
-  Drives drives;
+  result::Drives drives;
   WallTimes wall;
 };
 
@@ -56,7 +56,7 @@ struct Experiment {
 /// All middlewares receive the same, so one buffer represents all of theirs.
 ///
 /// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
-[[nodiscard]] Experiment drive_experiment(const Scenario& scenario,
+[[nodiscard]] Experiment drive_experiment(const scenario::Scenario& scenario,
                                           const ExperimentOptions& options);
 
-}  // namespace hlc
+}  // namespace hlc::closed_loop

@@ -30,10 +30,10 @@ FaultStyle any_style(SeededRandom& random) {
 
 }  // namespace
 
-Scenario crowded(Scenario scenario, std::size_t cars) {
+scenario::Scenario crowded(scenario::Scenario scenario, std::size_t cars) {
   const std::size_t routes = scenario.vehicles.size();
   for (std::size_t i = routes; i < cars; ++i) {
-    ScenarioVehicle vehicle = scenario.vehicles[i % routes];
+    scenario::ScenarioVehicle vehicle = scenario.vehicles[i % routes];
     vehicle.id = {static_cast<std::uint8_t>(i + 1)};
     vehicle.name += "_" + std::to_string(i + 1);
     scenario.vehicles.push_back(std::move(vehicle));
@@ -43,13 +43,13 @@ Scenario crowded(Scenario scenario, std::size_t cars) {
 
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
   const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";
-  const Scenario paper =
-      read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
-  const PreparedSubgraph on_paper = prepare_subgraph_of(paper);
+  const scenario::Scenario paper =
+      scenario::read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
+  const controller::PreparedSubgraph on_paper = scenario::prepare_subgraph_of(paper);
   for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
     if (settings_.cars != 0 && settings_.cars != cars) continue;
-    Scenario on_circle = read_scenario({.file = circle, .cars = cars});
-    PreparedSubgraph prepared = prepare_subgraph_of(on_circle);
+    scenario::Scenario on_circle = scenario::read_scenario({.file = circle, .cars = cars});
+    controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(on_circle);
     scenarios_.emplace(
         cars, Scenarios{.circle = {std::move(on_circle), std::move(prepared)},
                         .paper = {.scenario = crowded(paper, cars), .subgraph = on_paper}});
@@ -63,7 +63,8 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   std::advance(chosen, static_cast<std::ptrdiff_t>(random.below(scenarios_.size())));
   const bool is_paper = random.chance(0.7);
   const Prepared& drawn = is_paper ? chosen->second.paper : chosen->second.circle;
-  the_case.scenario = is_paper ? with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
+  the_case.scenario =
+      is_paper ? scenario::with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
   FaultRunSettings& run = the_case.run;
   run.lab.prepared = drawn.subgraph;
   run.lab.seed = seed;
@@ -75,7 +76,7 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
                          .kinds = settings_.kinds,
                          .last = is_paper ? kLastFault : kLastFaultOnCircle};
   if (run.lab.is_logical) plan.last = kLastLogicalFault;
-  for (const ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
+  for (const scenario::ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
     plan.vehicle_ids.push_back(vehicle.id.value);
   }
   run.faults = draw_faults(random.next(), plan);

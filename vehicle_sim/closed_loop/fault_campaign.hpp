@@ -22,7 +22,7 @@ struct FaultCampaignSettings {
 /// The case of a seed.
 struct FaultCase {
   std::uint64_t seed{};
-  Scenario scenario;
+  scenario::Scenario scenario;
   FaultRunSettings run;
 };
 
@@ -38,7 +38,7 @@ struct Shrunk {
 
 /// The scenario with so many cars, the further ones on the same routes; for random starts.
 /// @pre vehicles are numbered from 1
-[[nodiscard]] Scenario crowded(Scenario scenario, std::size_t cars);
+[[nodiscard]] scenario::Scenario crowded(scenario::Scenario scenario, std::size_t cars);
 
 /// Runs with faults, one for each seed. A seed chooses
 ///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
@@ -64,8 +64,8 @@ class FaultCampaign {
  private:
   FaultCampaignSettings settings_;
   struct Prepared {
-    Scenario scenario;
-    PreparedSubgraph subgraph;
+    scenario::Scenario scenario;
+    controller::PreparedSubgraph subgraph;
   };
   struct Scenarios {
     Prepared circle;

@@ -81,7 +81,7 @@ void finish(const Fault& fault, SimulatedLab& lab) {
 
 class FaultRun {
  public:
-  FaultRun(const Scenario& scenario, const FaultRunSettings& settings, const Trace& trace)
+  FaultRun(const scenario::Scenario& scenario, const FaultRunSettings& settings, const Trace& trace)
       : settings_(settings),
         calm_from_(end_of(settings.faults)),
         judges_(scenario, calm_from_, trace),
@@ -198,7 +198,7 @@ class FaultRun {
 
 }  // namespace
 
-FaultRunResult run_with_faults(const Scenario& scenario, const FaultRunSettings& settings,
+FaultRunResult run_with_faults(const scenario::Scenario& scenario, const FaultRunSettings& settings,
                                const Trace& trace) {
   return FaultRun(scenario, settings, trace).drive();
 }

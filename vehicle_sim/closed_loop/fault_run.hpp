@@ -25,7 +25,7 @@ struct FaultRunSettings {
 ///
 /// A killed process is restarted at the end of the fault, a vehicle at its last pose.
 /// @throws std::invalid_argument where the machines do
-[[nodiscard]] FaultRunResult run_with_faults(const Scenario& scenario,
+[[nodiscard]] FaultRunResult run_with_faults(const scenario::Scenario& scenario,
                                              const FaultRunSettings& settings,
                                              const Trace& trace = {});
 

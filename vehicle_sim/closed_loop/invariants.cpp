@@ -90,35 +90,39 @@ bool FootprintsCheck::touches_first_time(const Cars::value_type& a, const Cars::
 // --- plans --------------------------------------------------------------------------------------
 
 bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
-  const bool has_run_out = now.value > plan.last_report.value + horizon_steps_ + 1 + kSilentSteps;
+  const bool has_run_out =
+      now.value > plan.last_report.value + horizon_steps_ + 1 + coordination::kSilentSteps;
   const bool is_silent = now.value > plan.last_report.value + 1;
   return !has_run_out && (plan.is_received || !is_silent);
 }
 
-void PlansCheck::reported(const Report& report, const Plan* in_force, Nanoseconds at,
-                          Violations& violations) {
+void PlansCheck::reported(const coordination::Report& report, const coordination::Plan* in_force,
+                          Nanoseconds at, Violations& violations) {
   const VehicleId vehicle = report.vehicle;
   const auto before = in_force_.find(vehicle);
   if (before != in_force_.end()) {
     before->second.last_report = report.step;
-    if (report.reason == FallbackReason::kDeviation || report.status == StepStatus::kStandby ||
-        (report.status != StepStatus::kPlanned && in_force != nullptr && is_anchored(*in_force))) {
+    if (report.reason == coordination::FallbackReason::kDeviation ||
+        report.status == coordination::StepStatus::kStandby ||
+        (report.status != coordination::StepStatus::kPlanned && in_force != nullptr &&
+         is_anchored(*in_force))) {
       in_force_.erase(before);
     }
   }
   const auto predicted = predicted_.find(vehicle);
-  if (report.status != StepStatus::kPlanned || predicted == predicted_.end() ||
+  if (report.status != coordination::StepStatus::kPlanned || predicted == predicted_.end() ||
       predicted->second.step != report.step) {
     return;
   }
-  const OccupiedAreas& areas = (in_force_[vehicle] = {.areas = std::move(predicted->second.areas),
-                                                      .last_report = report.step})
-                                   .areas;
+  const coordination::OccupiedAreas& areas =
+      (in_force_[vehicle] = {.areas = std::move(predicted->second.areas),
+                             .last_report = report.step})
+          .areas;
   predicted_.erase(predicted);
   for (const auto& [other, plan] : in_force_) {
     const StepIndex from = std::max(areas.first, plan.areas.first);
     if (other == vehicle || !is_relied_on(plan, report.step) ||
-        are_free(areas, plan.areas, from, horizon_steps_) ||
+        coordination::are_free(areas, plan.areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }
@@ -166,15 +170,17 @@ void ReasonsCheck::judge(Nanoseconds at, Violations& violations) {
 // --- planning -----------------------------------------------------------------------------------
 
 void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
-  const Report& report = record.report;
-  last_[report.vehicle.value] =
-      std::string(to_string(report.status)) + ", " + to_string(report.reason);
+  const coordination::Report& report = record.report;
+  last_[report.vehicle.value] = std::string(coordination::to_string(report.status)) + ", " +
+                                coordination::to_string(report.reason);
   if (at < calm_from_) return;
-  const bool cannot =
-      report.reason == FallbackReason::kInfeasible || report.reason == FallbackReason::kConflict ||
-      report.reason == FallbackReason::kBudget || report.reason == FallbackReason::kOffRoute ||
-      report.status == StepStatus::kMinimalRiskStop;
-  if (cannot || report.status == StepStatus::kPlanned) plans_[report.vehicle.value] = true;
+  const bool cannot = report.reason == coordination::FallbackReason::kInfeasible ||
+                      report.reason == coordination::FallbackReason::kConflict ||
+                      report.reason == coordination::FallbackReason::kBudget ||
+                      report.reason == coordination::FallbackReason::kOffRoute ||
+                      report.status == coordination::StepStatus::kMinimalRiskStop;
+  if (cannot || report.status == coordination::StepStatus::kPlanned)
+    plans_[report.vehicle.value] = true;
 }
 
 void PlanningCheck::judge(const std::vector<std::uint8_t>& able, Nanoseconds at,

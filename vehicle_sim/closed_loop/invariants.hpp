@@ -73,7 +73,9 @@ class FootprintsCheck {
 };
 
 /// The plan to stand where the vehicle stands, which nobody has agreed to.
-[[nodiscard]] inline bool is_anchored(const Plan& plan) { return plan.first() == plan.end(); }
+[[nodiscard]] inline bool is_anchored(const coordination::Plan& plan) {
+  return plan.first() == plan.end();
+}
 
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
 /// changes. A plan is given by the areas that its vehicle has announced (Prediction::areas, with
@@ -95,8 +97,11 @@ class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
 
-  void predicted(const Prediction& prediction) { predicted_[prediction.vehicle] = prediction; }
-  void reported(const Report& report, const Plan* in_force, Nanoseconds at, Violations& violations);
+  void predicted(const coordination::Prediction& prediction) {
+    predicted_[prediction.vehicle] = prediction;
+  }
+  void reported(const coordination::Report& report, const coordination::Plan* in_force,
+                Nanoseconds at, Violations& violations);
   /// Whether the vehicle has received its plan in force.
   void received(VehicleId vehicle, bool is_received) {
     const auto found = in_force_.find(vehicle);
@@ -107,14 +112,14 @@ class PlansCheck {
   using Pair = std::pair<VehicleId, VehicleId>;
 
   struct InForce {
-    OccupiedAreas areas;
+    coordination::OccupiedAreas areas;
     StepIndex last_report;
     bool is_received{true};
   };
   [[nodiscard]] bool is_relied_on(const InForce& plan, StepIndex now) const;
 
   std::size_t horizon_steps_;
-  std::map<VehicleId, Prediction> predicted_;
+  std::map<VehicleId, coordination::Prediction> predicted_;
   std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;
 };

@@ -14,7 +14,7 @@ namespace hlc::closed_loop {
 /// The endpoints of the lab control, as in lab_control_process.cpp.
 class LabControlHost : public Host {
  public:
-  using Machine = LabControlMachine;
+  using Machine = lab_control::LabControlMachine;
   using Host::perform;
 
   [[nodiscard]] static NodeDescription description(const std::vector<std::uint8_t>& all,
@@ -30,7 +30,7 @@ class LabControlHost : public Host {
     for (const std::uint8_t id : all) description.reads.push_back({TopicId::kVehicleState, id});
     return description;
   }
-  void attach(const ProcessPlace& place, const LabControlMachine& machine) {
+  void attach(const ProcessPlace& place, const lab_control::LabControlMachine& machine) {
     set_place(place);
     machine_ = &machine;
   }
@@ -52,7 +52,7 @@ class LabControlHost : public Host {
     if (is_gathering_) process.post(std::get<VehicleState>(message));
   }
 
-  [[nodiscard]] LabControlPresence presence() const {
+  [[nodiscard]] lab_control::LabControlPresence presence() const {
     machine::Participants both = participants(Domain::kLab);
     const machine::Participants controllers = participants(Domain::kControllers);
     both.alive.insert(controllers.alive.begin(), controllers.alive.end());
@@ -65,7 +65,7 @@ class LabControlHost : public Host {
 
   void perform(const ReportRecord& /*record*/) const {}
   void perform(const Log& /*log*/) const {}
-  void perform(const ProgressText& /*text*/) const {}
+  void perform(const lab_control::ProgressText& /*text*/) const {}
   void perform(const SystemTrigger& trigger) const { publish(kTriggers, trigger); }
   void perform(const Parameter& parameter) const { publish(kParameters, parameter); }
   void perform(const RunState& state) {
@@ -74,7 +74,7 @@ class LabControlHost : public Host {
   }
   /// The run's result, which the process logs last.
   void log_end() const {
-    const LabRunResult& result = machine_->run().result();
+    const lab_control::LabRunResult& result = machine_->run().result();
     perform(result.exit_code == kExitGood ? machine::info("all steps driven")
                                           : machine::error(result.reason));
   }
@@ -83,7 +83,7 @@ class LabControlHost : public Host {
   enum Writes : std::size_t { kTriggers, kParameters, kRunStates };
   enum Reads : std::size_t { kReady, kRequests, kStopRequests, kReports };
 
-  const LabControlMachine* machine_{};
+  const lab_control::LabControlMachine* machine_{};
   bool is_gathering_{true};
 };
 

@@ -14,7 +14,7 @@ namespace hlc::closed_loop {
 /// The endpoints of the middleware of one vehicle, as in middleware_process.cpp.
 class MiddlewareHost : public Host {
  public:
-  using Machine = MiddlewareMachine;
+  using Machine = middleware::MiddlewareMachine;
   using Host::perform;
 
   MiddlewareHost(std::uint8_t vehicle, std::vector<std::uint8_t> all)
@@ -35,7 +35,9 @@ class MiddlewareHost : public Host {
     for (const std::uint8_t id : all) description.reads.push_back({TopicId::kVehicleState, id});
     return description;
   }
-  void attach(const ProcessPlace& place, const MiddlewareMachine& /*machine*/) { set_place(place); }
+  void attach(const ProcessPlace& place, const middleware::MiddlewareMachine& /*machine*/) {
+    set_place(place);
+  }
 
   template <class Process>
   void receive(std::size_t topic, const Message& message, Process& process) {
@@ -45,7 +47,8 @@ class MiddlewareHost : public Host {
       case kTriggers:
         return take(std::get<SystemTrigger>(message), process);
       case kCommands:
-        return process.post_urgent(VehicleCommand{std::get<TrajectoryCommand>(message)});
+        return process.post_urgent(
+            middleware::VehicleCommand{std::get<TrajectoryCommand>(message)});
       case kControllerReady:
         return process.post(std::get<ReadyStatus>(message));
       default:
@@ -53,13 +56,14 @@ class MiddlewareHost : public Host {
     }
     const std::uint8_t id = all_[topic - kFirstStates];
     if (subscribed_.contains(id)) {
-      process.post(PublishedState{.vehicle_id = id, .state = std::get<VehicleState>(message)});
+      process.post(
+          middleware::PublishedState{.vehicle_id = id, .state = std::get<VehicleState>(message)});
     }
   }
 
-  [[nodiscard]] MiddlewarePeers presence() const {
+  [[nodiscard]] middleware::MiddlewarePeers presence() const {
     const machine::Participants local = participants(Domain::kLocal);
-    MiddlewarePeers peers;
+    middleware::MiddlewarePeers peers;
     peers.lab_control_is_matched = !readers(kReady).empty() && !writers(kTriggers).empty();
     peers.lab_control_is_lost = participants(Domain::kLab).lost.contains(kLabControlName);
     peers.commands_are_sent = !writers(kCommands).empty();
@@ -75,7 +79,7 @@ class MiddlewareHost : public Host {
     return peers;
   }
 
-  void perform(const SubscribeToVehicles& subscribe) {
+  void perform(const middleware::SubscribeToVehicles& subscribe) {
     for (const std::int32_t id : subscribe.vehicle_ids) {
       subscribed_.insert(static_cast<std::uint8_t>(id));
     }
@@ -84,7 +88,7 @@ class MiddlewareHost : public Host {
   void perform(const VehicleStateList& list) const { publish(kLists, list); }
   void perform(const SystemTrigger& trigger) const { publish(kForwarded, trigger); }
   void perform(const GoalState& /*goal*/) const {}
-  void perform(const VehicleCommand& command) const {
+  void perform(const middleware::VehicleCommand& command) const {
     publish(kVehicleCommands, std::get<TrajectoryCommand>(command));
   }
   void perform(const ReadyStatus& status) const { publish(kReady, status); }

@@ -26,45 +26,51 @@ std::unique_ptr<SimulatedProcess> wrapped(const ProcessPlace& place, Host host,
                                                 kStartupTimeout);
 }
 
-LabControlMachine lab_control(const Scenario& scenario, const LabSettings& settings,
-                              const std::vector<std::uint8_t>& ids) {
+lab_control::LabControlMachine lab_control(const scenario::Scenario& scenario,
+                                           const LabSettings& settings,
+                                           const std::vector<std::uint8_t>& ids) {
   const double step_s = scenario.subgraph->automaton().step_s;
-  LabRunSettings run{.vehicle_ids = ids,
-                     .period = static_cast<Nanoseconds>(std::llround(1e9 * step_s)),
-                     .steps = settings.steps,
-                     .startup_timeout = kStartupTimeout};
+  lab_control::LabRunSettings run{.vehicle_ids = ids,
+                                  .period = static_cast<Nanoseconds>(std::llround(1e9 * step_s)),
+                                  .steps = settings.steps,
+                                  .startup_timeout = kStartupTimeout};
   if (settings.is_logical) {
-    return {std::make_unique<LogicalRun>(std::move(run)), kProgressInterval};
+    return {std::make_unique<lab_control::LogicalRun>(std::move(run)), kProgressInterval};
   }
-  run.on_death = OnDeath::kContinue;
+  run.on_death = lab_control::OnDeath::kContinue;
   run.steps = kEndless;
-  return {std::make_unique<RealTimeRun>(std::move(run)), kProgressInterval};
+  return {std::make_unique<lab_control::RealTimeRun>(std::move(run)), kProgressInterval};
 }
 
-VehicleMachine vehicle(std::uint8_t id, const Pose& start, const LabSettings& settings) {
-  return VehicleMachine(
+simulated_vehicle::VehicleMachine vehicle(std::uint8_t id, const Pose& start,
+                                          const LabSettings& settings) {
+  return simulated_vehicle::VehicleMachine(
       {.vehicle = {.vehicle_id = id, .start = start, .noise_seed = mixed(settings.seed, id)},
        .rules = settings.is_logical ? machine::logical_rules() : machine::real_rules(kVehicleStays),
        .startup_timeout = kStartupTimeout});
 }
 
-MiddlewareMachine middleware(std::uint8_t id, const LabSettings& settings) {
-  return MiddlewareMachine({.vehicle_ids = {id},
-                            .startup_timeout = kStartupTimeout,
-                            .rules = settings.is_logical ? logical_middleware_rules(false)
-                                                         : real_middleware_rules(false)});
+middleware::MiddlewareMachine middleware(std::uint8_t id, const LabSettings& settings) {
+  return middleware::MiddlewareMachine({.vehicle_ids = {id},
+                                        .startup_timeout = kStartupTimeout,
+                                        .rules = settings.is_logical
+                                                     ? middleware::logical_middleware_rules(false)
+                                                     : middleware::real_middleware_rules(false)});
 }
 
-HlcMachine controller(const Scenario& scenario, std::uint8_t id, const LabSettings& settings) {
+high_level_controller::HlcMachine controller(const scenario::Scenario& scenario, std::uint8_t id,
+                                             const LabSettings& settings) {
   const bool keeps_commands = settings.transport == Transport::kLoopback;
-  HlcRules rules = settings.is_logical
-                       ? rules_in_logical_time(keeps_commands)
-                       : rules_in_real_time(keeps_commands, StepDeadlines{}, kStartupTimeout);
+  high_level_controller::HlcRules rules =
+      settings.is_logical
+          ? high_level_controller::rules_in_logical_time(keeps_commands)
+          : high_level_controller::rules_in_real_time(
+                keeps_commands, high_level_controller::StepDeadlines{}, kStartupTimeout);
   rules.warms_up = false;
   return {{.rules = rules,
            .startup_timeout = kStartupTimeout,
            .reconfiguration = scenario.reconfiguration},
-          make_controller(scenario, VehicleId{id}, *settings.prepared)};
+          scenario::make_controller(scenario, VehicleId{id}, *settings.prepared)};
 }
 
 }  // namespace
@@ -83,10 +89,10 @@ std::string name_of(const ProcessKey& key) {
   return {};
 }
 
-ProcessFactory::ProcessFactory(const Scenario& scenario, const LabSettings& settings)
+ProcessFactory::ProcessFactory(const scenario::Scenario& scenario, const LabSettings& settings)
     : scenario_(&scenario), settings_(settings) {
-  if (!settings_.prepared) settings_.prepared = prepare_subgraph_of(scenario);
-  for (const ScenarioVehicle& one : scenario.vehicles) ids_.push_back(one.id.value);
+  if (!settings_.prepared) settings_.prepared = scenario::prepare_subgraph_of(scenario);
+  for (const scenario::ScenarioVehicle& one : scenario.vehicles) ids_.push_back(one.id.value);
 }
 
 std::vector<ProcessKey> ProcessFactory::processes() const {
@@ -131,7 +137,7 @@ std::unique_ptr<SimulatedProcess> ProcessFactory::make(const ProcessKey& key,
 }
 
 Pose ProcessFactory::first_pose(std::uint8_t vehicle) const {
-  return measured_start(*scenario_, vehicle_of(*scenario_, VehicleId{vehicle}));
+  return scenario::measured_start(*scenario_, scenario::vehicle_of(*scenario_, VehicleId{vehicle}));
 }
 
 }  // namespace hlc::closed_loop

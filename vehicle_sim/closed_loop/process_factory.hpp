@@ -29,13 +29,13 @@ struct LabSettings {
   Transport transport{};
   std::uint64_t steps{100};  ///< of the run in logical time; in real time it is interrupted
   /// The scenario's subgraph; none: each run prepares it.
-  std::optional<PreparedSubgraph> prepared{};
+  std::optional<controller::PreparedSubgraph> prepared{};
 };
 
 /// Creates the processes of a scenario's run, each as its program would: machine, rules, endpoints.
 class ProcessFactory {
  public:
-  ProcessFactory(const Scenario& scenario, const LabSettings& settings);
+  ProcessFactory(const scenario::Scenario& scenario, const LabSettings& settings);
 
   [[nodiscard]] const std::vector<std::uint8_t>& vehicle_ids() const { return ids_; }
   /// In the order in which they are numbered everywhere: the lab control, then by vehicle.
@@ -49,7 +49,7 @@ class ProcessFactory {
   [[nodiscard]] Pose first_pose(std::uint8_t vehicle) const;
 
  private:
-  const Scenario* scenario_;
+  const scenario::Scenario* scenario_;
   LabSettings settings_;
   std::vector<std::uint8_t> ids_;
 };

@@ -11,28 +11,28 @@
 namespace hlc::closed_loop {
 namespace {
 
-const UniversalAutomaton& automaton_of(const Scenario& scenario) {
+const automaton::UniversalAutomaton& automaton_of(const scenario::Scenario& scenario) {
   return scenario.subgraph->automaton();
 }
 
-Nanoseconds period_of(const Scenario& scenario) {
+Nanoseconds period_of(const scenario::Scenario& scenario) {
   return static_cast<Nanoseconds>(std::llround(1e9 * automaton_of(scenario).step_s));
 }
 
-std::map<std::uint8_t, Pose> starts_of(const Scenario& scenario) {
+std::map<std::uint8_t, Pose> starts_of(const scenario::Scenario& scenario) {
   std::map<std::uint8_t, Pose> starts;
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
-    starts[vehicle.id.value] = measured_start(scenario, vehicle);
+  for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+    starts[vehicle.id.value] = scenario::measured_start(scenario, vehicle);
   }
   return starts;
 }
 
-std::string report_line(const Report& report) {
+std::string report_line(const coordination::Report& report) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "vehicle %d, step %llu: %s, %s, at (%.3f, %.3f)",
                 int{report.vehicle.value}, static_cast<unsigned long long>(report.step.value),
-                to_string(report.status), to_string(report.reason), report.planned_pose.x_m,
-                report.planned_pose.y_m);
+                coordination::to_string(report.status), coordination::to_string(report.reason),
+                report.planned_pose.x_m, report.planned_pose.y_m);
   return text.data();
 }
 
@@ -44,7 +44,7 @@ std::string follows_line(std::uint8_t vehicle, Nanoseconds create, Nanoseconds p
 
 }  // namespace
 
-RunJudges::RunJudges(const Scenario& scenario, Nanoseconds calm_from, const Trace& trace)
+RunJudges::RunJudges(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace)
     : period_(period_of(scenario)),
       footprints_(automaton_of(scenario).vehicle.footprint, starts_of(scenario)),
       plans_(scenario.horizon_steps),
@@ -60,7 +60,8 @@ void RunJudges::on_log(NodeId node, const machine::LogLine& line) {
   trace([&] { return name + ": " + line.text; });
 }
 
-void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) {
+void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time,
+                          const result::DrivenSample& sample) {
   const Nanoseconds number = (time + kVehiclePeriod / 2) / kVehiclePeriod;
   const Nanoseconds tick = number * kVehiclePeriod;
   const VehicleId id{vehicle};
@@ -85,16 +86,16 @@ void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSa
   add_to_hash(sample.command_create);
 }
 
-void RunJudges::on_prediction(const Prediction& prediction) {
+void RunJudges::on_prediction(const coordination::Prediction& prediction) {
   plans_.predicted(prediction);
   driven_.predicted(prediction);
   announced_.predicted(prediction);
 }
 
-void RunJudges::on_report(const ReportRecord& record, const Plan* in_force) {
-  const Report& report = record.report;
+void RunJudges::on_report(const ReportRecord& record, const coordination::Plan* in_force) {
+  const coordination::Report& report = record.report;
   ++result_.car_steps;
-  if (report.status == StepStatus::kPlanned) ++result_.planned;
+  if (report.status == coordination::StepStatus::kPlanned) ++result_.planned;
   if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_)) ++result_.unreachable;
   planning_.report(record, lab_->now());
   plans_.reported(report, in_force, lab_->now(), result_.violations);

@@ -30,19 +30,20 @@ struct FaultRunResult {
 /// Everything that is judged and hashed while a run goes on.
 class RunJudges final : public RunObserver {
  public:
-  RunJudges(const Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
+  RunJudges(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
 
   /// Whose time and names are meant; before anything happens.
   void attach(SimulatedLab& lab) { lab_ = &lab; }
 
   void on_log(NodeId node, const machine::LogLine& line) override;
-  void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) override;
-  void on_traffic(const Traffic& traffic) override {
+  void on_driven(std::uint8_t vehicle, Nanoseconds time,
+                 const result::DrivenSample& sample) override;
+  void on_traffic(const coordination::Traffic& traffic) override {
     driven_.published(traffic);
     announced_.published(traffic);
   }
-  void on_prediction(const Prediction& prediction) override;
-  void on_report(const ReportRecord& record, const Plan* in_force) override;
+  void on_prediction(const coordination::Prediction& prediction) override;
+  void on_report(const ReportRecord& record, const coordination::Plan* in_force) override;
   void on_command(const TrajectoryCommand& command) override;
   void on_received(const TrajectoryCommand& command) override { driven_.received(command); }
   /// From now on it brakes at once, wherever it is and whoever is near: it is no longer judged.

@@ -19,14 +19,14 @@ constexpr Nanoseconds kMostDrift_ppb = 20'000;
 NetworkOptions network_options(const LabSettings& settings) {
   return {.seed = mixed(settings.seed, 1),
           .transport = settings.transport,
-          .lease = run_time(settings.is_logical).lease,
+          .lease = machine::run_time(settings.is_logical).lease,
           .least_delay = 50'000,
           .most_delay = settings.is_logical ? Nanoseconds{200'000} : kNanosecondsPerMillisecond};
 }
 
 }  // namespace
 
-SimulatedLab::SimulatedLab(const Scenario& scenario, const LabSettings& settings,
+SimulatedLab::SimulatedLab(const scenario::Scenario& scenario, const LabSettings& settings,
                            RunObserver& observer)
     : settings_(settings),
       factory_(scenario, settings),

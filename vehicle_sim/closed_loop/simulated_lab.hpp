@@ -46,7 +46,8 @@ struct Seat {
 class SimulatedLab {
  public:
   /// @param observer  is notified of events, during `step`; must outlive this object
-  SimulatedLab(const Scenario& scenario, const LabSettings& settings, RunObserver& observer);
+  SimulatedLab(const scenario::Scenario& scenario, const LabSettings& settings,
+               RunObserver& observer);
   SimulatedLab(const SimulatedLab&) = delete;  // processes refer to it
   SimulatedLab& operator=(const SimulatedLab&) = delete;
 

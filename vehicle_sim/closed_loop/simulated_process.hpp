@@ -28,12 +28,13 @@ class RunObserver {
   virtual ~RunObserver() = default;
   virtual void on_log(NodeId node, const machine::LogLine& line) = 0;
   /// @param time  of the sample, true in real time, of the run in logical time
-  virtual void on_driven(std::uint8_t vehicle, Nanoseconds time, const DrivenSample& sample) = 0;
-  virtual void on_traffic(const Traffic& traffic) = 0;
+  virtual void on_driven(std::uint8_t vehicle, Nanoseconds time,
+                         const result::DrivenSample& sample) = 0;
+  virtual void on_traffic(const coordination::Traffic& traffic) = 0;
   /// The plan of a step; the report shows whether it came into force.
-  virtual void on_prediction(const Prediction& prediction) = 0;
+  virtual void on_prediction(const coordination::Prediction& prediction) = 0;
   /// @param in_force  the plan after the step; nullptr: none
-  virtual void on_report(const ReportRecord& record, const Plan* in_force) = 0;
+  virtual void on_report(const ReportRecord& record, const coordination::Plan* in_force) = 0;
   virtual void on_command(const TrajectoryCommand& command) = 0;
   /// By a vehicle.
   virtual void on_received(const TrajectoryCommand& command) = 0;
@@ -84,7 +85,7 @@ class MachineProcess final : public SimulatedProcess {
       : place_(place),
         host_(std::move(host)),
         machine_(std::move(machine)),
-        pacing_(run_time(place.is_logical).make_pacing(startup_timeout, wall())) {
+        pacing_(machine::run_time(place.is_logical).make_pacing(startup_timeout, wall())) {
     host_.attach(place_, machine_);
   }
 
@@ -171,7 +172,7 @@ class MachineProcess final : public SimulatedProcess {
   ProcessPlace place_;
   Host host_;
   M machine_;
-  std::unique_ptr<Pacing> pacing_;
+  std::unique_ptr<machine::Pacing> pacing_;
   std::vector<Event> mail_;
   std::vector<Event> read_;
   bool is_urgent_{};

@@ -14,9 +14,10 @@
 /// the processes of a run use.
 namespace hlc::closed_loop {
 
-using Message = std::variant<VehicleState, VehicleStateList, TrajectoryCommand, ReadyStatus,
-                             SystemTrigger, Parameter, ParameterRequest, StopRequest, Traffic,
-                             Prediction, Outcome, ReportRecord, RunState>;
+using Message =
+    std::variant<VehicleState, VehicleStateList, TrajectoryCommand, ReadyStatus, SystemTrigger,
+                 Parameter, ParameterRequest, StopRequest, coordination::Traffic,
+                 coordination::Prediction, coordination::Outcome, ReportRecord, RunState>;
 /// Delivered to many readers, written once.
 using SharedMessage = std::shared_ptr<const Message>;
 

@@ -10,7 +10,7 @@ namespace hlc::closed_loop {
 /// The endpoints of a simulated vehicle, as in vehicle_process.cpp.
 class VehicleHost : public Host {
  public:
-  using Machine = VehicleMachine;
+  using Machine = simulated_vehicle::VehicleMachine;
   using Host::perform;
 
   explicit VehicleHost(std::uint8_t vehicle) : vehicle_(vehicle) {}
@@ -24,7 +24,9 @@ class VehicleHost : public Host {
         .reads = {
             {TopicId::kVehicleCommand, vehicle}, {TopicId::kParameter}, {TopicId::kSystemTrigger}}};
   }
-  void attach(const ProcessPlace& place, const VehicleMachine& /*machine*/) { set_place(place); }
+  void attach(const ProcessPlace& place, const simulated_vehicle::VehicleMachine& /*machine*/) {
+    set_place(place);
+  }
 
   template <class Process>
   void receive(std::size_t topic, const Message& message, Process& process) {
@@ -44,7 +46,7 @@ class VehicleHost : public Host {
     process.post_urgent(trigger);
   }
 
-  [[nodiscard]] VehiclePresence presence() const {
+  [[nodiscard]] simulated_vehicle::VehiclePresence presence() const {
     const auto matched = [](std::set<std::string> names) {
       const std::size_t count = names.size();
       return machine::Matched{.count = count, .names = std::move(names)};
@@ -60,7 +62,7 @@ class VehicleHost : public Host {
   void perform(const ReadyStatus& status) const { publish(kReady, status); }
   void perform(const ParameterRequest& request) const { publish(kRequests, request); }
   void perform(const VehicleObservation& /*observation*/) const {}
-  void perform(const DrivenSample& sample) const {
+  void perform(const result::DrivenSample& sample) const {
     Nanoseconds time = sample.t;
     if (!place().is_logical) {
       // By its clock; ticks that it has to make up for lie in the past.

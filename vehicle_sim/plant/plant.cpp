@@ -4,14 +4,14 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::plant {
 namespace {
 
-bool is_finite(const ActuatorInput& input) {
+bool is_finite(const vehicle::ActuatorInput& input) {
   return std::isfinite(input.throttle) && std::isfinite(input.steering);
 }
 
-ActuatorInput clamped(const ActuatorInput& input) {
+vehicle::ActuatorInput clamped(const vehicle::ActuatorInput& input) {
   return {.throttle = std::clamp(input.throttle, -1.0, 1.0),
           .steering = std::clamp(input.steering, -1.0, 1.0)};
 }
@@ -32,7 +32,8 @@ Plant::Plant(const PlantOptions& options)
 }
 
 Measurement Plant::measure() {
-  const double yaw_rate_radps = identified_yaw_rate_radps(motion_, acting_.steering, vehicle_);
+  const double yaw_rate_radps =
+      vehicle::identified_yaw_rate_radps(motion_, acting_.steering, vehicle_);
   Measurement measurement{.pose = motion_.pose,
                           .speed_mps = motion_.speed_mps,
                           .odometer_m = odometer_m_,
@@ -47,15 +48,16 @@ Measurement Plant::measure() {
   return measurement;
 }
 
-void Plant::step(const ActuatorInput& commanded) {
+void Plant::step(const vehicle::ActuatorInput& commanded) {
   acting_ = under_way_.front();
   std::shift_left(under_way_.begin(), under_way_.end(), 1);
-  under_way_.back() = is_finite(commanded) ? clamped(commanded) : stop_input(motion_.speed_mps);
+  under_way_.back() =
+      is_finite(commanded) ? clamped(commanded) : vehicle::stop_input(motion_.speed_mps);
 
-  const VehicleMotion before = motion_;
-  motion_ = stepped(before, acting_, vehicle_, battery_voltage_v_);
-  last_acceleration_mps2_ = (motion_.speed_mps - before.speed_mps) / kIdentifiedStep_s;
-  odometer_m_ += kIdentifiedStep_s * std::abs(before.speed_mps);
+  const vehicle::VehicleMotion before = motion_;
+  motion_ = vehicle::stepped(before, acting_, vehicle_, battery_voltage_v_);
+  last_acceleration_mps2_ = (motion_.speed_mps - before.speed_mps) / vehicle::kIdentifiedStep_s;
+  odometer_m_ += vehicle::kIdentifiedStep_s * std::abs(before.speed_mps);
 }
 
-}  // namespace hlc
+}  // namespace hlc::plant

@@ -7,13 +7,13 @@
 #include "planner/vehicle/identified_motion.hpp"
 #include "vehicle_sim/plant/uniform_noise.hpp"
 
-namespace hlc {
+namespace hlc::plant {
 
 /// Parameters of one simulated vehicle.
 struct PlantOptions {
   Pose start;  ///< pose at the first tick; finite
-  IdentifiedVehicle vehicle;
-  double battery_voltage_v{kBatteryVoltage_v};
+  vehicle::IdentifiedVehicle vehicle;
+  double battery_voltage_v{vehicle::kBatteryVoltage_v};
   /// Seed of the position noise; without one the pose is measured exactly.
   std::optional<std::uint64_t> noise_seed;
 };
@@ -47,7 +47,7 @@ class Plant {
   explicit Plant(const PlantOptions& options);
 
   /// True pose and speed at the current tick.
-  [[nodiscard]] const VehicleMotion& motion() const { return motion_; }
+  [[nodiscard]] const vehicle::VehicleMotion& motion() const { return motion_; }
 
   /// The sensors at the current tick. With noise every call draws again: call it once per tick.
   [[nodiscard]] Measurement measure();
@@ -55,17 +55,17 @@ class Plant {
   /// Queues `commanded` and advances one tick with the input that has reached the actuators. Inputs
   /// beyond [-1, 1] are clamped; one that is not finite counts as the stop law at the current
   /// speed.
-  void step(const ActuatorInput& commanded);
+  void step(const vehicle::ActuatorInput& commanded);
 
  private:
-  IdentifiedVehicle vehicle_;
+  vehicle::IdentifiedVehicle vehicle_;
   double battery_voltage_v_;
-  VehicleMotion motion_;
-  std::array<ActuatorInput, kInputDelayTicks> under_way_{};  ///< oldest first
-  ActuatorInput acting_;                                     ///< during the last step
+  vehicle::VehicleMotion motion_;
+  std::array<vehicle::ActuatorInput, vehicle::kInputDelayTicks> under_way_{};  ///< oldest first
+  vehicle::ActuatorInput acting_;  ///< during the last step
   double last_acceleration_mps2_{};
   double odometer_m_{};
   std::optional<UniformNoise> noise_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::plant

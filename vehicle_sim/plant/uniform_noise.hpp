@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-namespace hlc {
+namespace hlc::plant {
 
 /// Seeded uniform noise. The standard fixes every bit of std::mt19937_64 but not of its
 /// distributions, so the mapping to [-half_width, half_width) is written out: a seed means the same
@@ -22,4 +22,4 @@ class UniformNoise {
   std::mt19937_64 generator_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::plant

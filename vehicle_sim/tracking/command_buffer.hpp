@@ -9,7 +9,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 
-namespace hlc {
+namespace hlc::tracking {
 
 /// The received commands of one kind, and the choice of the one to follow.
 ///
@@ -72,4 +72,4 @@ class CommandBuffer {
   std::deque<Arrival> waiting_;  ///< in order of arrival, not yet valid when last asked
 };
 
-}  // namespace hlc
+}  // namespace hlc::tracking

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace hlc {
+namespace hlc::tracking {
 namespace {
 
 constexpr double kServoPerCurvature_m = 0.241857;
@@ -32,7 +32,7 @@ struct Nearest {
 
 }  // namespace
 
-ActuatorInput direct_input(const DirectCommand& command) {
+vehicle::ActuatorInput direct_input(const DirectCommand& command) {
   return {.throttle = std::clamp(command.motor_throttle, -1.0, 1.0),
           .steering = std::clamp(command.steering_servo, -1.0, 1.0)};
 }
@@ -51,7 +51,7 @@ double SpeedControl::tick(double wanted_mps, double measured_mps) {
 }
 
 std::optional<double> steering_for_path(const PathTrackingCommand& command,
-                                        const VehicleMotion& estimate) {
+                                        const vehicle::VehicleMotion& estimate) {
   const std::vector<PathPoint>& path = command.path;
   const double yaw_rad = estimate.pose.heading_rad;
   const Point axle_m =
@@ -86,4 +86,4 @@ std::optional<double> steering_for_path(const PathTrackingCommand& command,
   return steering_for_curvature(std::tan(wheel_rad) / kWheelbase_m);
 }
 
-}  // namespace hlc
+}  // namespace hlc::tracking

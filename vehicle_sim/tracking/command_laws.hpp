@@ -7,10 +7,10 @@
 
 /// The vehicle's response to commands other than trajectories (wire contract, 6.4), with the lab's
 /// figures where it states them.
-namespace hlc {
+namespace hlc::tracking {
 
 /// Throttle and steering as commanded, clamped to [-1, 1].
-[[nodiscard]] ActuatorInput direct_input(const DirectCommand& command);
+[[nodiscard]] vehicle::ActuatorInput direct_input(const DirectCommand& command);
 
 /// Servo per curvature, 0.241857 m: the lab's figure for the wanted curvature kappa [1/m],
 ///
@@ -44,6 +44,6 @@ class SpeedControl {
 /// @return nothing if there is nothing to follow: fewer than two points, only one place, or an open
 /// path whose end has been reached
 [[nodiscard]] std::optional<double> steering_for_path(const PathTrackingCommand& command,
-                                                      const VehicleMotion& estimate);
+                                                      const vehicle::VehicleMotion& estimate);
 
-}  // namespace hlc
+}  // namespace hlc::tracking

@@ -6,13 +6,13 @@
 
 #include "vehicle_sim/tracking/trajectory.hpp"
 
-namespace hlc {
+namespace hlc::tracking {
 namespace {
 
 /// A chord of one tick below this (0.02 mm) is rounding, not a direction.
 constexpr double kStandingSpeed_mps = 1e-3;
 
-bool is_finite(const VehicleMotion& motion) {
+bool is_finite(const vehicle::VehicleMotion& motion) {
   return std::isfinite(motion.pose.x_m) && std::isfinite(motion.pose.y_m) &&
          std::isfinite(motion.pose.heading_rad) && std::isfinite(motion.speed_mps);
 }
@@ -27,25 +27,25 @@ FollowerGains scaled(const FollowerGains& gains, double factor) {
           .lateral_per_s = factor * gains.lateral_per_s};
 }
 
-Follower::Output Follower::tick(Nanoseconds t_now, const VehicleMotion& estimate,
+Follower::Output Follower::tick(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
                                 const TrajectoryCommand* command) {
   const Output output = decide(t_now, estimate, command);
   give(output.input);
   return output;
 }
 
-void Follower::give(const ActuatorInput& input) {
+void Follower::give(const vehicle::ActuatorInput& input) {
   acted_ = under_way_.front();
   std::shift_left(under_way_.begin(), under_way_.end(), 1);
   under_way_.back() = input;
 }
 
-Follower::Output Follower::decide(Nanoseconds t_now, const VehicleMotion& estimate,
+Follower::Output Follower::decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
                                   const TrajectoryCommand* command) const {
   if (!is_finite(estimate)) {
     return {.input = {}, .status = FollowerStatus::kNoEstimate};
   }
-  const ActuatorInput stop = stop_input(estimate.speed_mps);
+  const vehicle::ActuatorInput stop = vehicle::stop_input(estimate.speed_mps);
   if (command == nullptr) {
     return {.input = stop, .status = FollowerStatus::kNoCommand};
   }
@@ -53,13 +53,13 @@ Follower::Output Follower::decide(Nanoseconds t_now, const VehicleMotion& estima
     return {.input = stop, .status = FollowerStatus::kNotFollowable};
   }
 
-  VehicleMotion start = estimate;
-  for (const ActuatorInput& input : under_way_) {
-    start = stepped(start, input, vehicle_);
+  vehicle::VehicleMotion start = estimate;
+  for (const vehicle::ActuatorInput& input : under_way_) {
+    start = vehicle::stepped(start, input, vehicle_);
   }
   // The lead rule permits a trajectory that begins up to 30 ms after the input acts: use its begin.
   const Nanoseconds t_start =
-      std::max(t_now + kInputDelayTicks * kVehiclePeriod, command->points.front().t);
+      std::max(t_now + vehicle::kInputDelayTicks * kVehiclePeriod, command->points.front().t);
   Reference reference;
   for (std::size_t i = 0; i < reference.size(); ++i) {
     const std::optional<CurveSample> wanted = sample(command->points, t_start + i * kVehiclePeriod);
@@ -78,8 +78,9 @@ Follower::Output Follower::decide(Nanoseconds t_now, const VehicleMotion& estima
           .status = FollowerStatus::kFollowing};
 }
 
-double Follower::steering_for(const Reference& reference, const VehicleMotion& start) const {
-  const Point chord = (reference[1] - reference[0]) / kIdentifiedStep_s;
+double Follower::steering_for(const Reference& reference,
+                              const vehicle::VehicleMotion& start) const {
+  const Point chord = (reference[1] - reference[0]) / vehicle::kIdentifiedStep_s;
   const double speed_mps = chord.norm();
   if (speed_mps <= kStandingSpeed_mps) {
     return under_way_.back().steering;
@@ -88,15 +89,16 @@ double Follower::steering_for(const Reference& reference, const VehicleMotion& s
   const double correction_rad = std::atan2(gains_.lateral_per_s * lateral_error_m, speed_mps);
   const double course_rad = std::atan2(chord.y(), chord.x()) + correction_rad;
   const double slip_rad = wrap_angle(course_rad - start.pose.heading_rad);
-  return std::clamp(steering_for_slip(slip_rad, vehicle_), -1.0, 1.0);
+  return std::clamp(vehicle::steering_for_slip(slip_rad, vehicle_), -1.0, 1.0);
 }
 
-double Follower::throttle_for(const Reference& reference, const VehicleMotion& start,
+double Follower::throttle_for(const Reference& reference, const vehicle::VehicleMotion& start,
                               double steering) const {
   // The throttle does not affect the position at the end of this tick, so any value predicts it.
-  const VehicleMotion end = stepped(start, {.throttle = 0.0, .steering = steering}, vehicle_);
+  const vehicle::VehicleMotion end =
+      vehicle::stepped(start, {.throttle = 0.0, .steering = steering}, vehicle_);
   const Point error_m = reference[1] - end.pose.position_m();
-  const Point chord = (reference[2] - reference[1]) / kIdentifiedStep_s;
+  const Point chord = (reference[2] - reference[1]) / vehicle::kIdentifiedStep_s;
   const double speed_mps = chord.norm();
 
   double wanted_mps = 0.0;
@@ -104,15 +106,17 @@ double Follower::throttle_for(const Reference& reference, const VehicleMotion& s
     const double error_along_m = chord.dot(error_m) / speed_mps;
     wanted_mps = gains_.feed_forward * speed_mps + gains_.longitudinal_per_s * error_along_m;
   } else {
-    const double course_rad = end.pose.heading_rad + identified_slip_rad(steering, vehicle_);
+    const double course_rad =
+        end.pose.heading_rad + vehicle::identified_slip_rad(steering, vehicle_);
     const double error_along_m = Point(std::cos(course_rad), std::sin(course_rad)).dot(error_m);
     if (error_along_m > kStandingTolerance_m) {
       wanted_mps = gains_.longitudinal_per_s * error_along_m;
     }
   }
-  const double wheel_speed_mps = std::max(0.0, wanted_mps) / path_speed_ratio(steering, vehicle_);
-  const double acceleration_mps2 = (wheel_speed_mps - start.speed_mps) / kIdentifiedStep_s;
-  return throttle_for_acceleration(acceleration_mps2, start.speed_mps, vehicle_);
+  const double wheel_speed_mps =
+      std::max(0.0, wanted_mps) / vehicle::path_speed_ratio(steering, vehicle_);
+  const double acceleration_mps2 = (wheel_speed_mps - start.speed_mps) / vehicle::kIdentifiedStep_s;
+  return vehicle::throttle_for_acceleration(acceleration_mps2, start.speed_mps, vehicle_);
 }
 
-}  // namespace hlc
+}  // namespace hlc::tracking

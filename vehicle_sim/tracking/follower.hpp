@@ -5,7 +5,7 @@
 #include "hlc_bridge/messages/messages.hpp"
 #include "planner/vehicle/identified_motion.hpp"
 
-namespace hlc {
+namespace hlc::tracking {
 
 /// Gains of the follower. All zero: the vehicle never moves.
 struct FollowerGains {
@@ -57,42 +57,44 @@ class Follower {
   static constexpr double kMaxDistance_m = 0.3;
   static constexpr double kStandingTolerance_m = 0.005;
 
-  Follower(const FollowerGains& gains, const IdentifiedVehicle& vehicle)
+  Follower(const FollowerGains& gains, const vehicle::IdentifiedVehicle& vehicle)
       : gains_(gains), vehicle_(vehicle) {}
 
   struct Output {
-    ActuatorInput input;
+    vehicle::ActuatorInput input;
     FollowerStatus status{FollowerStatus::kNoCommand};
   };
 
   /// The input to give at `t_now`.
   /// @param estimate  present pose and speed
   /// @param command   the command to follow or nullptr
-  [[nodiscard]] Output decide(Nanoseconds t_now, const VehicleMotion& estimate,
+  [[nodiscard]] Output decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
                               const TrajectoryCommand* command) const;
 
   /// The input given at this tick, from any source: to be called once per tick, since the input
   /// will be queued at the next ones.
-  void give(const ActuatorInput& input);
+  void give(const vehicle::ActuatorInput& input);
 
   /// Both at once.
-  Output tick(Nanoseconds t_now, const VehicleMotion& estimate, const TrajectoryCommand* command);
+  Output tick(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
+              const TrajectoryCommand* command);
 
   /// The input that acts from the last tick to this one; before `give` is called for this one.
-  [[nodiscard]] const ActuatorInput& acted() const { return acted_; }
+  [[nodiscard]] const vehicle::ActuatorInput& acted() const { return acted_; }
 
  private:
   /// Reference positions at t_a, t_a + T and t_a + 2 T.
   using Reference = std::array<Point, 3>;
 
-  [[nodiscard]] double steering_for(const Reference& reference, const VehicleMotion& start) const;
-  [[nodiscard]] double throttle_for(const Reference& reference, const VehicleMotion& start,
+  [[nodiscard]] double steering_for(const Reference& reference,
+                                    const vehicle::VehicleMotion& start) const;
+  [[nodiscard]] double throttle_for(const Reference& reference, const vehicle::VehicleMotion& start,
                                     double steering) const;
 
   FollowerGains gains_;
-  IdentifiedVehicle vehicle_;
-  std::array<ActuatorInput, kInputDelayTicks> under_way_{};  ///< oldest first
-  ActuatorInput acted_;
+  vehicle::IdentifiedVehicle vehicle_;
+  std::array<vehicle::ActuatorInput, vehicle::kInputDelayTicks> under_way_{};  ///< oldest first
+  vehicle::ActuatorInput acted_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::tracking

@@ -4,7 +4,7 @@
 
 #include "planner/vehicle/identified_motion.hpp"
 
-namespace hlc {
+namespace hlc::tracking {
 
 /// Smooths the measured pose with the model: predict one tick with the input that acted, then
 /// correct by `kCorrection` of the difference to the measurement. The lab's vehicle does the same
@@ -17,18 +17,18 @@ class PoseEstimator {
  public:
   static constexpr double kCorrection = 0.3;
 
-  explicit PoseEstimator(const IdentifiedVehicle& vehicle) : vehicle_(vehicle) {}
+  explicit PoseEstimator(const vehicle::IdentifiedVehicle& vehicle) : vehicle_(vehicle) {}
 
   /// Once per tick. The first call takes the measurement as it is.
   /// @param measured_pose       pose from outside, at this tick
   /// @param measured_speed_mps  speed of the wheels at this tick
   /// @param acted               the input that acted from the last tick to this one
-  VehicleMotion update(const Pose& measured_pose, double measured_speed_mps,
-                       const ActuatorInput& acted);
+  vehicle::VehicleMotion update(const Pose& measured_pose, double measured_speed_mps,
+                                const vehicle::ActuatorInput& acted);
 
  private:
-  IdentifiedVehicle vehicle_;
-  std::optional<VehicleMotion> estimate_;
+  vehicle::IdentifiedVehicle vehicle_;
+  std::optional<vehicle::VehicleMotion> estimate_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::tracking

@@ -5,7 +5,7 @@
 
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::tracking {
 namespace {
 
 constexpr double kMaxAcceleration_mps2 = 20.0;
@@ -22,7 +22,7 @@ bool is_drivable(const CurveSample& look) {
         std::abs(look.acceleration_mps2.y()) <= kMaxAcceleration_mps2)) {
     return false;
   }
-  return look.velocity_mps.norm() <= kMinSpeedForCurvature_mps ||
+  return look.velocity_mps.norm() <= vehicle::kMinSpeedForCurvature_mps ||
          std::abs(look.curvature_per_m()) <= kMaxCurvature_per_m;
 }
 
@@ -67,4 +67,4 @@ bool is_followable(std::span<const TrajectoryPoint> points, Nanoseconds t_now) {
   return true;
 }
 
-}  // namespace hlc
+}  // namespace hlc::tracking

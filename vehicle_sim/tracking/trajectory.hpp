@@ -8,7 +8,7 @@
 
 /// Interpretation of the timed points of a trajectory command as in the lab's vehicle (wire
 /// contract, 6.3).
-namespace hlc {
+namespace hlc::tracking {
 
 /// True if the times increase strictly and every number is finite.
 [[nodiscard]] bool is_well_formed(std::span<const TrajectoryPoint> points);
@@ -32,4 +32,4 @@ inline constexpr Nanoseconds kLastLook = kLookAhead;
 /// evaluations in between |ax|, |ay| <= 20 m/s^2 and, above 0.1 m/s, |curvature| <= 50 1/m.
 [[nodiscard]] bool is_followable(std::span<const TrajectoryPoint> points, Nanoseconds t_now);
 
-}  // namespace hlc
+}  // namespace hlc::tracking

@@ -1,16 +1,17 @@
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
-namespace hlc {
+namespace hlc::simulated_vehicle {
 namespace {
 
-static_assert(kVehiclePeriod == 20'000'000 && kIdentifiedStep_s == 0.020,
+static_assert(kVehiclePeriod == 20'000'000 && vehicle::kIdentifiedStep_s == 0.020,
               "one tick of the vehicle is one step of the model");
 
 constexpr double kGravity_mps2 = 9.81;
 
 VehicleState state_message(std::uint8_t vehicle_id, Nanoseconds t_now,
-                           const VehicleMotion& estimate, const Measurement& measured,
-                           const ActuatorInput& commanded) {
+                           const vehicle::VehicleMotion& estimate,
+                           const plant::Measurement& measured,
+                           const vehicle::ActuatorInput& commanded) {
   VehicleState state;
   state.vehicle_id = vehicle_id;
   state.create_stamp = t_now;
@@ -24,7 +25,7 @@ VehicleState state_message(std::uint8_t vehicle_id, Nanoseconds t_now,
   state.imu_yaw_rad = estimate.pose.heading_rad;
   state.imu_yaw_rate_radps = measured.yaw_rate_radps;
   state.speed_mps = measured.speed_mps;
-  state.battery_voltage_v = kBatteryVoltage_v;
+  state.battery_voltage_v = vehicle::kBatteryVoltage_v;
   state.motor_throttle = commanded.throttle;
   state.steering_servo = commanded.steering;
   return state;
@@ -36,19 +37,19 @@ SimulatedVehicle::SimulatedVehicle(const SimulatedVehicleOptions& options)
     : vehicle_id_(options.vehicle_id),
       plant_({.start = options.start,
               .vehicle = options.vehicle,
-              .battery_voltage_v = kBatteryVoltage_v,
+              .battery_voltage_v = vehicle::kBatteryVoltage_v,
               .noise_seed = options.noise_seed}),
       estimator_(options.vehicle),
       follower_(options.gains, options.vehicle) {}
 
 SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
-  const VehicleMotion truth = plant_.motion();
-  const Measurement measured = plant_.measure();
-  const VehicleMotion estimate =
+  const vehicle::VehicleMotion truth = plant_.motion();
+  const plant::Measurement measured = plant_.measure();
+  const vehicle::VehicleMotion estimate =
       estimator_.update(measured.pose, measured.speed_mps, follower_.acted());
 
   const Decision decision = decide(t_now, estimate);
-  const bool follows = decision.status == FollowerStatus::kFollowing;
+  const bool follows = decision.status == tracking::FollowerStatus::kFollowing;
   Tick result{.state = state_message(vehicle_id_, t_now, estimate, measured, decision.input),
               .observation = {.vehicle_id = vehicle_id_,
                               .create_stamp = t_now,
@@ -71,31 +72,32 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
 }
 
 SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
-                                                    const VehicleMotion& estimate) {
+                                                    const vehicle::VehicleMotion& estimate) {
   // All buffers are queried at every tick: a command that is not queried while it is valid would
   // count as new when one of higher rank has expired.
   const auto usable = std::apply(
       [&](auto&... buffers) { return std::tuple{buffers.usable_at(t_now)...}; }, commands_);
   const auto& [direct, speed_curvature, trajectory, path] = usable;
-  const Follower::Output followed =
+  const tracking::Follower::Output followed =
       follower_.decide(t_now, estimate, is_braking() ? nullptr : trajectory);
-  const bool has_estimate = followed.status != FollowerStatus::kNoEstimate;
+  const bool has_estimate = followed.status != tracking::FollowerStatus::kNoEstimate;
   if (has_estimate && !is_braking()) {
     if (direct != nullptr) {
       speed_control_.reset();
-      return {direct_input(*direct), FollowerStatus::kFollowing, direct->create_stamp};
+      return {tracking::direct_input(*direct), tracking::FollowerStatus::kFollowing,
+              direct->create_stamp};
     }
     if (speed_curvature != nullptr) {
       return {{.throttle = speed_control_.tick(speed_curvature->speed_mps, estimate.speed_mps),
-               .steering = steering_for_curvature(speed_curvature->curvature_per_m)},
-              FollowerStatus::kFollowing,
+               .steering = tracking::steering_for_curvature(speed_curvature->curvature_per_m)},
+              tracking::FollowerStatus::kFollowing,
               speed_curvature->create_stamp};
     }
     if (trajectory == nullptr && path != nullptr) {
-      if (const auto steering = steering_for_path(*path, estimate)) {
+      if (const auto steering = tracking::steering_for_path(*path, estimate)) {
         return {{.throttle = speed_control_.tick(path->speed_mps, estimate.speed_mps),
                  .steering = *steering},
-                FollowerStatus::kFollowing,
+                tracking::FollowerStatus::kFollowing,
                 path->create_stamp};
       }
     }
@@ -105,4 +107,4 @@ SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
           trajectory != nullptr ? trajectory->create_stamp : Nanoseconds{}};
 }
 
-}  // namespace hlc
+}  // namespace hlc::simulated_vehicle

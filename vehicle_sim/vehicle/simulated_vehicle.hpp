@@ -13,14 +13,14 @@
 #include "vehicle_sim/tracking/follower.hpp"
 #include "vehicle_sim/tracking/pose_estimator.hpp"
 
-namespace hlc {
+namespace hlc::simulated_vehicle {
 
 struct SimulatedVehicleOptions {
   std::uint8_t vehicle_id{};
   Pose start;                               ///< finite
   std::optional<std::uint64_t> noise_seed;  ///< none: the pose is measured exactly
-  FollowerGains gains;
-  IdentifiedVehicle vehicle;
+  tracking::FollowerGains gains;
+  vehicle::IdentifiedVehicle vehicle;
 };
 
 /// A whole µCar without network and clock: commands in, states out, one call per tick of 20 ms. The
@@ -39,8 +39,8 @@ class SimulatedVehicle {
   struct Tick {
     VehicleState state;  ///< the published state: the vehicle's estimate, valid 60 ms later
     VehicleObservation observation;  ///< from the lab's camera system: the measured pose
-    DrivenSample driven;             ///< true; command_create is 0 unless a command was followed
-    FollowerStatus status{FollowerStatus::kNoCommand};
+    result::DrivenSample driven;     ///< true; command_create is 0 unless a command was followed
+    tracking::FollowerStatus status{tracking::FollowerStatus::kNoCommand};
   };
 
   /// @throws std::invalid_argument if the start pose is not finite
@@ -49,7 +49,7 @@ class SimulatedVehicle {
   /// To be called in the order of arrival.
   template <class Command>
   void receive(Command command) {
-    std::get<CommandBuffer<Command>>(commands_).add(std::move(command));
+    std::get<tracking::CommandBuffer<Command>>(commands_).add(std::move(command));
   }
 
   /// @param t_now  multiples of 20 ms, increasing
@@ -61,26 +61,27 @@ class SimulatedVehicle {
   [[nodiscard]] bool is_braking() const { return braking_ticks_left_ > 0; }
 
   /// True pose and speed at the next tick.
-  [[nodiscard]] const VehicleMotion& motion() const { return plant_.motion(); }
+  [[nodiscard]] const vehicle::VehicleMotion& motion() const { return plant_.motion(); }
 
  private:
   struct Decision {
-    ActuatorInput input;
-    FollowerStatus status{FollowerStatus::kNoCommand};
+    vehicle::ActuatorInput input;
+    tracking::FollowerStatus status{tracking::FollowerStatus::kNoCommand};
     Nanoseconds command_create{};  ///< of the active command
   };
 
-  [[nodiscard]] Decision decide(Nanoseconds t_now, const VehicleMotion& estimate);
+  [[nodiscard]] Decision decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate);
 
   std::uint8_t vehicle_id_;
-  Plant plant_;
-  PoseEstimator estimator_;
-  std::tuple<CommandBuffer<DirectCommand>, CommandBuffer<SpeedCurvatureCommand>,
-             CommandBuffer<TrajectoryCommand>, CommandBuffer<PathTrackingCommand>>
+  plant::Plant plant_;
+  tracking::PoseEstimator estimator_;
+  std::tuple<tracking::CommandBuffer<DirectCommand>, tracking::CommandBuffer<SpeedCurvatureCommand>,
+             tracking::CommandBuffer<TrajectoryCommand>,
+             tracking::CommandBuffer<PathTrackingCommand>>
       commands_;
-  Follower follower_;
-  SpeedControl speed_control_;
+  tracking::Follower follower_;
+  tracking::SpeedControl speed_control_;
   int braking_ticks_left_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::simulated_vehicle

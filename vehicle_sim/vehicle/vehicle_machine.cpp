@@ -7,7 +7,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
-namespace hlc {
+namespace hlc::simulated_vehicle {
 namespace {
 
 static_assert(machine::Machine<VehicleMachine>);
@@ -15,17 +15,17 @@ static_assert(machine::Machine<VehicleMachine>);
 /// After this many missed ticks (10 s) the vehicle stands anyway.
 constexpr Nanoseconds kMostMissedTicks = 500;
 
-const char* reason(FollowerStatus status) {
+const char* reason(tracking::FollowerStatus status) {
   switch (status) {
-    case FollowerStatus::kFollowing:
+    case tracking::FollowerStatus::kFollowing:
       return "following";
-    case FollowerStatus::kNoCommand:
+    case tracking::FollowerStatus::kNoCommand:
       return "no usable command";
-    case FollowerStatus::kNotFollowable:
+    case tracking::FollowerStatus::kNotFollowable:
       return "command empty, malformed, too short or beyond the limits";
-    case FollowerStatus::kTooFar:
+    case tracking::FollowerStatus::kTooFar:
       return "too far from its reference";
-    case FollowerStatus::kNoEstimate:
+    case tracking::FollowerStatus::kNoEstimate:
       return "vehicle state not finite";
   }
   return "";
@@ -216,7 +216,8 @@ void VehicleMachine::make_up_for_missed_ticks(Nanoseconds t_now, Actions& action
 }
 
 void VehicleMachine::log_why_it_stops(const SimulatedVehicle::Tick& done, Actions& actions) {
-  if (last_status_ == FollowerStatus::kFollowing && done.status != last_status_ && !is_stopping_) {
+  if (last_status_ == tracking::FollowerStatus::kFollowing && done.status != last_status_ &&
+      !is_stopping_) {
     actions.emplace_back(machine::warning("stops at " + std::to_string(done.driven.t) +
                                           " ns: " + reason(done.status)));
   }
@@ -234,4 +235,4 @@ void VehicleMachine::watch_lab_control(Nanoseconds wall, Actions& actions) {
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::simulated_vehicle

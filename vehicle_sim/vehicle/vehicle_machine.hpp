@@ -15,7 +15,7 @@
 #include "hlc_bridge/messages/messages.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
-namespace hlc {
+namespace hlc::simulated_vehicle {
 
 struct VehicleMachineOptions {
   SimulatedVehicleOptions vehicle;
@@ -56,8 +56,8 @@ class VehicleMachine {
                    Parameter, SystemTrigger, VehiclePresence, machine::StopSignal>;
   /// VehicleObservation: for the camera system's readers, if there are any. DrivenSample: for the
   /// record of the true motion.
-  using Action = std::variant<ParameterRequest, VehicleState, VehicleObservation, DrivenSample,
-                              machine::LogLine>;
+  using Action = std::variant<ParameterRequest, VehicleState, VehicleObservation,
+                              result::DrivenSample, machine::LogLine>;
 
   /// @throws std::invalid_argument if the start pose is not finite
   explicit VehicleMachine(const VehicleMachineOptions& options);
@@ -109,8 +109,8 @@ class VehicleMachine {
   bool stop_symbol_{};       ///< received; the next tick brakes
   bool is_stopping_{};       ///< it brakes
   bool is_end_requested_{};  ///< at once
-  FollowerStatus last_status_{FollowerStatus::kNoCommand};
+  tracking::FollowerStatus last_status_{tracking::FollowerStatus::kNoCommand};
   std::optional<int> exit_code_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::simulated_vehicle

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kAt = 1e-9;  // a variable closer than this to a bound is at it
@@ -70,4 +70,4 @@ std::vector<Eigen::Index> free_variables(const Transcription& transcription,
   return free;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 
 #include "planner/maneuver_design/solver/transcription.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Variables that may have to move to lower the objective: all except those whose bound is active,
 /// that is, those at a bound with a multiplier that clearly has the sign to keep them there. In
@@ -20,4 +20,4 @@ namespace hlc {
                                                        const Eigen::VectorXd& z,
                                                        const Eigen::VectorXd& gradient);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kTolerance = 1e-11;  // of gradient and multipliers, relative to the gradient
@@ -206,4 +206,4 @@ Eigen::VectorXd local_minimum(const QuadraticProblem& problem) {
   return ActiveSet(problem).minimum();
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// A small dense quadratic problem around a feasible point:
 ///
@@ -29,4 +29,4 @@ struct QuadraticProblem {
 /// rows) steps it stops.
 [[nodiscard]] Eigen::VectorXd local_minimum(const QuadraticProblem& problem);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -11,7 +11,7 @@
 #include "planner/maneuver_design/solver/slsqp.hpp"
 #include "planner/maneuver_design/solver/starting_point.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kGood = 1e-7;        // first-order residual of the objective: no more work
@@ -112,7 +112,7 @@ Eigen::VectorXd Attempt::from_coarse() {
   const Candidate point = attempt.solved();
   coarse_evaluations_ += attempt.evaluations();
   constraints_ = attempt.constraints_;
-  const std::vector<Input> inputs = attempt.transcription_.variables().inputs(point.z);
+  const std::vector<vehicle::Input> inputs = attempt.transcription_.variables().inputs(point.z);
   return variables.variables(resampled(inputs, problem_.intervals), variables.unit_s());
 }
 
@@ -159,7 +159,7 @@ Candidate Attempt::examined(Eigen::VectorXd z) const {
 }
 
 ConstraintResiduals Attempt::residuals_at(const Eigen::VectorXd& z) const {
-  const std::vector<Input> inputs = transcription_.variables().inputs(z);
+  const std::vector<vehicle::Input> inputs = transcription_.variables().inputs(z);
   const double duration_s = transcription_.variables().duration_s(z);
   const Shot shot =
       shoot(start_state(problem_), inputs, duration_s, cost_, problem_.vehicle, WithGradient::kNo);
@@ -185,7 +185,7 @@ Eigen::ArrayXi Attempt::active_bounds_at(const Eigen::VectorXd& z) const {
 bool Attempt::add_violated(const Eigen::VectorXd& z) {
   const ConstraintResiduals residuals = residuals_at(z);
   const ConstraintSet before = constraints_;
-  const VehicleLimits& limits = problem_.limits;
+  const vehicle::VehicleLimits& limits = problem_.limits;
   constraints_.speed |= residuals.speed_mps > kFeasibilityTolerance * limits.speed_max_mps;
   constraints_.steering |= residuals.steering_rad > kFeasibilityTolerance * limits.steering_max_rad;
   constraints_.path |= residuals.path > kPathTolerance;
@@ -200,4 +200,4 @@ bool Attempt::starts_coarse() const {
   return problem_.intervals > kCoarse && options_.start.empty() && !problem_.free_duration;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -5,7 +5,7 @@
 #include "planner/maneuver_design/solver/maneuver_solver.hpp"
 #include "planner/maneuver_design/solver/transcription.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// A point z and its evaluation.
 struct Candidate {
@@ -64,4 +64,4 @@ class Attempt {
   int coarse_evaluations_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// Shifts the values that can move that way, evenly and not beyond -1 ... 1, so that their mean
@@ -42,8 +42,8 @@ DecisionVariables::DecisionVariables(const ManeuverProblem& problem, double unit
   }
 }
 
-std::vector<Input> DecisionVariables::inputs(const Eigen::VectorXd& z) const {
-  std::vector<Input> inputs(static_cast<std::size_t>(intervals_));
+std::vector<vehicle::Input> DecisionVariables::inputs(const Eigen::VectorXd& z) const {
+  std::vector<vehicle::Input> inputs(static_cast<std::size_t>(intervals_));
   for (Eigen::Index k = 0; k < intervals_; ++k) {
     inputs[static_cast<std::size_t>(k)] = {z(2 * k) * input_max_.x(),
                                            z(2 * k + 1) * input_max_.y()};
@@ -51,11 +51,11 @@ std::vector<Input> DecisionVariables::inputs(const Eigen::VectorXd& z) const {
   return inputs;
 }
 
-Eigen::VectorXd DecisionVariables::variables(const std::vector<Input>& inputs,
+Eigen::VectorXd DecisionVariables::variables(const std::vector<vehicle::Input>& inputs,
                                              double duration_s) const {
   Eigen::VectorXd z = Eigen::VectorXd::Constant(size(), duration_s / unit_s_);
   for (Eigen::Index k = 0; k < intervals_; ++k) {
-    const Input& u = inputs[static_cast<std::size_t>(k)];
+    const vehicle::Input& u = inputs[static_cast<std::size_t>(k)];
     z(2 * k) = u.acceleration_mps2 / input_max_.x();
     z(2 * k + 1) = u.steering_rate_radps / input_max_.y();
   }
@@ -84,4 +84,4 @@ void meet_end_condition(const Channel& channel, const DecisionVariables& variabl
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -5,7 +5,7 @@
 
 #include "planner/maneuver_design/maneuver_problem.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// The variables z of the finite-dimensional problem: the inputs of all intervals, each divided by
 /// its bound, z = (u_v0 / a, u_delta0 / r, u_v1 / a, ...); then, if the duration is free, tau = T /
@@ -28,8 +28,8 @@ class DecisionVariables {
 
   /// Bounds of u_v and u_delta: the inputs at z = 1.
   [[nodiscard]] const Eigen::Vector2d& input_max() const { return input_max_; }
-  [[nodiscard]] std::vector<Input> inputs(const Eigen::VectorXd& z) const;
-  [[nodiscard]] Eigen::VectorXd variables(const std::vector<Input>& inputs,
+  [[nodiscard]] std::vector<vehicle::Input> inputs(const Eigen::VectorXd& z) const;
+  [[nodiscard]] Eigen::VectorXd variables(const std::vector<vehicle::Input>& inputs,
                                           double duration_s) const;
   /// Derivatives by z from those by u and T; `by_input` has 2 N elements or more.
   [[nodiscard]] Eigen::VectorXd by_variables(const Eigen::VectorXd& by_input,
@@ -67,4 +67,4 @@ class DecisionVariables {
 void meet_end_condition(const Channel& channel, const DecisionVariables& variables,
                         Eigen::VectorXd& z);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

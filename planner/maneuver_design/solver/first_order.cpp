@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// Least squares with the columns of the passive set only.
@@ -99,4 +99,4 @@ double first_order_residual(const Eigen::VectorXd& gradient, const Eigen::Matrix
   return (wanted - columns * multipliers).norm();
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Residual of the first-order conditions of optimality (Karush, Kuhn and Tucker) of  min f(z),
 /// c_E(z) = 0, c_I(z) <= 0 :
@@ -19,4 +19,4 @@ namespace hlc {
                                           const Eigen::MatrixXd& equalities,
                                           const Eigen::MatrixXd& active);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -14,7 +14,7 @@
 #include "planner/maneuver_design/solver/starting_point.hpp"
 #include "planner/maneuver_design/travel_time.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kFirstOrderTolerance = 1e-3;  // relative to the slope of the cost
@@ -203,4 +203,4 @@ ManeuverSolution solve(const ManeuverProblem& problem, const RunningCost& cost,
   return solution;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

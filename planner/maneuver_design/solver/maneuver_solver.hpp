@@ -9,7 +9,7 @@
 #include "planner/maneuver_design/maneuver_problem.hpp"
 #include "planner/maneuver_design/running_cost.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Starting point of the search for an optimum.
 enum class Guess {
@@ -23,7 +23,7 @@ enum class Guess {
 struct SolverOptions {
   Guess guess{Guess::kBest};
   /// Inputs to start from instead of a guess, N; clamped to their bounds. Empty: the guess.
-  std::vector<Input> start{};
+  std::vector<vehicle::Input> start{};
   /// Stops if the cost changes by less than this, relative.
   double cost_tolerance{1e-12};
   int max_evaluations{2000};  ///< of the cost, in one run of SLSQP; Newton takes up to 40 rounds
@@ -44,8 +44,8 @@ struct ManeuverSolution {
   /// infinite if a trim itself lies outside the bounds on states or violates a g_i. If a g_i makes
   /// the pair infeasible, it is the shortest one found with it.
   double shortest_duration_s{std::numeric_limits<double>::infinity()};
-  std::vector<Input> inputs;             ///< N; empty if kInfeasible
-  std::vector<State> states;             ///< N + 1; empty if kInfeasible
+  std::vector<vehicle::Input> inputs;    ///< N; empty if kInfeasible
+  std::vector<vehicle::State> states;    ///< N + 1; empty if kInfeasible
   double duration_s{};                   ///< T
   double cost{};                         ///< J
   std::vector<CriterionValue> criteria;  ///< of all criteria, in the order of their names
@@ -75,4 +75,4 @@ struct ManeuverSolution {
 [[nodiscard]] ManeuverSolution solve(const ManeuverProblem& problem, const RunningCost& cost,
                                      const SolverOptions& options = {});
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -9,7 +9,7 @@
 #include "planner/maneuver_design/solver/active_bounds.hpp"
 #include "planner/maneuver_design/solver/active_set_qp.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 QuadraticProblem model_at(const Transcription& transcription, const ConstraintSet& constraints,
@@ -91,4 +91,4 @@ NewtonResult newton(const Transcription& transcription, const ConstraintSet& con
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

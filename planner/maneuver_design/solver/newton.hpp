@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/solver/transcription.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 struct NewtonResult {
   Eigen::VectorXd z;
@@ -23,4 +23,4 @@ struct NewtonResult {
 [[nodiscard]] NewtonResult newton(const Transcription& transcription,
                                   const ConstraintSet& constraints, const Eigen::VectorXd& start);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 
 #include "planner/maneuver_design/solver/first_order.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kActive = 1e-6;
@@ -55,4 +55,4 @@ double first_order_residual_at(const Transcription& transcription, const Eigen::
                               columns);
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

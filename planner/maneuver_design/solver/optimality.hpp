@@ -2,7 +2,7 @@
 
 #include "planner/maneuver_design/solver/transcription.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// First-order residual (see first_order.hpp) at a point that meets the constraints. Bounds and
 /// inequalities count as active within 1e-6 of their size.
@@ -12,4 +12,4 @@ namespace hlc {
                                              const Eigen::VectorXd& z,
                                              const Eigen::VectorXd& gradient);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

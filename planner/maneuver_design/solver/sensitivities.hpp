@@ -5,7 +5,7 @@
 
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Derivatives of the states at the interval bounds by all inputs and by the duration.
 ///
@@ -15,7 +15,7 @@ namespace hlc {
 ///
 /// @pre states are the result of `shoot` for these inputs
 [[nodiscard]] std::vector<Eigen::Matrix<double, 5, Eigen::Dynamic>> sensitivities(
-    const std::vector<State>& states, const std::vector<Input>& inputs, double duration_s,
-    const VehicleParameters& vehicle);
+    const std::vector<vehicle::State>& states, const std::vector<vehicle::Input>& inputs,
+    double duration_s, const vehicle::VehicleParameters& vehicle);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

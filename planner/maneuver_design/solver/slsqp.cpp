@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 constexpr double kEndTolerance = 1e-13;
@@ -109,4 +109,4 @@ SlsqpResult run_slsqp(const Transcription& transcription, const ConstraintSet& c
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 
 #include "planner/maneuver_design/solver/transcription.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 struct SlsqpOptions {
   double cost_tolerance{1e-12};  ///< relative
@@ -26,4 +26,4 @@ struct SlsqpResult {
                                     const Eigen::ArrayXi& active_bounds,
                                     const SlsqpOptions& options);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// Course of a channel's state from one end to the other.
@@ -130,11 +130,12 @@ std::vector<Eigen::VectorXd> starting_points(const Transcription& transcription,
   return {z};
 }
 
-std::vector<Input> resampled(const std::vector<Input>& inputs, std::size_t intervals) {
+std::vector<vehicle::Input> resampled(const std::vector<vehicle::Input>& inputs,
+                                      std::size_t intervals) {
   // Time in units of 1 / (old number * new number) of the duration: all bounds are whole numbers.
   const std::size_t old_length = intervals;
   const std::size_t new_length = inputs.size();
-  std::vector<Input> result(intervals);
+  std::vector<vehicle::Input> result(intervals);
   for (std::size_t k = 0; k < intervals; ++k) {
     const std::size_t begin = k * new_length;
     const std::size_t end = begin + new_length;
@@ -149,4 +150,4 @@ std::vector<Input> resampled(const std::vector<Input>& inputs, std::size_t inter
   return result;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -5,7 +5,7 @@
 #include "planner/maneuver_design/solver/maneuver_solver.hpp"
 #include "planner/maneuver_design/solver/transcription.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Duration at which the search starts: the given one, or, if it is free, the nearest duration
 /// within the bounds that is long enough.
@@ -19,6 +19,7 @@ namespace hlc {
 
 /// The same inputs over time on another number of intervals: each new one is the mean over its
 /// time. Keeps the ends and the bounds on states.
-[[nodiscard]] std::vector<Input> resampled(const std::vector<Input>& inputs, std::size_t intervals);
+[[nodiscard]] std::vector<vehicle::Input> resampled(const std::vector<vehicle::Input>& inputs,
+                                                    std::size_t intervals);
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

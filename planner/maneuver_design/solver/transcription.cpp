@@ -5,7 +5,7 @@
 #include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/solver/sensitivities.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 /// Value of a cost at z, and its derivatives by z if `gradient` is not null.
@@ -53,17 +53,18 @@ double Transcription::objective(const Eigen::VectorXd& z, Eigen::VectorXd* gradi
 Eigen::MatrixXd Transcription::hessian(const Eigen::VectorXd& z,
                                        const std::vector<Eigen::Index>& variables) const {
   constexpr double kStep = 1e-4;
-  const std::vector<Input> inputs = variables_.inputs(z);
+  const std::vector<vehicle::Input> inputs = variables_.inputs(z);
   const double interval_s = variables_.duration_s(z) / static_cast<double>(inputs.size());
-  const std::vector<State> states = shoot(start_state(problem_), inputs, variables_.duration_s(z),
-                                          cost_, problem_.vehicle, WithGradient::kNo)
-                                        .states;
+  const std::vector<vehicle::State> states =
+      shoot(start_state(problem_), inputs, variables_.duration_s(z), cost_, problem_.vehicle,
+            WithGradient::kNo)
+          .states;
   const auto slopes_after = [&](Eigen::Index variable, double step) {
     Eigen::VectorXd shifted = z;
     shifted(variable) += step;
     const auto first = static_cast<std::ptrdiff_t>(variable / 2);
-    const std::vector<Input> all = variables_.inputs(shifted);
-    const std::vector<Input> rest(all.begin() + first, all.end());
+    const std::vector<vehicle::Input> all = variables_.inputs(shifted);
+    const std::vector<vehicle::Input> rest(all.begin() + first, all.end());
     ++evaluations_;
     return shoot(states[static_cast<std::size_t>(first)], rest,
                  interval_s * static_cast<double>(rest.size()), cost_, problem_.vehicle,
@@ -130,9 +131,9 @@ ConstraintValues Transcription::state_bounds(const Channel& channel,
 }
 
 ConstraintValues Transcription::path_constraints(const Eigen::VectorXd& z) const {
-  const std::vector<Input> inputs = variables_.inputs(z);
+  const std::vector<vehicle::Input> inputs = variables_.inputs(z);
   const double duration_s = variables_.duration_s(z);
-  const std::vector<State> states =
+  const std::vector<vehicle::State> states =
       shoot(start_state(problem_), inputs, duration_s, cost_, problem_.vehicle, WithGradient::kNo)
           .states;
   const auto slopes = sensitivities(states, inputs, duration_s, problem_.vehicle);
@@ -142,7 +143,7 @@ ConstraintValues Transcription::path_constraints(const Eigen::VectorXd& z) const
   for (const auto& constraint : problem_.path_constraints) {
     for (std::size_t k = 0; k < inputs.size(); ++k) {
       for (const std::size_t end : {k, k + 1}) {
-        const StateVector x = to_vector(states[end]);
+        const vehicle::StateVector x = vehicle::to_vector(states[end]);
         path.value(row) = constraint->value(x, inputs[k]);
         const CostGradient g = constraint->gradient(x, inputs[k]);
         Eigen::VectorXd slope = slopes[end].transpose() * g.state;
@@ -198,4 +199,4 @@ ConstraintValues Transcription::inequalities(const ConstraintSet& constraints,
   return all;
 }
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

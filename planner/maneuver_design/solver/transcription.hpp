@@ -5,7 +5,7 @@
 
 #include "planner/maneuver_design/solver/decision_variables.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 
 /// Constraints of one kind at a point: their values and, row by row, their derivatives.
 struct ConstraintValues {
@@ -78,4 +78,4 @@ class Transcription {
   mutable int evaluations_{};
 };
 
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

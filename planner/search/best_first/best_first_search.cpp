@@ -8,14 +8,15 @@
 #include "planner/common/demand.hpp"
 #include "planner/search/search_options.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 /// Expansions between two checks of the stop condition.
 constexpr std::size_t kStopInterval = 64;
 
 /// For programmer's mistakes only; see the preconditions in the header.
-bool is_well_formed(const HorizonProblem& problem, const ReachableSets& reachable, CostToGo kind) {
+bool is_well_formed(const HorizonProblem& problem, const automaton::ReachableSets& reachable,
+                    CostToGo kind) {
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
                             (!needs_reference_speeds(kind) && problem.reference_speed_mps.empty());
@@ -32,22 +33,23 @@ bool BestFirstSearch::Before::operator()(const OpenEntry& a, const OpenEntry& b)
   return a.vertex < b.vertex;
 }
 
-BestFirstSearch::BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable,
-                                 SearchOptions options)
+BestFirstSearch::BestFirstSearch(const automaton::Subgraph& subgraph,
+                                 const automaton::ReachableSets& reachable, SearchOptions options)
     : subgraph_(subgraph),
       reachable_(reachable),
       options_(options),
       collision_(subgraph, reachable),
       costs_(subgraph, options.criterion_weights, reachable.max_steps()),
       steps_(subgraph.automaton().trims.size()) {
-  const UniversalAutomaton& automaton = subgraph.automaton();
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
   for (const TrimId trim : subgraph.start_trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
-      steps_[trim.index].push_back({edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
-                                    subgraph.distance_to_standstill(edge.to),
-                                    is_at_steering_limit(automaton.trims[edge.to.index],
-                                                         automaton.vehicle, automaton.identified),
-                                    costs_.reduced_cost(*edge.maneuver)});
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
+      steps_[trim.index].push_back(
+          {edge.maneuver, to_frame(edge.maneuver->displacement), edge.to,
+           subgraph.distance_to_standstill(edge.to),
+           automaton::is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
+                                           automaton.identified),
+           costs_.reduced_cost(*edge.maneuver)});
     }
   }
 }
@@ -118,7 +120,7 @@ bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResul
   double cost = 0.0;
   bool is_path = true;
   for (std::size_t depth = 0; depth < n && is_path; ++depth) {
-    const Maneuver* const maneuver = problem.incumbent[depth];
+    const automaton::Maneuver* const maneuver = problem.incumbent[depth];
     const Step* const step = find_step(trim, maneuver);
     is_path = step != nullptr && step->distance_to_standstill <= n - (depth + 1) &&
               !(step->ends_at_limit && problem.avoids_steering_limit) &&
@@ -142,7 +144,7 @@ bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResul
 }
 
 const BestFirstSearch::Step* BestFirstSearch::find_step(TrimId trim,
-                                                        const Maneuver* maneuver) const {
+                                                        const automaton::Maneuver* maneuver) const {
   for (const Step& step : steps_[trim.index]) {
     if (step.maneuver == maneuver) return &step;
   }
@@ -197,4 +199,4 @@ void BestFirstSearch::write_path(VertexId goal, const HorizonProblem& problem,
   }
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

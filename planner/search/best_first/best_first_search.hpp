@@ -12,7 +12,7 @@
 #include "planner/search/frame.hpp"
 #include "planner/search/search_engine.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// Best-first search (A*) over vertices (pose, trim, depth).
 ///
@@ -44,7 +44,8 @@ namespace hlc {
 class BestFirstSearch final : public SearchEngine {
  public:
   /// @param subgraph, reachable  must outlive this object; `reachable` belongs to `subgraph`
-  BestFirstSearch(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options);
+  BestFirstSearch(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+                  SearchOptions options);
   using SearchEngine::search;
 
   /// A disabled trim may start with its exit edges (Subgraph); without any there is no path.
@@ -59,7 +60,7 @@ class BestFirstSearch final : public SearchEngine {
 
   /// An edge of the subgraph with the data that the search needs.
   struct Step {
-    const Maneuver* maneuver;
+    const automaton::Maneuver* maneuver;
     Frame displacement;
     TrimId to;
     std::size_t distance_to_standstill;
@@ -70,7 +71,7 @@ class BestFirstSearch final : public SearchEngine {
   struct Vertex {
     Frame frame;
     double cost_to_come;
-    const Maneuver* maneuver;  ///< of the edge into this vertex; nullptr for the root
+    const automaton::Maneuver* maneuver;  ///< of the edge into this vertex; nullptr for the root
     TrimId trim;
     VertexId parent;
     std::uint32_t depth;
@@ -94,12 +95,12 @@ class BestFirstSearch final : public SearchEngine {
   [[nodiscard]] double lower_bound(double estimate, const HorizonProblem& problem) const;
   /// Writes maneuvers, poses and cost of the incumbent; nothing, and false, if it is no free path.
   bool write_incumbent(const HorizonProblem& problem, SearchResult& result);
-  [[nodiscard]] const Step* find_step(TrimId trim, const Maneuver* maneuver) const;
+  [[nodiscard]] const Step* find_step(TrimId trim, const automaton::Maneuver* maneuver) const;
   [[nodiscard]] double cost_of(VertexId vertex, std::size_t steps) const;
   void write_path(VertexId goal, const HorizonProblem& problem, SearchResult& result) const;
 
-  const Subgraph& subgraph_;
-  const ReachableSets& reachable_;
+  const automaton::Subgraph& subgraph_;
+  const automaton::ReachableSets& reachable_;
   SearchOptions options_;
   CollisionCheck collision_;
   EdgeCosts costs_;
@@ -107,4 +108,4 @@ class BestFirstSearch final : public SearchEngine {
   std::vector<Vertex> vertices_;          ///< of the current search, in the order of generation
 };
 
-}  // namespace hlc
+}  // namespace hlc::search

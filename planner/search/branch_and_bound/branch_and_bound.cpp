@@ -15,7 +15,7 @@
 #include "planner/search/cost_to_go.hpp"
 #include "planner/search/search_tables.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using branch_and_bound::kCos;
@@ -69,7 +69,8 @@ Frame frame_of(const VertexData& vertex) {
 /// Tables, memory of a search, and the kernel's view of both.
 class BranchAndBound::Core {
  public:
-  Core(const Subgraph& subgraph, std::shared_ptr<const SearchTables> shared, Instructions most)
+  Core(const automaton::Subgraph& subgraph, std::shared_ptr<const SearchTables> shared,
+       Instructions most)
       : shared_(std::move(shared)),
         costs(shared_->costs),
         tables(shared_->store),
@@ -78,7 +79,7 @@ class BranchAndBound::Core {
         kernel(kernel_of(instructions)) {
     std::size_t most_corners = 0;
     for (const TrimId trim : subgraph.start_trims()) {
-      for (const Edge& edge : subgraph.successors(trim)) {
+      for (const automaton::Edge& edge : subgraph.successors(trim)) {
         most_corners = std::max({most_corners, edge.maneuver->swept_area_m.vertices_m.size(),
                                  edge.maneuver->lane_area_m.vertices_m.size()});
       }
@@ -169,7 +170,7 @@ class BranchAndBound::Core {
 
   /// The test of CollisionCheck, for cases that are too close for the kernel.
   [[nodiscard]] bool decides(const Question& question) const {
-    const Maneuver& maneuver = *tables.maneuver(question.edge);
+    const automaton::Maneuver& maneuver = *tables.maneuver(question.edge);
     const Frame start = frame_of(*question.vertex);
     if (question.is_segment) {
       const Segment& segment = obstacles.segment(question.item);
@@ -209,9 +210,9 @@ class BranchAndBound::Core {
   mutable ConvexPolygon placed_;  ///< its capacity holds the largest area
 };
 
-BranchAndBound::BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable,
-                               SearchOptions options, Instructions most,
-                               std::shared_ptr<const SearchTables> tables)
+BranchAndBound::BranchAndBound(const automaton::Subgraph& subgraph,
+                               const automaton::ReachableSets& reachable, SearchOptions options,
+                               Instructions most, std::shared_ptr<const SearchTables> tables)
     : subgraph_(subgraph), reachable_(reachable), options_(std::move(options)) {
   if (options_.cost_to_go != CostToGo::kReachable) {
     throw std::invalid_argument(
@@ -301,7 +302,7 @@ void BranchAndBound::write_best(const HorizonProblem& problem, SearchResult& res
   result.poses.resize(n);
   double heading_rad = problem.start.heading_rad;
   for (std::size_t j = 0; j < n; ++j) {
-    const Maneuver* const maneuver = core_->tables.maneuver(core_->best_edges[j]);
+    const automaton::Maneuver* const maneuver = core_->tables.maneuver(core_->best_edges[j]);
     heading_rad += maneuver->displacement.heading_rad;
     result.maneuvers[j] = maneuver;
     result.poses[j] = {core_->best_x[j], core_->best_y[j], heading_rad};
@@ -323,7 +324,8 @@ BranchAndBound::Instructions BranchAndBound::instructions() const { return core_
 
 void BranchAndBound::prepare(const HorizonProblem& problem) { core_->prepare(problem); }
 
-bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const {
+bool BranchAndBound::is_free(const automaton::Maneuver& maneuver, std::size_t step,
+                             const Frame& start) const {
   VertexData vertex = core_->path[0];
   put(vertex, start);
   vertex.trim = static_cast<std::uint32_t>(maneuver.from.index);
@@ -332,4 +334,4 @@ bool BranchAndBound::is_free(const Maneuver& maneuver, std::size_t step, const F
   return core_->kernel.is_free(core_->search, edge, step, vertex);
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

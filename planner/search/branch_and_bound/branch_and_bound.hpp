@@ -10,7 +10,7 @@
 #include "planner/search/frame.hpp"
 #include "planner/search/search_engine.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 struct SearchTables;
 
@@ -72,8 +72,8 @@ class BranchAndBound final : public SearchEngine {
   /// @param most  the most advanced set that may be used, if the processor has it
   /// @param tables  of this subgraph, these sets and options; none: the engine makes its own
   /// @throws std::invalid_argument unless options.cost_to_go is kReachable
-  BranchAndBound(const Subgraph& subgraph, const ReachableSets& reachable, SearchOptions options,
-                 Instructions most = Instructions::kAvx512,
+  BranchAndBound(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+                 SearchOptions options, Instructions most = Instructions::kAvx512,
                  std::shared_ptr<const SearchTables> tables = nullptr);
   ~BranchAndBound() override;
   using SearchEngine::search;
@@ -98,7 +98,8 @@ class BranchAndBound final : public SearchEngine {
   /// As CollisionCheck::is_free, for the problem prepared last.
   /// @pre `maneuver` is an edge of the subgraph out of one of its `start_trims`; 1 <= step <=
   /// horizon
-  [[nodiscard]] bool is_free(const Maneuver& maneuver, std::size_t step, const Frame& start) const;
+  [[nodiscard]] bool is_free(const automaton::Maneuver& maneuver, std::size_t step,
+                             const Frame& start) const;
 
  private:
   class Core;
@@ -106,10 +107,10 @@ class BranchAndBound final : public SearchEngine {
   void place_incumbent(const HorizonProblem& problem);
   void write_best(const HorizonProblem& problem, SearchResult& result) const;
 
-  const Subgraph& subgraph_;
-  const ReachableSets& reachable_;
+  const automaton::Subgraph& subgraph_;
+  const automaton::ReachableSets& reachable_;
   SearchOptions options_;
   std::unique_ptr<Core> core_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -14,7 +14,7 @@
 #include "planner/search/branch_and_bound/preparation.hpp"
 #include "planner/search/branch_and_bound/vectors.hpp"
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 namespace {
 
 /// A vertex in single precision, relative to the plan's start.
@@ -260,4 +260,4 @@ HLC_INLINE bool is_free(const Search& search, std::uint32_t edge, const VertexDa
 }
 
 }  // namespace
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -14,7 +14,7 @@
 /// Costs are doubles. Bounds are computed from 16-bit integers, distances in a small unit
 /// (TableStore). Collision tests compute with floats, relative to the plan's start or to a vertex,
 /// with a tolerance above the rounding; in doubtful cases `Search::decides` gives the exact result.
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 
 /// Doubles, floats, and 16-bit integers, of one vector.
 inline constexpr std::uint32_t kLanes = 4;
@@ -303,4 +303,4 @@ struct Kernel {
 /// @pre the processor has AVX2 and AVX-512 F, VL, DQ and BW
 [[nodiscard]] Kernel avx512_kernel();
 
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -14,7 +14,7 @@
 #include "planner/search/branch_and_bound/preparation.hpp"
 #include "planner/search/branch_and_bound/vectors.hpp"
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 namespace {
 
 /// The lowest and highest 16-bit integers.
@@ -460,4 +460,4 @@ bool is_free_entry(const Search& search, std::uint32_t edge, std::size_t step, V
 #undef HLC_INLINE
 
 }  // namespace
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -6,7 +6,7 @@
 #include "planner/search/branch_and_bound/data.hpp"
 #include "planner/search/branch_and_bound/vectors.hpp"
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 namespace {
 
 constexpr float kFarAway = 1e15F;      // coordinate of padding; its square is still a number
@@ -292,4 +292,4 @@ void prepare(Plan& plan, const VertexData& start) {
 }
 
 }  // namespace
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <type_traits>
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 namespace {
 
 // The kernel reads corners and boundaries directly from memory.
@@ -86,4 +86,4 @@ void PreparedObstacles::list_polygons() {
   }
 }
 
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -9,7 +9,7 @@
 #include "planner/search/branch_and_bound/tables.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 
 /// Memory for the obstacles and the boundary of one problem, for the kernel of BranchAndBound.
 ///
@@ -63,4 +63,4 @@ class PreparedObstacles {
   std::vector<SegmentRectanglesBlock> segment_rectangles_;
 };
 
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -8,7 +8,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/search/frame.hpp"
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 namespace {
 
 std::size_t padded(std::size_t size) { return (size + kLanes - 1) / kLanes * kLanes; }
@@ -81,8 +81,8 @@ bool holds_origin(const ConvexPolygon& area_m) {
 
 }  // namespace
 
-TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
-                       const EdgeCosts& costs) {
+TableStore::TableStore(const automaton::Subgraph& subgraph,
+                       const automaton::ReachableSets& reachable, const EdgeCosts& costs) {
   num_trims_ = subgraph.automaton().trims.size();
   max_steps_left_ = reachable.max_steps_left();
   HLC_DEMAND(reachable.max_steps() <= kMostSteps, reachable.max_steps(), kMostSteps);
@@ -105,13 +105,13 @@ TableStore::TableStore(const Subgraph& subgraph, const ReachableSets& reachable,
   view_.around = around_.data();
 }
 
-void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
+void TableStore::add_edges(const automaton::Subgraph& subgraph, const EdgeCosts& costs) {
   const std::size_t num_trims = num_trims_;
   first_group_.push_back(0);
   for (std::size_t trim = 0; trim < num_trims; ++trim) {
     const auto successors = subgraph.successors({trim});
-    for (const Edge& edge : successors) {
-      const Maneuver& maneuver = *edge.maneuver;
+    for (const automaton::Edge& edge : successors) {
+      const automaton::Maneuver& maneuver = *edge.maneuver;
       const Frame displacement = to_frame(maneuver.displacement);
       longest_m_ = std::max(longest_m_, displacement.origin_m.norm());
       area_radius_m_ = std::max(area_radius_m_, displacement.origin_m.norm());
@@ -139,10 +139,10 @@ void TableStore::add_edges(const Subgraph& subgraph, const EdgeCosts& costs) {
   }
 }
 
-void TableStore::add_surroundings(std::span<const Edge> successors) {
+void TableStore::add_surroundings(std::span<const automaton::Edge> successors) {
   std::vector<ConvexPolygon> areas_m;
   bool all_hold_start = true;
-  for (const Edge& edge : successors) {
+  for (const automaton::Edge& edge : successors) {
     const ConvexPolygon& area_m = edge.maneuver->swept_area_m;
     if (!area_m.empty()) areas_m.push_back(area_m);
     all_hold_start = all_hold_start && holds_origin(area_m);
@@ -151,7 +151,7 @@ void TableStore::add_surroundings(std::span<const Edge> successors) {
   around_.back().all_hold_start = all_hold_start;
 }
 
-EdgeData TableStore::edge_data(const Edge& edge, const Frame& displacement,
+EdgeData TableStore::edge_data(const automaton::Edge& edge, const Frame& displacement,
                                const EdgeCosts& costs) {
   const double x_m = displacement.origin_m.x();
   const double y_m = displacement.origin_m.y();
@@ -211,14 +211,15 @@ void TableStore::add_blocks(std::span<const Point> corners) {
   }
 }
 
-void TableStore::list_permitted(const Subgraph& subgraph, const EdgeCosts& costs,
+void TableStore::list_permitted(const automaton::Subgraph& subgraph, const EdgeCosts& costs,
                                 std::size_t max_steps) {
-  const UniversalAutomaton& automaton = subgraph.automaton();
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
   const std::size_t rows = costs.is_zero() ? max_steps_left_ + 1 : max_steps;
   penalty_rows_ = rows;
   std::vector<bool> is_at_limit;
-  for (const Trim& trim : automaton.trims) {
-    is_at_limit.push_back(is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
+  for (const automaton::Trim& trim : automaton.trims) {
+    is_at_limit.push_back(
+        automaton::is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
   }
   for (const bool avoids_limit : {false, true}) {
     auto& penalty = penalty_[avoids_limit ? 1 : 0];
@@ -284,7 +285,7 @@ void TableStore::choose_unit() {
 // vertices.
 static_assert(kSeenInARow == 8);
 
-void TableStore::compute_bounds(const ReachableSets& reachable) {
+void TableStore::compute_bounds(const automaton::ReachableSets& reachable) {
   constexpr double kRelative = 0xCp-20;
   const double farthest = (0x1p-22 * static_cast<double>(kMostSteps) + 0x1p-16) * longest_m_;
   const double unit_m = 1.0 / static_cast<double>(view_.units_per_m);
@@ -310,16 +311,16 @@ void TableStore::compute_bounds(const ReachableSets& reachable) {
       for (const Point& position_m : positions_m) {
         const Point seen_m = transformed(position_m, frame);
         for (std::size_t axis = 0; axis < kBoundAxes; ++axis) {
-          const double along_m =
-              kReachDirections[axis][0] * seen_m.x() + kReachDirections[axis][1] * seen_m.y();
+          const double along_m = automaton::kReachDirections[axis][0] * seen_m.x() +
+                                 automaton::kReachDirections[axis][1] * seen_m.y();
           intervals[axis].low = std::min(intervals[axis].low, along_m);
           intervals[axis].high = std::max(intervals[axis].high, along_m);
         }
       }
       double reach_m = 0.0;
       for (Interval& interval : intervals) {
-        interval.low -= ReachableSets::allowance_m(steps + 1);
-        interval.high += ReachableSets::allowance_m(steps + 1);
+        interval.low -= automaton::ReachableSets::allowance_m(steps + 1);
+        interval.high += automaton::ReachableSets::allowance_m(steps + 1);
         reach_m = std::max({reach_m, -interval.low, interval.high});
       }
       const double wider_m = kRelative * reach_m + farthest + 0.5 * unit_m;
@@ -367,7 +368,8 @@ void TableStore::list_levels(std::size_t max_steps) {
   }
 }
 
-void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reachable) {
+void TableStore::list_reach(const automaton::Subgraph& subgraph,
+                            const automaton::ReachableSets& reachable) {
   constexpr double kSlackM = 1e-6;  // covers rounding for areas that only just touch
   const double beyond_m = area_radius_m_ + kSlackM;
   reach_steps_ = std::max<std::size_t>(reachable.max_steps(), 1);
@@ -376,7 +378,7 @@ void TableStore::list_reach(const Subgraph& subgraph, const ReachableSets& reach
   for (const TrimId trim : subgraph.start_trims()) {
     for (std::size_t left = 0; left < rows; ++left) {
       for (std::size_t steps = 0; steps < reach_steps_; ++steps) {
-        const Reach& reach = reachable.reach(trim, steps, left);
+        const automaton::Reach& reach = reachable.reach(trim, steps, left);
         double* const row = &reach_[reach_row(trim, steps, left)];
         for (std::size_t axis = 0; axis < kAxes; ++axis) {
           row[axis] = -reach.support_m[2 * axis + kBoundAxes] - beyond_m;
@@ -395,7 +397,7 @@ std::size_t TableStore::reach_row(TrimId trim, std::size_t steps, std::size_t st
   return ((trim.index * (max_steps_left_ + 1) + steps_left) * reach_steps_ + steps) * kReachSize;
 }
 
-std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {
+std::uint32_t TableStore::find(TrimId trim, const automaton::Maneuver* maneuver) const {
   for (std::size_t edge = kLanes * first_group_[trim.index];
        edge < kLanes * first_group_[trim.index + 1]; ++edge) {
     if (maneuver != nullptr && maneuvers_[edge] == maneuver) {
@@ -405,4 +407,4 @@ std::uint32_t TableStore::find(TrimId trim, const Maneuver* maneuver) const {
   return kNoEdge;
 }
 
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -12,7 +12,7 @@
 #include "planner/search/edge_costs.hpp"
 #include "planner/search/frame.hpp"
 
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 
 /// Number of blocks for this many corners or segments.
 [[nodiscard]] constexpr std::size_t blocks_of(std::size_t size) {
@@ -24,7 +24,8 @@ namespace hlc::branch_and_bound {
 class TableStore {
  public:
   /// @pre reachable.max_steps() <= kMostSteps
-  TableStore(const Subgraph& subgraph, const ReachableSets& reachable, const EdgeCosts& costs);
+  TableStore(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+             const EdgeCosts& costs);
   TableStore(const TableStore&) = delete;  // it refers to itself
   TableStore& operator=(const TableStore&) = delete;
 
@@ -38,9 +39,11 @@ class TableStore {
     return levels_[avoids_limit ? 1 : 0][steps_left];
   }
   /// The maneuver of an edge; nullptr for padding.
-  [[nodiscard]] const Maneuver* maneuver(std::uint32_t edge) const { return maneuvers_[edge]; }
+  [[nodiscard]] const automaton::Maneuver* maneuver(std::uint32_t edge) const {
+    return maneuvers_[edge];
+  }
   /// Number of the edge out of `trim` with this maneuver; kNoEdge if there is none.
-  [[nodiscard]] std::uint32_t find(TrimId trim, const Maneuver* maneuver) const;
+  [[nodiscard]] std::uint32_t find(TrimId trim, const automaton::Maneuver* maneuver) const;
   static constexpr std::uint32_t kNoEdge = static_cast<std::uint32_t>(-1);
   static constexpr std::size_t kReachSize = 2 * kAxes;
 
@@ -61,22 +64,23 @@ class TableStore {
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
 
  private:
-  void add_edges(const Subgraph& subgraph, const EdgeCosts& costs);
+  void add_edges(const automaton::Subgraph& subgraph, const EdgeCosts& costs);
   /// A rectangle around the swept areas of a trim's edges.
-  void add_surroundings(std::span<const Edge> successors);
-  [[nodiscard]] EdgeData edge_data(const Edge& edge, const Frame& displacement,
+  void add_surroundings(std::span<const automaton::Edge> successors);
+  [[nodiscard]] EdgeData edge_data(const automaton::Edge& edge, const Frame& displacement,
                                    const EdgeCosts& costs);
   [[nodiscard]] LaneArea add_lane_area(const ConvexPolygon& area_m);
   void add_blocks(std::span<const Point> corners);
-  void list_permitted(const Subgraph& subgraph, const EdgeCosts& costs, std::size_t max_steps);
+  void list_permitted(const automaton::Subgraph& subgraph, const EdgeCosts& costs,
+                      std::size_t max_steps);
   /// Chooses the unit of bounds, and of the edges' displacements.
   void choose_unit();
-  void compute_bounds(const ReachableSets& reachable);
+  void compute_bounds(const automaton::ReachableSets& reachable);
   void list_levels(std::size_t max_steps);
-  void list_reach(const Subgraph& subgraph, const ReachableSets& reachable);
+  void list_reach(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable);
   [[nodiscard]] std::size_t reach_row(TrimId trim, std::size_t steps, std::size_t steps_left) const;
 
-  std::vector<const Maneuver*> maneuvers_;
+  std::vector<const automaton::Maneuver*> maneuvers_;
   std::vector<EdgeData> edges_;
   std::vector<std::uint32_t> first_group_;
   std::vector<double> displacement_x_;
@@ -103,4 +107,4 @@ class TableStore {
   Tables view_{};
 };
 
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

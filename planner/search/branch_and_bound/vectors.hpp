@@ -10,7 +10,7 @@
 ///
 /// Everything is inlined and in an unnamed namespace: the translation units that include this must
 /// not share a function.
-namespace hlc::branch_and_bound {
+namespace hlc::search::branch_and_bound {
 namespace {
 
 #define HLC_INLINE [[gnu::always_inline]] inline
@@ -397,4 +397,4 @@ HLC_INLINE float largest(const Floats& a) {
 HLC_INLINE double absolute(double value) { return value < 0.0 ? -value : value; }
 
 }  // namespace
-}  // namespace hlc::branch_and_bound
+}  // namespace hlc::search::branch_and_bound

@@ -12,7 +12,7 @@
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using ControlType = oc::DiscreteControlSpace::ControlType;
@@ -22,8 +22,8 @@ constexpr double kRoom_m = 0.1;
 
 class ManeuverPropagator final : public oc::StatePropagator {
  public:
-  ManeuverPropagator(const oc::SpaceInformationPtr& si, const Subgraph& subgraph,
-                     const ReachableSets& reachable, const HorizonProblem& problem)
+  ManeuverPropagator(const oc::SpaceInformationPtr& si, const automaton::Subgraph& subgraph,
+                     const automaton::ReachableSets& reachable, const HorizonProblem& problem)
       : StatePropagator(si),
         subgraph_(subgraph),
         problem_(problem),
@@ -34,7 +34,7 @@ class ManeuverPropagator final : public oc::StatePropagator {
   void propagate(const ob::State* state, const oc::Control* control, double /*duration*/,
                  ob::State* result) const override {
     const HorizonState from = read_state(*state);
-    const Maneuver* maneuver = edge(from, control->as<ControlType>()->value);
+    const automaton::Maneuver* maneuver = edge(from, control->as<ControlType>()->value);
     if (maneuver == nullptr || !collision_.is_free(*maneuver, from.step + 1, to_frame(from.pose))) {
       HorizonState nowhere = from;
       nowhere.step = problem_.horizon_steps() + 1;  // out of bounds
@@ -46,40 +46,41 @@ class ManeuverPropagator final : public oc::StatePropagator {
   bool canPropagateBackward() const override { return false; }
 
   /// The control's number of a maneuver in that state.
-  [[nodiscard]] int number_of(const HorizonState& from, const Maneuver& maneuver) const {
-    const std::vector<const Maneuver*> choices = edges(from);
+  [[nodiscard]] int number_of(const HorizonState& from, const automaton::Maneuver& maneuver) const {
+    const std::vector<const automaton::Maneuver*> choices = edges(from);
     const auto found = std::ranges::find(choices, &maneuver);
     HLC_DEMAND(found != choices.end(), from.step);
     return static_cast<int>(found - choices.begin());
   }
 
  private:
-  [[nodiscard]] std::vector<const Maneuver*> edges(const HorizonState& from) const {
-    std::vector<const Maneuver*> choices;
-    const UniversalAutomaton& automaton = subgraph_.automaton();
+  [[nodiscard]] std::vector<const automaton::Maneuver*> edges(const HorizonState& from) const {
+    std::vector<const automaton::Maneuver*> choices;
+    const automaton::UniversalAutomaton& automaton = subgraph_.automaton();
     if (from.step >= problem_.horizon_steps()) return choices;
-    for (const Edge& one : subgraph_.successors(from.trim, problem_.horizon_steps() - from.step)) {
+    for (const automaton::Edge& one :
+         subgraph_.successors(from.trim, problem_.horizon_steps() - from.step)) {
       if (problem_.avoids_steering_limit &&
-          is_at_steering_limit(automaton.trims[one.to.index], automaton.vehicle,
-                               automaton.identified)) {
+          automaton::is_at_steering_limit(automaton.trims[one.to.index], automaton.vehicle,
+                                          automaton.identified)) {
         continue;
       }
       choices.push_back(one.maneuver);
     }
     return choices;
   }
-  [[nodiscard]] const Maneuver* edge(const HorizonState& from, int number) const {
-    const std::vector<const Maneuver*> choices = edges(from);
+  [[nodiscard]] const automaton::Maneuver* edge(const HorizonState& from, int number) const {
+    const std::vector<const automaton::Maneuver*> choices = edges(from);
     if (choices.empty()) return nullptr;
     return choices[static_cast<std::size_t>(number) % choices.size()];
   }
 
-  const Subgraph& subgraph_;
+  const automaton::Subgraph& subgraph_;
   const HorizonProblem& problem_;
   mutable CollisionCheck collision_;  // its buffers only
 };
 
-PositionBounds reach_of(const ReachableSets& reachable, const HorizonProblem& problem) {
+PositionBounds reach_of(const automaton::ReachableSets& reachable, const HorizonProblem& problem) {
   double reach_m = kRoom_m;
   for (std::size_t i = 1; i <= problem.horizon_steps(); ++i) {
     reach_m = std::max(reach_m, kRoom_m + reachable.max_distance_m(problem.start_trim, i,
@@ -89,7 +90,7 @@ PositionBounds reach_of(const ReachableSets& reachable, const HorizonProblem& pr
   return {start_m - Point::Constant(reach_m), start_m + Point::Constant(reach_m)};
 }
 
-int max_edges(const Subgraph& subgraph) {
+int max_edges(const automaton::Subgraph& subgraph) {
   std::size_t most = 1;
   for (const TrimId trim : subgraph.start_trims()) {
     most = std::max(most, subgraph.successors(trim).size());
@@ -100,7 +101,8 @@ int max_edges(const Subgraph& subgraph) {
 }  // namespace
 
 std::shared_ptr<oc::SpaceInformation> make_control_space_information(
-    const Subgraph& subgraph, const ReachableSets& reachable, const HorizonProblem& problem) {
+    const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+    const HorizonProblem& problem) {
   const ob::StateSpacePtr states =
       make_state_space(subgraph, problem.horizon_steps(), reach_of(reachable, problem));
   const auto controls =
@@ -145,4 +147,4 @@ ob::Cost path_cost(const oc::PathControl& path, const ob::OptimizationObjective&
   return sum;
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -9,7 +9,7 @@
 
 #include "planner/search/ompl/ompl_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// The problem for OMPL's kinodynamic planners (ompl/control): the same states (make_state_space),
 /// a control for each edge of the subgraph.
@@ -26,7 +26,8 @@ namespace hlc {
 ///
 /// @param subgraph, reachable, problem  must outlive the space information, `problem` unchanged
 [[nodiscard]] std::shared_ptr<ompl::control::SpaceInformation> make_control_space_information(
-    const Subgraph& subgraph, const ReachableSets& reachable, const HorizonProblem& problem);
+    const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+    const HorizonProblem& problem);
 
 /// The plan as a path of controls. @pre `si` is of make_control_space_information for this problem
 [[nodiscard]] ompl::base::PathPtr make_control_path(
@@ -37,4 +38,4 @@ namespace hlc {
 [[nodiscard]] ompl::base::Cost path_cost(const ompl::control::PathControl& path,
                                          const ompl::base::OptimizationObjective& objective);
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -8,13 +8,13 @@
 
 namespace ob = ompl::base;
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 class OmplEngine final : public SearchEngine {
  public:
-  OmplEngine(const Subgraph& subgraph, const ReachableSets& reachable, const SearchOptions& options,
-             std::shared_ptr<const SearchTables> tables)
+  OmplEngine(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
+             const SearchOptions& options, std::shared_ptr<const SearchTables> tables)
       : subgraph_(subgraph),
         si_(make_space_information(subgraph, reachable.max_steps())),
         planner_(si_, subgraph, reachable, options, std::move(tables)) {
@@ -37,7 +37,7 @@ class OmplEngine final : public SearchEngine {
   }
 
  private:
-  const Subgraph& subgraph_;
+  const automaton::Subgraph& subgraph_;
   ob::SpaceInformationPtr si_;
   RecedingHorizonPlanner planner_;
   std::shared_ptr<HorizonProblemDefinition> definition_;
@@ -45,11 +45,11 @@ class OmplEngine final : public SearchEngine {
 
 }  // namespace
 
-std::unique_ptr<SearchEngine> make_ompl_engine(const Subgraph& subgraph,
-                                               const ReachableSets& reachable,
+std::unique_ptr<SearchEngine> make_ompl_engine(const automaton::Subgraph& subgraph,
+                                               const automaton::ReachableSets& reachable,
                                                const SearchOptions& options,
                                                std::shared_ptr<const SearchTables> tables) {
   return std::make_unique<OmplEngine>(subgraph, reachable, options, std::move(tables));
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -17,7 +17,7 @@ namespace ob = ompl::base;
 namespace oc = ompl::control;
 namespace og = ompl::geometric;
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 /// @throws std::invalid_argument, which ParamSet turns into a refusal
@@ -55,8 +55,8 @@ ob::PathPtr make_geometric_path(const ob::SpaceInformationPtr& si, const Horizon
 }  // namespace
 
 RecedingHorizonPlanner::RecedingHorizonPlanner(const ob::SpaceInformationPtr& si,
-                                               const Subgraph& subgraph,
-                                               const ReachableSets& reachable,
+                                               const automaton::Subgraph& subgraph,
+                                               const automaton::ReachableSets& reachable,
                                                const SearchOptions& options,
                                                std::shared_ptr<const SearchTables> tables)
     : Planner(si, "RecedingHorizonPlanner"),
@@ -203,4 +203,4 @@ void RecedingHorizonPlanner::getPlannerData(ob::PlannerData& data) const {
 
 SearchResult RecedingHorizonPlanner::take_result() { return std::exchange(result_, {}); }
 
-}  // namespace hlc
+}  // namespace hlc::search

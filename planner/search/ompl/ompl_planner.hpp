@@ -11,7 +11,7 @@
 #include "planner/search/ompl/ompl_problem.hpp"
 #include "planner/search/search_engine.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// Solves problem definitions whose goal is a StandstillGoal (a HorizonProblemDefinition has one)
 /// with a search engine. Usable from any OMPL program, for example
@@ -57,8 +57,9 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   /// @param subgraph, reachable  must outlive the planner; `reachable` for at least the horizon
   /// @param options  `factory` is ignored: the engine behind this planner is `engine`
   /// @param tables  as make_search_engine; used until a parameter changes
-  RecedingHorizonPlanner(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
-                         const ReachableSets& reachable, const SearchOptions& options,
+  RecedingHorizonPlanner(const ompl::base::SpaceInformationPtr& si,
+                         const automaton::Subgraph& subgraph,
+                         const automaton::ReachableSets& reachable, const SearchOptions& options,
                          std::shared_ptr<const SearchTables> tables = nullptr);
 
   /// @throws std::invalid_argument as make_search_engine, if the parameters do not match; so does
@@ -89,8 +90,8 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   [[nodiscard]] bool starts_where_problem_starts(const HorizonProblem& problem);
   ompl::base::PlannerStatus add_solution(const HorizonProblem& problem);
 
-  const Subgraph& subgraph_;
-  const ReachableSets& reachable_;
+  const automaton::Subgraph& subgraph_;
+  const automaton::ReachableSets& reachable_;
   SearchOptions options_;
   std::shared_ptr<const SearchTables> tables_;
   std::unique_ptr<SearchEngine> engine_;
@@ -100,4 +101,4 @@ class RecedingHorizonPlanner final : public ompl::base::Planner {
   ompl::base::PathPtr former_path_;  ///< to be overwritten, if it has no other owner
 };
 
-}  // namespace hlc
+}  // namespace hlc::search

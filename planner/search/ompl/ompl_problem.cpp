@@ -9,7 +9,7 @@
 
 namespace ob = ompl::base;
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 /// Indices of the subspaces.
@@ -19,7 +19,7 @@ constexpr unsigned kStep = 2;
 
 }  // namespace
 
-ob::StateSpacePtr make_state_space(const Subgraph& subgraph, std::size_t max_steps,
+ob::StateSpacePtr make_state_space(const automaton::Subgraph& subgraph, std::size_t max_steps,
                                    const PositionBounds& box) {
   ompl::msg::noOutputHandler();
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
@@ -41,7 +41,8 @@ ob::StateSpacePtr make_state_space(const Subgraph& subgraph, std::size_t max_ste
   return space;
 }
 
-ob::SpaceInformationPtr make_space_information(const Subgraph& subgraph, std::size_t max_steps) {
+ob::SpaceInformationPtr make_space_information(const automaton::Subgraph& subgraph,
+                                               std::size_t max_steps) {
   auto si = std::make_shared<ob::SpaceInformation>(make_state_space(subgraph, max_steps));
   si->setStateValidityChecker(std::make_shared<ob::AllValidStateValidityChecker>(si));
   si->setup();
@@ -68,8 +69,9 @@ HorizonState read_state(const ob::State& from) {
           static_cast<std::size_t>(step)};
 }
 
-StandstillGoal::StandstillGoal(const ob::SpaceInformationPtr& si, const Subgraph& subgraph,
-                               const HorizonProblem& problem, double radius_m)
+StandstillGoal::StandstillGoal(const ob::SpaceInformationPtr& si,
+                               const automaton::Subgraph& subgraph, const HorizonProblem& problem,
+                               double radius_m)
     : Goal(si), subgraph_(subgraph), problem_(&problem), radius_m_(radius_m) {}
 
 bool StandstillGoal::isSatisfied(const ob::State* state) const {
@@ -100,7 +102,7 @@ ob::Cost SquaredDistanceObjective::motionCost(const ob::State* /*from*/,
 }
 
 HorizonProblemDefinition::HorizonProblemDefinition(const ob::SpaceInformationPtr& si,
-                                                   const Subgraph& subgraph,
+                                                   const automaton::Subgraph& subgraph,
                                                    const HorizonProblem& problem)
     : ProblemDefinition(si),
       standstill_(std::make_shared<StandstillGoal>(si, subgraph, problem)),
@@ -120,4 +122,4 @@ void HorizonProblemDefinition::pose(const HorizonProblem& problem) {
   clearSolutionNonExistenceProof();
 }
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -12,7 +12,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/search/horizon_problem.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 /// A state of the OMPL state space SE(2) x trim x step: pose, trim and number of steps done.
 struct HorizonState {
@@ -32,14 +32,14 @@ struct PositionBounds {
 /// sampling of OMPL's planners; RecedingHorizonPlanner does not sample.
 ///
 /// Turns OMPL's own console log off, for the whole process.
-[[nodiscard]] ompl::base::StateSpacePtr make_state_space(const Subgraph& subgraph,
+[[nodiscard]] ompl::base::StateSpacePtr make_state_space(const automaton::Subgraph& subgraph,
                                                          std::size_t max_steps,
                                                          const PositionBounds& bounds = {});
 
 /// That space, set up. Obstacles concern maneuvers, not states: every state is valid and
 /// `ompl::base::Path::check` does not check for collision (ompl_control.hpp does).
-[[nodiscard]] ompl::base::SpaceInformationPtr make_space_information(const Subgraph& subgraph,
-                                                                     std::size_t max_steps);
+[[nodiscard]] ompl::base::SpaceInformationPtr make_space_information(
+    const automaton::Subgraph& subgraph, std::size_t max_steps);
 
 void write_state(const HorizonState& from, ompl::base::State& to);
 [[nodiscard]] HorizonState read_state(const ompl::base::State& state);
@@ -51,7 +51,7 @@ class StandstillGoal final : public ompl::base::Goal {
  public:
   /// @param subgraph  must outlive this object
   /// @param problem   must stay alive and unchanged as long as this object poses it
-  StandstillGoal(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
+  StandstillGoal(const ompl::base::SpaceInformationPtr& si, const automaton::Subgraph& subgraph,
                  const HorizonProblem& problem,
                  double radius_m = std::numeric_limits<double>::infinity());
   bool isSatisfied(const ompl::base::State* state) const override;
@@ -60,7 +60,7 @@ class StandstillGoal final : public ompl::base::Goal {
   void pose(const HorizonProblem& problem) { problem_ = &problem; }
 
  private:
-  const Subgraph& subgraph_;
+  const automaton::Subgraph& subgraph_;
   const HorizonProblem* problem_;
   double radius_m_;
 };
@@ -89,8 +89,8 @@ class HorizonProblemDefinition final : public ompl::base::ProblemDefinition {
  public:
   /// @param subgraph  must outlive this object
   /// @param problem   must stay alive and unchanged as long as this object poses it
-  HorizonProblemDefinition(const ompl::base::SpaceInformationPtr& si, const Subgraph& subgraph,
-                           const HorizonProblem& problem);
+  HorizonProblemDefinition(const ompl::base::SpaceInformationPtr& si,
+                           const automaton::Subgraph& subgraph, const HorizonProblem& problem);
   /// Poses another problem of the same subgraph, without solutions: making a definition takes
   /// longer than many a search. A planner with this definition must be cleared.
   void pose(const HorizonProblem& problem);
@@ -100,4 +100,4 @@ class HorizonProblemDefinition final : public ompl::base::ProblemDefinition {
   std::shared_ptr<SquaredDistanceObjective> distances_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::search

@@ -50,10 +50,11 @@ bool runs(pid_t pid) {
 class TwoControllers : public testing::Test {
  protected:
   TwoControllers()
-      : participant_(on_loopback("ParticipantSingleton", domains_.first() + 1, DomainRole::kLocal)),
-        lists_(participant_, topics::vehicle_state_list()),
-        commands_(participant_, topics::command()),
-        ready_(participant_, topics::ready_status()),
+      : participant_(dds::on_loopback("ParticipantSingleton", domains_.first() + 1,
+                                      dds::DomainRole::kLocal)),
+        lists_(participant_, dds::topics::vehicle_state_list()),
+        commands_(participant_, dds::topics::command()),
+        ready_(participant_, dds::topics::ready_status()),
         program_({kProgram, "--node_id=high_level_controller", "--vehicle_ids=1,2",
                   "--scenario=" + kScenario, "--transport=loopback", "--simulated_time=false",
                   "--dds_domain=" + std::to_string(domains_.first()),
@@ -63,17 +64,18 @@ class TwoControllers : public testing::Test {
   /// Writes state lists until the condition holds.
   template <class Condition>
   [[nodiscard]] bool write_until(Condition condition) {
-    return Signal{}.repeat_until(soon(), 50ms, condition, [this] {
-      VehicleStateList list{.t_now = next_on_grid(real_time_now(), kPeriod, kListOffset),
+    return time::Signal{}.repeat_until(dds::soon(), 50ms, condition, [this] {
+      VehicleStateList list{.t_now = next_on_grid(time::real_time_now(), kPeriod, kListOffset),
                             .period_ms = 200,
                             .states = {},
                             .observations = {},
                             .active_vehicle_ids = {1, 2}};
       for (const std::uint8_t id : {std::uint8_t{1}, std::uint8_t{2}}) {
-        list.states.push_back({.vehicle_id = id,
-                               .create_stamp = list.t_now - kStateDelay,
-                               .valid_after_stamp = list.t_now,
-                               .pose = measured_start(scenario_, vehicle_of(scenario_, {id}))});
+        list.states.push_back(
+            {.vehicle_id = id,
+             .create_stamp = list.t_now - kStateDelay,
+             .valid_after_stamp = list.t_now,
+             .pose = scenario::measured_start(scenario_, scenario::vehicle_of(scenario_, {id}))});
       }
       lists_.write(list);
     });
@@ -90,13 +92,13 @@ class TwoControllers : public testing::Test {
         std::ranges::count(commands_.wait_for(0), vehicle, &TrajectoryCommand::vehicle_id));
   }
 
-  const Scenario scenario_ = read_scenario({.file = kScenario});
+  const scenario::Scenario scenario_ = scenario::read_scenario({.file = kScenario});
   TemporaryFolder folder_;
   DomainReservation domains_{2};
-  Participant participant_;
-  Writer<VehicleStateList> lists_;
-  Mailbox<TrajectoryCommand> commands_;
-  Mailbox<ReadyStatus> ready_;
+  dds::Participant participant_;
+  dds::Writer<VehicleStateList> lists_;
+  dds::Mailbox<TrajectoryCommand> commands_;
+  dds::Mailbox<ReadyStatus> ready_;
   ChildProcess program_;
 };
 

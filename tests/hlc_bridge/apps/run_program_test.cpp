@@ -13,7 +13,7 @@
 
 #include "hlc_bridge/time/signal.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using testing::ExitedWithCode;
@@ -24,7 +24,7 @@ struct FakeProcess {
 
 /// Ends the program as main would. In a child: the watchdog of the end stays behind.
 [[noreturn]] void end_with(const std::function<std::shared_ptr<FakeProcess>()>& make) {
-  StopSignals signals;
+  time::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_logger_mt("test"));  // a death test reads no other
   std::exit(run_program("blue", signals, make, [](FakeProcess&) {}));
 }
@@ -56,8 +56,8 @@ TEST_F(RunProgramDeathTest, WhatFailsInTheRunIsNoBadInput) {
 
 TEST_F(RunProgramDeathTest, ASignalStopsTheProcess) {
   const auto wait_for_stop = [] {
-    StopSignals signals;
-    Signal signal;
+    time::StopSignals signals;
+    time::Signal signal;
     bool stopped = false;
     const auto process = std::make_shared<FakeProcess>([&] {
       ::kill(::getpid(), SIGTERM);  // raise would send it to this thread alone
@@ -72,4 +72,4 @@ TEST_F(RunProgramDeathTest, ASignalStopsTheProcess) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -16,7 +16,7 @@
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc::confinement_test {
+namespace hlc::dds::confinement_test {
 namespace {
 
 /// Files in /dev/shm that this process has mapped.
@@ -66,15 +66,16 @@ constexpr const char* kLoopback = "0100007F";            // 127.0.0.1
 constexpr const char* kDiscoveryMulticast = "0100FFEF";  // 239.255.0.1
 
 TEST(LoopbackTransport, UsesNoSocketBeyondThisMachineAndNoSharedMemory) {
-  const DomainReservation domains{3};
+  const test::DomainReservation domains{3};
   Participant lab{on_loopback("a", domains.first(), DomainRole::kLab)};
   Participant local{on_loopback("a", domains.first() + 1, DomainRole::kLocal)};
   Participant controller{on_loopback("a", domains.first() + 2, DomainRole::kController)};
   Participant other{on_loopback("b", domains.first() + 2, DomainRole::kController)};
-  Mailbox<Outcome> mailbox{other, topics::outcome()};
-  Writer<Outcome> writer{controller, topics::outcome()};
+  Mailbox<coordination::Outcome> mailbox{other, topics::outcome()};
+  Writer<coordination::Outcome> writer{controller, topics::outcome()};
   ASSERT_TRUE(writer.wait_for_matched(1, soon()));
-  ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
+  ASSERT_TRUE(
+      writer.write(coordination::Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
   ASSERT_EQ(mailbox.wait_for(1).size(), 1U);
   const std::set<std::string> addresses = udp_addresses();
   EXPECT_TRUE(addresses.contains(kLoopback)) << "this test looks at the wrong place";
@@ -92,7 +93,7 @@ ParticipantOptions as_in_the_lab(const std::string& name, int domain, DomainRole
 
 // A vehicle died of its middleware's death, which had held the lock of a shared history.
 TEST(LabTransport, LabDomainHasNoMemoryThatADeadProcessCouldHaveLocked) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant vehicle{as_in_the_lab("vehicle_1", domain.first(), DomainRole::kLab)};
   Participant middleware{as_in_the_lab("middleware_1", domain.first(), DomainRole::kLab)};
   Mailbox<VehicleState> states{middleware, topics::vehicle_state(1)};
@@ -150,7 +151,7 @@ class DefaultPeer {
 };
 
 TEST(LabTransport, APeerWithTheLibrarysDefaultsHearsUsAndIsHeard) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant ours{as_in_the_lab("ours", domain.first(), DomainRole::kLab)};
   const Topic<VehicleState> topic = topics::vehicle_state(1);
   DefaultPeer theirs(domain.first(), topic.name);
@@ -174,7 +175,7 @@ TEST(LabTransport, APeerWithTheLibrarysDefaultsHearsUsAndIsHeard) {
 }
 
 TEST(LabTransport, LocalDomainIsSharedMemoryOnly) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   const auto options = [&](const std::string& name) {
     return as_in_the_lab(name, domain.first(), DomainRole::kLocal);
   };
@@ -204,4 +205,4 @@ TEST(LabTransport, LocalDomainIsSharedMemoryOnly) {
 }
 
 }  // namespace
-}  // namespace hlc::confinement_test
+}  // namespace hlc::dds::confinement_test

@@ -8,15 +8,16 @@
 #include "hlc_bridge/dds/wire.hpp"
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 
-namespace hlc::convert_hlc_test {
+namespace hlc::dds::convert_hlc_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <class Message>
 class OwnConversion : public testing::Test {};
-using OwnMessages = testing::Types<Traffic, Prediction, Outcome, ReportRecord, RunState,
-                                   AutomatonRequest, AutomatonAnswer>;
+using OwnMessages =
+    testing::Types<coordination::Traffic, coordination::Prediction, coordination::Outcome,
+                   ReportRecord, RunState, AutomatonRequest, AutomatonAnswer>;
 TYPED_TEST_SUITE(OwnConversion, OwnMessages);
 
 TYPED_TEST(OwnConversion, EveryFieldSurvivesTheWayOverTheWire) {
@@ -50,18 +51,18 @@ bool is_refused(const Message& message) {
 TEST(OwnConversionRefuses, VehicleIdsOutside1To30) {
   for (const int id : {0, 31, 255}) {
     const VehicleId vehicle{static_cast<std::uint8_t>(id)};
-    auto traffic = good<Traffic>();
+    auto traffic = good<coordination::Traffic>();
     traffic.vehicle = vehicle;
     EXPECT_TRUE(is_refused(traffic));
     EXPECT_FALSE(can_be_written(traffic));
-    traffic = good<Traffic>();
+    traffic = good<coordination::Traffic>();
     traffic.silent.push_back(vehicle);
     EXPECT_TRUE(is_refused(traffic));
-    auto prediction = good<Prediction>();
+    auto prediction = good<coordination::Prediction>();
     prediction.vehicle = vehicle;
     EXPECT_TRUE(is_refused(prediction));
     EXPECT_FALSE(can_be_written(prediction));
-    auto outcome = good<Outcome>();
+    auto outcome = good<coordination::Outcome>();
     outcome.vehicle = vehicle;
     EXPECT_TRUE(is_refused(outcome));
     EXPECT_FALSE(can_be_written(outcome));
@@ -76,12 +77,12 @@ TEST(OwnConversionRefuses, VehicleIdsOutside1To30) {
     report.report.missing.push_back(vehicle);
     EXPECT_TRUE(is_refused(report));
   }
-  EXPECT_FALSE(is_refused(good<Traffic>()));
-  EXPECT_TRUE(can_be_written(good<Traffic>()));
+  EXPECT_FALSE(is_refused(good<coordination::Traffic>()));
+  EXPECT_TRUE(can_be_written(good<coordination::Traffic>()));
 }
 
 TEST(OwnConversion, LeavesOutCornersOfPolygonsThatComeTwice) {
-  auto traffic = good<Traffic>();
+  auto traffic = good<coordination::Traffic>();
   traffic.reachable_area_m = {{Point{0, 0}, Point{0, 0}, Point{1, 0}, Point{1, 0}, Point{1, 0},
                                Point{0, 1}, Point{0, 0}, Point{0, 0}}};
   TrafficMessage wire;
@@ -104,23 +105,23 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
       {{Point{0, 0}, Point{-1.001e9, 0}, Point{0, 1}}},
       too_many};
   for (const ConvexPolygon& polygon : bad) {
-    auto traffic = good<Traffic>();
+    auto traffic = good<coordination::Traffic>();
     traffic.reachable_area_m = polygon;
     EXPECT_TRUE(is_refused(traffic));
-    traffic = good<Traffic>();
+    traffic = good<coordination::Traffic>();
     traffic.running.final_area_m = polygon;
     EXPECT_TRUE(is_refused(traffic));
-    traffic = good<Traffic>();
+    traffic = good<coordination::Traffic>();
     traffic.running.areas_m.push_back(polygon);
     EXPECT_TRUE(is_refused(traffic));
-    auto prediction = good<Prediction>();
+    auto prediction = good<coordination::Prediction>();
     prediction.areas.areas_m.push_back(polygon);
     EXPECT_TRUE(is_refused(prediction));
   }
 }
 
 TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
-  auto traffic = good<Traffic>();
+  auto traffic = good<coordination::Traffic>();
   traffic.next_pose.heading_rad = kNan;
   EXPECT_TRUE(is_refused(traffic));
   auto report = good<ReportRecord>();
@@ -182,4 +183,4 @@ TEST(OwnConversionRefuses, UnknownEnumerationValues) {
 }
 
 }  // namespace
-}  // namespace hlc::convert_hlc_test
+}  // namespace hlc::dds::convert_hlc_test

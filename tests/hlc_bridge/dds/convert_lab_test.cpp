@@ -8,7 +8,7 @@
 #include "hlc_bridge/dds/wire.hpp"
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 
-namespace hlc::convert_lab_test {
+namespace hlc::dds::convert_lab_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -170,4 +170,4 @@ TEST(LabConversionRefuses, ParametersOfUnknownTypeOrWithoutTheirValue) {
 }
 
 }  // namespace
-}  // namespace hlc::convert_lab_test
+}  // namespace hlc::dds::convert_lab_test

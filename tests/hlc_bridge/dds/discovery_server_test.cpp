@@ -6,7 +6,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc::discovery_server_test {
+namespace hlc::dds::discovery_server_test {
 namespace {
 
 constexpr const char* kServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
@@ -26,7 +26,7 @@ ParticipantOptions server_of(int domain) {
 }
 
 TEST(DiscoveryServer, ClientsFindEachOtherThroughIt) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   const Participant server{server_of(domain.first())};
   Participant vehicle{through_server("vehicle_raspberry_1", domain.first())};
   Participant middleware{through_server("middleware_1", domain.first())};
@@ -38,7 +38,7 @@ TEST(DiscoveryServer, ClientsFindEachOtherThroughIt) {
 }
 
 TEST(DiscoveryServer, ClientsDoNotFindEachOtherWithoutIt) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   const Participant vehicle{through_server("vehicle_raspberry_1", domain.first())};
   const Participant middleware{through_server("middleware_1", domain.first())};
   // What must not happen is given a second to happen.
@@ -48,7 +48,7 @@ TEST(DiscoveryServer, ClientsDoNotFindEachOtherWithoutIt) {
 }
 
 TEST(Peers, AreFoundAsWell) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   ParticipantOptions options =
       on_loopback("high_level_controller_1", domain.first(), DomainRole::kController);
   options.peers = {"127.0.0.1"};
@@ -61,7 +61,7 @@ TEST(Peers, AreFoundAsWell) {
 }
 
 TEST(Peers, AreAddressesAndNotForClientsOfAServer) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   ParticipantOptions options = on_loopback("a", domain.first(), DomainRole::kController);
   options.peers = {"lab-pc"};
   EXPECT_THROW(Participant{options}, std::invalid_argument);
@@ -71,4 +71,4 @@ TEST(Peers, AreAddressesAndNotForClientsOfAServer) {
 }
 
 }  // namespace
-}  // namespace hlc::discovery_server_test
+}  // namespace hlc::dds::discovery_server_test

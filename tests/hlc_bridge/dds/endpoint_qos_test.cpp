@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace hlc::endpoint_qos_test {
+namespace hlc::dds::endpoint_qos_test {
 namespace {
 
 using Place = std::pair<TopicId, DomainRole>;
@@ -145,4 +145,4 @@ TEST(TopicQos, ATopicOnTheWrongDomainIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc::endpoint_qos_test
+}  // namespace hlc::dds::endpoint_qos_test

@@ -5,7 +5,7 @@
 
 #include <fastdds/rtps/builtin/data/ParticipantProxyData.h>
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 const void* file_of(const void* address) {
@@ -31,4 +31,4 @@ TEST(ParticipantThatHasLeft, IsNotLookedAtForItsLease) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -11,7 +11,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc::foreign_message_test {
+namespace hlc::dds::foreign_message_test {
 namespace {
 
 /// Bytes that claim to be of another type.
@@ -46,7 +46,7 @@ class BytesType : public fdds::TopicDataType {
 
 class ForeignMessages : public testing::Test {
  protected:
-  DomainReservation domain_;
+  test::DomainReservation domain_;
   Participant honest_{on_loopback("honest", domain_.first(), DomainRole::kLab)};
   Participant foreign_{on_loopback("foreign", domain_.first(), DomainRole::kLab)};
   Participant receiver_{on_loopback("receiver", domain_.first(), DomainRole::kLab)};
@@ -136,4 +136,4 @@ TEST_F(ForeignMessages, InvalidValuesAreDroppedAndCounted) {
 }
 
 }  // namespace
-}  // namespace hlc::foreign_message_test
+}  // namespace hlc::dds::foreign_message_test

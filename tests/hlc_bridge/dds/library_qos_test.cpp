@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/dds/library.hpp"
 
-namespace hlc::library_qos_test {
+namespace hlc::dds::library_qos_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -81,4 +81,4 @@ TEST(Duration, SplitsSecondsAndNanoseconds) {
 }
 
 }  // namespace
-}  // namespace hlc::library_qos_test
+}  // namespace hlc::dds::library_qos_test

@@ -10,7 +10,7 @@
 #include "hlc_bridge/dds/topics.hpp"
 #include "hlc_bridge/time/signal.hpp"
 
-namespace hlc {
+namespace hlc::dds {
 
 /// Long enough for a busy machine with sanitizers; only a failing test waits for it.
 inline std::chrono::steady_clock::time_point soon() {
@@ -55,9 +55,9 @@ class Mailbox {
   [[nodiscard]] Reader<Message>& reader() { return reader_; }
 
  private:
-  Signal signal_;
+  time::Signal signal_;
   std::vector<Message> messages_;
   Reader<Message> reader_;  // last: its callbacks use the others
 };
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace hlc::participant_test {
+namespace hlc::dds::participant_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -79,13 +79,13 @@ class Watcher {
   }
 
  private:
-  Signal signal_;
+  time::Signal signal_;
   int changes_{};
   Participant participant_;
 };
 
 TEST(Participant, SeesOthersAppearAndLeave) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Watcher watcher{domain.first()};
   EXPECT_EQ(watcher.participant().alive(), Names{});
   {
@@ -106,7 +106,7 @@ TEST(Participant, SeesOthersAppearAndLeave) {
 }
 
 TEST(Participant, SaysItsVersionToOthers) {
-  const DomainReservation domains{1};
+  const test::DomainReservation domains{1};
   const Participant observer{on_loopback("observer", domains.first(), DomainRole::kLab)};
   ParticipantOptions options = on_loopback("red", domains.first(), DomainRole::kLab);
   options.version = "revision 1";
@@ -117,13 +117,13 @@ TEST(Participant, SaysItsVersionToOthers) {
 }
 
 TEST(Participant, WaitForEndsAtTheDeadline) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant alone{on_loopback("alone", domain.first(), DomainRole::kController)};
   EXPECT_FALSE(alone.wait_for({"absent"}, std::chrono::steady_clock::now()));
 }
 
 TEST(Participant, SeesNobodyOfAnotherDomain) {
-  const DomainReservation domains{2};
+  const test::DomainReservation domains{2};
   Participant here{on_loopback("here", domains.first(), DomainRole::kController)};
   Participant there{on_loopback("there", domains.first() + 1, DomainRole::kController)};
   Participant friend_of_here{on_loopback("friend", domains.first(), DomainRole::kController)};
@@ -132,7 +132,7 @@ TEST(Participant, SeesNobodyOfAnotherDomain) {
 }
 
 TEST(Participant, AProcessThatEndsCleanlyIsLostAtOnce) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Watcher watcher{domain.first()};
   Peer peer{"peer", domain.first()};
   ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("peer"); }));
@@ -141,9 +141,9 @@ TEST(Participant, AProcessThatEndsCleanlyIsLostAtOnce) {
 }
 
 TEST(Participant, AProcessThatIsKilledIsLostAfterItsLease) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Watcher watcher{domain.first()};
-  Mailbox<Outcome> mailbox{watcher.participant(), topics::outcome()};
+  Mailbox<coordination::Outcome> mailbox{watcher.participant(), topics::outcome()};
   // The library keeps what it knew of one that has left for the next one that comes.
   Peer former{"former", domain.first()};
   ASSERT_TRUE(watcher.wait([](const Participant& p) { return p.is_alive("former"); }));
@@ -158,28 +158,29 @@ TEST(Participant, AProcessThatIsKilledIsLostAfterItsLease) {
 }
 
 TEST(Participant, EndpointsMayOutliveIt) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   auto participant = std::make_unique<Participant>(
       on_loopback("short-lived", domain.first(), DomainRole::kController));
-  Writer<Outcome> writer{*participant, topics::outcome()};
-  Mailbox<Outcome> mailbox{*participant, topics::outcome()};
+  Writer<coordination::Outcome> writer{*participant, topics::outcome()};
+  Mailbox<coordination::Outcome> mailbox{*participant, topics::outcome()};
   participant.reset();
-  EXPECT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
+  EXPECT_TRUE(
+      writer.write(coordination::Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
 }
 
 TEST(Participant, EndsUnderFullTraffic) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
-  Writer<Outcome> writer{sender, topics::outcome()};
+  Writer<coordination::Outcome> writer{sender, topics::outcome()};
   std::atomic<bool> done{false};
   std::thread traffic{[&] {
     for (std::uint64_t step = 0; !done; ++step) {
-      writer.write(Outcome{.vehicle = {1}, .step = {step}, .wants_fallback = false});
+      writer.write(coordination::Outcome{.vehicle = {1}, .step = {step}, .wants_fallback = false});
     }
   }};
   for (int i = 0; i < 10; ++i) {
     Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
-    Mailbox<Outcome> mailbox{receiver, topics::outcome()};
+    Mailbox<coordination::Outcome> mailbox{receiver, topics::outcome()};
     EXPECT_FALSE(mailbox.wait_for(1).empty());
   }
   done = true;
@@ -197,25 +198,27 @@ TEST(Participant, BadOptionsAreRefusedAndTheProcessGoesOn) {
 }
 
 TEST(Endpoints, OfATopicOnTheWrongDomainAreRefused) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant participant{on_loopback("red", domain.first(), DomainRole::kLab)};
-  EXPECT_THROW((Writer<Outcome>{participant, topics::outcome()}), std::invalid_argument);
-  EXPECT_THROW((Reader<Outcome>{participant, topics::outcome(), [](const Outcome&) {}}),
+  EXPECT_THROW((Writer<coordination::Outcome>{participant, topics::outcome()}),
+               std::invalid_argument);
+  EXPECT_THROW((Reader<coordination::Outcome>{participant, topics::outcome(),
+                                              [](const coordination::Outcome&) {}}),
                std::invalid_argument);
 }
 
 TEST(Endpoints, TellOfMatchesOnBothSides) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant red{on_loopback("red", domain.first(), DomainRole::kController)};
-  Signal signal;
-  Writer<Outcome> writer{red, topics::outcome(), [&] { signal.notify(); }};
+  time::Signal signal;
+  Writer<coordination::Outcome> writer{red, topics::outcome(), [&] { signal.notify(); }};
   EXPECT_EQ(writer.matched(), 0U);
   EXPECT_FALSE(writer.wait_for_matched(1, std::chrono::steady_clock::now()));
   {
     Participant blue{on_loopback("blue", domain.first(), DomainRole::kController)};
     Participant green{on_loopback("green", domain.first(), DomainRole::kController)};
-    Mailbox<Outcome> at_blue{blue, topics::outcome()};
-    Mailbox<Outcome> at_green{green, topics::outcome()};
+    Mailbox<coordination::Outcome> at_blue{blue, topics::outcome()};
+    Mailbox<coordination::Outcome> at_green{green, topics::outcome()};
     ASSERT_TRUE(signal.wait_until(soon(), [&] {
       return writer.matched_names() == Names{"blue", "green"};
     }));
@@ -228,4 +231,4 @@ TEST(Endpoints, TellOfMatchesOnBothSides) {
 }
 
 }  // namespace
-}  // namespace hlc::participant_test
+}  // namespace hlc::dds::participant_test

@@ -11,15 +11,15 @@ int main(int argc, char** argv) {
   if (argc != 3) {
     return 2;
   }
-  hlc::StopSignals stop_signals;
-  hlc::ParticipantOptions options;
+  hlc::time::StopSignals stop_signals;
+  hlc::dds::ParticipantOptions options;
   options.name = argv[1];
   options.domain_id = std::atoi(argv[2]);
-  options.role = hlc::DomainRole::kController;
-  hlc::Participant participant{options};
-  hlc::Writer<hlc::Outcome> writer{participant, hlc::topics::outcome()};
+  options.role = hlc::dds::DomainRole::kController;
+  hlc::dds::Participant participant{options};
+  hlc::dds::Writer<hlc::coordination::Outcome> writer{participant, hlc::dds::topics::outcome()};
 
-  hlc::Signal signal;
+  hlc::time::Signal signal;
   bool stopped = false;
   stop_signals.on_stop([&](int) { signal.post([&] { stopped = true; }); });
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{5};

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc::presence_test {
+namespace hlc::dds::presence_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -68,4 +68,4 @@ TEST(Presence, NamesAreKnownWhileTheParticipantIsThere) {
 }
 
 }  // namespace
-}  // namespace hlc::presence_test
+}  // namespace hlc::dds::presence_test

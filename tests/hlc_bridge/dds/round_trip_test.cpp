@@ -11,7 +11,7 @@
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc::round_trip_test {
+namespace hlc::dds::round_trip_test {
 namespace {
 
 template <class Message>
@@ -34,9 +34,9 @@ template <> struct Place<Log> { static auto topic() { return topics::log(); } st
 template <> struct Place<LogLevel> { static auto topic() { return topics::log_level(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<GoalState> { static auto topic() { return topics::goal_state(); } static constexpr auto kRole = DomainRole::kLab; };
 template <> struct Place<Visualization> { static auto topic() { return topics::visualization(); } static constexpr auto kRole = DomainRole::kLab; };
-template <> struct Place<Traffic> { static auto topic() { return topics::traffic(); } static constexpr auto kRole = DomainRole::kController; };
-template <> struct Place<Prediction> { static auto topic() { return topics::prediction(); } static constexpr auto kRole = DomainRole::kController; };
-template <> struct Place<Outcome> { static auto topic() { return topics::outcome(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<coordination::Traffic> { static auto topic() { return topics::traffic(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<coordination::Prediction> { static auto topic() { return topics::prediction(); } static constexpr auto kRole = DomainRole::kController; };
+template <> struct Place<coordination::Outcome> { static auto topic() { return topics::outcome(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<ReportRecord> { static auto topic() { return topics::report(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<AutomatonRequest> { static auto topic() { return topics::automaton_request(); } static constexpr auto kRole = DomainRole::kController; };
 template <> struct Place<AutomatonAnswer> { static auto topic() { return topics::automaton_answer(); } static constexpr auto kRole = DomainRole::kController; };
@@ -49,15 +49,16 @@ using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
                    PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
                    SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, GoalState, Traffic, Prediction, Outcome, ReportRecord, RunState,
-                   AutomatonRequest, AutomatonAnswer>;
+                   Visualization, GoalState, coordination::Traffic, coordination::Prediction,
+                   coordination::Outcome, ReportRecord, RunState, AutomatonRequest,
+                   AutomatonAnswer>;
 TYPED_TEST_SUITE(RoundTrip, Messages);
 
 TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {
   const unsigned seed = 4;
   SCOPED_TRACE(seed);
   std::mt19937_64 random{seed};
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), Place<TypeParam>::kRole)};
   Participant receiver{on_loopback("receiver", domain.first(), Place<TypeParam>::kRole)};
   Mailbox<TypeParam> mailbox{receiver, Place<TypeParam>::topic()};
@@ -77,31 +78,33 @@ TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {
 // A control thread may hold no lock over a write, but it can rely on this: the write itself runs no
 // callback.
 TEST(Callbacks, RunOnAnotherThreadThanTheWriterAlsoWithinOneProcess) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
   Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
-  Signal signal;
+  time::Signal signal;
   std::vector<std::thread::id> callers;
-  Reader<Outcome> reader{receiver, topics::outcome(), [&](const Outcome&) {
-                           signal.post([&] { callers.push_back(std::this_thread::get_id()); });
-                         }};
-  Writer<Outcome> writer{sender, topics::outcome()};
+  Reader<coordination::Outcome> reader{
+      receiver, topics::outcome(), [&](const coordination::Outcome&) {
+        signal.post([&] { callers.push_back(std::this_thread::get_id()); });
+      }};
+  Writer<coordination::Outcome> writer{sender, topics::outcome()};
   ASSERT_TRUE(writer.wait_for_matched(1, soon()));
   ASSERT_TRUE(reader.wait_for_matched(1, soon()));
-  ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
+  ASSERT_TRUE(
+      writer.write(coordination::Outcome{.vehicle = {1}, .step = {0}, .wants_fallback = false}));
   ASSERT_TRUE(signal.wait_until(soon(), [&] { return !callers.empty(); }));
   EXPECT_NE(callers.front(), std::this_thread::get_id());
 }
 
 TEST(LargeMessage, OfSeveralDatagramsArrives) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
   Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
-  Mailbox<Traffic> mailbox{receiver, topics::traffic()};
-  Writer<Traffic> writer{sender, topics::traffic()};
+  Mailbox<coordination::Traffic> mailbox{receiver, topics::traffic()};
+  Writer<coordination::Traffic> writer{sender, topics::traffic()};
   ASSERT_TRUE(writer.wait_for_matched(1, soon()));
   constexpr std::size_t kDepth = 8;  // of the topic's history: what repairs can be asked for
-  Traffic traffic;
+  coordination::Traffic traffic;
   traffic.vehicle = {1};
   ConvexPolygon round;
   for (int i = 0; i < 200; ++i) {
@@ -112,35 +115,35 @@ TEST(LargeMessage, OfSeveralDatagramsArrives) {
     traffic.step = {i};
     ASSERT_TRUE(writer.write(traffic));
   }
-  const std::vector<Traffic> received = mailbox.wait_for(kDepth);
+  const std::vector<coordination::Traffic> received = mailbox.wait_for(kDepth);
   ASSERT_EQ(received.size(), kDepth);
   EXPECT_EQ(text(received.back()), text(traffic));
 }
 
 // The library's default of ten instances would lose the samples of the eleventh and later vehicles.
 TEST(KeyedTopics, AllOf30VehiclesAreHeard) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
-  Mailbox<Outcome> of_many{receiver, topics::outcome()};
-  Mailbox<Prediction> of_one{receiver, topics::prediction()};
-  std::vector<std::unique_ptr<Writer<Outcome>>> writers;
+  Mailbox<coordination::Outcome> of_many{receiver, topics::outcome()};
+  Mailbox<coordination::Prediction> of_one{receiver, topics::prediction()};
+  std::vector<std::unique_ptr<Writer<coordination::Outcome>>> writers;
   for (int id = 1; id <= 30; ++id) {
-    writers.push_back(std::make_unique<Writer<Outcome>>(sender, topics::outcome()));
+    writers.push_back(std::make_unique<Writer<coordination::Outcome>>(sender, topics::outcome()));
     ASSERT_TRUE(writers.back()->wait_for_matched(1, soon()));
   }
-  Writer<Prediction> one_for_all{sender, topics::prediction()};
+  Writer<coordination::Prediction> one_for_all{sender, topics::prediction()};
   ASSERT_TRUE(one_for_all.wait_for_matched(1, soon()));
   ASSERT_TRUE(of_many.reader().wait_for_matched(30, soon()));
 
   constexpr std::uint64_t kSteps = 20;
   for (std::uint64_t step = 0; step < kSteps; ++step) {
     for (std::uint8_t id = 1; id <= 30; ++id) {
-      Outcome outcome;
+      coordination::Outcome outcome;
       outcome.vehicle = {id};
       outcome.step = {step};
       ASSERT_TRUE(writers[id - 1U]->write(outcome)) << "vehicle " << +id;
-      Prediction prediction;
+      coordination::Prediction prediction;
       prediction.vehicle = {id};
       prediction.step = {step};
       ASSERT_TRUE(one_for_all.write(prediction)) << "vehicle " << +id;
@@ -149,23 +152,25 @@ TEST(KeyedTopics, AllOf30VehiclesAreHeard) {
     ASSERT_EQ(of_one.wait_for(30 * (step + 1)).size(), 30 * (step + 1));
   }
   std::map<std::uint8_t, std::uint64_t> received;
-  for (const Outcome& outcome : of_many.wait_for(30 * kSteps)) {
+  for (const coordination::Outcome& outcome : of_many.wait_for(30 * kSteps)) {
     EXPECT_EQ(outcome.step.value, received[outcome.vehicle.value]++) << "out of order";
   }
   EXPECT_EQ(received.size(), 30U);
 }
 
 TEST(KeyedTopics, AVehicleIdWithoutRoomIsNotWritten) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant participant{on_loopback("sender", domain.first(), DomainRole::kController)};
-  Writer<Outcome> writer{participant, topics::outcome()};
-  EXPECT_FALSE(writer.write(Outcome{.vehicle = {31}, .step = {0}, .wants_fallback = false}));
-  EXPECT_TRUE(writer.write(Outcome{.vehicle = {30}, .step = {0}, .wants_fallback = false}));
+  Writer<coordination::Outcome> writer{participant, topics::outcome()};
+  EXPECT_FALSE(
+      writer.write(coordination::Outcome{.vehicle = {31}, .step = {0}, .wants_fallback = false}));
+  EXPECT_TRUE(
+      writer.write(coordination::Outcome{.vehicle = {30}, .step = {0}, .wants_fallback = false}));
 }
 
 TEST(LateJoiner, GetsEveryReportAndTheLastRunState) {
   constexpr std::uint64_t kSteps = 2000;
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kController)};
   Writer<ReportRecord> red{sender, topics::report()};
   Writer<ReportRecord> blue{sender, topics::report()};
@@ -196,7 +201,7 @@ TEST(LateJoiner, GetsEveryReportAndTheLastRunState) {
 
 // A burst as long as the history: repairs must come from it.
 TEST(Burst, OfAWholeHistoryArrivesCompletely) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant sender{on_loopback("sender", domain.first(), DomainRole::kLab)};
   Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kLab)};
   Mailbox<SystemTrigger> mailbox{receiver, topics::system_trigger()};
@@ -214,19 +219,21 @@ TEST(Burst, OfAWholeHistoryArrivesCompletely) {
 }
 
 TEST(OwnParticipant, IsNotHeardAndDoesNotCount) {
-  const DomainReservation domain;
+  const test::DomainReservation domain;
   Participant both{on_loopback("both", domain.first(), DomainRole::kController)};
   Participant other{on_loopback("other", domain.first(), DomainRole::kController)};
-  Mailbox<Outcome> own{both, topics::outcome()};
-  Mailbox<Outcome> others{other, topics::outcome()};
-  Writer<Outcome> writer{both, topics::outcome()};
-  Writer<Outcome> other_writer{other, topics::outcome()};
+  Mailbox<coordination::Outcome> own{both, topics::outcome()};
+  Mailbox<coordination::Outcome> others{other, topics::outcome()};
+  Writer<coordination::Outcome> writer{both, topics::outcome()};
+  Writer<coordination::Outcome> other_writer{other, topics::outcome()};
   ASSERT_TRUE(writer.wait_for_matched({"other"}, soon()));
   ASSERT_TRUE(other_writer.wait_for_matched({"both"}, soon()));
-  ASSERT_TRUE(writer.write(Outcome{.vehicle = {1}, .step = {1}, .wants_fallback = false}));
+  ASSERT_TRUE(
+      writer.write(coordination::Outcome{.vehicle = {1}, .step = {1}, .wants_fallback = false}));
   ASSERT_EQ(others.wait_for(1).size(), 1U);
-  ASSERT_TRUE(other_writer.write(Outcome{.vehicle = {2}, .step = {2}, .wants_fallback = false}));
-  const std::vector<Outcome> received = own.wait_for(1);
+  ASSERT_TRUE(other_writer.write(
+      coordination::Outcome{.vehicle = {2}, .step = {2}, .wants_fallback = false}));
+  const std::vector<coordination::Outcome> received = own.wait_for(1);
   ASSERT_EQ(received.size(), 1U);
   EXPECT_EQ(received.front().vehicle.value, 2);
   EXPECT_EQ(writer.matched(), 1U);
@@ -235,4 +242,4 @@ TEST(OwnParticipant, IsNotHeardAndDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace hlc::round_trip_test
+}  // namespace hlc::dds::round_trip_test

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <type_traits>
 
-namespace hlc {
+namespace hlc::dds {
 namespace {
 
 // --- text ---------------------------------------------------------------------------------------
@@ -39,7 +39,7 @@ void put_message(std::ostream& out, VehicleId value) { put_all(out, value.value)
 void put_message(std::ostream& out, StepIndex value) { put_all(out, value.value); }
 void put_message(std::ostream& out, TrimId value) { put_all(out, value.index); }
 void put_message(std::ostream& out, const ConvexPolygon& value) { put_list(out, value.vertices_m); }
-void put_message(std::ostream& out, const OccupiedAreas& value) {
+void put_message(std::ostream& out, const coordination::OccupiedAreas& value) {
   const auto& [first, areas_m, final_area_m] = value;
   put_all(out, first, areas_m, final_area_m);
 }
@@ -124,19 +124,19 @@ void put_message(std::ostream& out, const Visualization& value) {
   const auto& [a, b, c, d, e, f, g, h] = value;
   put_all(out, a, b, c, d, e, f, g, h);
 }
-void put_message(std::ostream& out, const Traffic& value) {
+void put_message(std::ostream& out, const coordination::Traffic& value) {
   const auto& [a, b, c, d, e, f, g] = value;
   put_all(out, a, b, c, d, e, f, g);
 }
-void put_message(std::ostream& out, const Prediction& value) {
+void put_message(std::ostream& out, const coordination::Prediction& value) {
   const auto& [a, b, c, d] = value;
   put_all(out, a, b, c, d);
 }
-void put_message(std::ostream& out, const Outcome& value) {
+void put_message(std::ostream& out, const coordination::Outcome& value) {
   const auto& [a, b, c] = value;
   put_all(out, a, b, c);
 }
-void put_message(std::ostream& out, const Report& value) {
+void put_message(std::ostream& out, const coordination::Report& value) {
   const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = value;
   put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
 }
@@ -225,7 +225,7 @@ ConvexPolygon polygon(Random& random) {
   return result;
 }
 
-OccupiedAreas areas(Random& random) {
+coordination::OccupiedAreas areas(Random& random) {
   return {{random()}, list(random, 9, polygon), polygon(random)};
 }
 
@@ -423,41 +423,41 @@ Visualization sample(Random& random) {
 }
 
 template <>
-Traffic sample(Random& random) {
+coordination::Traffic sample(Random& random) {
   return {vehicle(random),         {random()},    pose(random),
           {whole(random, 100)},    areas(random), polygon(random),
           list(random, 5, vehicle)};
 }
 
 template <>
-Prediction sample(Random& random) {
+coordination::Prediction sample(Random& random) {
   return {vehicle(random), {random()}, coin(random), areas(random)};
 }
 
 template <>
-Outcome sample(Random& random) {
+coordination::Outcome sample(Random& random) {
   return {vehicle(random), {random()}, coin(random)};
 }
 
 template <>
 ReportRecord sample(Random& random) {
-  const Report report{vehicle(random),
-                      {random()},
-                      static_cast<StepStatus>(whole(random, 3)),
-                      static_cast<FallbackReason>(whole(random, 9)),
-                      pose(random),
-                      {whole(random, 100)},
-                      words(random),
-                      words(random),
-                      number(random),
-                      static_cast<PlanQuality>(whole(random, 2)),
-                      number(random),
-                      random(),
-                      random(),
-                      static_cast<std::uint32_t>(whole(random, 20)),
-                      list(random, 5, vehicle),
-                      list(random, 5, vehicle),
-                      number(random)};
+  const coordination::Report report{vehicle(random),
+                                    {random()},
+                                    static_cast<coordination::StepStatus>(whole(random, 3)),
+                                    static_cast<coordination::FallbackReason>(whole(random, 9)),
+                                    pose(random),
+                                    {whole(random, 100)},
+                                    words(random),
+                                    words(random),
+                                    number(random),
+                                    static_cast<coordination::PlanQuality>(whole(random, 2)),
+                                    number(random),
+                                    random(),
+                                    random(),
+                                    static_cast<std::uint32_t>(whole(random, 20)),
+                                    list(random, 5, vehicle),
+                                    list(random, 5, vehicle),
+                                    number(random)};
   return {report, random(), coin(random), random()};
 }
 
@@ -510,12 +510,12 @@ std::string text(const Log& message) { return text_of(message); }
 std::string text(const LogLevel& message) { return text_of(message); }
 std::string text(const Visualization& message) { return text_of(message); }
 std::string text(const GoalState& message) { return text_of(message); }
-std::string text(const Traffic& message) { return text_of(message); }
-std::string text(const Prediction& message) { return text_of(message); }
-std::string text(const Outcome& message) { return text_of(message); }
+std::string text(const coordination::Traffic& message) { return text_of(message); }
+std::string text(const coordination::Prediction& message) { return text_of(message); }
+std::string text(const coordination::Outcome& message) { return text_of(message); }
 std::string text(const ReportRecord& message) { return text_of(message); }
 std::string text(const RunState& message) { return text_of(message); }
 std::string text(const AutomatonRequest& message) { return text_of(message); }
 std::string text(const AutomatonAnswer& message) { return text_of(message); }
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -10,7 +10,7 @@
 
 /// Messages to send in tests, every field with a value of its own, and their text, which names
 /// every field: two messages are equal if and only if their texts are.
-namespace hlc {
+namespace hlc::dds {
 
 /// A valid message of random content.
 template <class Message>
@@ -32,12 +32,12 @@ template <class Message>
 [[nodiscard]] std::string text(const LogLevel& message);
 [[nodiscard]] std::string text(const Visualization& message);
 [[nodiscard]] std::string text(const GoalState& message);
-[[nodiscard]] std::string text(const Traffic& message);
-[[nodiscard]] std::string text(const Prediction& message);
-[[nodiscard]] std::string text(const Outcome& message);
+[[nodiscard]] std::string text(const coordination::Traffic& message);
+[[nodiscard]] std::string text(const coordination::Prediction& message);
+[[nodiscard]] std::string text(const coordination::Outcome& message);
 [[nodiscard]] std::string text(const ReportRecord& message);
 [[nodiscard]] std::string text(const RunState& message);
 [[nodiscard]] std::string text(const AutomatonRequest& message);
 [[nodiscard]] std::string text(const AutomatonAnswer& message);
 
-}  // namespace hlc
+}  // namespace hlc::dds

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc::topics_test {
+namespace hlc::dds::topics_test {
 namespace {
 
 TEST(Topics, HaveTheLabsNames) {
@@ -22,4 +22,4 @@ TEST(Topics, HaveTheLabsNames) {
 }
 
 }  // namespace
-}  // namespace hlc::topics_test
+}  // namespace hlc::dds::topics_test

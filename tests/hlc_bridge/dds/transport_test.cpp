@@ -5,7 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace hlc::transport_test {
+namespace hlc::dds::transport_test {
 namespace {
 
 // The message of the refusal; "" if there is none.
@@ -98,4 +98,4 @@ TEST(DiscoveryFlags, IncompleteOrMalformedOnesAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace hlc::transport_test
+}  // namespace hlc::dds::transport_test

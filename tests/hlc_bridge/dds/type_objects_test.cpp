@@ -6,7 +6,7 @@
 #include "hlc_bridge/dds/register_lab_types.hpp"
 #include "hlc_bridge/dds/wire.hpp"
 
-namespace hlc::type_objects_test {
+namespace hlc::dds::type_objects_test {
 namespace {
 
 bool has_type_object(const std::string& name) {
@@ -83,9 +83,9 @@ void expect_own_type(const std::string& name, bool keyed) {
 }
 
 TEST(OwnTypes, AreKeyedByTheVehicleAndNeverAnnounceTypeObjects) {
-  expect_own_type<Traffic>("hlc::TrafficMessage", true);
-  expect_own_type<Prediction>("hlc::PredictionMessage", true);
-  expect_own_type<Outcome>("hlc::OutcomeMessage", true);
+  expect_own_type<coordination::Traffic>("hlc::TrafficMessage", true);
+  expect_own_type<coordination::Prediction>("hlc::PredictionMessage", true);
+  expect_own_type<coordination::Outcome>("hlc::OutcomeMessage", true);
   expect_own_type<ReportRecord>("hlc::ReportMessage", true);
   expect_own_type<AutomatonRequest>("hlc::AutomatonRequestMessage", true);
   expect_own_type<AutomatonAnswer>("hlc::AutomatonAnswerMessage", true);
@@ -115,4 +115,4 @@ TEST(LabTypes, HaveTheSizesOfTheLabsMessages) {
 }
 
 }  // namespace
-}  // namespace hlc::type_objects_test
+}  // namespace hlc::dds::type_objects_test

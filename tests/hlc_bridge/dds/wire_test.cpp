@@ -9,7 +9,7 @@
 
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 
-namespace hlc::wire_test {
+namespace hlc::dds::wire_test {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -47,8 +47,9 @@ using Messages =
     testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
                    PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
                    SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, GoalState, Traffic, Prediction, Outcome, ReportRecord, RunState,
-                   AutomatonRequest, AutomatonAnswer>;
+                   Visualization, GoalState, coordination::Traffic, coordination::Prediction,
+                   coordination::Outcome, ReportRecord, RunState, AutomatonRequest,
+                   AutomatonAnswer>;
 TYPED_TEST_SUITE(WireTypes, Messages);
 
 // Cut off, overwritten in places, or both: a message or not, but never an exception, and never a
@@ -102,4 +103,4 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace hlc::wire_test
+}  // namespace hlc::dds::wire_test

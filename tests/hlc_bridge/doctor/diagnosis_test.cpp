@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hlc {
+namespace hlc::doctor {
 namespace {
 
 constexpr Nanoseconds kNow = 1'700'000'000'000'000'000;
@@ -111,4 +111,4 @@ TEST(Diagnosis, NotesAVehicleThatNobodyAskedFor) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::doctor

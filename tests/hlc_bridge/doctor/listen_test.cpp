@@ -11,7 +11,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 namespace {
 
 using namespace std::chrono_literals;
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 class Listening : public testing::Test {
  protected:
   [[nodiscard]] ListenOptions options(std::chrono::milliseconds time) const {
-    return {.transport = Transport::kLoopback,
+    return {.transport = dds::Transport::kLoopback,
             .domains = {.lab = domains_.first(),
                         .local = domains_.first() + 1,
                         .controller = domains_.first() + 50},
@@ -27,21 +27,25 @@ class Listening : public testing::Test {
             .time = time};
   }
 
-  DomainReservation domains_{2};
+  test::DomainReservation domains_{2};
 };
 
 TEST_F(Listening, HearsWhoIsThere) {
-  const Participant lab_control{on_loopback(kLabControlName, domains_.first(), DomainRole::kLab)};
-  const Participant controller{
-      on_loopback(controller_name(2), domains_.first() + 50, DomainRole::kController)};
-  Participant vehicle{on_loopback(vehicle_name(2), domains_.first(), DomainRole::kLab)};
-  Participant middleware{on_loopback(middleware_name(2), domains_.first() + 1, DomainRole::kLocal)};
-  Participant answering{on_loopback("answering", domains_.first(), DomainRole::kLab)};
-  Writer<VehicleState> states{vehicle, topics::vehicle_state(2)};
-  Writer<VehicleStateList> lists{middleware, topics::vehicle_state_list()};
-  Writer<Parameter> parameters{answering, topics::parameter()};
-  const Reader<ParameterRequest> requests{
-      answering, topics::parameter_request(), [&](const ParameterRequest& request) {
+  const dds::Participant lab_control{
+      dds::on_loopback(kLabControlName, domains_.first(), dds::DomainRole::kLab)};
+  const dds::Participant controller{
+      dds::on_loopback(controller_name(2), domains_.first() + 50, dds::DomainRole::kController)};
+  dds::Participant vehicle{
+      dds::on_loopback(vehicle_name(2), domains_.first(), dds::DomainRole::kLab)};
+  dds::Participant middleware{
+      dds::on_loopback(middleware_name(2), domains_.first() + 1, dds::DomainRole::kLocal)};
+  dds::Participant answering{
+      dds::on_loopback("answering", domains_.first(), dds::DomainRole::kLab)};
+  dds::Writer<VehicleState> states{vehicle, dds::topics::vehicle_state(2)};
+  dds::Writer<VehicleStateList> lists{middleware, dds::topics::vehicle_state_list()};
+  dds::Writer<Parameter> parameters{answering, dds::topics::parameter()};
+  const dds::Reader<ParameterRequest> requests{
+      answering, dds::topics::parameter_request(), [&](const ParameterRequest& request) {
         parameters.write({.name = request.name, .value = std::uint64_t{250}});
       }};
 
@@ -51,11 +55,11 @@ TEST_F(Listening, HearsWhoIsThere) {
              received.vehicles.at(2).states == 7 && !received.controllers.empty();
     });
   });
-  ASSERT_TRUE(states.wait_for_matched(1, soon()) && lists.wait_for_matched(1, soon()));
+  ASSERT_TRUE(states.wait_for_matched(1, dds::soon()) && lists.wait_for_matched(1, dds::soon()));
   for (int i = 0; i < 7; ++i) {
-    states.write({.vehicle_id = 2, .create_stamp = real_time_now()});
+    states.write({.vehicle_id = 2, .create_stamp = time::real_time_now()});
   }
-  lists.write({.t_now = real_time_now(),
+  lists.write({.t_now = time::real_time_now(),
                .period_ms = 250,
                .states = {},
                .observations = {},
@@ -80,4 +84,4 @@ TEST_F(Listening, EndsWhereNobodyIs) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::doctor

@@ -7,7 +7,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,7 +18,7 @@ void write(const fs::path& file, const std::string& text) {
 }
 
 TEST(SharedMemory, AFileIsUsedIfAProcessHasItMapped) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path shm = folder / "shm";
   const fs::path proc = folder / "proc";
   for (const char* name : {"fastrtps_1234", "fastrtps_1234_el", "fastrtps_port7411",
@@ -42,10 +42,10 @@ TEST(SharedMemory, AFileIsUsedIfAProcessHasItMapped) {
 }
 
 TEST(SharedMemory, NothingIsLeftOverWhereNothingIs) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_TRUE(shared_memory_files(folder / "missing", folder / "missing").empty());
   EXPECT_EQ(leftovers({}).verdict, Verdict::kGood);
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::doctor

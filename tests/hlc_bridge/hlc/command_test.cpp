@@ -4,23 +4,25 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc::command_test {
+namespace hlc::high_level_controller::command_test {
 namespace {
 
 constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr StepIndex kStep{50};
 constexpr Nanoseconds kNow = 50 * kPeriod + 1;
 
-const Maneuver& edge(std::size_t from, std::size_t to) {
-  return *paper_automaton()->find(pi(from), pi(to), from == to ? kSelfLoopLabel : "J2");
+const automaton::Maneuver& edge(std::size_t from, std::size_t to) {
+  return *automaton::paper_automaton()->find(automaton::pi(from), automaton::pi(to),
+                                             from == to ? automaton::kSelfLoopLabel : "J2");
 }
 
 TrajectoryCommand driving_command() {
-  std::vector<const Maneuver*> eight{&edge(1, 7)};
+  std::vector<const automaton::Maneuver*> eight{&edge(1, 7)};
   for (int i = 0; i < 6; ++i) eight.push_back(&edge(7, 7));
   eight.push_back(&edge(7, 1));
-  const Plan plan = Plan(kStep, {1.0, 2.0, 0.5}, edge(1, 1)).continued({51}, eight);
-  return command_of({7}, &plan, kStep, kNow, kPeriod, paper_automaton()->vehicle);
+  const coordination::Plan plan =
+      coordination::Plan(kStep, {1.0, 2.0, 0.5}, edge(1, 1)).continued({51}, eight);
+  return command_of({7}, &plan, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle);
 }
 
 TEST(Command, AnswersTheListAndIsValidAtOnce) {
@@ -55,17 +57,17 @@ TEST(Command, ReachesBeyondTheLookAheadAsLongAsACopyIsUsable) {
 
 TEST(Command, WithoutAPlanHasNoPointsThatAVehicleCouldFollow) {
   const TrajectoryCommand command =
-      command_of({7}, nullptr, kStep, kNow, kPeriod, paper_automaton()->vehicle);
+      command_of({7}, nullptr, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle);
   EXPECT_TRUE(command.points.empty());
   EXPECT_EQ(command.create_stamp, kNow);
 }
 
 TEST(Command, AtTheBeginOfLogicalTimeNoPointLiesBeforeZero) {
-  const Plan plan({0}, {1.0, 2.0, 0.5}, edge(1, 1));
+  const coordination::Plan plan({0}, {1.0, 2.0, 0.5}, edge(1, 1));
   const TrajectoryCommand command =
-      command_of({7}, &plan, {0}, 1, kPeriod, paper_automaton()->vehicle);
+      command_of({7}, &plan, {0}, 1, kPeriod, automaton::paper_automaton()->vehicle);
   EXPECT_EQ(command.points.front().t, 0U);
 }
 
 }  // namespace
-}  // namespace hlc::command_test
+}  // namespace hlc::high_level_controller::command_test

@@ -16,7 +16,7 @@
 #include "tests/planner/controller/east_bound.hpp"
 
 /// The machine of a controller in memory, on clocks that the test moves. Cars shall drive east.
-namespace hlc::driven_machine {
+namespace hlc::high_level_controller::driven_machine {
 
 inline constexpr Nanoseconds kPeriod = kNanosecondsPerSecond / 5;
 inline constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
@@ -40,9 +40,10 @@ inline HlcPeers peers(const std::set<std::uint8_t>& others = {}) {
 }
 
 /// The list of a step, in which these vehicles take part.
-inline VehicleStateList list_of(std::uint64_t step, const std::vector<MeasuredVehicle>& vehicles) {
+inline VehicleStateList list_of(std::uint64_t step,
+                                const std::vector<coordination::MeasuredVehicle>& vehicles) {
   VehicleStateList list{.t_now = step * kPeriod + kListOffset, .period_ms = 200};
-  for (const MeasuredVehicle& one : vehicles) {
+  for (const coordination::MeasuredVehicle& one : vehicles) {
     list.active_vehicle_ids.push_back(one.vehicle.value);
     list.states.push_back({.vehicle_id = one.vehicle.value,
                            .create_stamp = list.t_now - 60 * kMillisecond,
@@ -56,9 +57,9 @@ inline VehicleStateList list_of(std::uint64_t step, const std::vector<MeasuredVe
 class DrivenMachine {
  public:
   explicit DrivenMachine(const HlcRules& rules, std::uint8_t vehicle = 1, double y_m = 0.0,
-                         ReconfigurationSettings reconfiguration = {})
+                         policy::ReconfigurationSettings reconfiguration = {})
       : machine_({.rules = rules, .reconfiguration = std::move(reconfiguration)},
-                 east_bound::controller(vehicle, y_m)),
+                 controller::east_bound::controller(vehicle, y_m)),
         rules_(rules) {}
 
   [[nodiscard]] const HlcMachine& machine() const { return machine_; }
@@ -107,14 +108,16 @@ class DrivenMachine {
   }
 
   /// Until the next step begins; its list.
-  VehicleStateList wait_for_list(const std::vector<MeasuredVehicle>& vehicles) {
+  VehicleStateList wait_for_list(const std::vector<coordination::MeasuredVehicle>& vehicles) {
     step_ = std::max(step_ + 1, (now_.run + kPeriod - 1) / kPeriod);
     VehicleStateList list = list_of(step_, vehicles);
     pass(list.t_now - now_.run);
     return list;
   }
   /// ... and it comes.
-  void next_list(const std::vector<MeasuredVehicle>& vehicles) { on(wait_for_list(vehicles)); }
+  void next_list(const std::vector<coordination::MeasuredVehicle>& vehicles) {
+    on(wait_for_list(vehicles));
+  }
   [[nodiscard]] std::uint64_t step() const { return step_; }
 
   /// Actions of a kind since this was asked last.
@@ -160,24 +163,27 @@ class DrivenMachine {
 };
 
 /// Car 1, alone by default, stands at its start.
-inline const std::vector<MeasuredVehicle>& standing() {
-  static const std::vector<MeasuredVehicle> one{east_bound::seen(1, 0.0, 0.0)};
+inline const std::vector<coordination::MeasuredVehicle>& standing() {
+  static const std::vector<coordination::MeasuredVehicle> one{
+      controller::east_bound::seen(1, 0.0, 0.0)};
   return one;
 }
 
 /// Until the car has stood for so long that it may drive off (real time), or that its states may
 /// be trusted with the next list (logical time), and the controller is ready.
-inline void stand(DrivenMachine& one, const std::vector<MeasuredVehicle>& vehicles = standing()) {
+inline void stand(DrivenMachine& one,
+                  const std::vector<coordination::MeasuredVehicle>& vehicles = standing()) {
   const int lists = one.rules().start == StartRule::kTogether ? 5 : 9;
   for (int i = 0; i < lists; ++i) one.next_list(vehicles);
 }
 
 /// ... and drives from the next list on.
-inline void start(DrivenMachine& one, const std::vector<MeasuredVehicle>& vehicles = standing()) {
+inline void start(DrivenMachine& one,
+                  const std::vector<coordination::MeasuredVehicle>& vehicles = standing()) {
   stand(one, vehicles);
   one.pass(CommandCopies::kPause);
   one.on(SystemTrigger{.next_start = one.now().run});
   one.forget();
 }
 
-}  // namespace hlc::driven_machine
+}  // namespace hlc::high_level_controller::driven_machine

@@ -5,13 +5,13 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::hlc_core_start_test {
+namespace hlc::high_level_controller::hlc_core_start_test {
 namespace {
 
 constexpr Nanoseconds kListPeriod = 200'000'000;
 
-const Scenario& red_alone() {
-  static const Scenario scenario = read_scenario(
+const scenario::Scenario& red_alone() {
+  static const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
   return scenario;
 }
@@ -37,10 +37,11 @@ class RealTime : public testing::Test {
         {.vehicle_id = 1,
          .create_stamp = list_.t_now - 60'000'000,
          .valid_after_stamp = list_.t_now,
-         .pose = compose(measured_start(red_alone(), red_alone().vehicles.front()), seen.beside),
+         .pose = compose(scenario::measured_start(red_alone(), red_alone().vehicles.front()),
+                         seen.beside),
          .speed_mps = seen.speed_mps}};
     if (!seen.is_seen) list_.states.clear();
-    const Observation observation = core_.observe(list_).value();
+    const controller::Observation observation = core_.observe(list_).value();
     core_.note(list_, observation);
     const bool begins = core_.begins(list_, observation, StartRule::kAtTrigger, trigger);
     if (!begins && core_.may_stand_by(observation)) {
@@ -49,7 +50,7 @@ class RealTime : public testing::Test {
     return begins;
   }
 
-  HlcCore core_{make_controller(red_alone(), {1})};
+  HlcCore core_{scenario::make_controller(red_alone(), {1})};
   VehicleStateList list_{.t_now = 1000 * kListPeriod + kListOffset,
                          .period_ms = 200,
                          .states = {},
@@ -98,4 +99,4 @@ TEST_F(RealTime, AVehicleThatFitsNoRouteDoesNotBegin) {
 }
 
 }  // namespace
-}  // namespace hlc::hlc_core_start_test
+}  // namespace hlc::high_level_controller::hlc_core_start_test

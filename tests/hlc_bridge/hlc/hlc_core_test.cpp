@@ -7,7 +7,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::hlc_core_test {
+namespace hlc::high_level_controller::hlc_core_test {
 namespace {
 
 using testing::HasSubstr;
@@ -15,8 +15,8 @@ using testing::IsEmpty;
 
 constexpr Nanoseconds kPeriod = 200'000'000;
 
-const Scenario& lab_scenario() {
-  static const Scenario scenario = read_scenario(
+const scenario::Scenario& lab_scenario() {
+  static const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/lab_three_cars.yaml",
        .steps = 10});
   return scenario;
@@ -26,17 +26,17 @@ VehicleStateList list_at(std::uint64_t step) {
   return {.t_now = step * kPeriod + 1, .period_ms = 200, .states = {}, .active_vehicle_ids = {1}};
 }
 
-Observation standing_at(StepIndex step, const Pose& pose) {
+controller::Observation standing_at(StepIndex step, const Pose& pose) {
   return {.step = step,
           .active = {{1}},
           .states = {{.vehicle = {1}, .pose = pose, .speed_mps = 0.0, .age_s = 0.0}},
           .present = {{1}}};
 }
 
-Pose start() { return measured_start(lab_scenario(), lab_scenario().vehicles.front()); }
+Pose start() { return scenario::measured_start(lab_scenario(), lab_scenario().vehicles.front()); }
 
 TEST(HlcCore, SendsThePlanInForceWithPointsAsTheLabAsks) {
-  HlcCore core(make_controller(lab_scenario(), {1}));
+  HlcCore core(scenario::make_controller(lab_scenario(), {1}));
   static_cast<void>(core.controller().stand_by(standing_at({10}, start())));
   const AnswerToList answer = core.answer(list_at(10));
   EXPECT_EQ(answer.fault, "");
@@ -46,22 +46,22 @@ TEST(HlcCore, SendsThePlanInForceWithPointsAsTheLabAsks) {
 }
 
 TEST(HlcCore, AVehicleOutsideTheLabIsToldToStandAndTheReportSaysSo) {
-  HlcCore core(make_controller(lab_scenario(), {1}));
+  HlcCore core(scenario::make_controller(lab_scenario(), {1}));
   Pose outside = start();
   outside.x_m = -0.5;
-  const Report standby = core.controller().stand_by(standing_at({10}, outside));
+  const coordination::Report standby = core.controller().stand_by(standing_at({10}, outside));
   const AnswerToList answer = core.answer(list_at(10));
   EXPECT_THAT(answer.fault, HasSubstr("coordinate = -0.5 m, must be in 0 ... 4.5 in x"));
   EXPECT_THAT(answer.command.points, IsEmpty());
   EXPECT_EQ(answer.command.create_stamp, list_at(10).t_now);
   EXPECT_FALSE(answer.copy);
-  const Report report = with_answer(standby, answer);
-  EXPECT_EQ(report.status, StepStatus::kStandby);
-  EXPECT_EQ(report.reason, FallbackReason::kUndrivable);
+  const coordination::Report report = with_answer(standby, answer);
+  EXPECT_EQ(report.status, coordination::StepStatus::kStandby);
+  EXPECT_EQ(report.reason, coordination::FallbackReason::kUndrivable);
 }
 
 TEST(HlcCore, WhatFailsIsNotSentButTheLastGoodCommandAgain) {
-  HlcCore core(make_controller(lab_scenario(), {1}));
+  HlcCore core(scenario::make_controller(lab_scenario(), {1}));
   static_cast<void>(core.controller().stand_by(standing_at({10}, start())));
   const AnswerToList good = core.answer(list_at(10));
   Pose outside = start();
@@ -80,12 +80,13 @@ TEST(HlcCore, WhatFailsIsNotSentButTheLastGoodCommandAgain) {
 }
 
 TEST(HlcCore, APlanThatIsNotSentIsAFallbackInTheReport) {
-  const Report planned{.vehicle = {1}, .status = StepStatus::kPlanned};
-  EXPECT_EQ(with_answer(planned, {}).status, StepStatus::kPlanned);
-  const Report report = with_answer(planned, {.fault = "no point before valid_after"});
-  EXPECT_EQ(report.status, StepStatus::kFallback);
-  EXPECT_EQ(report.reason, FallbackReason::kUndrivable);
+  const coordination::Report planned{.vehicle = {1}, .status = coordination::StepStatus::kPlanned};
+  EXPECT_EQ(with_answer(planned, {}).status, coordination::StepStatus::kPlanned);
+  const coordination::Report report =
+      with_answer(planned, {.fault = "no point before valid_after"});
+  EXPECT_EQ(report.status, coordination::StepStatus::kFallback);
+  EXPECT_EQ(report.reason, coordination::FallbackReason::kUndrivable);
 }
 
 }  // namespace
-}  // namespace hlc::hlc_core_test
+}  // namespace hlc::high_level_controller::hlc_core_test

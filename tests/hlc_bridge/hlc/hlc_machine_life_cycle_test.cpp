@@ -5,22 +5,22 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "tests/hlc_bridge/hlc/driven_machine.hpp"
 
-namespace hlc::hlc_machine_life_cycle_test {
+namespace hlc::high_level_controller::hlc_machine_life_cycle_test {
 namespace {
 
 using namespace driven_machine;
-using east_bound::seen;
+using controller::east_bound::seen;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-StepStatus last_status(DrivenMachine& one) {
+coordination::StepStatus last_status(DrivenMachine& one) {
   const std::vector<ReportRecord> records = one.take<ReportRecord>();
   EXPECT_THAT(records, testing::Not(IsEmpty()));
-  return records.empty() ? StepStatus::kStandby : records.back().report.status;
+  return records.empty() ? coordination::StepStatus::kStandby : records.back().report.status;
 }
 
-Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
-  Traffic traffic;
+coordination::Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
+  coordination::Traffic traffic;
   traffic.vehicle = {vehicle};
   traffic.step = {step};
   return traffic;
@@ -46,7 +46,7 @@ TEST(HlcMachineReady, SaysSoEveryHalfSecondUntilTheStartOnceItsVehicleMayBeToldT
 
 TEST(HlcMachineReady, WaitsForAllWhoAreToReceiveWhatItPublishesAndNamesThem) {
   DrivenMachine one(real_time());
-  const std::vector<MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
   one.on(peers());
   stand(one, both);
   one.pass(kSecond);
@@ -73,14 +73,14 @@ TEST(HlcMachineReady, LeavesAfterTheStartupTimeoutAndSaysWhoIsMissing) {
 
 TEST(HlcMachineReady, InLogicalTimeTheFirstListIsAnsweredWhenEverybodyIsThere) {
   DrivenMachine one(logical_time());
-  const std::vector<MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
   one.on(peers());
   one.next_list(both);
   one.pass(5 * kSecond);
   EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
   one.on(peers({2}));
   EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(2)) << "with its copy";
-  EXPECT_EQ(last_status(one), StepStatus::kStandby);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kStandby);
   EXPECT_THAT(one.take<ReadyStatus>(), SizeIs(1));
 
   DrivenMachine alone(logical_time());
@@ -108,7 +108,7 @@ TEST(HlcMachineDuplicate, TheSecondInstancePublishesNothingAndLeaves) {
     EXPECT_TRUE(one.has_logged("another instance of high_level_controller_1 is running; stop it"));
     EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
     EXPECT_THAT(one.take<ReadyStatus>(), IsEmpty());
-    EXPECT_THAT(one.take<Traffic>(), IsEmpty());
+    EXPECT_THAT(one.take<coordination::Traffic>(), IsEmpty());
   }
 }
 
@@ -144,28 +144,29 @@ TEST(HlcMachineStart, DrivesFromTheFirstListAfterTheTriggersTimeOn) {
   stand(one);
   one.on(SystemTrigger{.next_start = one.now().run + 2 * kPeriod});
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kStandby);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kStandby);
   one.next_list(standing());
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kPlanned);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
   EXPECT_FALSE(one.has_logged("joining"));
 }
 
 TEST(HlcMachineStart, JoinsARunningExperimentByTheOthersTraffic) {
   DrivenMachine one(real_time());
-  const std::vector<MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
   one.on(peers());
   stand(one, both);
   one.on(traffic_of(2, one.step() - 3));
   one.on(traffic_of(3, one.step() + 1));
   one.next_list(both);
-  EXPECT_EQ(last_status(one), StepStatus::kStandby) << "of another time, or of no driving vehicle";
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kStandby)
+      << "of another time, or of no driving vehicle";
   one.on(traffic_of(2, one.step()));
   one.next_list(both);  // ready now, though 2 receives nothing of it
   one.pass(kPeriod / 2);
   one.next_list(both);
   one.pass(kPeriod / 2);
-  EXPECT_EQ(last_status(one), StepStatus::kPlanned);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
   EXPECT_TRUE(one.has_logged("joining the running experiment"));
 }
 
@@ -174,7 +175,7 @@ TEST(HlcMachineStart, JoinsARunningExperimentByWhatTheLabControlSays) {
   one.on(peers());
   one.on(RunState{.phase = RunPhase::kRunning, .start = kPeriod});
   stand(one);
-  EXPECT_EQ(last_status(one), StepStatus::kPlanned);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
   EXPECT_TRUE(one.has_logged("joining the running experiment"));
 }
 
@@ -201,7 +202,7 @@ TEST(HlcMachineLoss, PlansOnWhenItsMiddlewareIsBack) {
   EXPECT_TRUE(one.has_logged("middleware_1 is back"));
   one.forget();
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kPlanned);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
 }
 
 TEST(HlcMachineLoss, LeavesWhenItsMiddlewareStaysAway) {
@@ -238,18 +239,18 @@ TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
   one.on(alone);
   EXPECT_TRUE(one.has_logged("lab_control lost"));
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kMinimalRiskStop);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kMinimalRiskStop);
   one.on(peers());
   EXPECT_TRUE(one.has_logged("lab_control is back"));
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kPlanned);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
 
   alone.lab.lost = {};  // the lab's own bears no name of ours, but reads stop requests
   alone.stop_request_readers = 0;
   one.on(alone);
   one.pass(machine::LabControlWatch::kGap);
   one.next_list(standing());
-  EXPECT_EQ(last_status(one), StepStatus::kMinimalRiskStop);
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kMinimalRiskStop);
   one.pass(kControllerStays);
   EXPECT_EQ(one.exit_code(), kExitDied);
 }
@@ -300,11 +301,11 @@ TEST(HlcMachineEnd, AStepThatIsUnderWayEndsAtOnceAndWithoutACommand) {
   for (const HlcEvent& stop :
        {HlcEvent{SystemTrigger{.next_start = kStopSymbol}}, HlcEvent{machine::StopSignal{}}}) {
     DrivenMachine one(real_time());
-    const std::vector<MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+    const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
     one.on(peers({2}));
     start(one, both);
     one.next_list(both);
-    ASSERT_THAT(one.take<Traffic>(), SizeIs(1));
+    ASSERT_THAT(one.take<coordination::Traffic>(), SizeIs(1));
     ASSERT_THAT(one.take<ReportRecord>(), IsEmpty());
     one.on(stop);
     EXPECT_EQ(one.exit_code(), kExitGood);
@@ -348,10 +349,10 @@ TEST(HlcMachineEnd, WhatTheOwnerCouldNotWriteIsSaidAndItsExitCode) {
 }
 
 TEST(HlcMachineEnd, APlanThatIsLongerThanACommandIsRefusedByNameValueAndBound) {
-  ControllerOptions options{.vehicle = {1}, .horizon_steps = 9};
-  auto controller = std::make_unique<Controller>(
-      options, east_bound::subgraph(), ReferencePath({Point(0.0, 0.0), Point(9.0, 0.0)}, false),
-      Corridor{});
+  controller::ControllerOptions options{.vehicle = {1}, .horizon_steps = 9};
+  auto controller = std::make_unique<controller::Controller>(
+      options, controller::east_bound::subgraph(),
+      road::ReferencePath({Point(0.0, 0.0), Point(9.0, 0.0)}, false), road::Corridor{});
   try {
     const HlcMachine machine({.rules = real_time()}, std::move(controller));
     ADD_FAILURE();
@@ -361,4 +362,4 @@ TEST(HlcMachineEnd, APlanThatIsLongerThanACommandIsRefusedByNameValueAndBound) {
 }
 
 }  // namespace
-}  // namespace hlc::hlc_machine_life_cycle_test
+}  // namespace hlc::high_level_controller::hlc_machine_life_cycle_test

@@ -10,11 +10,11 @@
 #include "tests/hlc_bridge/hlc/driven_machine.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::hlc_machine_property_test {
+namespace hlc::high_level_controller::hlc_machine_property_test {
 namespace {
 
 using namespace driven_machine;
-using east_bound::seen;
+using controller::east_bound::seen;
 using testing::AnyOf;
 using testing::Eq;
 
@@ -24,9 +24,10 @@ constexpr std::size_t kCars = 3;
 constexpr double kBeside_m = 0.25;  // coupled with the neighbour
 
 /// The bitwise result of a step.
-using Result = std::tuple<std::uint64_t, StepStatus, FallbackReason, double, double, std::uint64_t,
-                          std::uint64_t, double, std::size_t, std::size_t>;
-Result result_of(const Report& report) {
+using Result =
+    std::tuple<std::uint64_t, coordination::StepStatus, coordination::FallbackReason, double,
+               double, std::uint64_t, std::uint64_t, double, std::size_t, std::size_t>;
+Result result_of(const coordination::Report& report) {
   return {report.step.value,       report.status,        report.reason,   report.planned_pose.x_m,
           report.planned_pose.y_m, report.generated,     report.expanded, report.cost_m2,
           report.coupled.size(),   report.missing.size()};
@@ -59,11 +60,11 @@ class Platoon {
   static std::uint8_t id(std::size_t i) { return static_cast<std::uint8_t>(i + 1); }
   static double y_m(std::size_t i) { return kBeside_m * static_cast<double>(i); }
 
-  [[nodiscard]] std::vector<MeasuredVehicle> measured(std::uint64_t step) {
-    std::vector<MeasuredVehicle> states;
+  [[nodiscard]] std::vector<coordination::MeasuredVehicle> measured(std::uint64_t step) {
+    std::vector<coordination::MeasuredVehicle> states;
     for (std::size_t i = 0; i < kCars; ++i) {
-      const Controller& one = machines_.at(i).machine().controller();
-      states.push_back(one.has_plan() ? east_bound::following(one, step)
+      const controller::Controller& one = machines_.at(i).machine().controller();
+      states.push_back(one.has_plan() ? controller::east_bound::following(one, step)
                                       : seen(id(i), 0.0, y_m(i)));
     }
     return states;
@@ -71,9 +72,9 @@ class Platoon {
 
   void deliver(std::size_t to, HlcEvent event) {
     machines_.at(to).on(std::move(event));
-    publish<Traffic>(to);
-    publish<Prediction>(to);
-    publish<Outcome>(to);
+    publish<coordination::Traffic>(to);
+    publish<coordination::Prediction>(to);
+    publish<coordination::Outcome>(to);
     for (const ReportRecord& record : machines_.at(to).take<ReportRecord>()) {
       results_.at(to).push_back(result_of(record.report));
     }
@@ -99,7 +100,7 @@ TEST(HlcMachineProperty, InLogicalTimeTheOrderOfArrivalChangesNothing) {
   const auto in_order = Platoon{}.drive(kSteps, nullptr);
   for (std::size_t i = 0; i < kCars; ++i) {
     ASSERT_EQ(in_order.at(i).size(), kSteps) << "every list is answered";
-    EXPECT_EQ(std::get<1>(in_order.at(i).back()), StepStatus::kPlanned);
+    EXPECT_EQ(std::get<1>(in_order.at(i).back()), coordination::StepStatus::kPlanned);
   }
   for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(10); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -128,9 +129,10 @@ class Turmoil {
       case 2:
         return one_.on(any_traffic());
       case 3:
-        return one_.on(Prediction{.vehicle = {2}, .step = any_step()});
+        return one_.on(coordination::Prediction{.vehicle = {2}, .step = any_step()});
       case 4:
-        return one_.on(Outcome{.vehicle = {2}, .step = any_step(), .wants_fallback = pick(2) == 0});
+        return one_.on(coordination::Outcome{
+            .vehicle = {2}, .step = any_step(), .wants_fallback = pick(2) == 0});
       case 5:
         return one_.on(AutomatonRequest{
             .vehicle = {1},
@@ -146,8 +148,9 @@ class Turmoil {
   /// Of what was published since the last call.
   void check() {
     for (const HlcAction& action : one_.take_all()) {
-      if (const auto* traffic = std::get_if<Traffic>(&action)) last_traffic_ = traffic->step;
-      if (const auto* prediction = std::get_if<Prediction>(&action)) {
+      if (const auto* traffic = std::get_if<coordination::Traffic>(&action))
+        last_traffic_ = traffic->step;
+      if (const auto* prediction = std::get_if<coordination::Prediction>(&action)) {
         ASSERT_EQ(prediction->step, last_traffic_)
             << "a controller that plans has published its traffic";
       }
@@ -195,8 +198,8 @@ class Turmoil {
     if (pick(4) == 0) result.receivers.clear();
     return result;
   }
-  Traffic any_traffic() {
-    Traffic traffic;
+  coordination::Traffic any_traffic() {
+    coordination::Traffic traffic;
     traffic.vehicle = {static_cast<std::uint8_t>(pick(20) == 0 ? 1 : 2)};
     traffic.step = any_step();
     return traffic;
@@ -214,12 +217,12 @@ class Turmoil {
     }
   }
   void see() {
-    const Controller& controller = one_.machine().controller();
+    const controller::Controller& controller = one_.machine().controller();
     const std::uint64_t step = std::max(one_.step() + 1, one_.now().run / kPeriod + 1);
-    MeasuredVehicle own = seen(1, 0.0, 0.0);
-    if (controller.has_plan()) own = east_bound::following(controller, step);
+    coordination::MeasuredVehicle own = seen(1, 0.0, 0.0);
+    if (controller.has_plan()) own = controller::east_bound::following(controller, step);
     if (pick(20) == 0) own.pose.y_m += 0.05;
-    std::vector<MeasuredVehicle> vehicles{own};
+    std::vector<coordination::MeasuredVehicle> vehicles{own};
     if (pick(4) != 0) vehicles.push_back(seen(2, 1.0, 0.3));
     const VehicleStateList list = one_.wait_for_list(vehicles);
     lists_.insert(list.t_now);
@@ -258,4 +261,4 @@ TEST(HlcMachineProperty, WhateverHappensEveryListIsAnsweredOnceAndItEnds) {
 }
 
 }  // namespace
-}  // namespace hlc::hlc_machine_property_test
+}  // namespace hlc::high_level_controller::hlc_machine_property_test

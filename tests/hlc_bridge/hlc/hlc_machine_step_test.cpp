@@ -5,43 +5,45 @@
 #include "planner/controller/control_loop.hpp"
 #include "tests/hlc_bridge/hlc/driven_machine.hpp"
 
-namespace hlc::hlc_machine_step_test {
+namespace hlc::high_level_controller::hlc_machine_step_test {
 namespace {
 
 using namespace driven_machine;
-using east_bound::seen;
+using controller::east_bound::seen;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
 /// So near that 1 and 2 are coupled; 1 plans first.
 constexpr double kNear_m = 0.3;
-const std::vector<MeasuredVehicle>& both() {
-  static const std::vector<MeasuredVehicle> result{seen(1, 0.0, 0.0), seen(2, 0.0, kNear_m)};
+const std::vector<coordination::MeasuredVehicle>& both() {
+  static const std::vector<coordination::MeasuredVehicle> result{seen(1, 0.0, 0.0),
+                                                                 seen(2, 0.0, kNear_m)};
   return result;
 }
 
 /// The other car's controller, whose messages are triggered by the test.
 class Peer {
  public:
-  Peer(std::uint8_t vehicle, double y_m) : controller_(east_bound::controller(vehicle, y_m)) {}
+  Peer(std::uint8_t vehicle, double y_m)
+      : controller_(controller::east_bound::controller(vehicle, y_m)) {}
 
-  Traffic begin(std::uint64_t step) {
+  coordination::Traffic begin(std::uint64_t step) {
     if (!controller_->has_plan()) {
-      static_cast<void>(loop_.stand_by(east_bound::at(step - 1, both())));
+      static_cast<void>(loop_.stand_by(controller::east_bound::at(step - 1, both())));
     }
-    return *loop_.begin(east_bound::at(step, both())).traffic;
+    return *loop_.begin(controller::east_bound::at(step, both())).traffic;
   }
   /// @param traffic  of the machine
-  Prediction plan(const Traffic& traffic) {
+  coordination::Prediction plan(const coordination::Traffic& traffic) {
     loop_.receive(traffic);
     static_cast<void>(loop_.proceed());
     return *loop_.proceed().prediction;
   }
 
  private:
-  std::unique_ptr<Controller> controller_;
-  ControlLoop loop_{*controller_};
+  std::unique_ptr<controller::Controller> controller_;
+  controller::ControlLoop loop_{*controller_};
 };
 
 /// The machine of one of the two, whose car drives.
@@ -54,9 +56,9 @@ class HlcMachineStep : public testing::Test {
     start(*one_, both());
   }
   /// Into a step; the machine's traffic.
-  Traffic begin() {
+  coordination::Traffic begin() {
     one_->next_list(both());
-    const std::vector<Traffic> traffic = one_->take<Traffic>();
+    const std::vector<coordination::Traffic> traffic = one_->take<coordination::Traffic>();
     EXPECT_THAT(traffic, SizeIs(1));
     return traffic.at(0);
   }
@@ -93,8 +95,8 @@ TEST_F(HlcMachineStep, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwn
   } while (one.is_due());
   const auto kind = [](const HlcAction& action) { return action.index(); };
   ASSERT_THAT(kinds, SizeIs(4));
-  EXPECT_THAT(kinds[0], ElementsAre(kind(Traffic{})));
-  EXPECT_THAT(kinds[1], ElementsAre(kind(Prediction{})));
+  EXPECT_THAT(kinds[0], ElementsAre(kind(coordination::Traffic{})));
+  EXPECT_THAT(kinds[1], ElementsAre(kind(coordination::Prediction{})));
   EXPECT_THAT(kinds[2], ElementsAre(kind(TrajectoryCommand{}), kind(TrajectoryCommand{}),
                                     kind(ReportRecord{}), kind(DrawStep{}), kind(AfterStep{})));
   EXPECT_THAT(kinds[3], IsEmpty()) << "policies may look ahead then";
@@ -102,16 +104,16 @@ TEST_F(HlcMachineStep, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwn
 
 TEST_F(HlcMachineStep, GoesOnAsSoonAsEverybodyHasAnswered) {
   drive(real_time(), 1);
-  const Traffic traffic = begin();
+  const coordination::Traffic traffic = begin();
   EXPECT_EQ(one_->machine().awaited(), 1U);
   one_->on(other_->begin(one_->step()));
-  const std::vector<Prediction> predictions = one_->take<Prediction>();
+  const std::vector<coordination::Prediction> predictions = one_->take<coordination::Prediction>();
   ASSERT_THAT(predictions, SizeIs(1));
   EXPECT_THAT(one_->take<ReportRecord>(), IsEmpty());
   one_->on(other_->plan(traffic));
   const std::vector<ReportRecord> records = one_->take<ReportRecord>();
   ASSERT_THAT(records, SizeIs(1));
-  EXPECT_EQ(records[0].report.status, StepStatus::kPlanned);
+  EXPECT_EQ(records[0].report.status, coordination::StepStatus::kPlanned);
   EXPECT_THAT(records[0].report.missing, IsEmpty());
   EXPECT_EQ(one_->machine().awaited(), machine::kOnlyUrgent);
 }
@@ -120,13 +122,13 @@ TEST_F(HlcMachineStep, MessagesThatComeBeforeTheListCount) {
   drive(real_time(), 1);
   one_->on(other_->begin(one_->step() + 1));
   static_cast<void>(begin());
-  EXPECT_THAT(one_->take<Prediction>(), SizeIs(1));
+  EXPECT_THAT(one_->take<coordination::Prediction>(), SizeIs(1));
 }
 
 TEST_F(HlcMachineStep, InRealTimeTrafficIsAwaitedUntilItsDeadline) {
   drive(real_time(), 1);
   static_cast<void>(begin());
-  EXPECT_NEAR(share_of<Prediction>(), StepDeadlines{}.traffic, kTolerance);
+  EXPECT_NEAR(share_of<coordination::Prediction>(), StepDeadlines{}.traffic, kTolerance);
   const std::vector<ReportRecord> records = one_->take<ReportRecord>();
   ASSERT_THAT(records, SizeIs(1)) << "a missing vehicle is not coupled";
   EXPECT_THAT(records[0].report.missing, ElementsAre(VehicleId{2}));
@@ -136,7 +138,7 @@ TEST_F(HlcMachineStep, InRealTimePredecessorsAreAwaitedUntilTheirDeadline) {
   drive(real_time(), 2);
   static_cast<void>(begin());
   one_->on(other_->begin(one_->step()));
-  EXPECT_NEAR(share_of<Prediction>(), StepDeadlines{}.predecessors, kTolerance);
+  EXPECT_NEAR(share_of<coordination::Prediction>(), StepDeadlines{}.predecessors, kTolerance);
   EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.commit, kTolerance);
 }
 
@@ -144,7 +146,7 @@ TEST_F(HlcMachineStep, InRealTimeTheOthersNewPlansAreAwaitedUntilTheirDeadline) 
   drive(real_time(), 1);
   static_cast<void>(begin());
   one_->on(other_->begin(one_->step()));
-  EXPECT_THAT(one_->take<Prediction>(), SizeIs(1));
+  EXPECT_THAT(one_->take<coordination::Prediction>(), SizeIs(1));
   EXPECT_NEAR(share_of<ReportRecord>(), StepDeadlines{}.commit, kTolerance);
 }
 
@@ -170,7 +172,7 @@ TEST_F(HlcMachineStep, AfterTheCommandsDeadlineThePlanInForceStaysAndTheMissIsCo
   ASSERT_THAT(records, SizeIs(1));
   EXPECT_TRUE(records[0].deadline_missed);
   EXPECT_NEAR(static_cast<double>(records[0].late_ns), 10e6, 1e3);
-  EXPECT_EQ(records[0].report.reason, FallbackReason::kLate);
+  EXPECT_EQ(records[0].report.reason, coordination::FallbackReason::kLate);
   EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(2)) << "of the plan in force";
 }
 
@@ -264,7 +266,7 @@ TEST_F(HlcMachineStep, InLogicalTimeTheStepWaitsForWhatIsBeingPreparedButNotForE
 }
 
 TEST_F(HlcMachineStep, PoliciesLookAheadWhenTheCopyOfTheCommandIsOut) {
-  const LookAheadSettings look_ahead{
+  const policy::LookAheadSettings look_ahead{
       .candidates = {{}, {.max_speed_mps = 0.6}}, .steps = 2, .max_expansions = 100};
   DrivenMachine one(real_time_in_the_lab(), 1, 0.0, {.policies = {look_ahead}});
   one.on(peers());
@@ -279,4 +281,4 @@ TEST_F(HlcMachineStep, PoliciesLookAheadWhenTheCopyOfTheCommandIsOut) {
 }
 
 }  // namespace
-}  // namespace hlc::hlc_machine_step_test
+}  // namespace hlc::high_level_controller::hlc_machine_step_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace hlc::observation_test {
+namespace hlc::high_level_controller::observation_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -40,7 +40,8 @@ TEST(Observation, DeadlinesLieBetweenTheListAndTheEndOfItsStep) {
 }
 
 TEST(Observation, APlaceholderIsNotAVehicleAtTheOrigin) {
-  const Observation observation = observation_of(list_at(1'000 * kMillisecond + 1, {state(0, 0)}));
+  const controller::Observation observation =
+      observation_of(list_at(1'000 * kMillisecond + 1, {state(0, 0)}));
   EXPECT_TRUE(observation.states.empty());
   EXPECT_FALSE(is_complete(observation));
 }
@@ -68,7 +69,7 @@ TEST(Observation, AStateWhosePositionWasNotMeasuredForLongIsNotUsed) {
 }
 
 TEST(Observation, TheAgeIsThatAtTheBeginOfTheStep) {
-  const Observation observation =
+  const controller::Observation observation =
       observation_of(list_at(1'000 * kMillisecond + 1, {state(1, 940 * kMillisecond)}));
   ASSERT_EQ(observation.states.size(), 1U);
   EXPECT_NEAR(observation.states[0].age_s, 0.06, 1e-12);
@@ -77,11 +78,11 @@ TEST(Observation, TheAgeIsThatAtTheBeginOfTheStep) {
 TEST(Observation, CompleteMeansAUsableStateOfEveryActiveVehicle) {
   const Nanoseconds now = 1'000 * kMillisecond + 1;
   const auto both = list_at(now, {state(3, 940 * kMillisecond), state(1, 940 * kMillisecond)});
-  const Observation observation = observation_of(both);
+  const controller::Observation observation = observation_of(both);
   EXPECT_TRUE(is_complete(observation));
   EXPECT_EQ(observation.active, (std::vector<VehicleId>{{1}, {3}}));
   EXPECT_FALSE(is_complete(observation_of(list_at(now, {state(3, 940 * kMillisecond)}))));
 }
 
 }  // namespace
-}  // namespace hlc::observation_test
+}  // namespace hlc::high_level_controller::observation_test

@@ -8,7 +8,7 @@
 #include "hlc_bridge/hlc/command.hpp"
 #include "tests/planner/vehicle/cpm_lab.hpp"
 
-namespace hlc::own_command_check_test {
+namespace hlc::high_level_controller::own_command_check_test {
 namespace {
 
 using testing::HasSubstr;
@@ -33,14 +33,15 @@ TrajectoryCommand good_command() {
 }
 
 TEST(OwnCommandCheck, AGoodCommandAndItsCopyHaveNoFault) {
-  EXPECT_EQ(validate_own_command(good_command(), kCpmLab), "");
-  EXPECT_EQ(validate_own_command(copy_for_later(good_command()), kCpmLab), "");
+  EXPECT_EQ(validate_own_command(good_command(), vehicle::kCpmLab), "");
+  EXPECT_EQ(validate_own_command(copy_for_later(good_command()), vehicle::kCpmLab), "");
 }
 
 TEST(OwnCommandCheck, ACommandWithoutPointsTellsToStandAndIsGood) {
-  EXPECT_EQ(validate_own_command(
-                {.vehicle_id = 3, .create_stamp = kList, .valid_after_stamp = kList}, kCpmLab),
-            "");
+  EXPECT_EQ(
+      validate_own_command({.vehicle_id = 3, .create_stamp = kList, .valid_after_stamp = kList},
+                           vehicle::kCpmLab),
+      "");
 }
 
 TEST(OwnCommandCheck, NumbersThatAreNoneAreFoundWithoutALabToo) {
@@ -67,7 +68,7 @@ TEST(OwnCommandCheck, AnEndThatDrivesOnIsFound) {
 TEST(OwnCommandCheck, AFirstPointThatIsNotBeforeValidAfterIsFound) {
   TrajectoryCommand command = good_command();
   command.valid_after_stamp = command.points.front().t;
-  EXPECT_EQ(validate_own_command(command, kCpmLab),
+  EXPECT_EQ(validate_own_command(command, vehicle::kCpmLab),
             "the first point is 0 s after valid_after, must be before it");
 }
 
@@ -75,21 +76,21 @@ TEST(OwnCommandCheck, AFirstPointThatIsNotBeforeValidAfterIsFound) {
 TEST(OwnCommandCheck, ACommandThatEndsBeforeItExpiresIsFound) {
   TrajectoryCommand command = good_command();
   while (command.points.back().t >= kList + 1'360 * kMs) command.points.pop_back();
-  EXPECT_THAT(validate_own_command(command, kCpmLab), HasSubstr("must be >= 1.36 s"));
+  EXPECT_THAT(validate_own_command(command, vehicle::kCpmLab), HasSubstr("must be >= 1.36 s"));
   TrajectoryCommand later = good_command();
   later.valid_after_stamp += 900 * kMs;
-  EXPECT_THAT(validate_own_command(later, kCpmLab), HasSubstr("must be >= 1.36 s"));
+  EXPECT_THAT(validate_own_command(later, vehicle::kCpmLab), HasSubstr("must be >= 1.36 s"));
 }
 
 TEST(OwnCommandCheck, WhatTheLabsVehicleCannotFollowIsFoundWithAPlace) {
   TrajectoryCommand outside = good_command();
   for (TrajectoryPoint& point : outside.points) point.x_m += 3.45;
-  EXPECT_THAT(validate_own_command(outside, kCpmLab), StartsWith("coordinate = 4.5"));
+  EXPECT_THAT(validate_own_command(outside, vehicle::kCpmLab), StartsWith("coordinate = 4.5"));
   EXPECT_EQ(validate_own_command(outside, std::nullopt), "") << "no area is given";
 
   TrajectoryCommand aside = good_command();
   aside.points[2].y_m += 0.003;
-  EXPECT_THAT(validate_own_command(aside, kCpmLab), HasSubstr(" s after the first point"));
+  EXPECT_THAT(validate_own_command(aside, vehicle::kCpmLab), HasSubstr(" s after the first point"));
 }
 
 TEST(OwnCommandCheck, WhatWasGoodStaysGoodHoweverOftenItIsSaidAgain) {
@@ -99,11 +100,11 @@ TEST(OwnCommandCheck, WhatWasGoodStaysGoodHoweverOftenItIsSaidAgain) {
     command = republished(command, t_now);
     EXPECT_EQ(command.create_stamp, t_now);
     EXPECT_EQ(command.valid_after_stamp, t_now);
-    EXPECT_EQ(validate_own_command(command, kCpmLab), "") << k;
-    EXPECT_EQ(validate_own_command(copy_for_later(command), kCpmLab), "") << k;
+    EXPECT_EQ(validate_own_command(command, vehicle::kCpmLab), "") << k;
+    EXPECT_EQ(validate_own_command(copy_for_later(command), vehicle::kCpmLab), "") << k;
     EXPECT_EQ(command.points.back().x_m, good_command().points.back().x_m);
   }
 }
 
 }  // namespace
-}  // namespace hlc::own_command_check_test
+}  // namespace hlc::high_level_controller::own_command_check_test

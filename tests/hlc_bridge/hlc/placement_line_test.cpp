@@ -6,26 +6,27 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::placement_line_test {
+namespace hlc::high_level_controller::placement_line_test {
 namespace {
 
 using testing::HasSubstr;
 
-const Scenario& three_cars() {
-  static const Scenario scenario = read_scenario(
+const scenario::Scenario& three_cars() {
+  static const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
   return scenario;
 }
 
 std::string line_of(VehicleId id, const Pose& measured) {
-  const std::unique_ptr<Controller> controller = make_controller(three_cars(), id);
+  const std::unique_ptr<controller::Controller> controller =
+      scenario::make_controller(three_cars(), id);
   static_cast<void>(controller->stand_by(
       {.step = {1}, .active = {id}, .states = {{.vehicle = id, .pose = measured}}, .present = {}}));
   return placement_line(*controller);
 }
 
 TEST(PlacementLine, NamesRouteAndPlace) {
-  const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
+  const Pose start = scenario::measured_start(three_cars(), three_cars().vehicles[2]);
   const std::string line = line_of({3}, compose(start, {0.0, 0.030, 0.0}));
   EXPECT_THAT(line, HasSubstr("vehicle 3 selects route green at 1.5"));
   EXPECT_THAT(line, HasSubstr("30 mm beside its path"));
@@ -33,7 +34,7 @@ TEST(PlacementLine, NamesRouteAndPlace) {
 }
 
 TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
-  const Pose start = measured_start(three_cars(), three_cars().vehicles[2]);
+  const Pose start = scenario::measured_start(three_cars(), three_cars().vehicles[2]);
   const std::string turned = line_of({3}, compose(start, {0.0, 0.0, 2.0}));
   EXPECT_THAT(turned, HasSubstr("vehicle 3 fits no route: nearest is green at"));
   EXPECT_THAT(turned, HasSubstr("(must be <= 150 mm)"));
@@ -42,12 +43,14 @@ TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
 }
 
 TEST(StuckLine, NamesTheBudgetIfItWasUsedUp) {
-  const std::unique_ptr<Controller> controller = make_controller(three_cars(), {3});
-  EXPECT_THAT(stuck_line(*controller, FallbackReason::kOffRoute), HasSubstr("no plan of 8 steps"));
-  EXPECT_EQ(stuck_line(*controller, FallbackReason::kBudget),
+  const std::unique_ptr<controller::Controller> controller =
+      scenario::make_controller(three_cars(), {3});
+  EXPECT_THAT(stuck_line(*controller, coordination::FallbackReason::kOffRoute),
+              HasSubstr("no plan of 8 steps"));
+  EXPECT_EQ(stuck_line(*controller, coordination::FallbackReason::kBudget),
             "vehicle 3: no new plan, the search used up max_expansions = " +
                 std::to_string(three_cars().search.max_expansions));
 }
 
 }  // namespace
-}  // namespace hlc::placement_line_test
+}  // namespace hlc::high_level_controller::placement_line_test

@@ -6,14 +6,14 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::reconfiguration_test {
+namespace hlc::high_level_controller::reconfiguration_test {
 namespace {
 
 constexpr VehicleId kRed{1};
 constexpr Nanoseconds kStep = 200'000'000;
 
-const Scenario& scenario() {
-  static const Scenario scenario = read_scenario(
+const scenario::Scenario& scenario() {
+  static const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
   return scenario;
 }
@@ -45,8 +45,8 @@ class ReconfigurationTest : public testing::Test {
     return controller_->subgraph().spec().max_speed_mps;
   }
 
-  std::unique_ptr<Controller> controller_ = make_controller(scenario(), kRed);
-  SubgraphSelector selector_{*controller_, {}};
+  std::unique_ptr<controller::Controller> controller_ = scenario::make_controller(scenario(), kRed);
+  policy::SubgraphSelector selector_{*controller_, {}};
   Reconfiguration reconfiguration_;
 };
 
@@ -115,8 +115,9 @@ TEST_F(ReconfigurationTest, EveryRequestStartsFromTheScenariosSubgraph) {
 }
 
 TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
-  WeightDesign weights(scenario().subgraph->shared_automaton(),
-                       [] { return read_configuration_of(scenario().automaton_file); });
+  WeightDesign weights(scenario().subgraph->shared_automaton(), [] {
+    return maneuver_design::read_configuration_of(scenario().automaton_file);
+  });
   const AutomatonRequest request{
       .vehicle = kRed,
       .id = 1,
@@ -129,7 +130,7 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
   ASSERT_TRUE(in_force);
   EXPECT_EQ(controller_->subgraph().spec().name, "B, weights J1 0.3 J2 0.7, at most 0.7 m/s");
   for (const TrimId from : controller_->subgraph().trims()) {
-    for (const Edge& edge : controller_->subgraph().successors(from)) {
+    for (const automaton::Edge& edge : controller_->subgraph().successors(from)) {
       EXPECT_TRUE(edge.to == from || edge.maneuver->label == "J1 0.3 J2 0.7");
     }
   }
@@ -145,4 +146,4 @@ TEST_F(ReconfigurationTest, NewWeightsAreInForceOnAnAutomatonThatHoldsThem) {
 }
 
 }  // namespace
-}  // namespace hlc::reconfiguration_test
+}  // namespace hlc::high_level_controller::reconfiguration_test

@@ -14,7 +14,7 @@
 #include "planner/scenario/lab_file.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::weight_design_test {
+namespace hlc::high_level_controller::weight_design_test {
 namespace {
 
 using testing::HasSubstr;
@@ -24,27 +24,29 @@ const std::string kLaunchScripts = test::source_folder() + "/launch_scripts/";
 const Weights kWeights{{"J1", 0.3}, {"J2", 0.7}};
 const std::string kLabel = "J1 0.3 J2 0.7";
 
-AutomatonConfiguration shipped(const std::string& name) {
-  return read_automaton_configuration(kLaunchScripts + "automata/" + name);
+maneuver_design::AutomatonConfiguration shipped(const std::string& name) {
+  return maneuver_design::read_automaton_configuration(kLaunchScripts + "automata/" + name);
 }
 
 /// What a run on the paper's B builds.
-const AutomatonConfiguration& paper_b() {
-  static const AutomatonConfiguration configuration = [] {
-    const AutomatonConfiguration whole = shipped("paper.yaml");
-    const auto is_b = [](const SubgraphSpec& spec) { return spec.name == "B"; };
-    return needed_by(*std::ranges::find_if(whole.subgraphs, is_b), whole);
+const maneuver_design::AutomatonConfiguration& paper_b() {
+  static const maneuver_design::AutomatonConfiguration configuration = [] {
+    const maneuver_design::AutomatonConfiguration whole = shipped("paper.yaml");
+    const auto is_b = [](const automaton::SubgraphSpec& spec) { return spec.name == "B"; };
+    return maneuver_design::needed_by(*std::ranges::find_if(whole.subgraphs, is_b), whole);
   }();
   return configuration;
 }
 
-const Subgraph& base() {
-  static const Subgraph subgraph(build_shared_automaton(paper_b()), paper_b().subgraphs.front());
+const automaton::Subgraph& base() {
+  static const automaton::Subgraph subgraph(maneuver_design::build_shared_automaton(paper_b()),
+                                            paper_b().subgraphs.front());
   return subgraph;
 }
 
-SubgraphSpec spec_for(const Weights& weights, std::vector<TrimId> trims_off = {}) {
-  return requested_spec(base(), {.labels = {}, .weights = weights, .trims_off = trims_off});
+automaton::SubgraphSpec spec_for(const Weights& weights, std::vector<TrimId> trims_off = {}) {
+  return automaton::requested_spec(base(),
+                                   {.labels = {}, .weights = weights, .trims_off = trims_off});
 }
 
 /// All but standstill and the two that are driven straight on or nearly so: quick to solve.
@@ -59,8 +61,8 @@ std::vector<TrimId> all_but_three() {
 /// Designs for the paper's B, and how often it asked what the automaton was built from.
 class WeightDesignTest : public testing::Test {
  protected:
-  std::shared_ptr<const UniversalAutomaton> automaton_for(const Weights& weights,
-                                                          std::vector<TrimId> trims_off = {}) {
+  std::shared_ptr<const automaton::UniversalAutomaton> automaton_for(
+      const Weights& weights, std::vector<TrimId> trims_off = {}) {
     return design_.automaton_for(spec_for(weights, std::move(trims_off)), weights);
   }
 
@@ -76,7 +78,7 @@ class WeightDesignTest : public testing::Test {
     }
     return "accepted";
   }
-  static std::string fault(const WeightDesign& design, const Subgraph& subgraph) {
+  static std::string fault(const WeightDesign& design, const automaton::Subgraph& subgraph) {
     try {
       design.check(subgraph);
     } catch (const std::invalid_argument& error) {
@@ -93,18 +95,18 @@ class WeightDesignTest : public testing::Test {
 };
 
 TEST_F(WeightDesignTest, GivesTheManeuversOfAnAutomatonThatHadTheLabelFromTheBeginning) {
-  AutomatonConfiguration declared = paper_b();
+  maneuver_design::AutomatonConfiguration declared = paper_b();
   declared.criteria.push_back({.label = "J1"});  // faster than the weights' are
   declared.subgraphs.front().labels = {"J1", "J2"};
-  WeightDesign design(build_shared_automaton(declared), [] { return paper_b(); });
+  WeightDesign design(maneuver_design::build_shared_automaton(declared), [] { return paper_b(); });
   const auto automaton = design.automaton_for(spec_for(kWeights), kWeights);
   declared.criteria.push_back({.label = kLabel, .weights = kWeights});
   declared.subgraphs.front().labels.push_back(kLabel);
-  const UniversalAutomaton expected = build_automaton(declared);
+  const automaton::UniversalAutomaton expected = maneuver_design::build_automaton(declared);
   EXPECT_EQ(automaton->trims, expected.trims);
   ASSERT_EQ(automaton->maneuvers.size(), expected.maneuvers.size());
-  for (const Maneuver& maneuver : expected.maneuvers) {
-    const Maneuver* made = automaton->find(maneuver.from, maneuver.to, maneuver.label);
+  for (const automaton::Maneuver& maneuver : expected.maneuvers) {
+    const automaton::Maneuver* made = automaton->find(maneuver.from, maneuver.to, maneuver.label);
     ASSERT_NE(made, nullptr) << maneuver.label;
     EXPECT_EQ(made->inputs, maneuver.inputs);
     EXPECT_EQ(made->states, maneuver.states);
@@ -125,7 +127,7 @@ TEST_F(WeightDesignTest, KnowsWhatItHasMadeByTheWeightsAlone) {
   EXPECT_NE(all->find({1}, {2}, kLabel), nullptr);
   EXPECT_EQ(automaton_for(kWeights, all_but_three()), all);
   std::set<std::tuple<TrimId, TrimId, std::string>> edges;
-  for (const Maneuver& one : all->maneuvers) {
+  for (const automaton::Maneuver& one : all->maneuvers) {
     EXPECT_TRUE(edges.emplace(one.from, one.to, one.label).second) << "made twice";
   }
   EXPECT_EQ(asked_, 1);
@@ -160,12 +162,13 @@ TEST_F(WeightDesignTest, RefusesWhatNoSumCanBeMadeOf) {
 TEST_F(WeightDesignTest, RefusesWithoutTheConfigurationThatTheAutomatonWasBuiltFrom) {
   WeightDesign without(base().shared_automaton(), {});
   EXPECT_THAT(refusal_of(without, kWeights), HasSubstr("configuration of the automaton unknown"));
-  WeightDesign unreadable(base().shared_automaton(), []() -> AutomatonConfiguration {
-    throw std::invalid_argument("built.yaml: configuration not found in its folder");
-  });
+  WeightDesign unreadable(
+      base().shared_automaton(), []() -> maneuver_design::AutomatonConfiguration {
+        throw std::invalid_argument("built.yaml: configuration not found in its folder");
+      });
   EXPECT_THAT(refusal_of(unreadable, kWeights), HasSubstr("not found in its folder"));
   WeightDesign edited(base().shared_automaton(), [] {
-    AutomatonConfiguration configuration = paper_b();
+    maneuver_design::AutomatonConfiguration configuration = paper_b();
     configuration.limits.acceleration_mps2 *= 0.5;
     return configuration;
   });
@@ -182,32 +185,35 @@ TEST_F(WeightDesignTest, StopsBetweenTwoManeuvers) {
 // trims.
 TEST_F(WeightDesignTest, NothingIsFasterThanTheScenariosAutomaton) {
   const Weights fast{{"J1", 1.0}};
-  AutomatonConfiguration declared = paper_b();
+  maneuver_design::AutomatonConfiguration declared = paper_b();
   declared.criteria = {{.label = "J1 1", .weights = fast}};
   declared.subgraphs = {spec_for(fast)};
-  EXPECT_GT(top_speed_mps(build_automaton(declared)), 1.5);
+  EXPECT_GT(automaton::top_speed_mps(maneuver_design::build_automaton(declared)), 1.5);
   constexpr double kRounding_mps = 1e-6;
   for (const Weights& weights : {kWeights, fast}) {
     const auto automaton = automaton_for(weights);
-    EXPECT_LE(top_speed_mps(*automaton), top_speed_mps(base().automaton()) + kRounding_mps);
-    EXPECT_EQ(fault(design_, Subgraph(automaton, spec_for(weights))), "");
+    EXPECT_LE(automaton::top_speed_mps(*automaton),
+              automaton::top_speed_mps(base().automaton()) + kRounding_mps);
+    EXPECT_EQ(fault(design_, automaton::Subgraph(automaton, spec_for(weights))), "");
   }
   const std::string reason =
-      fault(design_, Subgraph(build_shared_automaton(declared), declared.subgraphs.front()));
+      fault(design_, automaton::Subgraph(maneuver_design::build_shared_automaton(declared),
+                                         declared.subgraphs.front()));
   EXPECT_THAT(reason, HasSubstr("(J1 1) reaches"));
   EXPECT_THAT(reason, HasSubstr("m/s, must be <= 0.8"));
 }
 
 TEST_F(WeightDesignTest, TheLabsVehiclesCanFollowWhatIsOn) {
-  const LabLimits lab = read_lab(kLaunchScripts + "labs/cpm_lab.yaml", paper_b().step_s);
+  const vehicle::LabLimits lab =
+      scenario::read_lab(kLaunchScripts + "labs/cpm_lab.yaml", paper_b().step_s);
   const WeightDesign design(base().shared_automaton(), {}, lab);
   EXPECT_THAT(fault(design, base()), HasSubstr("by the lab"));
 }
 
 TEST_F(WeightDesignTest, NamesTheEdgeThatHasNoManeuver) {
-  const AutomatonConfiguration lab = shipped("lab.yaml");
-  const auto automaton = build_shared_automaton(lab);
-  SubgraphSpec spec = lab.subgraphs.front();
+  const maneuver_design::AutomatonConfiguration lab = shipped("lab.yaml");
+  const auto automaton = maneuver_design::build_shared_automaton(lab);
+  automaton::SubgraphSpec spec = lab.subgraphs.front();
   spec.labels = {"J2 1"};
   spec.trims = {{0}, {1}, {11}};  // in a chain
   spec.off = {};
@@ -222,4 +228,4 @@ TEST_F(WeightDesignTest, NamesTheEdgeThatHasNoManeuver) {
 }
 
 }  // namespace
-}  // namespace hlc::weight_design_test
+}  // namespace hlc::high_level_controller::weight_design_test

@@ -8,7 +8,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/run_parameters.hpp"
 
-namespace hlc::lab_control_machine_test {
+namespace hlc::lab_control::lab_control_machine_test {
 namespace {
 
 using testing::ElementsAre;
@@ -43,7 +43,8 @@ LabControlPresence all_present() {
           .trigger_readers = {2, {vehicle_name(1), middleware_name(1)}}};
 }
 
-ReportRecord report(std::uint64_t step, StepStatus status = StepStatus::kPlanned) {
+ReportRecord report(std::uint64_t step,
+                    coordination::StepStatus status = coordination::StepStatus::kPlanned) {
   ReportRecord record;
   record.report.vehicle = VehicleId{1};
   record.report.step = StepIndex{step};
@@ -83,8 +84,8 @@ TEST_F(LogicalLabControl, AnswersWhatItIsAskedFor) {
 }
 
 TEST_F(LogicalLabControl, HandsOnEveryReportForTheRecord) {
-  lab_.on(report(0, StepStatus::kStandby));
-  lab_.on(report(1, StepStatus::kStandby));
+  lab_.on(report(0, coordination::StepStatus::kStandby));
+  lab_.on(report(1, coordination::StepStatus::kStandby));
   const auto records = of<ReportRecord>(advance());
   ASSERT_EQ(records.size(), 2U);
   EXPECT_EQ(records[1].report.step.value, 1U);
@@ -190,4 +191,4 @@ TEST(RealTimeLabControl, SaysWhoIsBack) {
 }
 
 }  // namespace
-}  // namespace hlc::lab_control_machine_test
+}  // namespace hlc::lab_control::lab_control_machine_test

@@ -6,7 +6,7 @@
 #include "tests/hlc_bridge/lab_control/simulated_lab.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::logical_run_test {
+namespace hlc::lab_control::logical_run_test {
 namespace {
 
 using testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace hlc::logical_run_test
+}  // namespace hlc::lab_control::logical_run_test

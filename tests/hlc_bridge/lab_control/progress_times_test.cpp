@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace hlc::progress_times_test {
+namespace hlc::lab_control::progress_times_test {
 namespace {
 
 constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
@@ -30,4 +30,4 @@ TEST(ProgressTimes, NextIsWhenTheNextIsDue) {
 }
 
 }  // namespace
-}  // namespace hlc::progress_times_test
+}  // namespace hlc::lab_control::progress_times_test

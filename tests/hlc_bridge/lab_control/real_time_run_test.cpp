@@ -6,7 +6,7 @@
 #include "hlc_bridge/messages/node_names.hpp"
 #include "tests/hlc_bridge/lab_control/simulated_lab.hpp"
 
-namespace hlc::real_time_run_test {
+namespace hlc::lab_control::real_time_run_test {
 namespace {
 
 using testing::ElementsAre;
@@ -31,7 +31,7 @@ std::vector<VehicleState> second_of_states(std::uint8_t id) {
   return states;
 }
 
-ReportRecord report(std::uint8_t id, std::uint64_t step, StepStatus status) {
+ReportRecord report(std::uint8_t id, std::uint64_t step, coordination::StepStatus status) {
   ReportRecord record;
   record.report.vehicle = VehicleId{id};
   record.report.step = StepIndex{step};
@@ -53,7 +53,8 @@ class RealTimeRunTest : public testing::Test {
     for (const VehicleState& state : second_of_states(id)) run_.state(state);
   }
   /// Every controller reports the step of `now`; then the run is advanced.
-  LabRunActions advance_with_reports(Nanoseconds now, StepStatus first, StepStatus second) {
+  LabRunActions advance_with_reports(Nanoseconds now, coordination::StepStatus first,
+                                     coordination::StepStatus second) {
     run_.report(report(1, step_at(now, kPeriod), first));
     run_.report(report(2, step_at(now, kPeriod), second));
     return run_.advance(now);
@@ -119,10 +120,12 @@ TEST_F(RealTimeRunTest, StopsOnePeriodAfterTheLastStepAndFinishesAfterBraking) {
   make_ready();
   (void)run_.advance(kStart);
   const std::uint64_t k0 = step_at(kStart + kSecond, kPeriod);
-  (void)advance_with_reports(kStart + kSecond - 1, StepStatus::kStandby, StepStatus::kStandby);
+  (void)advance_with_reports(kStart + kSecond - 1, coordination::StepStatus::kStandby,
+                             coordination::StepStatus::kStandby);
   const std::uint64_t after_last = k0 + settings().steps + 1;
   for (std::uint64_t step = k0; step < after_last; ++step) {
-    (void)advance_with_reports(step * kPeriod, StepStatus::kPlanned, StepStatus::kFallback);
+    (void)advance_with_reports(step * kPeriod, coordination::StepStatus::kPlanned,
+                               coordination::StepStatus::kFallback);
   }
   const Nanoseconds end = after_last * kPeriod;
   EXPECT_EQ(run_.wake_up(), end);
@@ -146,8 +149,8 @@ class OnDeathContinue : public RealTimeRunTest {
   LabRunActions drive(std::uint64_t from, std::uint64_t to, bool is_alive) {
     LabRunActions all;
     for (std::uint64_t step = from; step < to; ++step) {
-      run_.report(report(1, step, StepStatus::kPlanned));
-      if (is_alive) run_.report(report(2, step, StepStatus::kPlanned));
+      run_.report(report(1, step, coordination::StepStatus::kPlanned));
+      if (is_alive) run_.report(report(2, step, coordination::StepStatus::kPlanned));
       const LabRunActions actions = run_.advance(step * kPeriod);
       std::ranges::copy(actions.deaths, std::back_inserter(all.deaths));
       std::ranges::copy(actions.returns, std::back_inserter(all.returns));
@@ -227,7 +230,7 @@ TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   EXPECT_EQ(actions.run_state, RunPhase::kMinimalRiskStop);
   EXPECT_THAT(actions.triggers, IsEmpty());
   for (Nanoseconds t = kStart + 2 * kSecond; t < kStart + 5 * kSecond; t += kPeriod) {
-    run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
+    run_.report(report(1, step_at(t, kPeriod), coordination::StepStatus::kPlanned));
     EXPECT_THAT(run_.advance(t).deaths, IsEmpty());
   }
   EXPECT_EQ(run_.wake_up(), kStart + 5 * kSecond);
@@ -259,8 +262,8 @@ TEST_F(RealTimeRunTest, EndsIfNobodyStarts) {
   make_ready();
   (void)run_.advance(kStart);
   for (Nanoseconds t = kStart; t < kStart + kStandbyTimeout; t += kPeriod) {
-    const LabRunActions actions =
-        advance_with_reports(t, StepStatus::kStandby, StepStatus::kStandby);
+    const LabRunActions actions = advance_with_reports(t, coordination::StepStatus::kStandby,
+                                                       coordination::StepStatus::kStandby);
     EXPECT_THAT(actions.deaths, IsEmpty());
   }
   EXPECT_EQ(run_.wake_up(), kStart + kStandbyTimeout);
@@ -273,10 +276,11 @@ TEST_F(RealTimeRunTest, AControllerThatHangsIsNamedThoughItsParticipantLives) {
   make_ready();
   (void)run_.advance(kStart);
   Nanoseconds t = kStart + kSecond;
-  (void)advance_with_reports(t, StepStatus::kPlanned, StepStatus::kPlanned);
+  (void)advance_with_reports(t, coordination::StepStatus::kPlanned,
+                             coordination::StepStatus::kPlanned);
   const Nanoseconds due = t + RealTimeRun::kReportTimeout;
   for (t += kPeriod; t < due; t += kPeriod) {  // only controller 1 goes on
-    run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
+    run_.report(report(1, step_at(t, kPeriod), coordination::StepStatus::kPlanned));
     EXPECT_THAT(run_.advance(t).deaths, IsEmpty());
   }
   EXPECT_EQ(run_.wake_up(), due);
@@ -292,10 +296,11 @@ TEST_F(RealTimeRunTest, AMiddlewareThatIsGoneIsNamedAndNotItsControllerThatGetsN
   make_ready();
   (void)run_.advance(kStart);
   Nanoseconds t = kStart + kSecond;
-  (void)advance_with_reports(t, StepStatus::kPlanned, StepStatus::kPlanned);
+  (void)advance_with_reports(t, coordination::StepStatus::kPlanned,
+                             coordination::StepStatus::kPlanned);
   const Nanoseconds noticed = t + 2 * kSecond + kPeriod;
   for (t += kPeriod; t < noticed; t += kPeriod) {
-    run_.report(report(1, step_at(t, kPeriod), StepStatus::kPlanned));
+    run_.report(report(1, step_at(t, kPeriod), coordination::StepStatus::kPlanned));
     EXPECT_THAT(run_.advance(t).deaths, IsEmpty());
   }
   std::set<std::string> others = kAll;
@@ -310,7 +315,7 @@ TEST_F(RealTimeRunTest, AControllerThatNeverReportsIsNamed) {
   make_ready();
   (void)run_.advance(kStart);
   const Nanoseconds due = kStart + kSecond + RealTimeRun::kReportTimeout;
-  run_.report(report(1, step_at(due - 1, kPeriod), StepStatus::kPlanned));
+  run_.report(report(1, step_at(due - 1, kPeriod), coordination::StepStatus::kPlanned));
   EXPECT_THAT(run_.advance(due - 1).deaths, IsEmpty());
   const LabRunActions actions = run_.advance(due);
   ASSERT_EQ(actions.deaths.size(), 1U);
@@ -323,16 +328,16 @@ TEST_F(RealTimeRunTest, AControllerThatStaysOnStandbyWhileOthersDriveIsNamed) {
   const Nanoseconds begin = kStart + kSecond;
   const Nanoseconds due = begin + RealTimeRun::kReportTimeout;
   for (Nanoseconds t = begin; t < due; t += kPeriod) {
-    const LabRunActions actions =
-        advance_with_reports(t, StepStatus::kPlanned, StepStatus::kStandby);
+    const LabRunActions actions = advance_with_reports(t, coordination::StepStatus::kPlanned,
+                                                       coordination::StepStatus::kStandby);
     EXPECT_THAT(actions.deaths, IsEmpty());
   }
-  const LabRunActions actions =
-      advance_with_reports(due, StepStatus::kPlanned, StepStatus::kStandby);
+  const LabRunActions actions = advance_with_reports(due, coordination::StepStatus::kPlanned,
+                                                     coordination::StepStatus::kStandby);
   ASSERT_EQ(actions.deaths.size(), 1U);
   EXPECT_EQ(actions.deaths.front().process, controller_name(2));
   EXPECT_EQ(run_.result().exit_code, kExitDied);
 }
 
 }  // namespace
-}  // namespace hlc::real_time_run_test
+}  // namespace hlc::lab_control::real_time_run_test

@@ -13,7 +13,7 @@
 #include "hlc_bridge/lab_control/logical_run.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::lab_control {
 
 /// Names of all timers of a run.
 inline std::set<std::string> timers_of(const std::vector<std::uint8_t>& vehicle_ids) {
@@ -320,7 +320,8 @@ class SimulatedLab {
     record.report.vehicle = VehicleId{id};
     record.report.step = StepIndex{*controller.answered};
     const bool started = first_step_ && *controller.answered >= *first_step_;
-    record.report.status = started ? StepStatus::kPlanned : StepStatus::kStandby;
+    record.report.status =
+        started ? coordination::StepStatus::kPlanned : coordination::StepStatus::kStandby;
     controller.reported = controller.answered;
     run_.report(record);
   }
@@ -363,4 +364,4 @@ class SimulatedLab {
   std::optional<Nanoseconds> stopped_at_;
 };
 
-}  // namespace hlc
+}  // namespace hlc::lab_control

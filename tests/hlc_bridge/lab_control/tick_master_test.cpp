@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc::tick_master_test {
+namespace hlc::lab_control::tick_master_test {
 namespace {
 
 using testing::ElementsAre;
@@ -74,4 +74,4 @@ TEST(TickMaster, StrangersChangeNothing) {
 }
 
 }  // namespace
-}  // namespace hlc::tick_master_test
+}  // namespace hlc::lab_control::tick_master_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::machine {
 namespace {
 
 constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
@@ -104,4 +104,4 @@ TEST(RealPacing, TimeIsThatOfTheClock) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::machine

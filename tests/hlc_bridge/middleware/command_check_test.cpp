@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace hlc::command_check_test {
+namespace hlc::middleware::command_check_test {
 namespace {
 
 using testing::ElementsAre;
@@ -100,4 +100,4 @@ TEST(CommandCheck, PointAtValidAfterIsNotBeforeIt) {
 }
 
 }  // namespace
-}  // namespace hlc::command_check_test
+}  // namespace hlc::middleware::command_check_test

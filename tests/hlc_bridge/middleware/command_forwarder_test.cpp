@@ -5,7 +5,7 @@
 
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::command;
@@ -97,4 +97,4 @@ TEST_F(CommandForwarderTest, CountsMissedAnswersAndLogsTheFirst) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -4,7 +4,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 constexpr Nanoseconds kPatience = 10'000'000'000;
@@ -59,4 +59,4 @@ TEST(DueMessages, PeersThatAreSilentAtFirstAreWaitedForFromTheirFirstMessageOn) 
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

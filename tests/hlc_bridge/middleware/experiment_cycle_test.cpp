@@ -7,7 +7,7 @@
 
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::run_parameters;
@@ -152,4 +152,4 @@ TEST_F(ExperimentCycleTest, RefusesAFirstExperimentThatItCannotServe) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

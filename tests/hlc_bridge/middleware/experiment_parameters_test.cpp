@@ -5,7 +5,7 @@
 
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::kPeriod;
@@ -92,4 +92,4 @@ TEST_F(NextExperimentTest, AProblemIsSaidOnceUntilItChanges) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -5,7 +5,7 @@
 
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::run_parameters;
@@ -48,4 +48,4 @@ TEST(ListComposer, ObservationsStandInTheOrderOfTheActiveVehicles) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -24,7 +24,7 @@ inline VehicleState state(std::uint8_t id, Nanoseconds create) {
   return state;
 }
 
-inline PublishedState published_state(std::uint8_t id, Nanoseconds create) {
+inline middleware::PublishedState published_state(std::uint8_t id, Nanoseconds create) {
   return {.vehicle_id = id, .state = state(id, create)};
 }
 
@@ -53,19 +53,20 @@ inline RunParameters run_parameters(std::uint64_t period_ms,
 /// by. In logical time `run` is moved by release(), in real time by pass().
 class MiddlewareInMemory {
  public:
-  explicit MiddlewareInMemory(MiddlewareSettings settings)
+  explicit MiddlewareInMemory(middleware::MiddlewareSettings settings)
       : vehicle_ids_{settings.vehicle_ids}, machine_{std::move(settings)} {}
 
   /// Logical time: no tick has been released.
   void begin_in_logical_time() { now_ = {.run = 0, .wall = now_.wall, .has_begun = false}; }
 
-  void post(MiddlewareEvent event) { machine_.on(std::move(event)); }
-  void on(MiddlewareEvent event) {
+  void post(middleware::MiddlewareEvent event) { machine_.on(std::move(event)); }
+  void on(middleware::MiddlewareEvent event) {
     post(std::move(event));
     advance();
   }
   void advance() {
-    for (MiddlewareAction& action : machine_.advance(now_)) actions_.push_back(std::move(action));
+    for (middleware::MiddlewareAction& action : machine_.advance(now_))
+      actions_.push_back(std::move(action));
   }
   /// Logical time.
   void release(Nanoseconds tick) {
@@ -91,7 +92,8 @@ class MiddlewareInMemory {
   }
 
   /// All are present: the lab control, the controllers, these vehicles.
-  [[nodiscard]] MiddlewarePeers all_present(const std::set<std::uint8_t>& vehicles) const {
+  [[nodiscard]] middleware::MiddlewarePeers all_present(
+      const std::set<std::uint8_t>& vehicles) const {
     return {.lab_control_is_matched = true,
             .lab_control_is_lost = false,
             .controllers_are_matched = true,
@@ -105,12 +107,14 @@ class MiddlewareInMemory {
   template <class Kind>
   [[nodiscard]] std::vector<Kind> all() const {
     std::vector<Kind> kinds;
-    for (const MiddlewareAction& action : actions_) {
+    for (const middleware::MiddlewareAction& action : actions_) {
       if (const auto* kind = std::get_if<Kind>(&action)) kinds.push_back(*kind);
     }
     return kinds;
   }
-  [[nodiscard]] const std::vector<MiddlewareAction>& actions() const { return actions_; }
+  [[nodiscard]] const std::vector<middleware::MiddlewareAction>& actions() const {
+    return actions_;
+  }
   void forget_actions() { actions_.clear(); }
 
   [[nodiscard]] std::size_t count_lines(const std::string& part) const {
@@ -121,14 +125,14 @@ class MiddlewareInMemory {
     return count;
   }
 
-  [[nodiscard]] const MiddlewareMachine& machine() const { return machine_; }
+  [[nodiscard]] const middleware::MiddlewareMachine& machine() const { return machine_; }
   [[nodiscard]] const Instant& now() const { return now_; }
 
  private:
   std::vector<std::uint8_t> vehicle_ids_;
-  MiddlewareMachine machine_;
+  middleware::MiddlewareMachine machine_;
   Instant now_{.run = 1'000'000 * kPeriod, .wall = 7 * kNanosecondsPerSecond};
-  std::vector<MiddlewareAction> actions_;
+  std::vector<middleware::MiddlewareAction> actions_;
 };
 
 }  // namespace hlc::test

@@ -11,7 +11,7 @@
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::command;
@@ -218,4 +218,4 @@ TEST(MiddlewareMachineProperty, WithoutPatienceItWritesListsOnTheGridAndNeverWit
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -6,7 +6,7 @@
 #include "hlc_bridge/middleware/middleware_machine.hpp"
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::command;
@@ -191,4 +191,4 @@ TEST_F(KeptRunningMiddlewareTest, AStopDuringTheStartDoesNotHideTheParameters) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

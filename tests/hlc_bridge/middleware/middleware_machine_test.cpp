@@ -6,7 +6,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 
-namespace hlc {
+namespace hlc::middleware {
 namespace {
 
 using test::command;
@@ -295,4 +295,4 @@ TEST_F(PatientBesideTheLabTest, ForwardsEveryTriggerAndListsObservations) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::middleware

@@ -8,7 +8,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::state_buffer_test {
+namespace hlc::middleware::state_buffer_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -133,4 +133,4 @@ TEST(StateList, RepeatsTheLastStateOfASilentVehicle) {
 }
 
 }  // namespace
-}  // namespace hlc::state_buffer_test
+}  // namespace hlc::middleware::state_buffer_test

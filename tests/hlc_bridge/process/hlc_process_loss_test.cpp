@@ -16,21 +16,22 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "tests/hlc_bridge/process/running_hlc_process.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenLists{50};
 
 const Pose& start_pose() {
-  static const Pose pose = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  static const Pose pose =
+      scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
   return pose;
 }
 
 /// Until `holds`, the controller sees its vehicle standing at its start.
 template <class Condition>
 bool comes_to(FakeMiddleware& middleware, Condition holds) {
-  return Signal{}.repeat_until(soon(), kBetweenLists, holds,
-                               [&] { middleware.lists.write(list_of(start_pose(), 0.0)); });
+  return time::Signal{}.repeat_until(dds::soon(), kBetweenLists, holds,
+                                     [&] { middleware.lists.write(list_of(start_pose(), 0.0)); });
 }
 
 class HlcProcessLossTest : public HlcProcessTest {
@@ -46,22 +47,24 @@ class HlcProcessLossTest : public HlcProcessTest {
 class Centre {
  public:
   explicit Centre(int domain)
-      : participant_{on_loopback("ParticipantSingleton", domain, DomainRole::kLab)} {
+      : participant_{dds::on_loopback("ParticipantSingleton", domain, dds::DomainRole::kLab)} {
     listen();
     // Announced after the other reader: a controller that draws knows both.
-    drawings_ = std::make_unique<Mailbox<Visualization>>(participant_, topics::visualization());
+    drawings_ =
+        std::make_unique<dds::Mailbox<Visualization>>(participant_, dds::topics::visualization());
   }
 
   void listen() {
-    stop_requests_ = std::make_unique<Mailbox<StopRequest>>(participant_, topics::stop_request());
+    stop_requests_ =
+        std::make_unique<dds::Mailbox<StopRequest>>(participant_, dds::topics::stop_request());
   }
   void leave() { stop_requests_ = nullptr; }
   [[nodiscard]] bool is_known() const { return !drawings_->now().empty(); }
 
  private:
-  Participant participant_;
-  std::unique_ptr<Mailbox<StopRequest>> stop_requests_;
-  std::unique_ptr<Mailbox<Visualization>> drawings_;
+  dds::Participant participant_;
+  std::unique_ptr<dds::Mailbox<StopRequest>> stop_requests_;
+  std::unique_ptr<dds::Mailbox<Visualization>> drawings_;
 };
 
 TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItIsBackInTime) {
@@ -70,16 +73,17 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
   Others others{controllers()};
   const auto reports = [&] { return others.reports.now(); };
   const auto is_stopping = [&] {
-    return !reports().empty() && reports().back().report.status == StepStatus::kMinimalRiskStop;
+    return !reports().empty() &&
+           reports().back().report.status == coordination::StepStatus::kMinimalRiskStop;
   };
-  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, dds::soon()));
   ASSERT_TRUE(gets_ready(middleware));
-  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, dds::soon()));
   middleware.triggers.write({.next_start = 1});
   ASSERT_TRUE(comes_to(middleware, [&] { return centre.is_known(); }));
   const std::size_t before = reports().size();  // it looks for the centre once a step
   ASSERT_TRUE(comes_to(middleware, [&] { return reports().size() >= before + 3; }));
-  EXPECT_NE(reports().back().report.status, StepStatus::kStandby);
+  EXPECT_NE(reports().back().report.status, coordination::StepStatus::kStandby);
   ASSERT_FALSE(is_stopping());
 
   centre.leave();
@@ -94,22 +98,23 @@ TEST_F(HlcProcessLossTest, DrivesOutWithoutTheLabsControlCentreAndPlansOnWhenItI
 }
 
 TEST_F(HlcProcessLossTest, TakesTheStopAndNothingElseFromTheLabDomain) {
-  Participant centre{on_loopback("ParticipantSingleton", domains_.first(), DomainRole::kLab)};
-  Writer<SystemTrigger> triggers{centre, topics::system_trigger()};
+  dds::Participant centre{
+      dds::on_loopback("ParticipantSingleton", domains_.first(), dds::DomainRole::kLab)};
+  dds::Writer<SystemTrigger> triggers{centre, dds::topics::system_trigger()};
   Others others{controllers()};
-  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, dds::soon()));
   auto middleware = std::make_unique<FakeMiddleware>(local());
   ASSERT_TRUE(gets_ready(*middleware));
-  ASSERT_TRUE(triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(triggers.wait_for_matched(1, dds::soon()));
   triggers.write({.next_start = 1});
   const std::size_t before = others.reports.now().size();
   ASSERT_TRUE(comes_to(*middleware, [&] { return others.reports.now().size() >= before + 5; }));
   for (const ReportRecord& record : others.reports.now()) {
-    EXPECT_EQ(record.report.status, StepStatus::kStandby);
+    EXPECT_EQ(record.report.status, coordination::StepStatus::kStandby);
   }
   middleware = nullptr;
   triggers.write({.next_start = kStopSymbol});
-  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  ASSERT_EQ(code_.wait_until(dds::soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitGood);
 }
 
@@ -120,8 +125,8 @@ class InterruptedHlcProcessTest : public HlcProcessLossTest {
 
   static HlcProcessOptions stops_after_a_step(InterruptedHlcProcessTest& test) {
     HlcProcessOptions options;
-    options.transport = Transport::kLab;
-    options.after_step = [&test](const Controller& controller) {
+    options.transport = dds::Transport::kLab;
+    options.after_step = [&test](const controller::Controller& controller) {
       test.last_step_ = controller.last_step().value;
       test.process_->stop();
     };
@@ -132,9 +137,9 @@ class InterruptedHlcProcessTest : public HlcProcessLossTest {
 };
 
 TEST_F(InterruptedHlcProcessTest, LeavesItsVehicleTheCopyOfItsLastCommand) {
-  FakeMiddleware middleware{local(), Transport::kLab};
+  FakeMiddleware middleware{local(), dds::Transport::kLab};
   ASSERT_TRUE(gets_ready(middleware));
-  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, dds::soon()));
   middleware.triggers.write({.next_start = 1});
   ASSERT_TRUE(comes_to(middleware, [&] { return has_ended(); }));
   EXPECT_EQ(code_.get(), kExitGood);
@@ -142,8 +147,8 @@ TEST_F(InterruptedHlcProcessTest, LeavesItsVehicleTheCopyOfItsLastCommand) {
     return step_at(command.create_stamp, kPeriod) == last_step_ &&
            command.valid_after_stamp == command.create_stamp + kCopyDelay;
   };
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{10},
+  EXPECT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{10},
       [&] { return std::ranges::any_of(middleware.commands.now(), is_last_copy); }, [] {}));
 }
 
@@ -153,7 +158,7 @@ class UnwrittenHlcProcessTest : public HlcProcessLossTest {
 
   static HlcProcessOptions fails_after_every_step(UnwrittenHlcProcessTest& test) {
     HlcProcessOptions options = on_loopback_alone();
-    options.after_step = [&test](const Controller&) {
+    options.after_step = [&test](const controller::Controller&) {
       ++test.calls_;
       throw std::runtime_error("no space left");
     };
@@ -166,13 +171,13 @@ class UnwrittenHlcProcessTest : public HlcProcessLossTest {
 TEST_F(UnwrittenHlcProcessTest, DrivesOnAndSaysByItsExitCodeThatSomethingWasNotWritten) {
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(gets_ready(middleware));
-  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(middleware.triggers.wait_for_matched(1, dds::soon()));
   middleware.triggers.write({.next_start = 1});
   const std::size_t before = middleware.commands.now().size();
   ASSERT_TRUE(comes_to(
       middleware, [&] { return calls_ > 0 && middleware.commands.now().size() >= before + 3; }));
   middleware.triggers.write({.next_start = kStopSymbol});
-  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  ASSERT_EQ(code_.wait_until(dds::soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitNotWritten);
   EXPECT_EQ(calls_, 1);
 }
@@ -221,8 +226,8 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
   VehicleStateList list = list_of(start_pose(), 0.0);
   list.states[0].pose.x_m = std::numeric_limits<double>::quiet_NaN();
   const std::string line = "topic vehicleStateList: invalid content received";
-  ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), kBetweenLists, [&] { return log().thread_that_logged(line) != 0; },
+  ASSERT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), kBetweenLists, [&] { return log().thread_that_logged(line) != 0; },
       [&] { middleware.lists.write(list); }));
   EXPECT_EQ(log().thread_that_logged(line),
             log().thread_that_logged("ready; waiting for the start trigger"));
@@ -231,8 +236,8 @@ TEST_F(ListenedToHlcProcessTest, ItsOwnThreadTellsWhatTheLibrarysThreadsNotice) 
 TEST_F(ListenedToHlcProcessTest, SaysWhoseListsDoNotComeAnyMore) {
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(gets_ready(middleware));
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), kBetweenLists,
+  EXPECT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), kBetweenLists,
       [&] { return log().thread_that_logged("waiting: no state list from middleware_1") != 0; },
       [] {}));
 }
@@ -242,17 +247,17 @@ TEST_F(ListenedToHlcProcessTest, OutlivesAMomentInWhichAllOthersAreGone) {
   Centre centre{domains_.first()};
   Others others{controllers()};
   auto middleware = std::make_unique<FakeMiddleware>(local());
-  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(others.reports.reader().wait_for_matched(1, dds::soon()));
   ASSERT_TRUE(gets_ready(*middleware));
-  ASSERT_TRUE(middleware->triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(middleware->triggers.wait_for_matched(1, dds::soon()));
   middleware->triggers.write({.next_start = 1});
   ASSERT_TRUE(comes_to(*middleware, [&] { return centre.is_known(); }));
 
   const auto has_logged = [&](const char* text) { return log().thread_that_logged(text) != 0; };
   middleware = nullptr;
   centre.leave();
-  ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), kBetweenLists,
+  ASSERT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), kBetweenLists,
       [&] { return has_logged("lab_control lost") && has_logged("no commands reach the vehicle"); },
       [] {}));
   middleware = std::make_unique<FakeMiddleware>(local());
@@ -266,4 +271,4 @@ TEST_F(ListenedToHlcProcessTest, OutlivesAMomentInWhichAllOthersAreGone) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

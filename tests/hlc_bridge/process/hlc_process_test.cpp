@@ -11,28 +11,31 @@
 #include "planner/geometry/footprint.hpp"
 #include "tests/hlc_bridge/process/running_hlc_process.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 TEST_F(HlcProcessTest, BearsItsVehiclesNameWhateverItsNodeId) {
-  const Participant lab{on_loopback("observer", domains_.first(), DomainRole::kLab)};
-  const Participant local_observer{on_loopback("observer", local(), DomainRole::kLocal)};
-  const Participant peer{on_loopback("observer", controllers(), DomainRole::kController)};
-  for (const Participant* observer : {&lab, &local_observer, &peer}) {
-    EXPECT_TRUE(observer->wait_for({controller_name(1)}, soon()));
+  const dds::Participant lab{dds::on_loopback("observer", domains_.first(), dds::DomainRole::kLab)};
+  const dds::Participant local_observer{
+      dds::on_loopback("observer", local(), dds::DomainRole::kLocal)};
+  const dds::Participant peer{
+      dds::on_loopback("observer", controllers(), dds::DomainRole::kController)};
+  for (const dds::Participant* observer : {&lab, &local_observer, &peer}) {
+    EXPECT_TRUE(observer->wait_for({controller_name(1)}, dds::soon()));
   }
 }
 
 TEST_F(HlcProcessTest, IsNotDisturbedWhenAnotherControllerOfItsMachineLeaves) {
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(middleware.lists.wait_for_matched(1, soon()));
+  ASSERT_TRUE(middleware.lists.wait_for_matched(1, dds::soon()));
   {
-    const Participant neighbour{on_loopback(controller_name(2), local(), DomainRole::kLocal)};
-    ASSERT_TRUE(neighbour.wait_for({controller_name(1)}, soon()));
-    ASSERT_TRUE(middleware.participant.wait_for({controller_name(2)}, soon()));
+    const dds::Participant neighbour{
+        dds::on_loopback(controller_name(2), local(), dds::DomainRole::kLocal)};
+    ASSERT_TRUE(neighbour.wait_for({controller_name(1)}, dds::soon()));
+    ASSERT_TRUE(middleware.participant.wait_for({controller_name(2)}, dds::soon()));
   }
-  ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{10},
+  ASSERT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{10},
       [&] { return middleware.participant.is_lost(controller_name(2)); }, [] {}));
   EXPECT_TRUE(gets_ready(middleware));
   EXPECT_FALSE(middleware.commands.now().empty());
@@ -49,16 +52,16 @@ TEST_F(HlcProcessTest, AnswersAMiddlewareThatIsStartedAgain) {
 }
 
 TEST_F(HlcProcessTest, LeavesWithoutItsMiddlewareWhenTheOthersDriveOut) {
-  const Participant lab_control{
-      on_loopback(kLabControlName, controllers(), DomainRole::kController)};
-  Participant others{on_loopback("others", controllers(), DomainRole::kController)};
-  Writer<RunState> run_states{others, topics::run_state()};
+  const dds::Participant lab_control{
+      dds::on_loopback(kLabControlName, controllers(), dds::DomainRole::kController)};
+  dds::Participant others{dds::on_loopback("others", controllers(), dds::DomainRole::kController)};
+  dds::Writer<RunState> run_states{others, dds::topics::run_state()};
   auto middleware = std::make_unique<FakeMiddleware>(local());
   ASSERT_TRUE(gets_ready(*middleware));
-  ASSERT_TRUE(run_states.wait_for_matched(1, soon()));
+  ASSERT_TRUE(run_states.wait_for_matched(1, dds::soon()));
   run_states.write({.phase = RunPhase::kMinimalRiskStop, .start = 0});
   middleware = nullptr;
-  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  ASSERT_EQ(code_.wait_until(dds::soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
 }
 
@@ -77,21 +80,22 @@ TEST_F(ImpatientHlcProcessTest, LeavesWhenItsMiddlewareStaysAway) {
   auto middleware = std::make_unique<FakeMiddleware>(local());
   ASSERT_TRUE(gets_ready(*middleware));
   middleware = nullptr;
-  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  ASSERT_EQ(code_.wait_until(dds::soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitDied);
 }
 
 TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
-  const Participant duplicate{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
+  const dds::Participant duplicate{
+      dds::on_loopback(controller_name(1), domains_.first(), dds::DomainRole::kLab)};
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, soon()));
-  ASSERT_TRUE(middleware.lists.wait_for_matched(1, soon()));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, dds::soon()));
+  ASSERT_TRUE(middleware.lists.wait_for_matched(1, dds::soon()));
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
   const auto has_left = [this] {
     return code_.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
   };
-  ASSERT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{50}, has_left,
-                                    [&] { middleware.lists.write(list_of(start, 0.0)); }));
+  ASSERT_TRUE(time::Signal{}.repeat_until(dds::soon(), std::chrono::milliseconds{50}, has_left,
+                                          [&] { middleware.lists.write(list_of(start, 0.0)); }));
   EXPECT_EQ(code_.get(), kExitBadInput);
   EXPECT_TRUE(middleware.commands.now().empty());
   EXPECT_TRUE(middleware.ready.now().empty());
@@ -100,20 +104,21 @@ TEST_F(HlcProcessTest, LeavesItsVehicleAloneWhereAnotherControllerOfItIs) {
 TEST_F(HlcProcessTest, StaysWhenAnotherControllerOfItsVehicleComesLater) {
   FakeMiddleware middleware{local()};
   ASSERT_TRUE(gets_ready(middleware));
-  const Participant duplicate{on_loopback(controller_name(1), domains_.first(), DomainRole::kLab)};
-  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, soon()));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const dds::Participant duplicate{
+      dds::on_loopback(controller_name(1), domains_.first(), dds::DomainRole::kLab)};
+  ASSERT_TRUE(duplicate.wait_for({controller_name(1)}, dds::soon()));
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
   const std::size_t before = middleware.commands.now().size();
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50},
+  EXPECT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50},
       [&] { return middleware.commands.now().size() >= before + 30; },
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
 
 /// Of a vehicle that drives far away.
-Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
+coordination::Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
   const ConvexPolygon far = footprint_area({.length_m = 0.2, .width_m = 0.1}, {90.0, 90.0, 0.0});
-  Traffic traffic;
+  coordination::Traffic traffic;
   traffic.vehicle = {vehicle};
   traffic.step = {step};
   traffic.running.first = traffic.step;
@@ -126,31 +131,31 @@ Traffic traffic_of(std::uint8_t vehicle, std::uint64_t step) {
 TEST_F(HlcProcessTest, LeavesWhenAnotherOneSpeaksForItsVehicle) {
   FakeMiddleware middleware{local()};
   Others others{controllers()};
-  ASSERT_TRUE(others.traffic.wait_for_matched(1, soon()));
+  ASSERT_TRUE(others.traffic.wait_for_matched(1, dds::soon()));
   ASSERT_TRUE(gets_ready(middleware));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
   const std::size_t before = middleware.commands.now().size();
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50},
+  EXPECT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50},
       [&] { return middleware.commands.now().size() >= before + 5; },
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
   const auto has_left = [this] {
     return code_.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
   };
-  ASSERT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{50}, has_left, [&] {
-    others.traffic.write(traffic_of(1, real_time_now() / kPeriod));
-  }));
+  ASSERT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50}, has_left,
+      [&] { others.traffic.write(traffic_of(1, time::real_time_now() / kPeriod)); }));
   EXPECT_EQ(code_.get(), kExitBadInput);
 }
 
 TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   Operator lab_control{domains_.first()};
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, dds::soon()));
   // Each is repeated: samples from before the match of writer and reader are lost.
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  const bool is_drawn = Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50},
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
+  const bool is_drawn = time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50},
       [&] { return lab_control.drawings.wait_for(0).size() >= 2; },
       [&] { middleware.lists.write(list_of(start, 0.0)); });
   ASSERT_TRUE(is_drawn);
@@ -158,8 +163,9 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
   EXPECT_EQ(state.text, "1: standby");
   EXPECT_NEAR(state.points_m.at(0).x(), start.x_m, 0.01);
 
-  const bool is_logged = Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{10}, [&] { return !lab_control.log.wait_for(0).empty(); },
+  const bool is_logged = time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{10},
+      [&] { return !lab_control.log.wait_for(0).empty(); },
       [] {
         spdlog::info("not for the operator's level critical");
         spdlog::error("the operator's line");
@@ -173,8 +179,8 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
 
   // From some line on the process knows that the operator wants to read everything.
   lab_control.level.write({.level = 3});
-  const bool reads_all = Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{10},
+  const bool reads_all = time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{10},
       [&] {
         return std::ranges::any_of(lab_control.log.wait_for(1),
                                    [](const Log& line) { return line.level == 3; });
@@ -186,11 +192,11 @@ TEST_F(HlcProcessTest, ShowsTheOperatorItsStateAndWhatItLogs) {
 TEST_F(HlcProcessTest, TellsTheOperatorThatItsVehicleFitsNoRouteAndIsNotReadyUntilItDoes) {
   Operator lab_control{domains_.first()};
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, dds::soon()));
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
   const Pose beside = compose(start, {0.0, 0.0, 1.5});
-  ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50},
+  ASSERT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50},
       [&] { return middleware.commands.wait_for(0).size() >= 8; },
       [&] { middleware.lists.write(list_of(beside, 0.0)); }));
   ASSERT_GE(lab_control.log.wait_for(1).size(), 1U);
@@ -198,25 +204,26 @@ TEST_F(HlcProcessTest, TellsTheOperatorThatItsVehicleFitsNoRouteAndIsNotReadyUnt
             std::string::npos)
       << lab_control.log.wait_for(1)[0].content;
   EXPECT_TRUE(middleware.ready.wait_for(0).empty());
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50}, [&] { return !middleware.ready.wait_for(0).empty(); },
+  EXPECT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50},
+      [&] { return !middleware.ready.wait_for(0).empty(); },
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
 }
 
 /// Receives from every sender from now on.
 bool are_matched(FakeMiddleware& middleware, Others& others) {
-  return middleware.lists.wait_for_matched(1, soon()) &&
-         others.traffic.wait_for_matched(1, soon()) &&
-         others.reports.reader().wait_for_matched(1, soon());
+  return middleware.lists.wait_for_matched(1, dds::soon()) &&
+         others.traffic.wait_for_matched(1, dds::soon()) &&
+         others.reports.reader().wait_for_matched(1, dds::soon());
 }
 
 TEST_F(HlcProcessTest, NeitherTrafficOfWhoTakesNoPartNorOfAnotherTimeStartsItsVehicle) {
   FakeMiddleware middleware{local()};
   Others others{controllers()};
   ASSERT_TRUE(are_matched(middleware, others));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  EXPECT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{20}, [&] { return others.reports.now().size() >= 5; },
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
+  EXPECT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{20}, [&] { return others.reports.now().size() >= 5; },
       [&] {
         VehicleStateList list = list_of(start, 0.0);
         list.active_vehicle_ids = {1, 2};
@@ -225,7 +232,7 @@ TEST_F(HlcProcessTest, NeitherTrafficOfWhoTakesNoPartNorOfAnotherTimeStartsItsVe
         middleware.lists.write(list);
       }));
   for (const ReportRecord& record : others.reports.now()) {
-    EXPECT_EQ(record.report.status, StepStatus::kStandby);
+    EXPECT_EQ(record.report.status, coordination::StepStatus::kStandby);
   }
 }
 
@@ -233,7 +240,7 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
   FakeMiddleware middleware{local()};
   Others others{controllers()};
   ASSERT_TRUE(are_matched(middleware, others));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
   const auto publish_speed = [&](double speed_mps) {
     VehicleStateList list = list_of(start, speed_mps);
     list.active_vehicle_ids = {1, 2};
@@ -241,44 +248,45 @@ TEST_F(HlcProcessTest, JoinsARunningExperimentByTheOthersTrafficOnceItsVehicleSt
     middleware.lists.write(list);
   };
   const auto ends = std::chrono::steady_clock::now() + std::chrono::seconds{1};
-  static_cast<void>(Signal{}.repeat_until(
+  static_cast<void>(time::Signal{}.repeat_until(
       ends, std::chrono::milliseconds{50}, [] { return false; }, [&] { publish_speed(0.5); }));
   EXPECT_TRUE(middleware.commands.wait_for(0).empty()) << "it drives what it was left";
   EXPECT_TRUE(others.reports.wait_for(0).empty());
   const auto drives = [&] {
     return std::ranges::any_of(others.reports.wait_for(0), [](const ReportRecord& record) {
-      return record.report.status == StepStatus::kPlanned;
+      return record.report.status == coordination::StepStatus::kPlanned;
     });
   };
-  EXPECT_TRUE(Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, drives,
-                                    [&] { publish_speed(0.0); }));
-  EXPECT_EQ(others.reports.wait_for(1)[0].report.status, StepStatus::kStandby);
+  EXPECT_TRUE(time::Signal{}.repeat_until(dds::soon(), std::chrono::milliseconds{20}, drives,
+                                          [&] { publish_speed(0.0); }));
+  EXPECT_EQ(others.reports.wait_for(1)[0].report.status, coordination::StepStatus::kStandby);
 }
 
 TEST_F(HlcProcessTest, WithoutTriggerAndTrafficItWaits) {
   FakeMiddleware middleware{local()};
   Others others{controllers()};
   ASSERT_TRUE(are_matched(middleware, others));
-  const Pose start = measured_start(red_alone(), vehicle_of(red_alone(), {1}));
-  ASSERT_TRUE(Signal{}.repeat_until(
-      soon(), std::chrono::milliseconds{50}, [&] { return others.reports.wait_for(0).size() >= 5; },
+  const Pose start = scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
+  ASSERT_TRUE(time::Signal{}.repeat_until(
+      dds::soon(), std::chrono::milliseconds{50},
+      [&] { return others.reports.wait_for(0).size() >= 5; },
       [&] { middleware.lists.write(list_of(start, 0.0)); }));
   for (const ReportRecord& record : others.reports.wait_for(5)) {
-    EXPECT_EQ(record.report.status, StepStatus::kStandby);
+    EXPECT_EQ(record.report.status, coordination::StepStatus::kStandby);
   }
 }
 
 TEST_F(HlcProcessTest, AsksTheLabControlToStopWhenItsPeriodIsNotTheLabs) {
   Operator lab_control{domains_.first()};
   FakeMiddleware middleware{local()};
-  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_control.sees(*process_) && middleware.lists.wait_for_matched(1, dds::soon()));
   VehicleStateList list = list_of_nobody();
   list.period_ms = 400;
   middleware.lists.write(list);
   ASSERT_EQ(lab_control.stop_requests.wait_for(1).size(), 1U);
-  ASSERT_EQ(code_.wait_until(soon()), std::future_status::ready);
+  ASSERT_EQ(code_.wait_until(dds::soon()), std::future_status::ready);
   EXPECT_EQ(code_.get(), kExitBadInput);
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

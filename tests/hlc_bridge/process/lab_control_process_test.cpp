@@ -18,7 +18,7 @@
 #include "tests/support/domain_reservation.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 using testing::ElementsAre;
@@ -30,7 +30,7 @@ constexpr Nanoseconds kPeriod = 200'000'000;
 /// Publishes a sample repeatedly, as vehicles do, until it has the effect.
 template <class Condition, class Act>
 bool repeat_until(Condition condition, Act act) {
-  return Signal{}.repeat_until(soon(), std::chrono::milliseconds{20}, condition, act);
+  return time::Signal{}.repeat_until(dds::soon(), std::chrono::milliseconds{20}, condition, act);
 }
 
 /// Vehicle 1, its middleware and its controller as far as the lab control meets them: two timers
@@ -38,24 +38,25 @@ bool repeat_until(Condition condition, Act act) {
 class FakeVehicle {
  public:
   FakeVehicle(int lab_domain, int controller_domain)
-      : vehicle_{on_loopback(vehicle_name(1), lab_domain, DomainRole::kLab)},
-        middleware_{on_loopback(middleware_name(1), lab_domain, DomainRole::kLab)},
-        controller_{std::make_unique<Participant>(
-            on_loopback(controller_name(1), controller_domain, DomainRole::kController))},
-        parameters{vehicle_, topics::parameter()},
-        requests{vehicle_, topics::parameter_request()},
-        stop_requests{vehicle_, topics::stop_request()},
-        logs{vehicle_, topics::log()},
-        run_states{std::make_unique<Mailbox<RunState>>(*controller_, topics::run_state())},
-        vehicle_ready_{vehicle_, topics::ready_status()},
-        middleware_ready_{middleware_, topics::ready_status()},
-        reports_{std::make_unique<Writer<ReportRecord>>(*controller_, topics::report())},
-        triggers_{vehicle_, topics::system_trigger(),
+      : vehicle_{dds::on_loopback(vehicle_name(1), lab_domain, dds::DomainRole::kLab)},
+        middleware_{dds::on_loopback(middleware_name(1), lab_domain, dds::DomainRole::kLab)},
+        controller_{std::make_unique<dds::Participant>(
+            dds::on_loopback(controller_name(1), controller_domain, dds::DomainRole::kController))},
+        parameters{vehicle_, dds::topics::parameter()},
+        requests{vehicle_, dds::topics::parameter_request()},
+        stop_requests{vehicle_, dds::topics::stop_request()},
+        logs{vehicle_, dds::topics::log()},
+        run_states{
+            std::make_unique<dds::Mailbox<RunState>>(*controller_, dds::topics::run_state())},
+        vehicle_ready_{vehicle_, dds::topics::ready_status()},
+        middleware_ready_{middleware_, dds::topics::ready_status()},
+        reports_{std::make_unique<dds::Writer<ReportRecord>>(*controller_, dds::topics::report())},
+        triggers_{vehicle_, dds::topics::system_trigger(),
                   [this](const SystemTrigger& trigger) {
                     signal_.post([&] { received_.push_back(trigger.next_start); });
                   },
                   [this] { signal_.notify(); }},
-        middleware_triggers_{middleware_, topics::system_trigger()},
+        middleware_triggers_{middleware_, dds::topics::system_trigger()},
         thread_{[this] { answer_triggers(); }} {}
 
   ~FakeVehicle() {
@@ -69,32 +70,34 @@ class FakeVehicle {
   }
   /// Done with the triggers at that tick of the vehicle.
   void wait_for_vehicle_tick(Nanoseconds tick) {
-    ASSERT_TRUE(signal_.wait_until(soon(), [&] { return vehicle_tick_ >= tick; }));
+    ASSERT_TRUE(signal_.wait_until(dds::soon(), [&] { return vehicle_tick_ >= tick; }));
   }
 
  private:
-  Participant vehicle_;
-  Participant middleware_;
-  std::unique_ptr<Participant> controller_;
+  dds::Participant vehicle_;
+  dds::Participant middleware_;
+  std::unique_ptr<dds::Participant> controller_;
 
  public:
-  Mailbox<Parameter> parameters;
-  Writer<ParameterRequest> requests;
-  Writer<StopRequest> stop_requests;
-  Mailbox<Log> logs;
-  std::unique_ptr<Mailbox<RunState>> run_states;
+  dds::Mailbox<Parameter> parameters;
+  dds::Writer<ParameterRequest> requests;
+  dds::Writer<StopRequest> stop_requests;
+  dds::Mailbox<Log> logs;
+  std::unique_ptr<dds::Mailbox<RunState>> run_states;
 
  private:
   void answer_triggers() {
     // The first ready status must find the lab control's reader, as processes see to it.
-    if (!vehicle_ready_.wait_for_matched(1, soon()) ||
-        !middleware_ready_.wait_for_matched(1, soon()) || !triggers_.wait_for_matched(1, soon())) {
+    if (!vehicle_ready_.wait_for_matched(1, dds::soon()) ||
+        !middleware_ready_.wait_for_matched(1, dds::soon()) ||
+        !triggers_.wait_for_matched(1, dds::soon())) {
       return;
     }
     vehicle_ready_.write({vehicle_name(1), 0});
     middleware_ready_.write({middleware_name(1), kListOffset});
     while (true) {
-      static_cast<void>(signal_.wait_until(soon(), [this] { return ends_ || !received_.empty(); }));
+      static_cast<void>(
+          signal_.wait_until(dds::soon(), [this] { return ends_ || !received_.empty(); }));
       const auto [received, ends, dies_at] = signal_.locked([this] {
         return std::tuple{std::exchange(received_, {}), ends_, controller_dies_at_};
       });
@@ -125,22 +128,23 @@ class FakeVehicle {
       ReportRecord record;
       record.report.vehicle = VehicleId{1};
       record.report.step = StepIndex{step};
-      record.report.status = step < 5 ? StepStatus::kStandby : StepStatus::kPlanned;
+      record.report.status =
+          step < 5 ? coordination::StepStatus::kStandby : coordination::StepStatus::kPlanned;
       reports_->write(record);
     }
     middleware_ready_.write({middleware_name(1), tick + kPeriod});
   }
 
-  Signal signal_;
+  time::Signal signal_;
   std::deque<Nanoseconds> received_;
   Nanoseconds vehicle_tick_{};
   bool ends_{};
   std::uint64_t controller_dies_at_{~std::uint64_t{0}};
-  Writer<ReadyStatus> vehicle_ready_;
-  Writer<ReadyStatus> middleware_ready_;
-  std::unique_ptr<Writer<ReportRecord>> reports_;
-  Reader<SystemTrigger> triggers_;
-  Mailbox<SystemTrigger> middleware_triggers_;  // the lab control waits for its match
+  dds::Writer<ReadyStatus> vehicle_ready_;
+  dds::Writer<ReadyStatus> middleware_ready_;
+  std::unique_ptr<dds::Writer<ReportRecord>> reports_;
+  dds::Reader<SystemTrigger> triggers_;
+  dds::Mailbox<SystemTrigger> middleware_triggers_;  // the lab control waits for its match
   std::thread thread_;
 };
 
@@ -150,11 +154,11 @@ class LabControlTest : public testing::Test {
     LabControlOptions options;
     options.run = {.vehicle_ids = {1}, .period = kPeriod, .steps = steps_};
     options.run.startup_timeout = 60 * kNanosecondsPerSecond;
-    options.transport = Transport::kLoopback;
+    options.transport = dds::Transport::kLoopback;
     options.lab_domain = domain_.first();
     options.controller_domain = domain_.first() + 50;
-    options.time = kLogicalTime;
-    options.make_run = make_lab_run<LogicalRun>;
+    options.time = machine::kLogicalTime;
+    options.make_run = lab_control::make_lab_run<lab_control::LogicalRun>;
     options.out = folder_ / "run";
     return options;
   }
@@ -170,15 +174,15 @@ class LabControlTest : public testing::Test {
 
   /// -1 if it does not end.
   [[nodiscard]] int exit_code() {
-    if (code_.wait_until(soon()) == std::future_status::ready) return code_.get();
+    if (code_.wait_until(dds::soon()) == std::future_status::ready) return code_.get();
     process_->interrupt();
     return -1;
   }
 
-  RunFacts facts() { return read_facts(folder_ / "run" / "run.json"); }
+  result::RunFacts facts() { return record::read_facts(folder_ / "run" / "run.json"); }
 
-  DomainReservation domain_;
-  TemporaryFolder folder_;
+  test::DomainReservation domain_;
+  test::TemporaryFolder folder_;
   std::uint64_t steps_{3};
   FakeVehicle vehicle_{domain_.first(), domain_.first() + 50};
   std::unique_ptr<LabControlProcess> process_;
@@ -188,7 +192,7 @@ class LabControlTest : public testing::Test {
 TEST_F(LabControlTest, DrivesTheStepsAndKeepsTheReports) {
   start();
   EXPECT_EQ(exit_code(), kExitGood);
-  const std::vector<ReportRecord> reports = read_reports(folder_ / "run" / "reports.csv");
+  const std::vector<ReportRecord> reports = record::read_reports(folder_ / "run" / "reports.csv");
   ASSERT_EQ(reports.size(), 9U);  // standby 0 ... 4, steps 5 ... 7, one period more
   for (std::size_t i = 0; i < reports.size(); ++i) {
     EXPECT_EQ(reports[i].report.step.value, i);
@@ -236,7 +240,7 @@ TEST_F(LabControlTest, TellsThatTheRunGoesOnAndThenWhoDied) {
   ASSERT_EQ(logs.size(), 1U);
   EXPECT_THAT(logs[0].content, HasSubstr("high_level_controller_1 died"));
   // Its last reports may have died with it.
-  EXPECT_GE(read_reports(folder_ / "run" / "reports.csv").size(), 10U);
+  EXPECT_GE(record::read_reports(folder_ / "run" / "reports.csv").size(), 10U);
 }
 
 TEST_F(LabControlTest, InterruptionStopsTheRunAndKeepsWhatThereIs) {
@@ -245,18 +249,18 @@ TEST_F(LabControlTest, InterruptionStopsTheRunAndKeepsWhatThereIs) {
   vehicle_.wait_for_vehicle_tick(3 * kPeriod);
   // Three reports have been written, and perhaps not yet all read.
   EXPECT_TRUE(repeat_until(
-      [&] { return read_reports(folder_ / "run" / "reports.csv").size() >= 3; }, [] {}));
+      [&] { return record::read_reports(folder_ / "run" / "reports.csv").size() >= 3; }, [] {}));
   process_->interrupt();
   EXPECT_EQ(exit_code(), kExitInterrupted);
   EXPECT_EQ(facts().exit_code, kExitInterrupted);
-  EXPECT_GE(read_reports(folder_ / "run" / "reports.csv").size(), 3U);
+  EXPECT_GE(record::read_reports(folder_ / "run" / "reports.csv").size(), 3U);
 }
 
 TEST_F(LabControlTest, StopRequestOfAControllerEndsTheRun) {
   steps_ = 5000;
   start();
   vehicle_.wait_for_vehicle_tick(kPeriod);
-  ASSERT_TRUE(vehicle_.stop_requests.wait_for_matched(1, soon()));
+  ASSERT_TRUE(vehicle_.stop_requests.wait_for_matched(1, dds::soon()));
   vehicle_.stop_requests.write({1});
   EXPECT_EQ(exit_code(), kExitDied);
   EXPECT_EQ(facts().reason, "high_level_controller_1 requested the stop");
@@ -267,39 +271,39 @@ class EmptyLabTest : public testing::Test {
   EmptyLabTest() {
     options_.run = {.vehicle_ids = {7}, .period = kPeriod, .steps = 3};
     options_.run.startup_timeout = kNanosecondsPerSecond;
-    options_.transport = Transport::kLoopback;
+    options_.transport = dds::Transport::kLoopback;
     options_.lab_domain = domain_.first();
     options_.controller_domain = domain_.first() + 50;
-    options_.time = kLogicalTime;
-    options_.make_run = make_lab_run<LogicalRun>;
+    options_.time = machine::kLogicalTime;
+    options_.make_run = lab_control::make_lab_run<lab_control::LogicalRun>;
     options_.out = folder_.path();
   }
-  DomainReservation domain_;
-  TemporaryFolder folder_;
+  test::DomainReservation domain_;
+  test::TemporaryFolder folder_;
   LabControlOptions options_;
 };
 
 TEST_F(EmptyLabTest, NamesWhoDoesNotAppear) {
   LabControlProcess process{options_};
   EXPECT_EQ(process.run(), kExitMissing);
-  EXPECT_EQ(read_facts(folder_ / "run.json").reason,
+  EXPECT_EQ(record::read_facts(folder_ / "run.json").reason,
             "after 1 s: missing: vehicle_raspberry_7, middleware_7, high_level_controller_7");
 }
 
 /// A vehicle of the real-time run as far as the lab control meets it.
 struct FakeRealVehicle {
   explicit FakeRealVehicle(int domain)
-      : participant{on_loopback(vehicle_name(7), domain, DomainRole::kLab)},
-        states{participant, topics::vehicle_state(7)},
-        triggers{participant, topics::system_trigger()} {}
-  Participant participant;
-  Writer<VehicleState> states;
-  Mailbox<SystemTrigger> triggers;
+      : participant{dds::on_loopback(vehicle_name(7), domain, dds::DomainRole::kLab)},
+        states{participant, dds::topics::vehicle_state(7)},
+        triggers{participant, dds::topics::system_trigger()} {}
+  dds::Participant participant;
+  dds::Writer<VehicleState> states;
+  dds::Mailbox<SystemTrigger> triggers;
 };
 
 TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgain) {
-  options_.time = kRealTime;
-  options_.make_run = make_lab_run<RealTimeRun>;
+  options_.time = machine::kRealTime;
+  options_.make_run = lab_control::make_lab_run<lab_control::RealTimeRun>;
   options_.run.startup_timeout = 60 * kNanosecondsPerSecond;
   options_.out.clear();
   LabControlProcess process{options_};
@@ -312,10 +316,10 @@ TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgai
   {
     FakeRealVehicle first{domain_.first()};
     // The lab control has read a state when it has answered a question that was asked after it.
-    Participant asking{on_loopback("asking", domain_.first(), DomainRole::kLab)};
-    Mailbox<Parameter> answers{asking, topics::parameter()};
-    Writer<ParameterRequest> requests{asking, topics::parameter_request()};
-    ASSERT_TRUE(first.states.wait_for_matched(1, soon()));
+    dds::Participant asking{dds::on_loopback("asking", domain_.first(), dds::DomainRole::kLab)};
+    dds::Mailbox<Parameter> answers{asking, dds::topics::parameter()};
+    dds::Writer<ParameterRequest> requests{asking, dds::topics::parameter_request()};
+    ASSERT_TRUE(first.states.wait_for_matched(1, dds::soon()));
     ASSERT_TRUE(repeat_until([&] { return !answers.wait_for(0).empty(); },
                              [&] {
                                first.states.write(next_state());
@@ -323,9 +327,10 @@ TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgai
                              }));
   }
   FakeRealVehicle second{domain_.first()};
-  Participant middleware{on_loopback(middleware_name(7), domain_.first(), DomainRole::kLab)};
-  Mailbox<SystemTrigger> triggers{middleware, topics::system_trigger()};
-  Writer<ReadyStatus> ready{middleware, topics::ready_status()};
+  dds::Participant middleware{
+      dds::on_loopback(middleware_name(7), domain_.first(), dds::DomainRole::kLab)};
+  dds::Mailbox<SystemTrigger> triggers{middleware, dds::topics::system_trigger()};
+  dds::Writer<ReadyStatus> ready{middleware, dds::topics::ready_status()};
   ASSERT_TRUE(repeat_until([&] { return !second.triggers.wait_for(0).empty(); },
                            [&] {
                              ready.write({middleware_ready_id(7), 0});
@@ -338,10 +343,10 @@ TEST_F(EmptyLabTest, AVehicleThatLeavesAndComesBackWhileTheRunGathersIsReadyAgai
 }
 
 TEST_F(EmptyLabTest, DoesNotWriteIntoAFolderThatHoldsARun) {
-  put(folder_ / "reports.csv", "mine");
+  test::put(folder_ / "reports.csv", "mine");
   EXPECT_THAT([&] { LabControlProcess{options_}; },
               ThrowsMessage<std::invalid_argument>(HasSubstr("holds no reports.csv")));
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

@@ -13,7 +13,7 @@
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 using testing::ElementsAre;
@@ -21,9 +21,9 @@ using testing::ElementsAre;
 constexpr Nanoseconds kMs = 1'000'000;
 constexpr Nanoseconds kPeriod = 200 * kMs;
 
-ParticipantOptions options_of(const std::string& name, int domain, DomainRole role,
-                              Transport transport) {
-  ParticipantOptions options = on_loopback(name, domain, role);
+dds::ParticipantOptions options_of(const std::string& name, int domain, dds::DomainRole role,
+                                   dds::Transport transport) {
+  dds::ParticipantOptions options = dds::on_loopback(name, domain, role);
   options.transport = transport;
   return options;
 }
@@ -31,27 +31,27 @@ ParticipantOptions options_of(const std::string& name, int domain, DomainRole ro
 /// The lab control and vehicles 1 and 2, as far as the middleware of vehicle 1 meets them.
 class FakeLab {
  public:
-  FakeLab(int domain, Transport transport)
-      : participant_{options_of(kLabControlName, domain, DomainRole::kLab, transport)},
-        parameter_writer_{participant_, topics::parameter()},
-        triggers{participant_, topics::system_trigger()},
-        state_1{participant_, topics::vehicle_state(1)},
-        state_2{participant_, topics::vehicle_state(2)},
-        ready{participant_, topics::ready_status()},
-        commands{participant_, topics::vehicle_command(1)},
-        commands_2{participant_, topics::vehicle_command(2)},
-        requests_{participant_, topics::parameter_request(),
+  FakeLab(int domain, dds::Transport transport)
+      : participant_{options_of(kLabControlName, domain, dds::DomainRole::kLab, transport)},
+        parameter_writer_{participant_, dds::topics::parameter()},
+        triggers{participant_, dds::topics::system_trigger()},
+        state_1{participant_, dds::topics::vehicle_state(1)},
+        state_2{participant_, dds::topics::vehicle_state(2)},
+        ready{participant_, dds::topics::ready_status()},
+        commands{participant_, dds::topics::vehicle_command(1)},
+        commands_2{participant_, dds::topics::vehicle_command(2)},
+        requests_{participant_, dds::topics::parameter_request(),
                   [this](const ParameterRequest& request) {
                     signal_.post([&] { asked_.push_back(request.name); });
                   }} {}
 
   /// Answers until both parameters have been asked for.
   void publish_parameters(std::uint64_t period_ms, const std::vector<std::int32_t>& active_ids) {
-    ASSERT_TRUE(parameter_writer_.wait_for_matched(1, soon()));  // else an answer is lost
+    ASSERT_TRUE(parameter_writer_.wait_for_matched(1, dds::soon()));  // else an answer is lost
     bool is_period_published = false;
     bool are_ids_published = false;
     while (!is_period_published || !are_ids_published) {
-      ASSERT_TRUE(signal_.wait_until(soon(), [this] { return !asked_.empty(); }));
+      ASSERT_TRUE(signal_.wait_until(dds::soon(), [this] { return !asked_.empty(); }));
       for (const std::string& name : signal_.locked([this] { return std::exchange(asked_, {}); })) {
         if (name == "middleware_period_ms") {
           is_period_published = parameter_writer_.write({.name = name, .value = period_ms});
@@ -63,44 +63,44 @@ class FakeLab {
   }
 
  private:
-  Participant participant_;
-  Signal signal_;
+  dds::Participant participant_;
+  time::Signal signal_;
   std::vector<std::string> asked_;
-  Writer<Parameter> parameter_writer_;
+  dds::Writer<Parameter> parameter_writer_;
 
  public:
-  Writer<SystemTrigger> triggers;
-  Writer<VehicleState> state_1;
-  Writer<VehicleState> state_2;
-  Mailbox<ReadyStatus> ready;
-  Mailbox<TrajectoryCommand> commands;
-  Mailbox<TrajectoryCommand> commands_2;
+  dds::Writer<SystemTrigger> triggers;
+  dds::Writer<VehicleState> state_1;
+  dds::Writer<VehicleState> state_2;
+  dds::Mailbox<ReadyStatus> ready;
+  dds::Mailbox<TrajectoryCommand> commands;
+  dds::Mailbox<TrajectoryCommand> commands_2;
 
-  [[nodiscard]] Participant& participant() { return participant_; }
+  [[nodiscard]] dds::Participant& participant() { return participant_; }
 
  private:
-  Reader<ParameterRequest> requests_;
+  dds::Reader<ParameterRequest> requests_;
 };
 
 class FakeController {
  public:
-  FakeController(int domain, Transport transport)
-      : participant_{options_of(controller_name(1), domain, DomainRole::kLocal, transport)},
-        ready{participant_, topics::ready_status()},
-        commands{participant_, topics::command()},
-        triggers{participant_, topics::system_trigger()},
-        lists{participant_, topics::vehicle_state_list()} {}
+  FakeController(int domain, dds::Transport transport)
+      : participant_{options_of(controller_name(1), domain, dds::DomainRole::kLocal, transport)},
+        ready{participant_, dds::topics::ready_status()},
+        commands{participant_, dds::topics::command()},
+        triggers{participant_, dds::topics::system_trigger()},
+        lists{participant_, dds::topics::vehicle_state_list()} {}
 
-  [[nodiscard]] Participant& participant() { return participant_; }
+  [[nodiscard]] dds::Participant& participant() { return participant_; }
 
  private:
-  Participant participant_;
+  dds::Participant participant_;
 
  public:
-  Writer<ReadyStatus> ready;
-  Writer<TrajectoryCommand> commands;
-  Mailbox<SystemTrigger> triggers;
-  Mailbox<VehicleStateList> lists;
+  dds::Writer<ReadyStatus> ready;
+  dds::Writer<TrajectoryCommand> commands;
+  dds::Mailbox<SystemTrigger> triggers;
+  dds::Mailbox<VehicleStateList> lists;
 };
 
 VehicleState state(std::uint8_t id, Nanoseconds create) {
@@ -124,7 +124,8 @@ TrajectoryCommand command(Nanoseconds t_now, std::uint8_t id = 1) {
 
 class MiddlewareTest : public testing::Test {
  protected:
-  explicit MiddlewareTest(Transport transport = Transport::kLoopback) : transport_{transport} {}
+  explicit MiddlewareTest(dds::Transport transport = dds::Transport::kLoopback)
+      : transport_{transport} {}
 
   void start(bool logical_time) {
     MiddlewareOptions options;
@@ -133,10 +134,10 @@ class MiddlewareTest : public testing::Test {
     options.transport = transport_;
     options.lab_domain = domains_.first();
     options.local_domain = domains_.first() + 1;
-    const bool beside_lab_programs = transport_ == Transport::kLab;
-    options.time = run_time(logical_time);
-    options.rules = logical_time ? logical_middleware_rules(beside_lab_programs)
-                                 : real_middleware_rules(beside_lab_programs);
+    const bool beside_lab_programs = transport_ == dds::Transport::kLab;
+    options.time = machine::run_time(logical_time);
+    options.rules = logical_time ? middleware::logical_middleware_rules(beside_lab_programs)
+                                 : middleware::real_middleware_rules(beside_lab_programs);
     options.keep_running = keep_running_;
     options.startup_timeout = startup_timeout_;
     process_ = std::make_unique<MiddlewareProcess>(options);
@@ -188,13 +189,13 @@ class MiddlewareTest : public testing::Test {
 
   /// -1 if it does not end.
   [[nodiscard]] int exit_code() {
-    if (code_.wait_until(soon()) == std::future_status::ready) return code_.get();
+    if (code_.wait_until(dds::soon()) == std::future_status::ready) return code_.get();
     process_->stop();
     return -1;
   }
 
-  const Transport transport_;
-  DomainReservation domains_{2};
+  const dds::Transport transport_;
+  test::DomainReservation domains_{2};
   std::chrono::seconds startup_timeout_{60};
   std::string node_id_{middleware_name(1)};
   std::vector<std::uint8_t> vehicle_ids_{1};
@@ -310,11 +311,12 @@ TEST_F(MiddlewareTest, EndsIfTheControllerDoesNotAppear) {
 
 TEST_F(MiddlewareTest, BearsItsVehiclesNameWhateverItsNodeId) {
   node_id_ = "middleware";
-  const Participant lab{on_loopback("observer", domains_.first(), DomainRole::kLab)};
-  const Participant local{on_loopback("observer", domains_.first() + 1, DomainRole::kLocal)};
+  const dds::Participant lab{dds::on_loopback("observer", domains_.first(), dds::DomainRole::kLab)};
+  const dds::Participant local{
+      dds::on_loopback("observer", domains_.first() + 1, dds::DomainRole::kLocal)};
   start(false);
-  EXPECT_TRUE(lab.wait_for({middleware_name(1)}, soon()));
-  EXPECT_TRUE(local.wait_for({middleware_name(1)}, soon()));
+  EXPECT_TRUE(lab.wait_for({middleware_name(1)}, dds::soon()));
+  EXPECT_TRUE(local.wait_for({middleware_name(1)}, dds::soon()));
 }
 
 TEST_F(MiddlewareTest, RefusesParametersWithoutItsVehicle) {
@@ -332,8 +334,8 @@ TEST_F(MiddlewareTest, RealTimeSendsListsFromTheStartAndTellsWhenTheControllerIs
     EXPECT_EQ(lists[i].t_now % (20 * kMs), kListOffset);
     EXPECT_TRUE(i == 0 || lists[i].t_now > lists[i - 1].t_now);
   }
-  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
-  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, dds::soon()));
   EXPECT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
   EXPECT_EQ(lab_.ready.wait_for(1).at(0).source_id, "MW for muCars 1 ready.");
   lab_.triggers.write({5});
@@ -350,8 +352,8 @@ TEST_F(MiddlewareTest, OneOfSeveralVehiclesIsReadyWithAllItsControllersAndComman
   start(false);
   lab_.publish_parameters(20, {1, 2});
   ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
-  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
-  ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(controller_->commands.wait_for_matched(1, dds::soon()));
   ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
   const std::size_t lists = controller_->lists.wait_for(1).size();
   ASSERT_GE(controller_->lists.wait_for(lists + 3).size(), lists + 3);  // periods have passed
@@ -372,7 +374,7 @@ TEST_F(MiddlewareTest, OneOfSeveralVehiclesIsReadyWithAllItsControllersAndComman
 TEST_F(MiddlewareTest, InLogicalTimeATickWaitsForAllItsControllers) {
   vehicle_ids_ = {1, 2};
   start_in_logical_time();
-  ASSERT_TRUE(lab_.commands_2.reader().wait_for_matched(1, soon()));
+  ASSERT_TRUE(lab_.commands_2.reader().wait_for_matched(1, dds::soon()));
   lab_.triggers.write({kListOffset});
   ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
   controller_->commands.write(command(kListOffset, 1));
@@ -388,9 +390,9 @@ TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
   start(false);
   lab_.publish_parameters(20, {1, 2});
   ASSERT_GE(controller_->lists.wait_for(1).size(), 1U);
-  ASSERT_TRUE(controller_->ready.wait_for_matched(1, soon()));
-  ASSERT_TRUE(controller_->commands.wait_for_matched(1, soon()));
-  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, soon()));
+  ASSERT_TRUE(controller_->ready.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(controller_->commands.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(lab_.triggers.wait_for_matched(1, dds::soon()));
   const auto drive = [&](std::size_t commands_before) {
     ASSERT_TRUE(controller_->ready.write({.source_id = controller_ready_id(1)}));
     if (commands_before > 0) lab_.publish_parameters(20, {1, 2, 5});
@@ -420,15 +422,15 @@ TEST_F(MiddlewareTest, KeptRunningItServesTheNextExperiment) {
 
 class MiddlewareBesideTheLabTest : public MiddlewareTest {
  protected:
-  MiddlewareBesideTheLabTest() : MiddlewareTest{Transport::kLab} {}
+  MiddlewareBesideTheLabTest() : MiddlewareTest{dds::Transport::kLab} {}
 };
 
 TEST_F(MiddlewareBesideTheLabTest, HoldsGoalsBackUntilItsControllersAreReady) {
   std::mt19937_64 random{1};
   std::vector<GoalState> goals;
-  for (int i = 0; i < 3; ++i) goals.push_back(sample<GoalState>(random));
-  Writer<GoalState> centre{lab_.participant(), topics::goal_state()};
-  Mailbox<GoalState> received{controller_->participant(), topics::goal_state()};
+  for (int i = 0; i < 3; ++i) goals.push_back(dds::sample<GoalState>(random));
+  dds::Writer<GoalState> centre{lab_.participant(), dds::topics::goal_state()};
+  dds::Mailbox<GoalState> received{controller_->participant(), dds::topics::goal_state()};
   centre.write(goals[0]);  // before the middleware is there
   start(false);
   lab_.publish_parameters(20, {1, 2});
@@ -440,41 +442,44 @@ TEST_F(MiddlewareBesideTheLabTest, HoldsGoalsBackUntilItsControllersAreReady) {
   EXPECT_EQ(received.wait_for(2).size(), 2U);
   centre.write(goals[2]);
   ASSERT_EQ(received.wait_for(3).size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(text(received.now()[i]), text(goals[i]));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(dds::text(received.now()[i]), dds::text(goals[i]));
   EXPECT_EQ(end_by_stop_symbol(), kExitGood);
 }
 
 TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations) {
-  Writer<VehicleObservation> observations{lab_.participant(), topics::vehicle_observation(2)};
-  Mailbox<PathTrackingCommand> paths{lab_.participant(),
-                                     topics::vehicle_command<PathTrackingCommand>(1)};
-  Mailbox<SpeedCurvatureCommand> speeds{lab_.participant(),
-                                        topics::vehicle_command<SpeedCurvatureCommand>(1)};
-  Mailbox<DirectCommand> directs{lab_.participant(), topics::vehicle_command<DirectCommand>(1)};
-  Writer<PathTrackingCommand> path_writer{controller_->participant(),
-                                          topics::command<PathTrackingCommand>()};
-  Writer<SpeedCurvatureCommand> speed_writer{controller_->participant(),
-                                             topics::command<SpeedCurvatureCommand>()};
-  Writer<DirectCommand> direct_writer{controller_->participant(), topics::command<DirectCommand>()};
+  dds::Writer<VehicleObservation> observations{lab_.participant(),
+                                               dds::topics::vehicle_observation(2)};
+  dds::Mailbox<PathTrackingCommand> paths{lab_.participant(),
+                                          dds::topics::vehicle_command<PathTrackingCommand>(1)};
+  dds::Mailbox<SpeedCurvatureCommand> speeds{
+      lab_.participant(), dds::topics::vehicle_command<SpeedCurvatureCommand>(1)};
+  dds::Mailbox<DirectCommand> directs{lab_.participant(),
+                                      dds::topics::vehicle_command<DirectCommand>(1)};
+  dds::Writer<PathTrackingCommand> path_writer{controller_->participant(),
+                                               dds::topics::command<PathTrackingCommand>()};
+  dds::Writer<SpeedCurvatureCommand> speed_writer{controller_->participant(),
+                                                  dds::topics::command<SpeedCurvatureCommand>()};
+  dds::Writer<DirectCommand> direct_writer{controller_->participant(),
+                                           dds::topics::command<DirectCommand>()};
   start(false);
   lab_.publish_parameters(20, {1, 2});
-  ASSERT_TRUE(observations.wait_for_matched(1, soon()));
-  ASSERT_TRUE(paths.reader().wait_for_matched(1, soon()));
-  ASSERT_TRUE(speeds.reader().wait_for_matched(1, soon()));
-  ASSERT_TRUE(directs.reader().wait_for_matched(1, soon()));
-  ASSERT_TRUE(path_writer.wait_for_matched(1, soon()));
-  ASSERT_TRUE(speed_writer.wait_for_matched(1, soon()));
-  ASSERT_TRUE(direct_writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(observations.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(paths.reader().wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(speeds.reader().wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(directs.reader().wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(path_writer.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(speed_writer.wait_for_matched(1, dds::soon()));
+  ASSERT_TRUE(direct_writer.wait_for_matched(1, dds::soon()));
 
   // Best effort: repeated until it is received. The first one is for a vehicle that is not its
   // own.
-  Signal pause;
+  time::Signal pause;
   const auto published_until_received = [&](auto& writer, auto command, auto& mailbox) {
     command.vehicle_id = 2;
     writer.write(command);
     command.vehicle_id = 1;
     return pause.repeat_until(
-        soon(), std::chrono::milliseconds{20}, [&] { return !mailbox.now().empty(); },
+        dds::soon(), std::chrono::milliseconds{20}, [&] { return !mailbox.now().empty(); },
         [&] { writer.write(command); });
   };
   EXPECT_TRUE(published_until_received(path_writer, PathTrackingCommand{.speed_mps = 0.5}, paths));
@@ -494,7 +499,7 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
     return list.observations.size() == 2 && list.observations[1].vehicle_id == 2 &&
            list.observations[1].pose.x_m == 3.5;
   };
-  EXPECT_TRUE(pause.repeat_until(soon(), std::chrono::milliseconds{20}, sees_vehicle_2, [&] {
+  EXPECT_TRUE(pause.repeat_until(dds::soon(), std::chrono::milliseconds{20}, sees_vehicle_2, [&] {
     observations.write({.vehicle_id = 2, .create_stamp = 7, .pose = {.x_m = 3.5}});
   }));
   EXPECT_EQ(controller_->lists.now().back().observations[0].vehicle_id, 0);
@@ -502,4 +507,4 @@ TEST_F(MiddlewareBesideTheLabTest, CarriesCommandsOfAllKindsAndTellsObservations
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 class ProgressLineTest : public testing::Test {
@@ -50,4 +50,4 @@ TEST_F(ProgressLineTest, NothingShownNeedsNoEnd) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

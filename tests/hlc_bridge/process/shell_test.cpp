@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 struct Number {
@@ -68,9 +68,9 @@ struct Host {
 
 using TestShell = Shell<ScriptedMachine>;
 
-std::unique_ptr<Pacing> real() { return std::make_unique<RealPacing>(); }
-std::unique_ptr<Pacing> logical(Nanoseconds patience = LogicalPacing::kPatience) {
-  return std::make_unique<LogicalPacing>(patience, wall_time_now());
+std::unique_ptr<machine::Pacing> real() { return std::make_unique<machine::RealPacing>(); }
+std::unique_ptr<machine::Pacing> logical(Nanoseconds patience = machine::LogicalPacing::kPatience) {
+  return std::make_unique<machine::LogicalPacing>(patience, time::wall_time_now());
 }
 
 TEST(Shell, FeedsPresenceThenWhatCameAndPerformsWhatTheMachineSays) {
@@ -128,7 +128,7 @@ TEST(Shell, ChangesOfPresenceWakeTheMachineAtOnce) {
 
 TEST(Shell, RealTimeTicksAreGivenWhenTheClockIsThere) {
   Host host;
-  const Nanoseconds begin = real_time_now();
+  const Nanoseconds begin = time::real_time_now();
   constexpr Nanoseconds kPeriod = 1'000'000;
   TestShell shell{"node",
                   {.decide =
@@ -200,7 +200,7 @@ TEST(Shell, WhatIsNotAwaitedIsReadAfterAWhileAnyway) {
 
 TEST(Shell, WakesUpByWallTime) {
   Host host;
-  const Nanoseconds due = wall_time_now() + 2'000'000;
+  const Nanoseconds due = time::wall_time_now() + 2'000'000;
   TestShell shell{"node",
                   {.decide =
                        [&](ScriptedMachine& machine, const Instant& now) {
@@ -214,4 +214,4 @@ TEST(Shell, WakesUpByWallTime) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

@@ -11,7 +11,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::process {
 namespace {
 
 AutomatonRequest slow(std::uint64_t id, double max_speed_mps) {
@@ -21,9 +21,9 @@ AutomatonRequest slow(std::uint64_t id, double max_speed_mps) {
           .subgraph = {.labels = {}, .max_speed_mps = max_speed_mps}};
 }
 
-RequestBase on(const std::shared_ptr<const Subgraph>& subgraph) {
+high_level_controller::RequestBase on(const std::shared_ptr<const automaton::Subgraph>& subgraph) {
   constexpr std::size_t kHorizonSteps = 8;
-  return {.subgraph = prepare_subgraph(subgraph, kHorizonSteps, {}),
+  return {.subgraph = controller::prepare_subgraph(subgraph, kHorizonSteps, {}),
           .limits_mps = {},
           .horizon_steps = kHorizonSteps,
           .search = {}};
@@ -32,36 +32,37 @@ RequestBase on(const std::shared_ptr<const Subgraph>& subgraph) {
 /// What comes back, on the test's thread.
 class Prepared {
  public:
-  void put(PreparedRequest prepared) {
+  void put(high_level_controller::PreparedRequest prepared) {
     signal_.post([&] { all_.push_back(std::move(prepared)); });
   }
   /// Waits until there are so many.
-  [[nodiscard]] std::vector<PreparedRequest> wait_for(std::size_t count) {
+  [[nodiscard]] std::vector<high_level_controller::PreparedRequest> wait_for(std::size_t count) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
     EXPECT_TRUE(signal_.wait_until(deadline, [&] { return all_.size() >= count; }));
     return signal_.locked([this] { return all_; });
   }
 
  private:
-  Signal signal_;
-  std::vector<PreparedRequest> all_;
+  time::Signal signal_;
+  std::vector<high_level_controller::PreparedRequest> all_;
 };
 
 class SubgraphPreparationTest : public testing::Test {
  protected:
-  std::shared_ptr<const Subgraph> base_ =
-      std::make_shared<const Subgraph>(test::make_test_subgraph());
+  std::shared_ptr<const automaton::Subgraph> base_ =
+      std::make_shared<const automaton::Subgraph>(test::make_test_subgraph());
   Prepared prepared_;
-  SubgraphPreparation preparation_{on(base_),
-                                   {base_->shared_automaton(), {}},
-                                   [this](PreparedRequest one) { prepared_.put(std::move(one)); }};
+  SubgraphPreparation preparation_{
+      on(base_),
+      {base_->shared_automaton(), {}},
+      [this](high_level_controller::PreparedRequest one) { prepared_.put(std::move(one)); }};
 };
 
 TEST_F(SubgraphPreparationTest, PreparesInOrderWithTablesForOneStepMoreThanTheHorizon) {
   preparation_.ask(slow(1, 0.6));
   preparation_.ask(slow(2, 0.1));
   preparation_.ask(slow(3, 0.5));
-  const std::vector<PreparedRequest> prepared = prepared_.wait_for(3);
+  const std::vector<high_level_controller::PreparedRequest> prepared = prepared_.wait_for(3);
   ASSERT_EQ(prepared.size(), 3U);
   EXPECT_EQ(prepared[0].request.id, 1U);
   ASSERT_TRUE(prepared[0].choice);
@@ -79,10 +80,11 @@ TEST_F(SubgraphPreparationTest, EndsWhateverIsStillAsked) {
 /// The paper's B, for which weights can be solved.
 class WeightPreparationTest : public testing::Test {
  protected:
-  static AutomatonConfiguration configuration() {
-    const AutomatonConfiguration whole =
-        read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
-    return needed_by(whole.subgraphs.at(1), whole);
+  static maneuver_design::AutomatonConfiguration configuration() {
+    const maneuver_design::AutomatonConfiguration whole =
+        maneuver_design::read_automaton_configuration(test::source_folder() +
+                                                      "/launch_scripts/automata/paper.yaml");
+    return maneuver_design::needed_by(whole.subgraphs.at(1), whole);
   }
   static AutomatonRequest weighted(std::uint64_t id, double weight) {
     return {.vehicle = {1},
@@ -91,24 +93,25 @@ class WeightPreparationTest : public testing::Test {
             .subgraph = {.labels = {}, .weights = {{"J2", weight}}}};
   }
 
-  std::shared_ptr<const Subgraph> base_ = std::make_shared<const Subgraph>(
-      build_shared_automaton(configuration()), configuration().subgraphs.front());
+  std::shared_ptr<const automaton::Subgraph> base_ = std::make_shared<const automaton::Subgraph>(
+      maneuver_design::build_shared_automaton(configuration()), configuration().subgraphs.front());
   Prepared prepared_;
-  SubgraphPreparation preparation_{on(base_),
-                                   {base_->shared_automaton(), [] { return configuration(); }},
-                                   [this](PreparedRequest one) { prepared_.put(std::move(one)); }};
+  SubgraphPreparation preparation_{
+      on(base_),
+      {base_->shared_automaton(), [] { return configuration(); }},
+      [this](high_level_controller::PreparedRequest one) { prepared_.put(std::move(one)); }};
 };
 
 TEST_F(WeightPreparationTest, WaitsForTheSolutionAndKeepsIt) {
   preparation_.ask(weighted(1, 0.7));
   preparation_.ask(weighted(2, 0.7));
-  const std::vector<PreparedRequest> prepared = prepared_.wait_for(2);
+  const std::vector<high_level_controller::PreparedRequest> prepared = prepared_.wait_for(2);
   ASSERT_EQ(prepared.size(), 2U);
   ASSERT_TRUE(prepared[0].choice) << prepared[0].refusal;
-  const Subgraph& first = *prepared[0].choice->under({}).subgraph;
+  const automaton::Subgraph& first = *prepared[0].choice->under({}).subgraph;
   EXPECT_EQ(first.spec().name, base_->spec().name + ", weights J2 0.7");
   EXPECT_NE(first.shared_automaton(), base_->shared_automaton());
-  const Subgraph& second = *prepared[1].choice->under({}).subgraph;
+  const automaton::Subgraph& second = *prepared[1].choice->under({}).subgraph;
   EXPECT_EQ(second.shared_automaton(), first.shared_automaton());
 }
 
@@ -119,4 +122,4 @@ TEST_F(WeightPreparationTest, EndsInTheMiddleOfASolution) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::process

@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using testing::HasSubstr;
@@ -23,9 +23,9 @@ std::vector<ExportedVehicle> two_vehicles() {
   for (std::uint8_t id : {std::uint8_t{3}, std::uint8_t{7}}) {
     ExportedVehicle vehicle{.id = {id}, .planned = {}, .driven = {}};
     for (int i = 0; i < 3; ++i) {
-      const State state{.pose = {0.1 * i + id, 1.0 / 3.0, 0.1 + 4.0 * kPi},
-                        .speed_mps = 0.8,
-                        .steering_rad = -0.12};
+      const vehicle::State state{.pose = {0.1 * i + id, 1.0 / 3.0, 0.1 + 4.0 * kPi},
+                                 .speed_mps = 0.8,
+                                 .steering_rad = -0.12};
       vehicle.planned.push_back(state);
       vehicle.driven.push_back(state);
     }
@@ -34,7 +34,7 @@ std::vector<ExportedVehicle> two_vehicles() {
   return vehicles;
 }
 
-LaneletMap small_map(LaneletId id) {
+road::LaneletMap small_map(road::LaneletId id) {
   return {.benchmark_id = "ZAM_A&B-1_1_T-1",
           .lanelets = {{id,
                         {.id = id,
@@ -55,7 +55,7 @@ std::string text_at(const XMLElement* element, std::initializer_list<const char*
 
 TEST(CommonRoadFile, HoldsTheMapMotionsAndProblemsWithIdsOfTheirOwn) {
   const std::string xml = commonroad_xml(small_map(5), {}, two_vehicles(), 0.01);
-  EXPECT_EQ(parse_lanelet_map(xml, "xml"), small_map(5));
+  EXPECT_EQ(road::parse_lanelet_map(xml, "xml"), small_map(5));
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(xml.c_str()), tinyxml2::XML_SUCCESS);
   EXPECT_STREQ(document.RootElement()->Attribute("timeStepSize"), "0.01");
@@ -92,7 +92,7 @@ TEST(CommonRoadFile, StatesHaveNineDecimalsAndWrappedAngles) {
 }
 
 TEST(CommonRoadFile, RefusesLaneletsThatTakeTheIdsOfVehicles) {
-  const auto write = [](LaneletId id) {
+  const auto write = [](road::LaneletId id) {
     return [id] { static_cast<void>(commonroad_xml(small_map(id), {}, two_vehicles(), 0.01)); };
   };
   EXPECT_NO_THROW(write(kProblemIds)());
@@ -100,8 +100,8 @@ TEST(CommonRoadFile, RefusesLaneletsThatTakeTheIdsOfVehicles) {
 }
 
 TEST(OpenGround, HoldsAllPositions) {
-  const LaneletMap ground = open_ground(two_vehicles());
-  const Lanelet& lanelet = ground.lanelets.at(1);
+  const road::LaneletMap ground = open_ground(two_vehicles());
+  const road::Lanelet& lanelet = ground.lanelets.at(1);
   EXPECT_DOUBLE_EQ(lanelet.right_m.front().x(), 3.0 - 0.5);
   EXPECT_DOUBLE_EQ(lanelet.right_m.front().y(), 1.0 / 3.0 - 0.5);
   EXPECT_DOUBLE_EQ(lanelet.left_m.back().x(), 7.2 + 0.5);
@@ -109,4 +109,4 @@ TEST(OpenGround, HoldsAllPositions) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

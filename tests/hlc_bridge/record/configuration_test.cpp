@@ -8,19 +8,19 @@
 #include "planner/common/text_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 TEST(Configuration, KeepsCopiesWhosePathsToEachOtherStayGood) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "scenarios");
   std::filesystem::create_directories(folder / "maps");
   std::filesystem::create_directories(folder / "run");
-  put(folder / "scenarios" / "s.yaml", "map: ../maps/m.xml");
-  put(folder / "maps" / "m.xml", "<map/>");
+  test::put(folder / "scenarios" / "s.yaml", "map: ../maps/m.xml");
+  test::put(folder / "maps" / "m.xml", "<map/>");
   const std::filesystem::path configuration = folder / "run" / "configuration";
   keep_configuration(folder / "run", {folder / "scenarios" / "s.yaml",
                                       folder / "scenarios" / ".." / "maps" / "m.xml"});
@@ -29,24 +29,24 @@ TEST(Configuration, KeepsCopiesWhosePathsToEachOtherStayGood) {
 }
 
 TEST(Configuration, MissingFileIsNamed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT([&] { keep_configuration(folder.path(), {folder / "nothing.yaml"}); },
               ThrowsMessage<std::runtime_error>(HasSubstr("nothing.yaml: cannot be read")));
 }
 
 TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "configuration");
-  const ScenarioChoices choices{.file = "/home/anna's/scenarios/s.yaml",
-                                .profile = "2022",
-                                .engine = {},
-                                .subgraph = "D",
-                                .policy = "zones, then \"fast\"",
-                                .map_file = "/elsewhere/maps/m.xml",
-                                .steps = 20,
-                                .cars = {}};
-  put(folder / "configuration" / "flags.yaml", flags_yaml(choices));
-  const ScenarioChoices kept = kept_choices(folder.path());
+  const scenario::ScenarioChoices choices{.file = "/home/anna's/scenarios/s.yaml",
+                                          .profile = "2022",
+                                          .engine = {},
+                                          .subgraph = "D",
+                                          .policy = "zones, then \"fast\"",
+                                          .map_file = "/elsewhere/maps/m.xml",
+                                          .steps = 20,
+                                          .cars = {}};
+  test::put(folder / "configuration" / "flags.yaml", flags_yaml(choices));
+  const scenario::ScenarioChoices kept = kept_choices(folder.path());
   EXPECT_EQ(kept.file, folder / "configuration" / "scenarios" / "s.yaml");
   EXPECT_EQ(kept.profile, "2022");
   EXPECT_EQ(kept.engine, std::nullopt);
@@ -57,12 +57,13 @@ TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
 }
 
 TEST(Configuration, ReadsWhatTheScriptWrites) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "configuration");
-  put(folder / "configuration" / "flags.yaml",
+  test::put(
+      folder / "configuration" / "flags.yaml",
       "scenario: '/a/scenarios/circle.yaml'\nprofile: 'default'\nengine: null\nsubgraph: null\n"
       "map: null\ncars: 6\nsteps: 60\nsimulated_time: true\n");
-  const ScenarioChoices kept = kept_choices(folder.path());
+  const scenario::ScenarioChoices kept = kept_choices(folder.path());
   EXPECT_EQ(kept.file, folder / "configuration" / "scenarios" / "circle.yaml");
   EXPECT_EQ(kept.subgraph, std::nullopt);
   EXPECT_EQ(kept.policy, std::nullopt);
@@ -71,10 +72,10 @@ TEST(Configuration, ReadsWhatTheScriptWrites) {
 }
 
 TEST(Configuration, FolderWithoutFlagsIsNamed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT([&] { static_cast<void>(kept_choices(folder.path())); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("flags.yaml: missing")));
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

@@ -9,7 +9,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using testing::HasSubstr;
@@ -22,7 +22,7 @@ TEST(DriveFile, SeventeenDigitsReadBackAsTheSameBits) {
   SCOPED_TRACE(seed);
   std::mt19937 random{seed};
   std::uniform_real_distribution<double> value{-5.0, 5.0};
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::string text = kHeading + "\n";
   std::vector<Pose> poses;
   for (Nanoseconds i = 0; i < 200; ++i) {
@@ -32,8 +32,8 @@ TEST(DriveFile, SeventeenDigitsReadBackAsTheSameBits) {
                   poses.back().y_m, poses.back().heading_rad);
     text += std::to_string(i * kVehiclePeriod) + "," + numbers + std::to_string(i) + "\n";
   }
-  put(drive_file(folder.path(), 3), text);
-  const Drive drive = read_drive(folder / "vehicle_3.csv");
+  test::put(drive_file(folder.path(), 3), text);
+  const result::Drive drive = read_drive(folder / "vehicle_3.csv");
   ASSERT_EQ(drive.size(), poses.size());
   for (std::size_t i = 0; i < drive.size(); ++i) {
     EXPECT_EQ(drive[i].t, i * kVehiclePeriod);
@@ -46,12 +46,12 @@ TEST(DriveFile, SeventeenDigitsReadBackAsTheSameBits) {
 }
 
 TEST(DriveFile, TimesMustIncrease) {
-  const TemporaryFolder folder;
-  put(folder / "d.csv", kHeading + "\n20,0,0,0,0,0,0,0\n20,0,0,0,0,0,0,0\n");
+  const test::TemporaryFolder folder;
+  test::put(folder / "d.csv", kHeading + "\n20,0,0,0,0,0,0,0\n20,0,0,0,0,0,0,0\n");
   EXPECT_THAT([&] { (void)read_drive(folder / "d.csv"); },
               ThrowsMessage<std::runtime_error>(
                   HasSubstr("d.csv:3: t_ns = \"20\", must be larger than in the row before")));
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

@@ -7,14 +7,14 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-RunFacts some_facts() {
-  RunFacts facts;
+result::RunFacts some_facts() {
+  result::RunFacts facts;
   facts.simulated_time = true;
   facts.vehicle_ids = {1, 2, 7};
   facts.period = 200'000'000;
@@ -29,10 +29,10 @@ RunFacts some_facts() {
 }
 
 TEST(FactsFile, ReadsBackEveryFact) {
-  const TemporaryFolder folder;
-  const RunFacts facts = some_facts();
-  put(folder / "run.json", facts_json(facts));
-  const RunFacts read = read_facts(folder / "run.json");
+  const test::TemporaryFolder folder;
+  const result::RunFacts facts = some_facts();
+  test::put(folder / "run.json", facts_json(facts));
+  const result::RunFacts read = read_facts(folder / "run.json");
   EXPECT_EQ(read.simulated_time, facts.simulated_time);
   EXPECT_EQ(read.vehicle_ids, facts.vehicle_ids);
   EXPECT_EQ(read.period, facts.period);
@@ -46,18 +46,18 @@ TEST(FactsFile, ReadsBackEveryFact) {
 }
 
 TEST(FactsFile, RunThatNeverStartedHasNoFirstStep) {
-  const TemporaryFolder folder;
-  RunFacts facts = some_facts();
+  const test::TemporaryFolder folder;
+  result::RunFacts facts = some_facts();
   facts.first_step.reset();
-  put(folder / "run.json", facts_json(facts));
+  test::put(folder / "run.json", facts_json(facts));
   EXPECT_FALSE(read_facts(folder / "run.json").first_step);
 }
 
 TEST(FactsFile, BrokenFileIsNamed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const std::string& bad : {std::string{"{"}, std::string{"{}"}, std::string{"[1]"},
                                  std::string{"{\"simulated_time\": 3}"}}) {
-    put(folder / "run.json", bad);
+    test::put(folder / "run.json", bad);
     EXPECT_THAT([&] { (void)read_facts(folder / "run.json"); },
                 ThrowsMessage<std::runtime_error>(HasSubstr("run.json: ")))
         << bad;
@@ -65,4 +65,4 @@ TEST(FactsFile, BrokenFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

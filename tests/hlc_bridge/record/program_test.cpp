@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 TEST(Program, TellsRevisionAndHost) {
@@ -13,4 +13,4 @@ TEST(Program, TellsRevisionAndHost) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

@@ -9,7 +9,7 @@
 #include "planner/common/text_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using testing::HasSubstr;
@@ -26,17 +26,17 @@ std::string random_name(std::mt19937_64& random) {
 ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uint8_t id) {
   std::uniform_real_distribution<double> value{-10.0, 10.0};
   ReportRecord record;
-  Report& report = record.report;
+  coordination::Report& report = record.report;
   report.step = StepIndex{step};
   report.vehicle = VehicleId{id};
-  report.status = static_cast<StepStatus>(random() % 4);
-  report.reason = static_cast<FallbackReason>(random() % 10);
+  report.status = static_cast<coordination::StepStatus>(random() % 4);
+  report.reason = static_cast<coordination::FallbackReason>(random() % 10);
   report.planned_pose = {value(random), value(random), value(random)};
   report.planned_trim = TrimId{random() % 12};
   report.maneuver = random_name(random);
   report.subgraph = random_name(random);
   report.cost_m2 = value(random);
-  report.quality = static_cast<PlanQuality>(random() % 3);
+  report.quality = static_cast<coordination::PlanQuality>(random() % 3);
   report.gap_m2 = value(random);
   report.generated = random();
   report.expanded = random() % 1000;
@@ -79,7 +79,7 @@ TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
   const unsigned seed = 23;
   SCOPED_TRACE(seed);
   std::mt19937_64 random{seed};
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<ReportRecord> sorted;
   for (std::uint64_t step = 0; step < 30; ++step) {
     for (std::uint8_t id = 1; id <= 3; ++id) {
@@ -107,12 +107,12 @@ TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
 }
 
 TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ReportFile file{folder / "reports.csv"};
   std::mt19937_64 random{1};
   ReportRecord record = random_record(random, 1, 2);
-  record.report.status = StepStatus::kPlanned;
-  record.report.quality = PlanQuality::kOptimal;
+  record.report.status = coordination::StepStatus::kPlanned;
+  record.report.quality = coordination::PlanQuality::kOptimal;
   record.report.coupled = {VehicleId{3}};
   record.report.missing = {};
   file.append(record);
@@ -120,7 +120,7 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string bad = good;
     bad.replace(bad.find(from, bad.find('\n')), from.size(), to);
-    put(folder / "bad.csv", bad);
+    test::put(folder / "bad.csv", bad);
     return [&] { (void)read_reports(folder / "bad.csv"); };
   };
   EXPECT_THAT(with(",planned,", ",flying,"),
@@ -138,10 +138,10 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
 }
 
 TEST(ReportFile, FolderThatIsNotThereIsNamed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT([&] { ReportFile{folder / "no" / "reports.csv"}; },
               ThrowsMessage<std::runtime_error>(HasSubstr("no/reports.csv: cannot be written")));
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

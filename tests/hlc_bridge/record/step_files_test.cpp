@@ -7,23 +7,23 @@
 #include "planner/common/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
-StepRecord row() {
-  StepRecord row;
+result::StepRecord row() {
+  result::StepRecord row;
   row.step = 3;
-  Report& report = row.record.report;
+  coordination::Report& report = row.record.report;
   report.vehicle = VehicleId{2};
   report.step = StepIndex{8};
-  report.status = StepStatus::kFallback;
-  report.reason = FallbackReason::kConflict;
+  report.status = coordination::StepStatus::kFallback;
+  report.reason = coordination::FallbackReason::kConflict;
   report.planned_pose = {1.5, 2.5, -0.5};
   report.planned_trim = TrimId{6};
   report.maneuver = "J2";
   report.subgraph = "B, at most 0.6 m/s";
   report.cost_m2 = 0.25;
-  report.quality = PlanQuality::kBudget;
+  report.quality = coordination::PlanQuality::kBudget;
   report.gap_m2 = 0.125;
   report.generated = 40;
   report.expanded = 4;
@@ -39,7 +39,7 @@ StepRecord row() {
 }
 
 TEST(StepFiles, RowHoldsEveryColumnOnce) {
-  const std::vector<StepRecord> rows{row()};
+  const std::vector<result::StepRecord> rows{row()};
   const std::string text = steps_csv(rows);
   EXPECT_EQ(
       text.substr(text.find('\n') + 1),
@@ -52,14 +52,14 @@ TEST(StepFiles, RowHoldsEveryColumnOnce) {
 }
 
 TEST(StepFiles, PoseThatWasNotRecordedIsEmpty) {
-  std::vector<StepRecord> rows{row()};
+  std::vector<result::StepRecord> rows{row()};
   rows[0].driven.reset();
   const std::string text = steps_csv(rows);
   EXPECT_NE(text.find(",7,,,,0.25,"), std::string::npos) << text;
 }
 
 TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
-  std::vector<StepRecord> rows{row()};
+  std::vector<result::StepRecord> rows{row()};
   const std::string before = steps_csv(rows);
   rows[0].record.planning_ns = 99;
   rows[0].record.deadline_missed = false;
@@ -69,14 +69,14 @@ TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
 }
 
 TEST(StepFiles, NamesOfAnyKindReadBack) {
-  std::vector<StepRecord> rows(3, row());
+  std::vector<result::StepRecord> rows(3, row());
   rows[0].record.report.maneuver = "\"";
   rows[1].record.report.maneuver = "a\nb,\r\n";
   rows[1].record.report.subgraph = "\"x\",\n4,2,planned";
   rows[2].record.report.subgraph = "";
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string text = steps_csv(rows);
-  put(folder / "steps.csv", text);
+  test::put(folder / "steps.csv", text);
   const CsvTable table(folder / "steps.csv", text.substr(0, text.find('\n')));
   ASSERT_EQ(table.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -86,9 +86,9 @@ TEST(StepFiles, NamesOfAnyKindReadBack) {
 }
 
 TEST(StepFiles, TimingHoldsTheClock) {
-  const std::vector<StepRecord> rows{row()};
+  const std::vector<result::StepRecord> rows{row()};
   EXPECT_EQ(timing_csv(rows), "step,id,planning_ms,deadline_missed,late_ms\n3,2,1.5,1,0.25\n");
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hlc {
+namespace hlc::record {
 namespace {
 
 using testing::ElementsAre;
@@ -18,20 +18,20 @@ std::vector<std::string> keys(const nlohmann::ordered_json& json) {
   return keys;
 }
 
-RunSummary some_summary() {
-  RunSummary summary;
+result::RunSummary some_summary() {
+  result::RunSummary summary;
   summary.description.scenario = "circle";
   summary.steps = 60;
-  VehicleSummary vehicle;
+  result::VehicleSummary vehicle;
   vehicle.id = VehicleId{4};
   vehicle.name = "four";
   vehicle.lap_s = 15.5;
-  vehicle.reference_error_m =
-      Statistics{.count = 9, .mean = 0.02, .std = 0.01, .p99 = 0.04, .min = 0.0, .max = 0.05};
-  vehicle.planning_s =
-      Statistics{.count = 9, .mean = 0.001, .std = 0.002, .p99 = 0.003, .min = 0.0, .max = 0.004};
+  vehicle.reference_error_m = result::Statistics{
+      .count = 9, .mean = 0.02, .std = 0.01, .p99 = 0.04, .min = 0.0, .max = 0.05};
+  vehicle.planning_s = result::Statistics{
+      .count = 9, .mean = 0.001, .std = 0.002, .p99 = 0.003, .min = 0.0, .max = 0.004};
   vehicle.generated =
-      Statistics{.count = 9, .mean = 20.5, .std = 1, .p99 = 30, .min = 1, .max = 40};
+      result::Statistics{.count = 9, .mean = 20.5, .std = 1, .p99 = 30, .min = 1, .max = 40};
   vehicle.fallback_steps = 3;
   summary.vehicles.push_back(vehicle);
   summary.trace_sha256 = "abc";
@@ -80,4 +80,4 @@ TEST(SummaryFile, WhatIsUnknownIsNull) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::record

@@ -4,12 +4,13 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::driving_fault_test {
+namespace hlc::result::driving_fault_test {
 namespace {
 
 RunSummary summary_of_two() {
   RunSummary summary;
-  summary.description.automaton = std::make_shared<const Subgraph>(test::make_test_subgraph());
+  summary.description.automaton =
+      std::make_shared<const automaton::Subgraph>(test::make_test_subgraph());
   summary.vehicles.resize(2);
   summary.vehicles[0].id = VehicleId{1};
   summary.vehicles[1].id = VehicleId{2};
@@ -44,4 +45,4 @@ TEST(DrivingFault, NamesTouchesAndStepsOutsideTheAreas) {
 }
 
 }  // namespace
-}  // namespace hlc::driving_fault_test
+}  // namespace hlc::result::driving_fault_test

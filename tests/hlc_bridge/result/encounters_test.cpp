@@ -9,7 +9,7 @@
 #include "planner/geometry/polygon.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::encounters_test {
+namespace hlc::result::encounters_test {
 namespace {
 
 constexpr Nanoseconds kTick = 20'000'000;
@@ -132,4 +132,4 @@ TEST(Encounters, AgreesWithLookingAtEveryPairAndInstant) {
 }
 
 }  // namespace
-}  // namespace hlc::encounters_test
+}  // namespace hlc::result::encounters_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::planned_motion_test {
+namespace hlc::result::planned_motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -26,11 +26,11 @@ class PlannedMotionTest : public testing::Test {
     constexpr std::size_t kTrims[] = {0, 6, 7, 7, 8};
     for (std::size_t k = 0; k < std::size(kTrims); ++k) {
       StepRecord row{.step = k, .record = {}, .driven = {}};
-      Report& report = row.record.report;
+      coordination::Report& report = row.record.report;
       report.vehicle = VehicleId{4};
       report.planned_pose = pose;
       report.planned_trim = TrimId{kTrims[k]};
-      report.maneuver = k == 2 ? kSelfLoopLabel : "test";
+      report.maneuver = k == 2 ? automaton::kSelfLoopLabel : "test";
       rows_.push_back(row);
       if (k + 1 == std::size(kTrims)) break;
       maneuvers_.push_back(automaton_.find({kTrims[k]}, {kTrims[k + 1]}, "test"));
@@ -38,24 +38,24 @@ class PlannedMotionTest : public testing::Test {
     }
   }
 
-  [[nodiscard]] std::vector<State> motion() const {
+  [[nodiscard]] std::vector<vehicle::State> motion() const {
     std::vector<const StepRecord*> rows;
     for (const StepRecord& row : rows_) rows.push_back(&row);
     return planned_motion(rows, kPeriod, kInterval, automaton_);
   }
 
-  UniversalAutomaton automaton_{*test::make_test_automaton()};
+  automaton::UniversalAutomaton automaton_{*test::make_test_automaton()};
   std::vector<StepRecord> rows_;
-  std::vector<const Maneuver*> maneuvers_;
+  std::vector<const automaton::Maneuver*> maneuvers_;
 };
 
 TEST_F(PlannedMotionTest, IsTheManeuversOneAfterTheOther) {
-  const std::vector<State> states = motion();
+  const std::vector<vehicle::State> states = motion();
   ASSERT_EQ(states.size(), 4 * 20U + 1);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const std::size_t k = std::min<std::size_t>(i / 20, 3);
     const double time_s = 0.01 * static_cast<double>(i - 20 * k);
-    State expected = state_at(*maneuvers_[k], time_s, automaton_.vehicle);
+    vehicle::State expected = automaton::state_at(*maneuvers_[k], time_s, automaton_.vehicle);
     expected.pose = compose(rows_[k].record.report.planned_pose, expected.pose);
     EXPECT_NEAR(states[i].pose.x_m, expected.pose.x_m, 1e-12) << i;
     EXPECT_NEAR(states[i].pose.y_m, expected.pose.y_m, 1e-12) << i;
@@ -67,9 +67,9 @@ TEST_F(PlannedMotionTest, IsTheManeuversOneAfterTheOther) {
 
 // In step 2 the controller sets its plan down 7 mm aside: reported from step 3 on.
 TEST_F(PlannedMotionTest, OfAPlanSetDownAnewJumpsJustAfterTheStep) {
-  const std::vector<State> before = motion();
+  const std::vector<vehicle::State> before = motion();
   for (std::size_t k = 3; k < rows_.size(); ++k) rows_[k].record.report.planned_pose.y_m += 0.007;
-  const std::vector<State> after = motion();
+  const std::vector<vehicle::State> after = motion();
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < after.size(); ++i) {
     EXPECT_NEAR(after[i].pose.y_m - before[i].pose.y_m, i <= 40 ? 0.0 : 0.007, 1e-12) << i;
@@ -89,7 +89,7 @@ TEST_F(PlannedMotionTest, IsNotKnownWhereARowIsMissing) {
 
 // They may even lead to the same pose.
 TEST_F(PlannedMotionTest, ManeuversBetweenTheSameTrimsAreToldApartByTheirLabels) {
-  Maneuver other = *automaton_.find({0}, {6}, "test");
+  automaton::Maneuver other = *automaton_.find({0}, {6}, "test");
   other.label = "other";
   automaton_.maneuvers.insert(automaton_.maneuvers.begin(), other);
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_)->label, "test");
@@ -99,9 +99,9 @@ TEST_F(PlannedMotionTest, ManeuversBetweenTheSameTrimsAreToldApartByTheirLabels)
 
 // The plan of a stationary car is re-anchored, in another equilibrium.
 TEST_F(PlannedMotionTest, StandingIsTheOwnStepWhateverTheNextTrimIs) {
-  rows_[0].record.report.maneuver = kSelfLoopLabel;
+  rows_[0].record.report.maneuver = automaton::kSelfLoopLabel;
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_),
-            automaton_.find({0}, {0}, kSelfLoopLabel));
+            automaton_.find({0}, {0}, automaton::kSelfLoopLabel));
 }
 
 TEST_F(PlannedMotionTest, WithoutAPlanOrANextRowThereIsNone) {
@@ -135,7 +135,7 @@ TEST(DrivenMotion, IsLinearBetweenTicksAndEndsWithTheDrive) {
     drive[i].pose = {t, 2.0 * t, 0.5 * t};
     drive[i].speed_mps = 0.1 * t * t;
   }
-  const std::vector<State> states = driven_motion(drive, 1'000'000'000, kInterval, 9);
+  const std::vector<vehicle::State> states = driven_motion(drive, 1'000'000'000, kInterval, 9);
   ASSERT_EQ(states.size(), 5U);
   EXPECT_DOUBLE_EQ(states[3].pose.x_m, 1.5);
   EXPECT_DOUBLE_EQ(states[3].pose.y_m, 3.0);
@@ -145,4 +145,4 @@ TEST(DrivenMotion, IsLinearBetweenTicksAndEndsWithTheDrive) {
 }
 
 }  // namespace
-}  // namespace hlc::planned_motion_test
+}  // namespace hlc::result::planned_motion_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hlc::run_record_test {
+namespace hlc::result::run_record_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -77,4 +77,4 @@ TEST(StepRecords, AreEmptyIfNobodyStarted) {
 }
 
 }  // namespace
-}  // namespace hlc::run_record_test
+}  // namespace hlc::result::run_record_test

@@ -10,7 +10,7 @@
 #include "hlc_bridge/result/summary_table.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::run_summary_test {
+namespace hlc::result::run_summary_test {
 namespace {
 
 using testing::HasSubstr;
@@ -27,7 +27,7 @@ class RunSummaryTest : public testing::Test {
     for (int i = 0; i < 3600; ++i) {
       points_m.emplace_back(std::cos(2.0 * kPi * i / 3600.0), std::sin(2.0 * kPi * i / 3600.0));
     }
-    const ReferencePath route{points_m, true};
+    const road::ReferencePath route{points_m, true};
     description_ = {.scenario = "test",
                     .profile = "default",
                     .map = "circle",
@@ -54,7 +54,8 @@ class RunSummaryTest : public testing::Test {
     ReportRecord record;
     record.report.vehicle = VehicleId{id};
     record.report.step = StepIndex{k};
-    record.report.status = k < 5 ? StepStatus::kStandby : StepStatus::kPlanned;
+    record.report.status =
+        k < 5 ? coordination::StepStatus::kStandby : coordination::StepStatus::kPlanned;
     record.report.planned_pose = {1.01 * std::cos(angle), 1.01 * std::sin(angle),
                                   angle + kPi / 2.0};
     record.report.generated = 10 * k + id;
@@ -125,17 +126,18 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   reports_.clear();
   drives_.clear();
   description_.vehicles.pop_back();
-  description_.automaton = std::make_shared<const Subgraph>(test::make_test_subgraph());
-  const double yaw_rad = yaw_minus_heading_rad(0.0, description_.automaton->automaton().vehicle,
-                                               description_.automaton->automaton().identified);
+  description_.automaton = std::make_shared<const automaton::Subgraph>(test::make_test_subgraph());
+  const double yaw_rad =
+      automaton::yaw_minus_heading_rad(0.0, description_.automaton->automaton().vehicle,
+                                       description_.automaton->automaton().identified);
   for (std::uint64_t k = 5; k < 65; ++k) {
     ReportRecord record;
     record.report.vehicle = VehicleId{1};
     record.report.step = StepIndex{k};
-    record.report.status = StepStatus::kPlanned;
+    record.report.status = coordination::StepStatus::kPlanned;
     record.report.planned_pose = {0.16 * static_cast<double>(k), 0.0, 0.0};
     record.report.planned_trim = TrimId{6};
-    record.report.maneuver = kSelfLoopLabel;
+    record.report.maneuver = automaton::kSelfLoopLabel;
     reports_.push_back(record);
     for (std::uint64_t tick = 0; tick < 10; ++tick) {
       DrivenSample sample;
@@ -154,8 +156,8 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   reports_.front().report.maneuver = "";  // no plan yet: its pose means nothing
   reports_.front().report.planned_pose = {};
   EXPECT_NEAR(summary().vehicles.at(0).tracking_error_m->max, 0.005, 1e-9);
-  reports_.at(30).report.status = StepStatus::kFallback;
-  reports_.at(30).report.reason = FallbackReason::kDeviation;
+  reports_.at(30).report.status = coordination::StepStatus::kFallback;
+  reports_.at(30).report.reason = coordination::FallbackReason::kDeviation;
   EXPECT_EQ(summary().vehicles.at(0).steps_outside_announced_area, 0U)
       << "not seen, but not known to be off";
   reports_.at(30).report.deviation_m = 0.011;
@@ -167,8 +169,8 @@ TEST_F(RunSummaryTest, StepsWhosePlanOrCommandIsNotSentAreCountedAndTold) {
   EXPECT_EQ(summary_table(summary()).find("commands not sent"), std::string::npos);
   for (ReportRecord& record : reports_) {
     if (record.report.vehicle.value == 1 && record.report.step.value % 4 == 0) {
-      record.report.status = StepStatus::kFallback;
-      record.report.reason = FallbackReason::kUndrivable;
+      record.report.status = coordination::StepStatus::kFallback;
+      record.report.reason = coordination::FallbackReason::kUndrivable;
     }
   }
   const std::size_t counted = summary().vehicles.at(0).undrivable_steps;
@@ -186,23 +188,25 @@ TEST_F(RunSummaryTest, OfSeveralManeuversBetweenTwoTrimsTheOneThatWasPlannedIsCo
   description_.vehicles.pop_back();
   const auto automaton =
       test::make_test_automaton(test::paper_trims(), {{"slow", 0.0}, {"fast", 8.0}});
-  SubgraphSpec spec{.name = "both", .labels = {"slow", "fast"}, .trims = {{0}, {6}, {7}}};
-  description_.automaton = std::make_shared<const Subgraph>(automaton, spec);
+  automaton::SubgraphSpec spec{
+      .name = "both", .labels = {"slow", "fast"}, .trims = {{0}, {6}, {7}}};
+  description_.automaton = std::make_shared<const automaton::Subgraph>(automaton, spec);
   Pose pose;
   for (std::uint64_t k = 5; k < 65; ++k) {
     const TrimId from{k % 2 == 0 ? 6U : 7U};
     const TrimId to{k % 2 == 0 ? 7U : 6U};
-    const Maneuver& maneuver = *automaton->find(from, to, k % 3 == 0 ? "slow" : "fast");
+    const automaton::Maneuver& maneuver = *automaton->find(from, to, k % 3 == 0 ? "slow" : "fast");
     ReportRecord record;
     record.report.vehicle = VehicleId{1};
     record.report.step = StepIndex{k};
-    record.report.status = StepStatus::kPlanned;
+    record.report.status = coordination::StepStatus::kPlanned;
     record.report.planned_pose = pose;
     record.report.planned_trim = from;
     record.report.maneuver = maneuver.label;
     reports_.push_back(record);
     for (std::uint64_t tick = 0; tick < 10; ++tick) {
-      const State state = state_at(maneuver, 0.02 * static_cast<double>(tick), automaton->vehicle);
+      const vehicle::State state =
+          automaton::state_at(maneuver, 0.02 * static_cast<double>(tick), automaton->vehicle);
       DrivenSample sample;
       sample.t = k * kPeriod + tick * kPeriod / 10;
       sample.pose = compose(pose, state.pose);
@@ -214,8 +218,8 @@ TEST_F(RunSummaryTest, OfSeveralManeuversBetweenTwoTrimsTheOneThatWasPlannedIsCo
 }
 
 TEST_F(RunSummaryTest, CountsAreThoseOfTheStepsOfTheExperiment) {
-  report(2, 7).report.status = StepStatus::kFallback;
-  report(2, 9).report.status = StepStatus::kFallback;
+  report(2, 7).report.status = coordination::StepStatus::kFallback;
+  report(2, 9).report.status = coordination::StepStatus::kFallback;
   report(1, 3).deadline_missed = true;
   const RunSummary result = summary();
   EXPECT_EQ(result.vehicles[0].generated->max, 641.0);  // k = 64 is the last step
@@ -245,7 +249,7 @@ TEST_F(RunSummaryTest, EveryStepThatAControllerSkippedIsADeadlineMissed) {
 
 TEST_F(RunSummaryTest, StepsWithoutPlanningDoNotCountForPlanning) {
   for (std::uint64_t step = 30; step < 60; ++step) {
-    report(1, step).report.status = StepStatus::kMinimalRiskStop;
+    report(1, step).report.status = coordination::StepStatus::kMinimalRiskStop;
     report(1, step).report.generated = 0;
   }
   const RunSummary result = summary();
@@ -258,7 +262,8 @@ TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
   EXPECT_FALSE(summary().vehicles[0].budget_share);  // none was found
   EXPECT_EQ(summary_table(summary()).find("budget"), std::string::npos);
   for (std::uint64_t step = 30; step < 40; ++step) {
-    report(1, step).report.quality = step < 33 ? PlanQuality::kBudget : PlanQuality::kOptimal;
+    report(1, step).report.quality =
+        step < 33 ? coordination::PlanQuality::kBudget : coordination::PlanQuality::kOptimal;
   }
   EXPECT_EQ(summary().vehicles[0].budget_share, 0.3);
   EXPECT_FALSE(summary().vehicles[1].budget_share);
@@ -309,4 +314,4 @@ TEST_F(RunSummaryTest, TableShowsEveryVehicleInLinesOfAtMost110Columns) {
 }
 
 }  // namespace
-}  // namespace hlc::run_summary_test
+}  // namespace hlc::result::run_summary_test

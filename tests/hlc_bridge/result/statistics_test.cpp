@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hlc::statistics_test {
+namespace hlc::result::statistics_test {
 namespace {
 
 TEST(Statistics, KnownSample) {
@@ -38,4 +38,4 @@ TEST(Statistics, OneValueHasNoSpread) {
 TEST(Statistics, EmptySampleHasNone) { EXPECT_FALSE(statistics({}).has_value()); }
 
 }  // namespace
-}  // namespace hlc::statistics_test
+}  // namespace hlc::result::statistics_test

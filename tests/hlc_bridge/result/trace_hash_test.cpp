@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-namespace hlc::trace_hash_test {
+namespace hlc::result::trace_hash_test {
 namespace {
 
 std::vector<StepRecord> run(unsigned seed) {
@@ -85,4 +85,4 @@ TEST(TraceHash, NothingOfTheClockCounts) {
 }
 
 }  // namespace
-}  // namespace hlc::trace_hash_test
+}  // namespace hlc::result::trace_hash_test

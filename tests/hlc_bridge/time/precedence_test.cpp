@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 int policy() { return sched_getscheduler(0) & ~SCHED_RESET_ON_FORK; }
@@ -54,4 +54,4 @@ TEST(Precedence, IsGivenByOneThreadAlone) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::time

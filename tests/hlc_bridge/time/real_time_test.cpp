@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 TEST(RealTime, PointAndNumberAreTheSameInstant) {
@@ -11,4 +11,4 @@ TEST(RealTime, PointAndNumberAreTheSameInstant) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::time

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 struct Pages {
@@ -86,4 +86,4 @@ TEST(ResidentMemory, BlocksOfAReservedHeapAreThereAndStay) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::time

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 using std::chrono::steady_clock;
@@ -108,4 +108,4 @@ TEST(Signal, LockedHandsOutWhatItHolds) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::time

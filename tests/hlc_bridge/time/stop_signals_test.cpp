@@ -10,7 +10,7 @@
 
 #include "hlc_bridge/time/signal.hpp"
 
-namespace hlc {
+namespace hlc::time {
 namespace {
 
 using namespace std::chrono_literals;
@@ -67,4 +67,4 @@ TEST_F(StopSignalsTest, ThreadsStartedAfterwardsInheritTheBlock) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::time

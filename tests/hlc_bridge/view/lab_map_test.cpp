@@ -8,15 +8,15 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::view {
 namespace {
 
 constexpr Nanoseconds kTimeToLive = 600'000'000;
 
-const Scenario& scenario() {
-  static const Scenario scenario =
-      read_scenario({.file = std::filesystem::path{test::source_folder()} /
-                             "launch_scripts/scenarios/paper_three_cars.yaml"});
+const scenario::Scenario& scenario() {
+  static const scenario::Scenario scenario =
+      scenario::read_scenario({.file = std::filesystem::path{test::source_folder()} /
+                                       "launch_scripts/scenarios/paper_three_cars.yaml"});
   return scenario;
 }
 
@@ -24,35 +24,36 @@ const Scenario& scenario() {
 class Car {
  public:
   explicit Car(VehicleId id)
-      : vehicle_(vehicle_of(scenario(), id)), controller_(make_controller(scenario(), id)) {}
+      : vehicle_(scenario::vehicle_of(scenario(), id)),
+        controller_(scenario::make_controller(scenario(), id)) {}
 
-  Report stand_by() { return controller_->stand_by(observation()); }
+  coordination::Report stand_by() { return controller_->stand_by(observation()); }
 
-  Report step() {
+  coordination::Report step() {
     static_cast<void>(controller_->observe(observation()));
     controller_->couple({});
     static_cast<void>(controller_->plan({}));
     return controller_->commit({}, {});
   }
 
-  [[nodiscard]] Controller& controller() { return *controller_; }
-  [[nodiscard]] std::vector<Visualization> drawings(const Report& report) const {
+  [[nodiscard]] controller::Controller& controller() { return *controller_; }
+  [[nodiscard]] std::vector<Visualization> drawings(const coordination::Report& report) const {
     return lab_map(*controller_, report, kTimeToLive);
   }
 
  private:
-  [[nodiscard]] Observation observation() {
+  [[nodiscard]] controller::Observation observation() {
     ++step_;
     return {.step = {step_},
             .active = {vehicle_.id},
             .states = {{.vehicle = vehicle_.id,
-                        .pose = measured_start(scenario(), vehicle_),
+                        .pose = scenario::measured_start(scenario(), vehicle_),
                         .speed_mps = 0.0}},
             .present = {vehicle_.id}};
   }
 
-  const ScenarioVehicle& vehicle_;
-  std::unique_ptr<Controller> controller_;
+  const scenario::ScenarioVehicle& vehicle_;
+  std::unique_ptr<controller::Controller> controller_;
   std::uint64_t step_{10};
 };
 
@@ -80,13 +81,13 @@ TEST(LabMap, SaysBeforeTheStartWhoStandsBy) {
 TEST(LabMap, ShowsThePlanInForceAndTheReferenceOfTheSearch) {
   Car car({1});
   static_cast<void>(car.stand_by());
-  const Report report = car.step();
-  ASSERT_EQ(report.status, StepStatus::kPlanned);
+  const coordination::Report report = car.step();
+  ASSERT_EQ(report.status, coordination::StepStatus::kPlanned);
   const std::vector<Visualization> drawings = car.drawings(report);
   const auto lines = lines_in(drawings);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0]->points_m, car.controller().problems().back().reference_m);
-  const Plan& plan = car.controller().plan_in_force();
+  const coordination::Plan& plan = car.controller().plan_in_force();
   EXPECT_EQ(lines[1]->points_m.front(), plan.pose_at(report.step).position_m());
   EXPECT_EQ(lines[1]->points_m.back(), plan.pose_at(plan.end()).position_m());
   EXPECT_GT((lines[1]->points_m.back() - lines[1]->points_m.front()).norm(), 0.1);
@@ -96,10 +97,10 @@ TEST(LabMap, ShowsThePlanInForceAndTheReferenceOfTheSearch) {
 TEST(LabMap, SaysWhyAStepFellBackAndShowsItInAnotherColour) {
   Car car({1});
   static_cast<void>(car.stand_by());
-  const Report good = car.step();
-  Report late = good;
-  late.status = StepStatus::kFallback;
-  late.reason = FallbackReason::kLate;
+  const coordination::Report good = car.step();
+  coordination::Report late = good;
+  late.status = coordination::StepStatus::kFallback;
+  late.reason = coordination::FallbackReason::kLate;
   EXPECT_EQ(text_in(car.drawings(late))->text, "1: fallback (late)");
   EXPECT_NE(text_in(car.drawings(late))->color.red, text_in(car.drawings(good))->color.red);
 }
@@ -107,7 +108,7 @@ TEST(LabMap, SaysWhyAStepFellBackAndShowsItInAnotherColour) {
 TEST(LabMap, DrawingsOfAStepReplaceThoseBeforeAndNobodyElses) {
   std::set<std::uint64_t> ids;
   std::size_t count = 0;
-  for (const ScenarioVehicle& vehicle : scenario().vehicles) {
+  for (const scenario::ScenarioVehicle& vehicle : scenario().vehicles) {
     Car car(vehicle.id);
     static_cast<void>(car.stand_by());
     std::set<std::uint64_t> own;
@@ -125,4 +126,4 @@ TEST(LabMap, DrawingsOfAStepReplaceThoseBeforeAndNobodyElses) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::view

@@ -16,7 +16,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,7 +67,7 @@ subgraphs:
   - {name: B, label: J2, trims: [1, 3, 2, 4]}
   - {name: C, label: J3, trims: [1, 3, 4]}
 )";
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(AutomatonPrograms, WritesFileAndTableTheSameForAnyNumberOfJobs) {
@@ -88,9 +88,10 @@ TEST_F(AutomatonPrograms, TheTableHasOneRowPerEdgeAndLabelInFullPrecision) {
   std::string line;
   std::getline(table, line);
   EXPECT_EQ(line, "from,to,criterion,intervals,J1,J2,dx,dy,dpsi,v_max,status");
-  AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
+  maneuver_design::AutomatonConfiguration configuration =
+      maneuver_design::read_automaton_configuration(folder_ / "car.yaml");
   configuration.intervals = 25;
-  const UniversalAutomaton automaton = build_automaton(configuration);
+  const automaton::UniversalAutomaton automaton = maneuver_design::build_automaton(configuration);
   std::size_t rows = 0;
   while (std::getline(table, line)) {
     ++rows;
@@ -98,7 +99,7 @@ TEST_F(AutomatonPrograms, TheTableHasOneRowPerEdgeAndLabelInFullPrecision) {
     std::istringstream row(line);
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
     ASSERT_EQ(cells.size(), 11U) << line;
-    const Maneuver* m =
+    const automaton::Maneuver* m =
         automaton.find({std::stoul(cells[0]) - 1}, {std::stoul(cells[1]) - 1}, cells[2]);
     ASSERT_NE(m, nullptr) << line;
     EXPECT_NE(m->from, m->to);
@@ -108,7 +109,7 @@ TEST_F(AutomatonPrograms, TheTableHasOneRowPerEdgeAndLabelInFullPrecision) {
     EXPECT_EQ(std::stod(cells[6]), m->displacement.x_m);
     EXPECT_EQ(std::stod(cells[7]), m->displacement.y_m);
     EXPECT_EQ(std::stod(cells[8]), m->displacement.heading_rad);
-    EXPECT_EQ(std::stod(cells[9]), top_speed_mps(*m));
+    EXPECT_EQ(std::stod(cells[9]), automaton::top_speed_mps(*m));
     EXPECT_EQ(cells[10], "optimal");
   }
   EXPECT_EQ(rows, 2 * (6 + 4 + 2U));  // chain 1 3 2 4: 6 and 4; C adds 3-4 both ways
@@ -266,7 +267,7 @@ TEST_F(AutomatonPrograms, AScenarioDrivesWithABuiltFileAsWithItsConfiguration) {
 }
 
 TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path map = folder / "map.xml";
   EXPECT_EQ(run_program("generate_map --out " + map.string()).exit_code, 0);
   EXPECT_GT(fs::file_size(map), 1000U);
@@ -276,4 +277,4 @@ TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

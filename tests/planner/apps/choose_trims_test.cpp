@@ -9,7 +9,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using test::Outcome;
@@ -23,7 +23,7 @@ class ChooseTrimsProgram : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(ChooseTrimsProgram, PrintsTrimsThatAConfigurationTakes) {
@@ -35,7 +35,8 @@ TEST_F(ChooseTrimsProgram, PrintsTrimsThatAConfigurationTakes) {
                   pose.heading_rad);
     drive += row;
     const double steering_rad = i < 100 ? 0.3 : i < 200 ? -0.2 : 0.0;
-    pose = trim_motion(pose, i < 100 ? 0.5 : 0.8, steering_rad, 0.02, VehicleParameters{});
+    pose = vehicle::trim_motion(pose, i < 100 ? 0.5 : 0.8, steering_rad, 0.02,
+                                vehicle::VehicleParameters{});
   }
   write("drive.csv", drive);
   const Outcome chosen = run_program("choose_trims " + path("drive.csv") + " --count 4");
@@ -48,9 +49,10 @@ TEST_F(ChooseTrimsProgram, PrintsTrimsThatAConfigurationTakes) {
             chosen.output +
             "step_s: 0.2\ncriteria: [J2]\n"
             "subgraphs: [{name: B, label: J2, trims: all, rule: reachable}]\n");
-  const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
+  const maneuver_design::AutomatonConfiguration configuration =
+      maneuver_design::read_automaton_configuration(folder_ / "car.yaml");
   ASSERT_EQ(configuration.trims.size(), 4U);
-  EXPECT_EQ(configuration.trims[0], Trim{});
+  EXPECT_EQ(configuration.trims[0], automaton::Trim{});
   EXPECT_NEAR(configuration.trims[1].steering_rad, -0.2, 0.02);
   EXPECT_NEAR(configuration.trims[2].steering_rad, 0.0, 0.02);
   EXPECT_NEAR(configuration.trims[3].steering_rad, 0.3, 0.02);
@@ -122,4 +124,4 @@ TEST_F(ChooseTrimsProgram, BadInputIsOneLineAndCode2) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -8,7 +8,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 class OutputFiles : public testing::Test {
  protected:
   OutputFiles() {
-    put(folder_ / "car.yaml", "");
-    put(folder_ / "old.csv", "");
+    test::put(folder_ / "car.yaml", "");
+    test::put(folder_ / "old.csv", "");
     fs::current_path(folder_.path());
   }
   ~OutputFiles() override { fs::current_path(before_); }
@@ -33,7 +33,7 @@ class OutputFiles : public testing::Test {
   }
 
   fs::path before_{fs::current_path()};
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(OutputFiles, NewAndRegularFilesAndNoneAreGood) {
@@ -82,4 +82,4 @@ TEST_F(OutputFiles, TwoOutputsInOneFileAreRefusedAlsoIfItIsNew) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 TEST(Parallel, EveryTaskIsDoneOnceWhateverTheNumberOfJobs) {
@@ -42,4 +42,4 @@ TEST(Parallel, TheFirstErrorIsThrownAndNothingNewBegun) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -14,7 +14,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,7 +52,7 @@ class ProblemPrograms : public testing::Test {
                    "\"obstacles\": [\n    [[[-9, -9], [9, -9], [0, 9]], ");
   }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 nlohmann::json json_of(const std::string& flags) {
@@ -263,4 +263,4 @@ TEST_F(ProblemPrograms, TheOmplExampleEndsAlsoWhenASearchDoesNot) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

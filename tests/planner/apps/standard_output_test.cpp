@@ -8,7 +8,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc::standard_output_test {
+namespace hlc::apps::standard_output_test {
 namespace {
 
 const std::string kLaunch = test::source_folder() + "/launch_scripts/";
@@ -21,7 +21,7 @@ struct Case {
 };
 
 TEST(StandardOutput, WhatIsPrintedOnAFullDeviceIsAFailureInOneLine) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string errors = (folder / "errors").string();
   const std::vector<Case> cases{
       {"plan_problem " + kProblem, 2},
@@ -45,4 +45,4 @@ TEST(StandardOutput, WhatIsPrintedOnAFullDeviceIsAFailureInOneLine) {
 }
 
 }  // namespace
-}  // namespace hlc::standard_output_test
+}  // namespace hlc::apps::standard_output_test

@@ -4,12 +4,12 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 TEST(Automaton, DrivenYawDiffersFromThePlannedHeadingAsMeasured) {
-  const VehicleParameters vehicle;
-  const IdentifiedVehicle identified;
+  const vehicle::VehicleParameters vehicle;
+  const vehicle::IdentifiedVehicle identified;
   EXPECT_NEAR(yaw_minus_heading_rad(0.60, vehicle, identified), 0.141, 5e-4);
   EXPECT_NEAR(yaw_minus_heading_rad(-0.60, vehicle, identified), -0.128, 5e-4);
   EXPECT_NEAR(yaw_minus_heading_rad(0.48, vehicle, identified), 0.102, 5e-4);
@@ -41,8 +41,8 @@ TEST(Automaton, StateAtMeetsTheStatesAtTheIntervalBounds) {
     const auto intervals = static_cast<double>(maneuver.inputs.size());
     for (std::size_t k = 0; k < maneuver.states.size(); ++k) {
       const double time_s = maneuver.duration_s * static_cast<double>(k) / intervals;
-      const State state = state_at(maneuver, time_s, automaton->vehicle);
-      EXPECT_LT((to_vector(state) - to_vector(maneuver.states[k])).norm(), 1e-12);
+      const vehicle::State state = state_at(maneuver, time_s, automaton->vehicle);
+      EXPECT_LT((vehicle::to_vector(state) - vehicle::to_vector(maneuver.states[k])).norm(), 1e-12);
     }
   }
 }
@@ -55,11 +55,12 @@ TEST(Automaton, StateAtMovesAsTheModelSays) {
       const double middle_s = maneuver.duration_s * (static_cast<double>(k) + 0.5) /
                               static_cast<double>(maneuver.inputs.size());
       const auto at = [&](double time_s) {
-        return to_vector(state_at(maneuver, time_s, automaton->vehicle));
+        return vehicle::to_vector(state_at(maneuver, time_s, automaton->vehicle));
       };
-      const StateVector difference =
+      const vehicle::StateVector difference =
           (at(middle_s + kStep_s) - at(middle_s - kStep_s)) / (2.0 * kStep_s);
-      const StateVector model = derivative(at(middle_s), maneuver.inputs[k], automaton->vehicle);
+      const vehicle::StateVector model =
+          vehicle::derivative(at(middle_s), maneuver.inputs[k], automaton->vehicle);
       EXPECT_LT((difference - model).norm(), 1e-4);
     }
   }
@@ -70,11 +71,11 @@ TEST(Automaton, StateAtStaysAtTheEndsOutsideTheDuration) {
   const Maneuver* maneuver = automaton->find(pi(1), pi(12), "J2");
   ASSERT_NE(maneuver, nullptr);
   EXPECT_EQ(state_at(*maneuver, -1.0, automaton->vehicle), maneuver->states.front());
-  EXPECT_LT(
-      (to_vector(state_at(*maneuver, 1.0, automaton->vehicle)) - to_vector(maneuver->states.back()))
-          .norm(),
-      1e-15);
+  EXPECT_LT((vehicle::to_vector(state_at(*maneuver, 1.0, automaton->vehicle)) -
+             vehicle::to_vector(maneuver->states.back()))
+                .norm(),
+            1e-15);
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::automaton

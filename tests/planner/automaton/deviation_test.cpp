@@ -8,17 +8,17 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 const UniversalAutomaton& automaton() { return *paper_automaton(); }
 
-double deviation_m(const Pose& measured, const State& planned) {
+double deviation_m(const Pose& measured, const vehicle::State& planned) {
   return footprint_deviation_m(measured, planned, automaton().vehicle, automaton().identified);
 }
 
 /// Where the vehicle is if it is as planned, with the yaw of steady state.
-Pose as_planned(const State& planned) {
+Pose as_planned(const vehicle::State& planned) {
   Pose pose = planned.pose;
   pose.heading_rad +=
       yaw_minus_heading_rad(planned.steering_rad, automaton().vehicle, automaton().identified);
@@ -27,7 +27,7 @@ Pose as_planned(const State& planned) {
 
 TEST(FootprintDeviation, IsZeroAtThePlannedHeadingAndAtTheYawThatBelongsToIt) {
   for (const Trim& trim : automaton().trims) {
-    const State planned{
+    const vehicle::State planned{
         .pose = {1.0, 2.0, 0.7}, .speed_mps = trim.speed_mps, .steering_rad = trim.steering_rad};
     EXPECT_NEAR(deviation_m(planned.pose, planned), 0.0, 1e-9);
     EXPECT_NEAR(deviation_m(as_planned(planned), planned), 0.0, 1e-9);
@@ -38,7 +38,7 @@ TEST(FootprintDeviation, IsZeroAtThePlannedHeadingAndAtTheYawThatBelongsToIt) {
 }
 
 TEST(FootprintDeviation, OfATurnedVehicleIsAboutHalfItsLengthTimesTheAngle) {
-  const State planned{.pose = {1.0, 2.0, 0.7}};
+  const vehicle::State planned{.pose = {1.0, 2.0, 0.7}};
   for (const double turn_rad : {0.02, 0.05, 0.09}) {
     Pose pose = as_planned(planned);
     pose.heading_rad += turn_rad;
@@ -56,7 +56,7 @@ TEST(FootprintDeviation, WithinTheMarginTheVehicleIsInsideTheSweptArea) {
   for (const Maneuver& maneuver : automaton().maneuvers) {
     for (int i = 0; i < 200; ++i) {
       const double time_s = 0.5 * (1.0 + unit(random)) * maneuver.duration_s;
-      const State planned = state_at(maneuver, time_s, automaton().vehicle);
+      const vehicle::State planned = state_at(maneuver, time_s, automaton().vehicle);
       Pose measured = as_planned(planned);
       measured.x_m += margin_m * unit(random);
       measured.y_m += margin_m * unit(random);
@@ -82,4 +82,4 @@ TEST(SteeringLimit, OfThePapersTrimsTheTwoSharpestOfEachSideAreAtIt) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -5,19 +5,20 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 
 /// The shipped configuration of the paper's automaton.
-inline const AutomatonConfiguration& shipped_configuration() {
-  static const AutomatonConfiguration configuration =
-      read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
+inline const maneuver_design::AutomatonConfiguration& shipped_configuration() {
+  static const maneuver_design::AutomatonConfiguration configuration =
+      maneuver_design::read_automaton_configuration(test::source_folder() +
+                                                    "/launch_scripts/automata/paper.yaml");
   return configuration;
 }
 
 /// The same with label J2 alone, which is quick to build: subgraphs B and D, D with J2 for J3.
-inline const AutomatonConfiguration& paper_configuration() {
-  static const AutomatonConfiguration configuration = [] {
-    AutomatonConfiguration result = shipped_configuration();
+inline const maneuver_design::AutomatonConfiguration& paper_configuration() {
+  static const maneuver_design::AutomatonConfiguration configuration = [] {
+    maneuver_design::AutomatonConfiguration result = shipped_configuration();
     result.criteria = {{"J2", {}, false}};
     std::erase_if(result.subgraphs, [](const SubgraphSpec& subgraph) {
       return subgraph.name != "B" && subgraph.name != "D";
@@ -30,7 +31,7 @@ inline const AutomatonConfiguration& paper_configuration() {
 
 /// The automaton built from `paper_configuration`, once per test program.
 inline std::shared_ptr<const UniversalAutomaton> paper_automaton() {
-  static const auto automaton = build_shared_automaton(paper_configuration());
+  static const auto automaton = maneuver_design::build_shared_automaton(paper_configuration());
   return automaton;
 }
 
@@ -46,4 +47,4 @@ inline std::vector<TrimPair> paper_edges() {
 /// Trim with the paper's number, from 1.
 inline TrimId pi(std::size_t number) { return TrimId{number - 1}; }
 
-}  // namespace hlc
+}  // namespace hlc::automaton

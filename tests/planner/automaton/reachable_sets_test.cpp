@@ -10,7 +10,7 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 constexpr std::size_t kSteps = 5;
@@ -204,4 +204,4 @@ TEST(ReachableSets, StepZeroIsTheFootprintWithMarginInBothHeadings) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::automaton

@@ -12,7 +12,7 @@
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::subgraph_request_test {
+namespace hlc::automaton::subgraph_request_test {
 namespace {
 
 using testing::HasSubstr;
@@ -22,10 +22,10 @@ constexpr std::size_t kHorizonSteps = 8;
 /// The paper's B: twelve trims, J2; on an automaton with all edges of all labels.
 const Subgraph& base() {
   static const Subgraph subgraph = [] {
-    AutomatonConfiguration configuration = shipped_configuration();
-    configuration.edges = EdgeChoice::kAll;
+    maneuver_design::AutomatonConfiguration configuration = shipped_configuration();
+    configuration.edges = maneuver_design::EdgeChoice::kAll;
     const auto is_b = [](const SubgraphSpec& spec) { return spec.name == "B"; };
-    return Subgraph(build_shared_automaton(configuration),
+    return Subgraph(maneuver_design::build_shared_automaton(configuration),
                     *std::ranges::find_if(configuration.subgraphs, is_b));
   }();
   return subgraph;
@@ -175,4 +175,4 @@ TEST(SubgraphRequest, RandomOnesAreRefusedOrCanBeDriven) {
 }
 
 }  // namespace
-}  // namespace hlc::subgraph_request_test
+}  // namespace hlc::automaton::subgraph_request_test

@@ -9,7 +9,7 @@
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 SubgraphSpec spec(const std::string& name) {
@@ -127,7 +127,7 @@ TEST(Subgraph, RefusesLabelsAndEdgesThatMakeNoSense) {
 TEST(Subgraph, RuleReachableConnectsWhatTheLimitsAllowInOneStep) {
   const std::vector<Trim> trims{{0.0, 0.0}, {1.0, 0.0}, {2.4, 0.0}, {2.5, 0.0}, {1.0, 0.62}};
   const std::vector<TrimId> on{{0}, {1}, {2}, {3}, {4}};
-  VehicleLimits limits;  // 12 m/s^2 and 6.2 rad/s: 2.4 m/s and 1.24 rad within 0.2 s
+  vehicle::VehicleLimits limits;  // 12 m/s^2 and 6.2 rad/s: 2.4 m/s and 1.24 rad within 0.2 s
   const auto edges = rule_edges(EdgeRule::kReachable, trims, on, {}, limits, 0.2);
   for (const TrimId from : on) {
     for (const TrimId to : on) {
@@ -145,7 +145,7 @@ TEST(Subgraph, RuleReachableKeepsWithinTheFrictionCircle) {
   // 2 m/s at 0.3 rad: 2.04 1/m * 4 m^2/s^2 = 8.1 m/s^2 across; 1 m/s more in 0.2 s: 5 m/s^2 along.
   const std::vector<Trim> trims{{1.0, 0.3}, {2.0, 0.3}, {1.0, 0.0}, {2.0, 0.0}};
   const std::vector<TrimId> on{{0}, {1}, {2}, {3}};
-  VehicleLimits limits;
+  vehicle::VehicleLimits limits;
   limits.friction_mps2 = 9.0;  // sqrt(8.1^2 + 5^2) = 9.6
   const auto edges = rule_edges(EdgeRule::kReachable, trims, on, {}, limits, 0.2);
   const auto has = [&edges](std::size_t from, std::size_t to) {
@@ -229,7 +229,7 @@ TEST(Subgraph, TheSpeedLimitHoldsAlongManeuvers) {
   for (const TrimId trim : subgraph.trims()) {
     EXPECT_LE(two_labels()->trims[trim.index].speed_mps, 0.75);
     for (const Edge& edge : subgraph.successors(trim)) {
-      for (const State& state : edge.maneuver->states) EXPECT_LE(state.speed_mps, 0.75);
+      for (const vehicle::State& state : edge.maneuver->states) EXPECT_LE(state.speed_mps, 0.75);
       fast += edge.maneuver->label == "fast" ? 1U : 0U;
     }
   }
@@ -330,7 +330,7 @@ TEST(Subgraph, ATrimThatIsOffWithoutAWayOutIsNoStart) {
 }
 
 TEST(Subgraph, KeepsTheAutomatonAlive) {
-  auto automaton = build_shared_automaton(paper_configuration());
+  auto automaton = maneuver_design::build_shared_automaton(paper_configuration());
   const std::weak_ptr<const UniversalAutomaton> watch = automaton;
   const Subgraph subgraph(std::move(automaton), spec("B"));
   ASSERT_FALSE(watch.expired());
@@ -338,4 +338,4 @@ TEST(Subgraph, KeepsTheAutomatonAlive) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::automaton

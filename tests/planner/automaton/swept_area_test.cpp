@@ -8,14 +8,14 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 constexpr int kTimes = 1000;
 
 struct Vehicle {
-  VehicleParameters parameters;
-  IdentifiedVehicle identified;
+  vehicle::VehicleParameters parameters;
+  vehicle::IdentifiedVehicle identified;
 };
 
 /// Corners of the footprint during the motion: what the areas promise to contain.
@@ -25,8 +25,8 @@ struct Corners {
 };
 
 Corners corners_at(const Maneuver& maneuver, const Vehicle& vehicle, double time_s) {
-  const VehicleParameters& p = vehicle.parameters;
-  const State state = state_at(maneuver, time_s, p);
+  const vehicle::VehicleParameters& p = vehicle.parameters;
+  const vehicle::State state = state_at(maneuver, time_s, p);
   Pose driven = state.pose;
   driven.heading_rad += yaw_minus_heading_rad(state.steering_rad, p, vehicle.identified);
   Corners corners;
@@ -91,11 +91,11 @@ Maneuver random_motion(const Vehicle& vehicle, std::mt19937& random) {
   maneuver.from = TrimId{0};
   maneuver.to = TrimId{1};
   maneuver.duration_s = 0.2;
-  State state{{}, 1.0 + unit(random), 0.5 * unit(random)};
+  vehicle::State state{{}, 1.0 + unit(random), 0.5 * unit(random)};
   maneuver.states.push_back(state);
   constexpr int kIntervals = 20;
   for (int i = 0; i < kIntervals; ++i) {
-    Input input{12.0 * unit(random), 6.2 * unit(random)};
+    vehicle::Input input{12.0 * unit(random), 6.2 * unit(random)};
     if (state.speed_mps + 0.01 * input.acceleration_mps2 < 0.0) {
       input.acceleration_mps2 = 12.0;
     }
@@ -103,7 +103,7 @@ Maneuver random_motion(const Vehicle& vehicle, std::mt19937& random) {
       input.steering_rate_radps = state.steering_rad > 0.0 ? -6.2 : 6.2;
     }
     maneuver.inputs.push_back(input);
-    state = integrated(state, input, maneuver.duration_s / kIntervals, vehicle.parameters);
+    state = vehicle::integrated(state, input, maneuver.duration_s / kIntervals, vehicle.parameters);
     maneuver.states.push_back(state);
   }
   return maneuver;
@@ -130,7 +130,7 @@ TEST(SweptArea, OfAFootprintOnePercentSmallerDoesNotHoldTheFootprint) {
   SCOPED_TRACE(kSeed);
   std::mt19937 random(kSeed);
   const Vehicle vehicle = paper_vehicle();
-  VehicleParameters smaller = vehicle.parameters;
+  vehicle::VehicleParameters smaller = vehicle.parameters;
   smaller.footprint.length_m *= 0.99;
   smaller.footprint.width_m *= 0.99;
   for (const Maneuver& maneuver : paper_automaton()->maneuvers) {
@@ -182,15 +182,16 @@ TEST(SweptArea, HoldsTheCornersWhereSteeringSaturatesWithinAnInterval) {
                         Case{weak, -0.62, 0.62}, Case{weak, 0.62, -0.62}}) {
     // Standing, so that nothing but the steering moves, in a single interval.
     const double rate_radps = (c.to_rad - c.from_rad) / 0.2;
-    const Maneuver maneuver{TrimId{0},
-                            TrimId{1},
-                            "",
-                            0.2,
-                            {Input{0.0, rate_radps}},
-                            {State{{}, 0.0, c.from_rad}, State{{}, 0.0, c.to_rad}},
-                            {},
-                            {},
-                            {}};
+    const Maneuver maneuver{
+        TrimId{0},
+        TrimId{1},
+        "",
+        0.2,
+        {vehicle::Input{0.0, rate_radps}},
+        {vehicle::State{{}, 0.0, c.from_rad}, vehicle::State{{}, 0.0, c.to_rad}},
+        {},
+        {},
+        {}};
     const SweptAreas areas = swept_areas(maneuver, c.vehicle.parameters, c.vehicle.identified);
     const Corners corners = corners_at_random_times(maneuver, c.vehicle, random);
     EXPECT_TRUE(contains_all(areas.swept_area_m, corners.swept_m)) << c.from_rad;
@@ -226,4 +227,4 @@ TEST(SweptArea, OfStandingIsTheFootprint) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::automaton

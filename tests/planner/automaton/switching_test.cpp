@@ -12,7 +12,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::automaton {
 namespace {
 
 constexpr std::size_t kHorizonSteps = 8;
@@ -255,4 +255,4 @@ TEST(Switching, AfterManyRandomSwitchesThereIsAlwaysAPlanThatEndsInStandstill) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::automaton

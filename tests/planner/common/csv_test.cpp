@@ -25,10 +25,10 @@ TEST(CsvLine, WritesNumbersTruthsTextsAndWhatIsNotThere) {
 class CsvTableTest : public testing::Test {
  protected:
   CsvTable table(const std::string& content) {
-    put(folder_ / "t.csv", content);
+    test::put(folder_ / "t.csv", content);
     return {folder_ / "t.csv", "a,b"};
   }
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(CsvTableTest, GivesTheFieldsOfItsRows) {
@@ -99,7 +99,7 @@ TEST_F(CsvTableTest, RefusesWhatIsNoNumberAndNamesThePlace) {
 }
 
 TEST_F(CsvTableTest, AFileOfAnybodyMayHaveAnyColumnsAndLineEnds) {
-  put(folder_ / "t.csv", "x,y\r\n1,2\r\n3,4");
+  test::put(folder_ / "t.csv", "x,y\r\n1,2\r\n3,4");
   const CsvTable csv(folder_ / "t.csv");
   EXPECT_EQ(csv.size(), 2U);
   EXPECT_EQ(csv.find("y"), 1U);

@@ -137,8 +137,9 @@ TEST(Node, ReadsAliasesButNoValueThatHoldsItself) {
 }
 
 TEST(Node, ReadsJsonLikeYamlButWithItsTypes) {
-  const TemporaryFolder folder;
-  put(folder / "car.json", R"({"name": "car", "length_m": 0.22, "open": true, "doors": [4, "5"]})");
+  const test::TemporaryFolder folder;
+  test::put(folder / "car.json",
+            R"({"name": "car", "length_m": 0.22, "open": true, "doors": [4, "5"]})");
   const Node node = Node::read_json(folder / "car.json");
   EXPECT_EQ(node.required<std::string>("name"), "car");
   EXPECT_EQ(node.required<double>("length_m", above(0.0)), 0.22);

@@ -27,16 +27,16 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::ptrdiff_t num_files(const TemporaryFolder& folder) {
+std::ptrdiff_t num_files(const test::TemporaryFolder& folder) {
   return std::distance(fs::directory_iterator(folder.path()), {});
 }
 
 TEST(WriteAtomically, TouchesNoOtherFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder / "c.yaml";
-  put(file, "old");
+  test::put(file, "old");
   const std::string own = file.string() + "." + std::to_string(getpid()) + "_0.part";
-  for (const std::string& other : {file.string() + ".part", own}) put(other, "of the user");
+  for (const std::string& other : {file.string() + ".part", own}) test::put(other, "of the user");
   write_file(file, "new");
   EXPECT_EQ(text_of(file), "new");
   EXPECT_EQ(text_of(file.string() + ".part"), "of the user");
@@ -45,7 +45,7 @@ TEST(WriteAtomically, TouchesNoOtherFile) {
 }
 
 TEST(WriteAtomically, OfProcessesThatWriteTheSameFileOneLeavesItsWholeText) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder / "c.yaml";
   constexpr int kProcesses = 4;
   constexpr std::size_t kSize = 300'000;
@@ -72,11 +72,11 @@ TEST(WriteAtomically, OfProcessesThatWriteTheSameFileOneLeavesItsWholeText) {
 }
 
 TEST(WriteAtomically, RefusesWhatIsThereAndNoRegularFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   fs::create_directory(folder / "folder");
-  put(folder / "target", "old");
+  test::put(folder / "target", "old");
   fs::create_symlink("target", folder / "link");
   for (const fs::path& path :
        {pipe, folder / "folder", folder / "link", folder / "no" / "c.yaml"}) {
@@ -88,7 +88,7 @@ TEST(WriteAtomically, RefusesWhatIsThereAndNoRegularFile) {
 }
 
 TEST(TextFile, ReadsBackWhatWasWritten) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const std::string& content :
        {std::string{}, std::string{"a\nb"}, std::string(100'000, 'x')}) {
     write_file(folder / "file", content);
@@ -97,7 +97,7 @@ TEST(TextFile, ReadsBackWhatWasWritten) {
 }
 
 TEST(TextFile, WritingLeavesNothingElseBehind) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_file(folder / "file", "old");
   write_file(folder / "file", "new");
   std::size_t files = 0;
@@ -109,7 +109,7 @@ TEST(TextFile, WritingLeavesNothingElseBehind) {
 }
 
 TEST(TextFile, FailureNamesTheFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT([&] { write_file(folder / "no" / "file", "x"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("no/file: cannot be written")));
   EXPECT_THAT([&] { (void)read_file(folder / "nothing"); },

@@ -5,7 +5,7 @@
 
 #include "tests/planner/controller/east_bound.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 using namespace east_bound;
@@ -31,7 +31,7 @@ class TwoLoops : public testing::Test {
   std::unique_ptr<Controller> two_;
   std::optional<ControlLoop> first_;
   std::optional<ControlLoop> second_;
-  std::vector<MeasuredVehicle> states_;
+  std::vector<coordination::MeasuredVehicle> states_;
 };
 
 TEST_F(TwoLoops, APhaseAwaitsWhatItNeedsAndTheStepEndsWithTheReport) {
@@ -60,14 +60,14 @@ TEST_F(TwoLoops, APhaseAwaitsWhatItNeedsAndTheStepEndsWithTheReport) {
   EXPECT_THAT(first_->awaited().from, IsEmpty());
   const StepOutput end = first_->proceed();
   ASSERT_TRUE(end.report);
-  EXPECT_EQ(end.report->status, StepStatus::kPlanned);
+  EXPECT_EQ(end.report->status, coordination::StepStatus::kPlanned);
   EXPECT_FALSE(first_->is_in_step());
-  EXPECT_EQ(second_->proceed().report->status, StepStatus::kPlanned);
+  EXPECT_EQ(second_->proceed().report->status, coordination::StepStatus::kPlanned);
 }
 
 TEST_F(TwoLoops, AgreedAwaitsTheVotesOfTheComponent) {
   stand(0.3, kAgreed);
-  const Traffic traffic = *first_->begin(observation()).traffic;
+  const coordination::Traffic traffic = *first_->begin(observation()).traffic;
   second_->receive(traffic);
   first_->receive(*second_->begin(observation()).traffic);
   static_cast<void>(first_->proceed());
@@ -75,16 +75,16 @@ TEST_F(TwoLoops, AgreedAwaitsTheVotesOfTheComponent) {
   ASSERT_TRUE(planned.prediction && planned.outcome);
   EXPECT_EQ(first_->awaited().kind, MessageKind::kOutcome);
   EXPECT_THAT(first_->awaited().from, ElementsAre(VehicleId{2}));
-  first_->receive(Outcome{.vehicle = {2}, .step = {101}, .wants_fallback = true});
+  first_->receive(coordination::Outcome{.vehicle = {2}, .step = {101}, .wants_fallback = true});
   EXPECT_THAT(first_->awaited().from, IsEmpty());
-  EXPECT_EQ(first_->proceed().report->reason, FallbackReason::kNeighbour);
+  EXPECT_EQ(first_->proceed().report->reason, coordination::FallbackReason::kNeighbour);
 }
 
 TEST_F(TwoLoops, WhatComesAPhaseOrAStepEarlyWaitsForItsTime) {
   stand(0.3);
-  const Traffic traffic = *first_->begin(observation()).traffic;
+  const coordination::Traffic traffic = *first_->begin(observation()).traffic;
   static_cast<void>(first_->proceed());
-  const Prediction prediction = *first_->proceed().prediction;
+  const coordination::Prediction prediction = *first_->proceed().prediction;
   second_->receive(prediction);  // in step 100 yet
   second_->receive(traffic);
   static_cast<void>(second_->begin(observation()));
@@ -95,14 +95,14 @@ TEST_F(TwoLoops, WhatComesAPhaseOrAStepEarlyWaitsForItsTime) {
 
 TEST_F(TwoLoops, WhatIsOverOrFarAheadOrInTheOwnNameIsDropped) {
   stand(0.3);
-  Traffic traffic = *first_->begin(observation()).traffic;
+  coordination::Traffic traffic = *first_->begin(observation()).traffic;
   static_cast<void>(second_->begin(observation()));
   for (const std::uint64_t step : {100U, 112U}) {
     traffic.step = {step};
     second_->receive(traffic);
   }
   EXPECT_THAT(second_->awaited().from, ElementsAre(VehicleId{1}));
-  static_cast<void>(second_->fall_back(FallbackReason::kLate));
+  static_cast<void>(second_->fall_back(coordination::FallbackReason::kLate));
   static_cast<void>(second_->begin(observation(112)));
   EXPECT_THAT(second_->awaited().from, ElementsAre(VehicleId{1}));
   traffic.vehicle = {2};
@@ -113,7 +113,7 @@ TEST_F(TwoLoops, WhatIsOverOrFarAheadOrInTheOwnNameIsDropped) {
 
 TEST_F(TwoLoops, AStepThatIsOnlyAnnouncedMovesOnWhatIsKept) {
   stand(0.3);
-  Traffic traffic = *first_->begin(observation()).traffic;
+  coordination::Traffic traffic = *first_->begin(observation()).traffic;
   second_->advance_to({150});
   traffic.step = {151};
   second_->receive(traffic);
@@ -136,10 +136,10 @@ TEST_F(TwoLoops, FallingBackEndsTheStepInAnyPhaseAndKeepsThePlanInForce) {
     stand(0.3);
     static_cast<void>(second_->begin(observation()));
     for (int i = 0; i < phases; ++i) static_cast<void>(second_->proceed());
-    const StepOutput end = second_->fall_back(FallbackReason::kLate);
+    const StepOutput end = second_->fall_back(coordination::FallbackReason::kLate);
     ASSERT_TRUE(end.report);
-    EXPECT_EQ(end.report->status, StepStatus::kFallback);
-    EXPECT_EQ(end.report->reason, FallbackReason::kLate);
+    EXPECT_EQ(end.report->status, coordination::StepStatus::kFallback);
+    EXPECT_EQ(end.report->reason, coordination::FallbackReason::kLate);
     EXPECT_FALSE(second_->is_in_step());
     EXPECT_EQ(two_->plan_in_force().end(), StepIndex{100});
   }
@@ -159,4 +159,4 @@ TEST_F(TwoLoops, TheStopwatchMeasuresPlanningAlone) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::controller

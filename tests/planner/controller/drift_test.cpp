@@ -6,19 +6,20 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::controller {
 namespace {
 
 constexpr double kTolerated_m = 0.005;
 
 /// A plan from standstill at the origin at t(10) through trims by their numbers.
-Plan plan_through(const std::vector<std::size_t>& trims) {
-  const UniversalAutomaton& automaton = *paper_automaton();
-  std::vector<const Maneuver*> maneuvers;
+coordination::Plan plan_through(const std::vector<std::size_t>& trims) {
+  const automaton::UniversalAutomaton& automaton = *automaton::paper_automaton();
+  std::vector<const automaton::Maneuver*> maneuvers;
   for (std::size_t i = 1; i < trims.size(); ++i) {
-    maneuvers.push_back(automaton.find(pi(trims[i - 1]), pi(trims[i]), "J2"));
+    maneuvers.push_back(automaton.find(automaton::pi(trims[i - 1]), automaton::pi(trims[i]), "J2"));
   }
-  const Plan standing({10}, {}, *automaton.find(pi(1), pi(1), "J2"));
+  const coordination::Plan standing({10}, {},
+                                    *automaton.find(automaton::pi(1), automaton::pi(1), "J2"));
   return standing.continued({10}, maneuvers);
 }
 
@@ -26,15 +27,16 @@ SeenAt seen_standing() {
   return {.step = {10},
           .time_s = 0.0,
           .pose = {0.0, 0.0,
-                   yaw_minus_heading_rad(0.0, paper_automaton()->vehicle,
-                                         paper_automaton()->identified)}};
+                   automaton::yaw_minus_heading_rad(0.0, automaton::paper_automaton()->vehicle,
+                                                    automaton::paper_automaton()->identified)}};
 }
 
-OccupiedAreas announced(const Plan& plan, const SeenAt& seen = seen_standing()) {
-  return areas_with_drift(plan, {10}, seen, *paper_automaton(), kTolerated_m);
+coordination::OccupiedAreas announced(const coordination::Plan& plan,
+                                      const SeenAt& seen = seen_standing()) {
+  return areas_with_drift(plan, {10}, seen, *automaton::paper_automaton(), kTolerated_m);
 }
 
-bool are_equal(const OccupiedAreas& a, const OccupiedAreas& b) {
+bool are_equal(const coordination::OccupiedAreas& a, const coordination::OccupiedAreas& b) {
   return a.first == b.first && a.areas_m == b.areas_m && a.final_area_m == b.final_area_m;
 }
 
@@ -46,15 +48,15 @@ bool holds(const ConvexPolygon& area, const ConvexPolygon& other) {
 TEST(Drift, APlanThatTheVehicleCanFollowKeepsItsAreasToTheBit) {
   for (const auto& trims : {std::vector<std::size_t>{1, 7, 7, 8, 9, 10, 9, 8, 1},
                             std::vector<std::size_t>{1, 7, 6, 5, 4, 3, 3, 4, 1}}) {
-    const Plan plan = plan_through(trims);
+    const coordination::Plan plan = plan_through(trims);
     EXPECT_TRUE(are_equal(announced(plan), plan.areas_from({10})));
   }
 }
 
 TEST(Drift, AHeldTrimBeyondTheSteeringLimitWidensTheAreasFromThereOn) {
-  const Plan plan = plan_through({1, 4, 3, 2, 2, 2, 2, 2, 1});
-  const OccupiedAreas planned = plan.areas_from({10});
-  const OccupiedAreas areas = announced(plan);
+  const coordination::Plan plan = plan_through({1, 4, 3, 2, 2, 2, 2, 2, 1});
+  const coordination::OccupiedAreas planned = plan.areas_from({10});
+  const coordination::OccupiedAreas areas = announced(plan);
   ASSERT_EQ(areas.areas_m.size(), planned.areas_m.size());
   EXPECT_EQ(areas.areas_m.front(), planned.areas_m.front());
   EXPECT_NE(areas.areas_m.back(), planned.areas_m.back());
@@ -65,9 +67,9 @@ TEST(Drift, AHeldTrimBeyondTheSteeringLimitWidensTheAreasFromThereOn) {
 }
 
 TEST(Drift, WhereTheVehicleIsPredictedIsHeldWithItsMargin) {
-  const UniversalAutomaton& automaton = *paper_automaton();
-  const Plan plan = plan_through({1, 12, 12, 12, 12, 12, 12, 12, 1});
-  const OccupiedAreas areas = announced(plan);
+  const automaton::UniversalAutomaton& automaton = *automaton::paper_automaton();
+  const coordination::Plan plan = plan_through({1, 12, 12, 12, 12, 12, 12, 12, 1});
+  const coordination::OccupiedAreas areas = announced(plan);
   double largest_m = 0.0;
   for (const PredictedInstant& instant : predicted_drive(plan, seen_standing(), {20}, automaton)) {
     const double off_m = (instant.pose.position_m() - instant.planned.pose.position_m()).norm();
@@ -80,14 +82,14 @@ TEST(Drift, WhereTheVehicleIsPredictedIsHeldWithItsMargin) {
 }
 
 TEST(Drift, AVehicleBesideItsPlanIsHeldUntilItIsBack) {
-  const Plan plan = plan_through({1, 7, 7, 7, 7, 7, 7, 7, 1});
+  const coordination::Plan plan = plan_through({1, 7, 7, 7, 7, 7, 7, 7, 1});
   SeenAt seen = seen_standing();
   seen.pose.y_m += 0.020;
-  const OccupiedAreas planned = plan.areas_from({10});
-  const OccupiedAreas areas = announced(plan, seen);
+  const coordination::OccupiedAreas planned = plan.areas_from({10});
+  const coordination::OccupiedAreas areas = announced(plan, seen);
   EXPECT_NE(areas.areas_m.front(), planned.areas_m.front());
   EXPECT_EQ(areas.areas_m.back(), planned.areas_m.back());
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::controller

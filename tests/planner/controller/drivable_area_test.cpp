@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc::drivable_area_test {
+namespace hlc::controller::drivable_area_test {
 namespace {
 
 constexpr std::size_t kHorizon = 8;
@@ -36,7 +36,7 @@ class DrivableAreaTest : public testing::Test {
 
 TEST_F(DrivableAreaTest, OneThatDepartsBesideItsLanesHasAnAreaUntilItsPlanLiesInThem) {
   DrivableArea area(&once_per_horizon, kHorizon);
-  found_.area = Corridor{};
+  found_.area = road::Corridor{};
   area.depart();
   stand(area, false);
   EXPECT_EQ(num_looks_, 1);
@@ -53,14 +53,14 @@ TEST_F(DrivableAreaTest, OneWithoutAWaySaysWhyAndLooksAgainOnAnotherSubgraphOnly
   found_ = {.is_possible = false, .is_certain = true, .area = std::nullopt};
   area.depart();
   stand(area, false);
-  EXPECT_EQ(area.obstacle(), FallbackReason::kOffRoute);
+  EXPECT_EQ(area.obstacle(), coordination::FallbackReason::kOffRoute);
   for (std::size_t i = 0; i < 3 * kHorizon; ++i) stand(area, false);
   EXPECT_EQ(num_looks_, 1);
   found_.is_certain = false;
   area.note_switch();
   stand(area, false);
   EXPECT_EQ(num_looks_, 2);
-  EXPECT_EQ(area.obstacle(), FallbackReason::kBudget);
+  EXPECT_EQ(area.obstacle(), coordination::FallbackReason::kBudget);
 }
 
 TEST_F(DrivableAreaTest, OneThatStandsInItsLanesLooksForAWayOutOnceInEveryHorizon) {
@@ -68,7 +68,7 @@ TEST_F(DrivableAreaTest, OneThatStandsInItsLanesLooksForAWayOutOnceInEveryHorizo
   for (std::size_t i = 0; i <= 2 * kHorizon; ++i) stand(area, true);
   EXPECT_EQ(num_looks_, 2);
   EXPECT_FALSE(area.entry_area()) << "none was found: it may wait for another vehicle";
-  found_.area = Corridor{};
+  found_.area = road::Corridor{};
   for (std::size_t i = 0; i < kHorizon; ++i) stand(area, true);
   EXPECT_EQ(num_looks_, 3);
   EXPECT_TRUE(area.entry_area());
@@ -81,4 +81,4 @@ TEST_F(DrivableAreaTest, WithoutATimeoutOneThatStandsInItsLanesStaysInThem) {
 }
 
 }  // namespace
-}  // namespace hlc::drivable_area_test
+}  // namespace hlc::controller::drivable_area_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc::neighbours_test {
+namespace hlc::controller::neighbours_test {
 namespace {
 
 using testing::ElementsAre;
@@ -20,7 +20,7 @@ class NeighboursTest : public testing::Test {
     ++now_.value;
     neighbours_.begin_step(now_);
     silent_ = neighbours_.silent(kActive);
-    std::vector<Traffic> traffic;
+    std::vector<coordination::Traffic> traffic;
     for (const std::uint8_t vehicle : received) traffic.push_back(traffic_of(vehicle, now_));
     traffic.push_back(traffic_of(9, now_));              // takes no part
     traffic.push_back(traffic_of(3, {now_.value - 1}));  // of another step
@@ -29,7 +29,7 @@ class NeighboursTest : public testing::Test {
     neighbours_.receive(traffic, observation);
   }
 
-  static Traffic traffic_of(std::uint8_t vehicle, StepIndex step) {
+  static coordination::Traffic traffic_of(std::uint8_t vehicle, StepIndex step) {
     const ConvexPolygon area = footprint_area({1.0, 1.0}, {});
     return {.vehicle = {vehicle},
             .step = step,
@@ -55,7 +55,7 @@ TEST_F(NeighboursTest, ReceivedIsWhoSentTrafficOfTheStep) {
 
 TEST_F(NeighboursTest, SilentIsWhoWasNotReceivedForSomeSteps) {
   step({2, 3});
-  for (std::uint64_t i = 1; i < kSilentSteps; ++i) step({3});
+  for (std::uint64_t i = 1; i < coordination::kSilentSteps; ++i) step({3});
   EXPECT_THAT(silent_, IsEmpty());
   step({3});
   EXPECT_THAT(silent_, ElementsAre(VehicleId{2}));
@@ -71,4 +71,4 @@ TEST_F(NeighboursTest, WhoIsSilentButPresentNeverStandsForGood) {
 }
 
 }  // namespace
-}  // namespace hlc::neighbours_test
+}  // namespace hlc::controller::neighbours_test

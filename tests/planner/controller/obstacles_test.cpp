@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc::obstacles_test {
+namespace hlc::controller::obstacles_test {
 namespace {
 
 using testing::ElementsAre;
@@ -16,18 +16,19 @@ ConvexPolygon square_at(double x) { return footprint_area({1.0, 1.0}, {x, 0.0, 0
 MATCHER_P(LiesAt, x, "") { return arg.vertices_m == square_at(x).vertices_m; }
 
 /// Drives from 0 to 2 in the steps 10 and 11, reaches as far as 9.
-const Traffic kDrives{.vehicle = {1},
-                      .step = kNow,
-                      .running = {.first = kNow,
-                                  .areas_m = {square_at(0.0), square_at(1.0)},
-                                  .final_area_m = square_at(2.0)},
-                      .reachable_area_m = square_at(9.0)};
-const Traffic kStands{.vehicle = {1},
-                      .step = kNow,
-                      .running = {.first = kNow, .areas_m = {}, .final_area_m = square_at(3.0)},
-                      .reachable_area_m = square_at(9.0)};
+const coordination::Traffic kDrives{.vehicle = {1},
+                                    .step = kNow,
+                                    .running = {.first = kNow,
+                                                .areas_m = {square_at(0.0), square_at(1.0)},
+                                                .final_area_m = square_at(2.0)},
+                                    .reachable_area_m = square_at(9.0)};
+const coordination::Traffic kStands{
+    .vehicle = {1},
+    .step = kNow,
+    .running = {.first = kNow, .areas_m = {}, .final_area_m = square_at(3.0)},
+    .reachable_area_m = square_at(9.0)};
 
-Prediction prediction(bool is_new) {
+coordination::Prediction prediction(bool is_new) {
   return {.vehicle = {1},
           .step = kNow,
           .is_new = is_new,
@@ -40,8 +41,8 @@ std::vector<ConvexPolygon> areas_m(CoupledObstacleRule rule, const CoupledVehicl
 }
 
 TEST(OldAndNewPlans, HoldWhatIsDrivenAndWhatAPredecessorHasPlanned) {
-  const Prediction plans = prediction(true);
-  const Prediction keeps = prediction(false);
+  const coordination::Prediction plans = prediction(true);
+  const coordination::Prediction keeps = prediction(false);
   EXPECT_THAT(areas_m(old_and_new_plans, {&kDrives, nullptr, false}), ElementsAre(LiesAt(1.0)));
   EXPECT_THAT(areas_m(old_and_new_plans, {&kDrives, &plans, true}),
               ElementsAre(LiesAt(5.0), LiesAt(1.0)));
@@ -55,7 +56,7 @@ TEST(OldAndNewPlans, HoldAllThatAPredecessorCanReachThatWasNotReceived) {
 
 TEST(PredictionsAndStandingSuccessors, HoldNothingOfASuccessorThatDrives) {
   const auto rule = predictions_and_standing_successors;
-  const Prediction keeps = prediction(false);
+  const coordination::Prediction keeps = prediction(false);
   EXPECT_THAT(areas_m(rule, {&kDrives, nullptr, false}), IsEmpty());
   EXPECT_THAT(areas_m(rule, {&kStands, nullptr, false}), ElementsAre(LiesAt(3.0)));
   EXPECT_THAT(areas_m(rule, {&kDrives, &keeps, true}), ElementsAre(LiesAt(5.0)));
@@ -63,8 +64,9 @@ TEST(PredictionsAndStandingSuccessors, HoldNothingOfASuccessorThatDrives) {
 }
 
 TEST(Obstacles, AMissingVehicleMayBeAnywhereUntilItStandsForGood) {
-  const MissingVehicleRules rules{.max_speed_mps = 1.0, .footprint = {0.2, 0.1}};
-  const MeasuredVehicle seen{.vehicle = {1}, .pose = {}, .speed_mps = 0.0, .age_s = 0.0};
+  const coordination::MissingVehicleRules rules{.max_speed_mps = 1.0, .footprint = {0.2, 0.1}};
+  const coordination::MeasuredVehicle seen{
+      .vehicle = {1}, .pose = {}, .speed_mps = 0.0, .age_s = 0.0};
   const auto of = [&](bool stands) {
     return obstacles_m({}, old_and_new_plans, std::vector{MissingVehicle{&seen, stands}}, rules,
                        kNow, 3, 0.2);
@@ -76,4 +78,4 @@ TEST(Obstacles, AMissingVehicleMayBeAnywhereUntilItStandsForGood) {
 }
 
 }  // namespace
-}  // namespace hlc::obstacles_test
+}  // namespace hlc::controller::obstacles_test

@@ -7,7 +7,7 @@
 
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 ConvexPolygon square_at(double x) { return footprint_area({1.0, 1.0}, {x, 0.0, 0.0}); }
@@ -98,4 +98,4 @@ TEST(CommitByVotes, TakesEveryVote) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -5,7 +5,7 @@
 
 #include "planner/coordination/coupling.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 
 /// The graph of messages that a test writes down on the spot.
 inline CouplingGraph graph_of(const std::vector<Traffic>& traffic) {
@@ -14,4 +14,4 @@ inline CouplingGraph graph_of(const std::vector<Traffic>& traffic) {
   return CouplingGraph(std::move(pointers));
 }
 
-}  // namespace hlc
+}  // namespace hlc::coordination

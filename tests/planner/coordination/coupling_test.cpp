@@ -5,7 +5,7 @@
 #include "planner/geometry/footprint.hpp"
 #include "tests/planner/coordination/coupling_graph.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 Traffic reaching(std::uint8_t vehicle, double x) {
@@ -44,4 +44,4 @@ TEST(CouplingGraph, AComponentHangsTogetherOverSeveralCouplings) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::coordination

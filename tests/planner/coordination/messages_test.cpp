@@ -4,7 +4,7 @@
 
 #include "planner/geometry/footprint.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 ConvexPolygon square_here(double x) { return footprint_area({1.0, 1.0}, {x, 0.0, 0.0}); }
@@ -38,4 +38,4 @@ TEST(Messages, AnEmptyAreaOrAWrongBeginIsNotWellFormed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::coordination

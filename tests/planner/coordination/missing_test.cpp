@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 const MissingVehicleRules kRules{.max_speed_mps = 0.8,
@@ -62,4 +62,4 @@ TEST(Missing, OnlyAFreshStateShowsAVehicleStanding) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -6,18 +6,18 @@
 
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 class PlanTest : public testing::Test {
  protected:
-  const Maneuver* edge(std::size_t from, std::size_t to) const {
-    const Maneuver* found = automaton_->find({from}, {to}, from == to ? "trim" : "J2");
+  const automaton::Maneuver* edge(std::size_t from, std::size_t to) const {
+    const automaton::Maneuver* found = automaton_->find({from}, {to}, from == to ? "trim" : "J2");
     EXPECT_NE(found, nullptr);
     return found;
   }
 
-  std::shared_ptr<const UniversalAutomaton> automaton_{paper_automaton()};
+  std::shared_ptr<const automaton::UniversalAutomaton> automaton_{automaton::paper_automaton()};
 };
 
 TEST_F(PlanTest, APlanWithoutManeuversStandsForEver) {
@@ -75,4 +75,4 @@ TEST_F(PlanTest, TheFinalAreaLiesInTheLastArea) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::coordination

@@ -8,7 +8,7 @@
 #include "tests/planner/coordination/coupling_graph.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::coordination {
 namespace {
 
 Traffic reaching(std::uint8_t vehicle, double x, double y) {
@@ -56,4 +56,4 @@ TEST(Priority, EveryPredecessorIsOnALowerLevel) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::coordination

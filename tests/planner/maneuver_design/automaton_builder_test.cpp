@@ -11,51 +11,52 @@
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 TEST(AutomatonBuilder, BuildsEveryTrimsStepAnd50ManeuversForThePaper) {
-  const auto automaton = paper_automaton();
+  const auto automaton = automaton::paper_automaton();
   std::size_t self_loops = 0;
   std::size_t maneuvers = 0;
-  for (const Maneuver& maneuver : automaton->maneuvers) {
+  for (const automaton::Maneuver& maneuver : automaton->maneuvers) {
     ++(maneuver.from == maneuver.to ? self_loops : maneuvers);
   }
   EXPECT_EQ(self_loops, 12U);
   EXPECT_EQ(maneuvers, 50U);  // 42 of the chain, 8 more for D
   for (const auto& [from, to] : {std::pair{2U, 4U}, {4U, 6U}, {8U, 10U}, {10U, 12U}}) {
-    EXPECT_NE(automaton->find(pi(from), pi(to), "J2"), nullptr);
-    EXPECT_NE(automaton->find(pi(to), pi(from), "J2"), nullptr);
+    EXPECT_NE(automaton->find(automaton::pi(from), automaton::pi(to), "J2"), nullptr);
+    EXPECT_NE(automaton->find(automaton::pi(to), automaton::pi(from), "J2"), nullptr);
   }
 }
 
 TEST(AutomatonBuilder, EveryManeuverObeysTheModelMeetsItsTrimsAndTheLimits) {
-  const auto automaton = paper_automaton();
-  const VehicleLimits& limits = automaton->limits;
-  for (const Maneuver& maneuver : automaton->maneuvers) {
+  const auto automaton = automaton::paper_automaton();
+  const vehicle::VehicleLimits& limits = automaton->limits;
+  for (const automaton::Maneuver& maneuver : automaton->maneuvers) {
     SCOPED_TRACE(testing::Message() << maneuver.from.index + 1 << " -> " << maneuver.to.index + 1);
-    const Trim& from = automaton->trims[maneuver.from.index];
-    const Trim& to = automaton->trims[maneuver.to.index];
+    const automaton::Trim& from = automaton->trims[maneuver.from.index];
+    const automaton::Trim& to = automaton->trims[maneuver.to.index];
     ASSERT_EQ(maneuver.states.size(), maneuver.inputs.size() + 1);
     EXPECT_EQ(maneuver.duration_s, automaton->step_s);
     EXPECT_EQ(maneuver.displacement, maneuver.states.back().pose);
-    EXPECT_EQ(maneuver.states.front(), (State{{}, from.speed_mps, from.steering_rad}));
+    EXPECT_EQ(maneuver.states.front(), (vehicle::State{{}, from.speed_mps, from.steering_rad}));
     EXPECT_NEAR(maneuver.states.back().speed_mps, to.speed_mps, 1e-12);
     EXPECT_NEAR(maneuver.states.back().steering_rad, to.steering_rad, 1e-12);
 
     // Integrated again, with finer steps.
     constexpr int kFiner = 10;
-    State state = maneuver.states.front();
+    vehicle::State state = maneuver.states.front();
     const double step_s =
         maneuver.duration_s / static_cast<double>(kFiner * maneuver.inputs.size());
     for (std::size_t k = 0; k < maneuver.inputs.size(); ++k) {
-      const Input& input = maneuver.inputs[k];
+      const vehicle::Input& input = maneuver.inputs[k];
       EXPECT_LE(std::abs(input.acceleration_mps2), limits.acceleration_mps2);
       EXPECT_LE(std::abs(input.steering_rate_radps), limits.steering_rate_radps);
       for (int i = 0; i < kFiner; ++i) {
-        state = integrated(state, input, step_s, automaton->vehicle);
+        state = vehicle::integrated(state, input, step_s, automaton->vehicle);
       }
-      EXPECT_LT((to_vector(state) - to_vector(maneuver.states[k + 1])).norm(), 1e-7);
+      EXPECT_LT((vehicle::to_vector(state) - vehicle::to_vector(maneuver.states[k + 1])).norm(),
+                1e-7);
       EXPECT_LE(state.speed_mps, limits.speed_max_mps);
       EXPECT_GE(state.speed_mps, limits.speed_min_mps - 1e-12);
       EXPECT_LE(std::abs(state.steering_rad), limits.steering_max_rad);
@@ -64,14 +65,14 @@ TEST(AutomatonBuilder, EveryManeuverObeysTheModelMeetsItsTrimsAndTheLimits) {
 }
 
 TEST(AutomatonBuilder, ATrimsOwnStepIsTheExactArc) {
-  const auto automaton = paper_automaton();
+  const auto automaton = automaton::paper_automaton();
   for (std::size_t i = 0; i < automaton->trims.size(); ++i) {
-    const Trim& trim = automaton->trims[i];
-    const Maneuver* step = automaton->find(TrimId{i}, TrimId{i}, "J2");
+    const automaton::Trim& trim = automaton->trims[i];
+    const automaton::Maneuver* step = automaton->find(TrimId{i}, TrimId{i}, "J2");
     ASSERT_NE(step, nullptr);
-    EXPECT_EQ(step->displacement, trim_motion({}, trim.speed_mps, trim.steering_rad,
-                                              automaton->step_s, automaton->vehicle));
-    for (const State& state : step->states) {
+    EXPECT_EQ(step->displacement, vehicle::trim_motion({}, trim.speed_mps, trim.steering_rad,
+                                                       automaton->step_s, automaton->vehicle));
+    for (const vehicle::State& state : step->states) {
       EXPECT_EQ(state.speed_mps, trim.speed_mps);
       EXPECT_EQ(state.steering_rad, trim.steering_rad);
     }
@@ -81,12 +82,12 @@ TEST(AutomatonBuilder, ATrimsOwnStepIsTheExactArc) {
 // First-order optimality with end conditions alone active: the gradient with respect to the inputs
 // of one kind is the same in every interval (it equals the end condition's multiplier).
 TEST(AutomatonBuilder, EveryManeuverIsAStationaryPointOfItsCriterion) {
-  const auto automaton = paper_automaton();
-  for (const Maneuver& maneuver : automaton->maneuvers) {
+  const auto automaton = automaton::paper_automaton();
+  for (const automaton::Maneuver& maneuver : automaton->maneuvers) {
     if (maneuver.from == maneuver.to) {
       continue;
     }
-    const auto cost = make_criterion(maneuver.label, paper_configuration().vehicle);
+    const auto cost = make_criterion(maneuver.label, automaton::paper_configuration().vehicle);
     const Shot shot = shoot(maneuver.states.front(), maneuver.inputs, maneuver.duration_s, *cost,
                             automaton->vehicle, WithGradient::kYes);
     for (const Eigen::Vector2d& gradient : shot.gradient) {
@@ -96,13 +97,13 @@ TEST(AutomatonBuilder, EveryManeuverIsAStationaryPointOfItsCriterion) {
 }
 
 TEST(AutomatonBuilder, EveryManeuverOfTheShippedConfigurationObeysItsRulesAndIsOptimal) {
-  const AutomatonConfiguration& c = shipped_configuration();
-  const UniversalAutomaton automaton = build_automaton(c);
+  const AutomatonConfiguration& c = automaton::shipped_configuration();
+  const automaton::UniversalAutomaton automaton = build_automaton(c);
   ASSERT_EQ(automaton.maneuvers.size(), 12U + 3U * 50U);
-  for (const Maneuver& maneuver : automaton.maneuvers) {
+  for (const automaton::Maneuver& maneuver : automaton.maneuvers) {
     SCOPED_TRACE(testing::Message() << maneuver.label << ", " << maneuver.from.index + 1 << " -> "
                                     << maneuver.to.index + 1);
-    EXPECT_EQ(validate(maneuver, automaton), "");
+    EXPECT_EQ(automaton::validate(maneuver, automaton), "");
     if (maneuver.from == maneuver.to) continue;
     // Started where it is, the solver finds nothing to change.
     SolverOptions options;
@@ -119,20 +120,21 @@ TEST(AutomatonBuilder, EveryManeuverOfTheShippedConfigurationObeysItsRulesAndIsO
 }
 
 TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuvers) {
-  const UniversalAutomaton automaton = build_automaton(shipped_configuration());
+  const automaton::UniversalAutomaton automaton =
+      build_automaton(automaton::shipped_configuration());
   const auto mirrored = [](TrimId trim) {  // the paper's trims 2 ... 12 are symmetric about 7
     return trim.index == 0 ? trim : TrimId{12 - trim.index};
   };
   constexpr double kSame = 1e-10;
-  for (const Maneuver& maneuver : automaton.maneuvers) {
+  for (const automaton::Maneuver& maneuver : automaton.maneuvers) {
     SCOPED_TRACE(testing::Message() << maneuver.label << ", " << maneuver.from.index + 1 << " -> "
                                     << maneuver.to.index + 1);
-    const Maneuver* other =
+    const automaton::Maneuver* other =
         automaton.find(mirrored(maneuver.from), mirrored(maneuver.to), maneuver.label);
     ASSERT_NE(other, nullptr);
     for (std::size_t k = 0; k < maneuver.states.size(); ++k) {
-      const State& a = maneuver.states[k];
-      const State& b = other->states[k];
+      const vehicle::State& a = maneuver.states[k];
+      const vehicle::State& b = other->states[k];
       EXPECT_NEAR(a.pose.x_m, b.pose.x_m, kSame);
       EXPECT_NEAR(a.pose.y_m, -b.pose.y_m, kSame);
       EXPECT_NEAR(a.pose.heading_rad, -b.pose.heading_rad, kSame);
@@ -144,11 +146,11 @@ TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuvers) {
 
 // Standing, the steering costs nothing: many maneuvers are equally good.
 TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuversToTheLastBitAlsoWhereManyAreEquallyGood) {
-  AutomatonConfiguration c = shipped_configuration();
+  AutomatonConfiguration c = automaton::shipped_configuration();
   c.criteria = {{"stopping_distance", {}, false}, {"J1", {}, false}};
   for (std::size_t criterion = 0; criterion < c.criteria.size(); ++criterion) {
-    const Maneuver left = design(c, {{pi(1), pi(10)}, criterion});
-    const Maneuver right = design(c, {{pi(1), pi(4)}, criterion});
+    const automaton::Maneuver left = design(c, {{automaton::pi(1), automaton::pi(10)}, criterion});
+    const automaton::Maneuver right = design(c, {{automaton::pi(1), automaton::pi(4)}, criterion});
     for (std::size_t k = 0; k < left.inputs.size(); ++k) {
       EXPECT_EQ(left.inputs[k].acceleration_mps2, right.inputs[k].acceleration_mps2);
       EXPECT_EQ(left.inputs[k].steering_rate_radps, -right.inputs[k].steering_rate_radps);
@@ -161,26 +163,26 @@ TEST(AutomatonBuilder, MirroredTrimsHaveMirroredManeuversToTheLastBitAlsoWhereMa
 }
 
 TEST(AutomatonBuilder, ManyManeuversAtOnceAreTheSameToTheLastBitAsOneByOne) {
-  AutomatonConfiguration c = shipped_configuration();
+  AutomatonConfiguration c = automaton::shipped_configuration();
   c.criteria = {{"J1", {}, false}, {"middle", {{"J1", 0.3}, {"J2", 0.7}}, true}};
   c.limits.curvature_max_per_m = 4.9;  // a bound of the path to either side
   std::vector<DesignTask> tasks;
   for (std::size_t criterion = 0; criterion < c.criteria.size(); ++criterion) {
-    for (const TrimPair& edge : {TrimPair{pi(2), pi(3)},
-                                 {pi(6), pi(7)},
-                                 {pi(7), pi(1)},
-                                 {pi(8), pi(7)},
-                                 {pi(12), pi(11)}}) {
+    for (const TrimPair& edge : {TrimPair{automaton::pi(2), automaton::pi(3)},
+                                 {automaton::pi(6), automaton::pi(7)},
+                                 {automaton::pi(7), automaton::pi(1)},
+                                 {automaton::pi(8), automaton::pi(7)},
+                                 {automaton::pi(12), automaton::pi(11)}}) {
       tasks.push_back({edge, criterion});
     }
   }
   std::size_t calls = 0;
-  const std::vector<Maneuver> many = design(c, tasks, [&calls] { ++calls; });
+  const std::vector<automaton::Maneuver> many = design(c, tasks, [&calls] { ++calls; });
   EXPECT_EQ(calls, tasks.size());
   ASSERT_EQ(many.size(), tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     SCOPED_TRACE(testing::Message() << "task " << i);
-    const Maneuver one = design(c, tasks[i]);
+    const automaton::Maneuver one = design(c, tasks[i]);
     EXPECT_EQ(many[i].from, one.from);
     EXPECT_EQ(many[i].to, one.to);
     EXPECT_EQ(many[i].label, one.label);
@@ -194,18 +196,20 @@ TEST(AutomatonBuilder, ManyManeuversAtOnceAreTheSameToTheLastBitAsOneByOne) {
 }
 
 TEST(AutomatonBuilder, APointOfAFrontLiesBetweenItsEndsAtItsShare) {
-  AutomatonConfiguration c = shipped_configuration();
+  AutomatonConfiguration c = automaton::shipped_configuration();
   LabelledCriterion middle;
   middle.label = "middle";
   middle.front_point = FrontPoint{"J1", "J2", 0.25};
   c.criteria = {{"J1", {}, false}, {"J2", {}, false}, middle};
-  for (const TrimPair& edge : {TrimPair{pi(7), pi(8)}, {pi(1), pi(12)}, {pi(5), pi(1)}}) {
-    const auto value = [](const Maneuver& maneuver, const std::string& name) {
+  for (const TrimPair& edge : {TrimPair{automaton::pi(7), automaton::pi(8)},
+                               {automaton::pi(1), automaton::pi(12)},
+                               {automaton::pi(5), automaton::pi(1)}}) {
+    const auto value = [](const automaton::Maneuver& maneuver, const std::string& name) {
       return std::ranges::find(maneuver.criteria, name, &CriterionValue::name)->value;
     };
-    const Maneuver far = design(c, {edge, 0});
-    const Maneuver soft = design(c, {edge, 1});
-    const Maneuver between = design(c, {edge, 2});
+    const automaton::Maneuver far = design(c, {edge, 0});
+    const automaton::Maneuver soft = design(c, {edge, 1});
+    const automaton::Maneuver between = design(c, {edge, 2});
     EXPECT_EQ(between.label, "middle");
     const double bound = value(soft, "J2") + 0.25 * (value(far, "J2") - value(soft, "J2"));
     EXPECT_NEAR(value(between, "J2"), bound, 1e-6 * bound) << "the bound is active";
@@ -228,11 +232,11 @@ TEST(AutomatonBuilder, IntervalsThatAreTooLongForTheModelAreRefused) {
 }
 
 TEST(AutomatonBuilder, TheSameConfigurationGivesTheSameAutomatonBitForBit) {
-  const UniversalAutomaton again = build_automaton(paper_configuration());
-  ASSERT_EQ(again.maneuvers.size(), paper_automaton()->maneuvers.size());
+  const automaton::UniversalAutomaton again = build_automaton(automaton::paper_configuration());
+  ASSERT_EQ(again.maneuvers.size(), automaton::paper_automaton()->maneuvers.size());
   for (std::size_t i = 0; i < again.maneuvers.size(); ++i) {
-    const Maneuver& a = again.maneuvers[i];
-    const Maneuver& b = paper_automaton()->maneuvers[i];
+    const automaton::Maneuver& a = again.maneuvers[i];
+    const automaton::Maneuver& b = automaton::paper_automaton()->maneuvers[i];
     EXPECT_EQ(a.label, b.label);
     EXPECT_EQ(a.inputs, b.inputs);
     EXPECT_EQ(a.states, b.states);
@@ -249,11 +253,11 @@ double value_of(const std::string& name, const std::vector<CriterionValue>& valu
 }
 
 TEST(AutomatonBuilder, ManeuversCarryTheValuesOfAllCriteria) {
-  const auto automaton = paper_automaton();
-  for (const Maneuver& maneuver : automaton->maneuvers) {
+  const auto automaton = automaton::paper_automaton();
+  for (const automaton::Maneuver& maneuver : automaton->maneuvers) {
     ASSERT_EQ(maneuver.criteria.size(), criterion_names().size());
-    const Trim& from = automaton->trims[maneuver.from.index];
-    const Trim& to = automaton->trims[maneuver.to.index];
+    const automaton::Trim& from = automaton->trims[maneuver.from.index];
+    const automaton::Trim& to = automaton->trims[maneuver.to.index];
     const double dv = to.speed_mps - from.speed_mps;
     const double ddelta = to.steering_rad - from.steering_rad;
     const double closed_form = (dv * dv + ddelta * ddelta) / automaton->step_s;
@@ -262,17 +266,17 @@ TEST(AutomatonBuilder, ManeuversCarryTheValuesOfAllCriteria) {
     EXPECT_LE(value_of("J1", maneuver.criteria), 0.0);
   }
   // Straight on at v: J1 is the integral of -(v t)^2 from the step's own start.
-  const Maneuver* straight = automaton->find(pi(7), pi(7), "J2");
+  const automaton::Maneuver* straight = automaton->find(automaton::pi(7), automaton::pi(7), "J2");
   EXPECT_NEAR(value_of("J1", straight->criteria), -0.64 * 0.008 / 3.0, 1e-12);
 }
 
 TEST(AutomatonBuilder, TrimsCarryTheUnitCostsOfTheCriteriaThatHaveOne) {
-  const auto automaton = paper_automaton();
+  const auto automaton = automaton::paper_automaton();
   ASSERT_EQ(automaton->unit_costs.size(), 12U);
   for (std::size_t i = 0; i < 12; ++i) {
-    const Trim& trim = automaton->trims[i];
-    const double lateral =
-        trim.speed_mps * trim.speed_mps * curvature_per_m(trim.steering_rad, automaton->vehicle);
+    const automaton::Trim& trim = automaton->trims[i];
+    const double lateral = trim.speed_mps * trim.speed_mps *
+                           vehicle::curvature_per_m(trim.steering_rad, automaton->vehicle);
     EXPECT_EQ(value_of("J2", automaton->unit_costs[i]), 0.0);
     EXPECT_NEAR(value_of("comfort", automaton->unit_costs[i]), lateral * lateral, 1e-12);
     EXPECT_THROW((void)value_of("J1", automaton->unit_costs[i]), std::logic_error);
@@ -280,12 +284,12 @@ TEST(AutomatonBuilder, TrimsCarryTheUnitCostsOfTheCriteriaThatHaveOne) {
 }
 
 TEST(AutomatonBuilder, AllEdgesAreThePairsThatTheLimitsAllow) {
-  AutomatonConfiguration configuration = paper_configuration();
+  AutomatonConfiguration configuration = automaton::paper_configuration();
   EXPECT_EQ(design_tasks(configuration).size(), 50U);
   configuration.edges = EdgeChoice::kAll;
   EXPECT_EQ(design_tasks(configuration).size(), 132U);
   configuration.limits.steering_rate_radps = 3.0;  // 0.6 rad in a step
-  configuration.subgraphs.front().trims = {pi(1), pi(7)};
+  configuration.subgraphs.front().trims = {automaton::pi(1), automaton::pi(7)};
   configuration.subgraphs.resize(1);
   for (const DesignTask& task : design_tasks(configuration)) {
     EXPECT_LE(std::abs(configuration.trims[task.edge.from.index].steering_rad -
@@ -295,33 +299,35 @@ TEST(AutomatonBuilder, AllEdgesAreThePairsThatTheLimitsAllow) {
 }
 
 TEST(AutomatonBuilder, EveryPairIsDesignedForEveryCriterionThatIsListed) {
-  const std::vector<DesignTask> tasks = design_tasks(shipped_configuration());
+  const std::vector<DesignTask> tasks = design_tasks(automaton::shipped_configuration());
   EXPECT_EQ(tasks.size(), 150U);
-  EXPECT_EQ(
-      design_tasks(needed_by(shipped_configuration().subgraphs[1], shipped_configuration())).size(),
-      42U);
-  EXPECT_EQ(
-      design_tasks(needed_by(shipped_configuration().subgraphs[3], shipped_configuration())).size(),
-      26U);
+  EXPECT_EQ(design_tasks(needed_by(automaton::shipped_configuration().subgraphs[1],
+                                   automaton::shipped_configuration()))
+                .size(),
+            42U);
+  EXPECT_EQ(design_tasks(needed_by(automaton::shipped_configuration().subgraphs[3],
+                                   automaton::shipped_configuration()))
+                .size(),
+            26U);
 }
 
 /// The maneuver 7 -> 8 for one weighted sum of J1 and J2.
-Maneuver designed_for(double j1, double j2, bool normalised) {
-  AutomatonConfiguration configuration = paper_configuration();
+automaton::Maneuver designed_for(double j1, double j2, bool normalised) {
+  AutomatonConfiguration configuration = automaton::paper_configuration();
   configuration.criteria = {{"sum", {{"J1", j1}, {"J2", j2}}, normalised}};
-  return design(configuration, {{pi(7), pi(8)}, 0});
+  return design(configuration, {{automaton::pi(7), automaton::pi(8)}, 0});
 }
 
 TEST(AutomatonBuilder, ANormalisedSumIsACompromiseAndAPlainOneIsJ2InEffect) {
   const double least_j1 = value_of("J1", designed_for(1.0, 0.0, false).criteria);
-  const Maneuver softest = designed_for(0.0, 1.0, false);
+  const automaton::Maneuver softest = designed_for(0.0, 1.0, false);
   const double most_j1 = value_of("J1", softest.criteria);
   const double share_plain =
       (value_of("J1", designed_for(0.5, 0.5, false).criteria) - most_j1) / (least_j1 - most_j1);
   EXPECT_LT(share_plain, 0.01);
   double last = 0.0;
   for (const double weight : {0.2, 0.5, 0.8}) {
-    const Maneuver compromise = designed_for(weight, 1.0 - weight, true);
+    const automaton::Maneuver compromise = designed_for(weight, 1.0 - weight, true);
     EXPECT_EQ(compromise.label, "sum");
     const double share = (value_of("J1", compromise.criteria) - most_j1) / (least_j1 - most_j1);
     EXPECT_GT(share, last + 0.05);
@@ -332,14 +338,15 @@ TEST(AutomatonBuilder, ANormalisedSumIsACompromiseAndAPlainOneIsJ2InEffect) {
 }
 
 TEST(AutomatonBuilder, CriteriaThatDoNotContradictEachOtherAreNotNormalised) {
-  AutomatonConfiguration configuration = paper_configuration();
+  AutomatonConfiguration configuration = automaton::paper_configuration();
   configuration.criteria = {{"same", {{"J2", 1.0}, {"travel_time", 1.0}}, true}};
-  const Maneuver maneuver = design(configuration, {{pi(7), pi(8)}, 0});
+  const automaton::Maneuver maneuver =
+      design(configuration, {{automaton::pi(7), automaton::pi(8)}, 0});
   EXPECT_NEAR(value_of("J2", maneuver.criteria), 0.072, 1e-9);
 }
 
 TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {
-  AutomatonConfiguration configuration = paper_configuration();
+  AutomatonConfiguration configuration = automaton::paper_configuration();
   configuration.source = "slow.yaml";
   configuration.places = {};  // as if it had not been read from a file
   configuration.limits.acceleration_mps2 = 3.0;
@@ -354,4 +361,4 @@ TEST(AutomatonBuilder, RefusesAnEdgeThatTheLimitsDoNotAllow) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -11,7 +11,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 const std::string kGood =
@@ -33,7 +33,7 @@ subgraphs:
 
 /// Reads the text from a file; FILE stands for its path in a refusal.
 AutomatonConfiguration read(const std::string& text) {
-  const TemporaryFolder temporary;
+  const test::TemporaryFolder temporary;
   const std::filesystem::path path = temporary / "car.yaml";
   std::ofstream(path) << text;
   AutomatonConfiguration configuration;
@@ -84,20 +84,20 @@ TEST(AutomatonConfiguration, TheShippedFileHoldsThePapersTrimsAndTheDefaults) {
   const auto c =
       read_automaton_configuration(test::source_folder() + "/launch_scripts/automata/paper.yaml");
   ASSERT_EQ(c.trims.size(), 12U);
-  EXPECT_EQ(c.trims[0], (Trim{0.0, 0.0}));
-  EXPECT_EQ(c.trims[1], (Trim{0.4, -0.60}));
-  EXPECT_EQ(c.trims[6], (Trim{0.8, 0.0}));
-  EXPECT_EQ(c.trims[11], (Trim{0.4, 0.60}));
-  EXPECT_EQ(c.vehicle.wheelbase_m, VehicleParameters{}.wheelbase_m);
-  EXPECT_EQ(c.vehicle.rear_axle_to_cg_m, VehicleParameters{}.rear_axle_to_cg_m);
-  EXPECT_EQ(c.vehicle.footprint.length_m, VehicleParameters{}.footprint.length_m);
-  EXPECT_EQ(c.vehicle.footprint.width_m, VehicleParameters{}.footprint.width_m);
-  EXPECT_EQ(c.vehicle.safety_margin_m, VehicleParameters{}.safety_margin_m);
-  EXPECT_EQ(c.limits.acceleration_mps2, VehicleLimits{}.acceleration_mps2);
-  EXPECT_EQ(c.limits.steering_rate_radps, VehicleLimits{}.steering_rate_radps);
-  EXPECT_EQ(c.limits.speed_min_mps, VehicleLimits{}.speed_min_mps);
-  EXPECT_EQ(c.limits.speed_max_mps, VehicleLimits{}.speed_max_mps);
-  EXPECT_EQ(c.limits.steering_max_rad, VehicleLimits{}.steering_max_rad);
+  EXPECT_EQ(c.trims[0], (automaton::Trim{0.0, 0.0}));
+  EXPECT_EQ(c.trims[1], (automaton::Trim{0.4, -0.60}));
+  EXPECT_EQ(c.trims[6], (automaton::Trim{0.8, 0.0}));
+  EXPECT_EQ(c.trims[11], (automaton::Trim{0.4, 0.60}));
+  EXPECT_EQ(c.vehicle.wheelbase_m, vehicle::VehicleParameters{}.wheelbase_m);
+  EXPECT_EQ(c.vehicle.rear_axle_to_cg_m, vehicle::VehicleParameters{}.rear_axle_to_cg_m);
+  EXPECT_EQ(c.vehicle.footprint.length_m, vehicle::VehicleParameters{}.footprint.length_m);
+  EXPECT_EQ(c.vehicle.footprint.width_m, vehicle::VehicleParameters{}.footprint.width_m);
+  EXPECT_EQ(c.vehicle.safety_margin_m, vehicle::VehicleParameters{}.safety_margin_m);
+  EXPECT_EQ(c.limits.acceleration_mps2, vehicle::VehicleLimits{}.acceleration_mps2);
+  EXPECT_EQ(c.limits.steering_rate_radps, vehicle::VehicleLimits{}.steering_rate_radps);
+  EXPECT_EQ(c.limits.speed_min_mps, vehicle::VehicleLimits{}.speed_min_mps);
+  EXPECT_EQ(c.limits.speed_max_mps, vehicle::VehicleLimits{}.speed_max_mps);
+  EXPECT_EQ(c.limits.steering_max_rad, vehicle::VehicleLimits{}.steering_max_rad);
   EXPECT_EQ(c.step_s, 0.2);
   EXPECT_EQ(c.intervals, 20U);
   EXPECT_EQ(c.edges, EdgeChoice::kSubgraphs);
@@ -108,7 +108,7 @@ TEST(AutomatonConfiguration, TheShippedFileHoldsThePapersTrimsAndTheDefaults) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     EXPECT_EQ(c.subgraphs[i].name, names[i]);
     EXPECT_EQ(c.subgraphs[i].labels, (std::vector<std::string>{labels[i]}));
-    EXPECT_EQ(c.subgraphs[i].rule, EdgeRule::kChain);
+    EXPECT_EQ(c.subgraphs[i].rule, automaton::EdgeRule::kChain);
     EXPECT_EQ(c.subgraphs[i].trims.size(), i < 3 ? 12U : 8U);
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -122,7 +122,7 @@ TEST(AutomatonConfiguration, OptionalKeysHaveTheirDefaults) {
   const AutomatonConfiguration c = read(kGood);
   EXPECT_EQ(c.intervals, 20U);
   EXPECT_EQ(c.vehicle.safety_margin_m, 0.010);
-  EXPECT_EQ(c.identified.slip_gain_rad, IdentifiedVehicle{}.slip_gain_rad);
+  EXPECT_EQ(c.identified.slip_gain_rad, vehicle::IdentifiedVehicle{}.slip_gain_rad);
 }
 
 TEST(AutomatonConfiguration, TheIdentifiedVehicleCanBeChanged) {
@@ -140,11 +140,12 @@ TEST(AutomatonConfiguration, AVehicleOfWhichNothingIsIdentifiedDrivesAsTheModelD
   text.replace(text.find("width_m: 0.107"), 14, "width_m: 0.107, identified: kinematic");
   const AutomatonConfiguration c = read(text);
   for (const double share : {-1.0, 0.0, 1.0}) {
-    EXPECT_NEAR(yaw_minus_heading_rad(share * c.limits.steering_max_rad, c.vehicle, c.identified),
+    EXPECT_NEAR(automaton::yaw_minus_heading_rad(share * c.limits.steering_max_rad, c.vehicle,
+                                                 c.identified),
                 0.0, 1e-12);
   }
   for (double delta = -0.62; delta < 0.62; delta += 0.01) {
-    EXPECT_NEAR(yaw_minus_heading_rad(delta, c.vehicle, c.identified), 0.0, 0.01);
+    EXPECT_NEAR(automaton::yaw_minus_heading_rad(delta, c.vehicle, c.identified), 0.0, 0.01);
   }
   EXPECT_EQ(message("width_m: 0.107", "width_m: 0.107, identified: ideal"),
             "FILE:1: vehicle.identified = ideal, must be kinematic");
@@ -181,8 +182,8 @@ TEST(AutomatonConfiguration, AGridOfTrimsIsStandstillAndEachSpeedWithEachAngle) 
   std::string text = kGood;
   text.replace(text.find(kTrims), std::string(kTrims).size(),
                "trims: {speeds_mps: [0.4, 0.8], steering_rad: [-0.2, 0, 0.3]}\n");
-  const std::vector<Trim> expected{{0.0, 0.0},  {0.4, -0.2}, {0.4, 0.0}, {0.4, 0.3},
-                                   {0.8, -0.2}, {0.8, 0.0},  {0.8, 0.3}};
+  const std::vector<automaton::Trim> expected{{0.0, 0.0},  {0.4, -0.2}, {0.4, 0.0}, {0.4, 0.3},
+                                              {0.8, -0.2}, {0.8, 0.0},  {0.8, 0.3}};
   EXPECT_EQ(read(text).trims, expected);
 }
 
@@ -195,7 +196,8 @@ TEST(AutomatonConfiguration, TheFrictionCircleLimitsTheTrims) {
                "trims: {speeds_mps: [0.4, 0.8], steering_rad: [0, 0.3]}\n");
   const AutomatonConfiguration c = read(text);
   EXPECT_EQ(c.limits.friction_mps2, 1.2);
-  EXPECT_EQ(c.trims, (std::vector<Trim>{{0.0, 0.0}, {0.4, 0.0}, {0.4, 0.3}, {0.8, 0.0}}));
+  EXPECT_EQ(c.trims,
+            (std::vector<automaton::Trim>{{0.0, 0.0}, {0.4, 0.0}, {0.4, 0.3}, {0.8, 0.0}}));
   EXPECT_EQ(message("steering_max_rad: 0.62\ntrims:\n  - {speed_mps: 0, steering_rad: 0}",
                     "steering_max_rad: 0.62\n  friction_mps2: 1.2\ntrims:\n"
                     "  - {speed_mps: 0.8, steering_rad: 0.3}"),
@@ -349,17 +351,18 @@ horizon_steps: 4
   EXPECT_EQ(c.edges, EdgeChoice::kAll);
   EXPECT_EQ(c.horizon_steps, 4U);
   ASSERT_EQ(c.subgraphs.size(), 2U);
-  const SubgraphSpec& s = c.subgraphs[1];
-  EXPECT_EQ(s, (SubgraphSpec{.name = "all of it",
-                             .labels = {"J3", "J2"},
-                             .trims = {{0}, {2}, {1}},
-                             .rule = EdgeRule::kReachable,
-                             .max_speed_mps = 0.9,
-                             .off = {{{{1}, {2}}, std::nullopt}, {{{2}, {1}}, "J3"}},
-                             .edges = {{{{0}, {1}}, {"J2"}}}}));
+  const automaton::SubgraphSpec& s = c.subgraphs[1];
+  EXPECT_EQ(s, (automaton::SubgraphSpec{.name = "all of it",
+                                        .labels = {"J3", "J2"},
+                                        .trims = {{0}, {2}, {1}},
+                                        .rule = automaton::EdgeRule::kReachable,
+                                        .max_speed_mps = 0.9,
+                                        .off = {{{{1}, {2}}, std::nullopt}, {{{2}, {1}}, "J3"}},
+                                        .edges = {{{{0}, {1}}, {"J2"}}}}));
   // Printed, it reads back.
   std::string again = text.substr(0, text.find("subgraphs:")) + "subgraphs:\n";
-  for (const SubgraphSpec& one : c.subgraphs) again += "  - " + to_yaml(one) + "\n";
+  for (const automaton::SubgraphSpec& one : c.subgraphs)
+    again += "  - " + automaton::to_yaml(one) + "\n";
   EXPECT_EQ(read(again).subgraphs, c.subgraphs);
 }
 
@@ -455,7 +458,7 @@ TEST(AutomatonConfiguration, ARunNeedsTheLabelsOfItsSubgraphAlone) {
   const AutomatonConfiguration needed = needed_by(c.subgraphs[3], c);
   ASSERT_EQ(needed.criteria.size(), 1U);
   EXPECT_EQ(needed.criteria[0].label, "J3");
-  EXPECT_EQ(needed.subgraphs, (std::vector<SubgraphSpec>{c.subgraphs[3]}));
+  EXPECT_EQ(needed.subgraphs, (std::vector<automaton::SubgraphSpec>{c.subgraphs[3]}));
 }
 
 TEST(AutomatonConfiguration, RefusesUnknownCriteriaAndBadSubgraphs) {
@@ -484,4 +487,4 @@ TEST(AutomatonConfiguration, RefusesUnknownCriteriaAndBadSubgraphs) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -12,7 +12,7 @@
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ class BuiltAutomaton : public testing::Test {
     write("car.yaml", configuration_text_);
     const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
     file_ = file_of(configuration, build_automaton(configuration));
-    write_automaton_file(file_, path_);
+    automaton::write_automaton_file(file_, path_);
   }
 
   void write(const std::string& name, const std::string& text) const {
@@ -82,19 +82,19 @@ subgraphs:
   - {name: B, label: J2, trims: all}
   - {name: both, labels: [J2, "half \"and\" half"], trims: [1, 3, 2], max_speed_mps: 2.5, off: [{from: 2, to: 3, label: J2}]}
 )";
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   fs::path path_{folder_ / "automaton.yaml"};
-  AutomatonFile file_;
+  automaton::AutomatonFile file_;
 };
 
 TEST_F(BuiltAutomaton, ReadsBackToTheSameBits) {
-  const AutomatonFile read = read_current_automaton_file(path_);
+  const automaton::AutomatonFile read = read_current_automaton_file(path_);
   EXPECT_EQ(read.configuration_file, "car.yaml");
   EXPECT_EQ(read.configuration_sha256, file_.configuration_sha256);
   EXPECT_EQ(read.labels, file_.labels);
   EXPECT_EQ(read.subgraphs, file_.subgraphs);
-  const UniversalAutomaton& a = *read.automaton;
-  const UniversalAutomaton& b = *file_.automaton;
+  const automaton::UniversalAutomaton& a = *read.automaton;
+  const automaton::UniversalAutomaton& b = *file_.automaton;
   EXPECT_EQ(a.trims, b.trims);
   EXPECT_EQ(a.unit_costs, b.unit_costs);
   EXPECT_EQ(a.step_s, b.step_s);
@@ -110,14 +110,14 @@ TEST_F(BuiltAutomaton, ReadsBackToTheSameBits) {
     EXPECT_EQ(a.maneuvers[i].lane_area_m, b.maneuvers[i].lane_area_m);
     EXPECT_EQ(a.maneuvers[i].criteria, b.maneuvers[i].criteria);
   }
-  EXPECT_EQ(to_text(read), text());
+  EXPECT_EQ(automaton::to_text(read), text());
 }
 
 TEST_F(BuiltAutomaton, TheSameConfigurationGivesTheSameFileByteForByte) {
   const std::string before = text();
   write("car.yaml", "# A comment, and other spelling, make no difference.\n" + configuration_text_);
   const AutomatonConfiguration again = read_automaton_configuration(folder_ / "car.yaml");
-  write_automaton_file(file_of(again, build_automaton(again)), path_);
+  automaton::write_automaton_file(file_of(again, build_automaton(again)), path_);
   EXPECT_EQ(text(), before);
   EXPECT_EQ(refusal(), "accepted");
 }
@@ -129,7 +129,8 @@ TEST_F(BuiltAutomaton, LeavesNothingBesideTheFile) {
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"automaton.yaml", "car.yaml"}));
   const std::string before = text();
-  EXPECT_THROW(write_automaton_file(file_, folder_ / "no" / "automaton.yaml"), std::runtime_error);
+  EXPECT_THROW(automaton::write_automaton_file(file_, folder_ / "no" / "automaton.yaml"),
+               std::runtime_error);
   EXPECT_EQ(text(), before);
 }
 
@@ -168,7 +169,7 @@ TEST_F(BuiltAutomaton, TheConfigurationOfWhichItIsLiesBesideIt) {
   EXPECT_EQ(configuration_sha256(read_configuration_of(path_)), sha256);
   AutomatonConfiguration coarse = configuration;
   coarse.intervals = 10;
-  write_automaton_file(file_of(configuration, build_automaton(coarse), 10), path_);
+  automaton::write_automaton_file(file_of(configuration, build_automaton(coarse), 10), path_);
   EXPECT_EQ(read_configuration_of(path_).intervals, 10U);
   fs::remove(folder_ / "car.yaml");
   try {
@@ -182,9 +183,9 @@ TEST_F(BuiltAutomaton, TheConfigurationOfWhichItIsLiesBesideIt) {
 }
 
 TEST_F(BuiltAutomaton, TheCommandQuotesPathsThatAShellWouldTakeApart) {
-  EXPECT_EQ(rebuild_command(file_, "my car/a.yaml", "it's $HOME.yaml"),
+  EXPECT_EQ(automaton::rebuild_command(file_, "my car/a.yaml", "it's $HOME.yaml"),
             "build_automaton 'it'\\''s $HOME.yaml' --out 'my car/a.yaml'");
-  EXPECT_EQ(rebuild_command(file_, "a-b/c_1.yaml", "./d.yaml"),
+  EXPECT_EQ(automaton::rebuild_command(file_, "a-b/c_1.yaml", "./d.yaml"),
             "build_automaton ./d.yaml --out a-b/c_1.yaml");
 }
 
@@ -238,31 +239,32 @@ TEST_F(BuiltAutomaton, WhatTheVehicleCannotDriveIsRefusedEvenWithAHashThatFits) 
 
 // Each thing that `validate` promises, spoiled in a maneuver that is good.
 TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
-  const UniversalAutomaton& automaton = *file_.automaton;
-  for (const Maneuver& good : automaton.maneuvers) {
-    ASSERT_EQ(validate(good, automaton), "");
+  const automaton::UniversalAutomaton& automaton = *file_.automaton;
+  for (const automaton::Maneuver& good : automaton.maneuvers) {
+    ASSERT_EQ(automaton::validate(good, automaton), "");
     const auto fault = [&](auto spoil) {
-      Maneuver spoiled = good;
+      automaton::Maneuver spoiled = good;
       spoil(spoiled);
-      return validate(spoiled, automaton);
+      return automaton::validate(spoiled, automaton);
     };
-    EXPECT_EQ(fault([](Maneuver& m) { m.duration_s = 0.3; }), "duration must be the step");
-    EXPECT_NE(fault([](Maneuver& m) { m.states.pop_back(); }), "");
-    EXPECT_EQ(fault([](Maneuver& m) { m.states.front().pose.x_m = 1e-6; }),
+    EXPECT_EQ(fault([](automaton::Maneuver& m) { m.duration_s = 0.3; }),
+              "duration must be the step");
+    EXPECT_NE(fault([](automaton::Maneuver& m) { m.states.pop_back(); }), "");
+    EXPECT_EQ(fault([](automaton::Maneuver& m) { m.states.front().pose.x_m = 1e-6; }),
               "begin must be the origin");
-    EXPECT_EQ(fault([](Maneuver& m) { m.states.front().speed_mps += 1e-6; }),
+    EXPECT_EQ(fault([](automaton::Maneuver& m) { m.states.front().speed_mps += 1e-6; }),
               "begin must be its trim");
-    EXPECT_EQ(fault([](Maneuver& m) { m.states.back().steering_rad += 1e-6; }),
+    EXPECT_EQ(fault([](automaton::Maneuver& m) { m.states.back().steering_rad += 1e-6; }),
               "end must be its trim");
-    EXPECT_EQ(fault([](Maneuver& m) { m.displacement.x_m += 1e-9; }),
+    EXPECT_EQ(fault([](automaton::Maneuver& m) { m.displacement.x_m += 1e-9; }),
               "displacement must be the last pose");
-    EXPECT_NE(fault([](Maneuver& m) { m.inputs[3].steering_rate_radps = 6.3; }), "");
-    EXPECT_NE(fault([](Maneuver& m) { m.states[3].speed_mps = 3.8; }), "");
-    EXPECT_NE(fault([](Maneuver& m) { m.states[3].steering_rad = -0.63; }), "");
-    EXPECT_EQ(fault([](Maneuver& m) { m.states[3].pose.y_m += 1e-5; }),
+    EXPECT_NE(fault([](automaton::Maneuver& m) { m.inputs[3].steering_rate_radps = 6.3; }), "");
+    EXPECT_NE(fault([](automaton::Maneuver& m) { m.states[3].speed_mps = 3.8; }), "");
+    EXPECT_NE(fault([](automaton::Maneuver& m) { m.states[3].steering_rad = -0.63; }), "");
+    EXPECT_EQ(fault([](automaton::Maneuver& m) { m.states[3].pose.y_m += 1e-5; }),
               "integrated again, does not meet state 4");
     if (good.from != good.to) {
-      EXPECT_EQ(fault([](Maneuver& m) { m.inputs[3].acceleration_mps2 *= 0.98; }),
+      EXPECT_EQ(fault([](automaton::Maneuver& m) { m.inputs[3].acceleration_mps2 *= 0.98; }),
                 "integrated again, does not meet state 5");
     }
     const auto shrink = [](ConvexPolygon& area) {
@@ -272,35 +274,35 @@ TEST_F(BuiltAutomaton, EveryFaultOfAManeuverIsNoticed) {
       }
       for (Point& p : area.vertices_m) p = middle + 0.99 * (p - middle);
     };
-    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.swept_area_m); }).find("swept area"),
+    EXPECT_NE(fault([&](automaton::Maneuver& m) { shrink(m.swept_area_m); }).find("swept area"),
               std::string::npos);
-    EXPECT_NE(fault([&](Maneuver& m) { shrink(m.lane_area_m); }).find("lane area"),
+    EXPECT_NE(fault([&](automaton::Maneuver& m) { shrink(m.lane_area_m); }).find("lane area"),
               std::string::npos);
-    EXPECT_NE(fault([&](Maneuver& m) { m.swept_area_m = {}; }), "");
+    EXPECT_NE(fault([&](automaton::Maneuver& m) { m.swept_area_m = {}; }), "");
   }
 }
 
 TEST_F(BuiltAutomaton, AFileThatLacksWhatItsSubgraphsNeedIsRefused) {
-  AutomatonFile lacking = file_;
-  UniversalAutomaton automaton = *file_.automaton;
+  automaton::AutomatonFile lacking = file_;
+  automaton::UniversalAutomaton automaton = *file_.automaton;
   automaton.maneuvers.pop_back();
-  lacking.automaton = std::make_shared<const UniversalAutomaton>(automaton);
-  write_automaton_file(lacking, path_);
+  lacking.automaton = std::make_shared<const automaton::UniversalAutomaton>(automaton);
+  automaton::write_automaton_file(lacking, path_);
   EXPECT_NE(
       refusal().find("possible with the maneuvers: subgraph 'both': the automaton holds no edge"),
       std::string::npos)
       << refusal();
   automaton.maneuvers.erase(automaton.maneuvers.begin());
-  lacking.automaton = std::make_shared<const UniversalAutomaton>(automaton);
-  write_automaton_file(lacking, path_);
+  lacking.automaton = std::make_shared<const automaton::UniversalAutomaton>(automaton);
+  automaton::write_automaton_file(lacking, path_);
   EXPECT_NE(refusal().find("the self-loop of every trim; that of trim 1 is missing"),
             std::string::npos);
 }
 
 TEST_F(BuiltAutomaton, ItIsToldFromAConfigurationByItsFirstLine) {
-  EXPECT_TRUE(is_automaton_file(path_));
-  EXPECT_FALSE(is_automaton_file(folder_ / "car.yaml"));
-  EXPECT_FALSE(is_automaton_file(folder_ / "absent.yaml"));
+  EXPECT_TRUE(automaton::is_automaton_file(path_));
+  EXPECT_FALSE(automaton::is_automaton_file(folder_ / "car.yaml"));
+  EXPECT_FALSE(automaton::is_automaton_file(folder_ / "absent.yaml"));
 }
 
 TEST(Sha256, OfTheStandardsExample) {
@@ -312,4 +314,4 @@ TEST(Sha256, OfTheStandardsExample) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

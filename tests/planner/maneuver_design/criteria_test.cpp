@@ -6,7 +6,7 @@
 
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 TEST(Criteria, EveryNameHasACriterionWithAnExactGradient) {
@@ -19,9 +19,9 @@ TEST(Criteria, EveryNameHasACriterionWithAnExactGradient) {
 }
 
 TEST(Criteria, J3IsHalfTheSumOfJ1AndJ2) {
-  StateVector x;
+  vehicle::StateVector x;
   x << 0.3, -0.4, 1.0, 2.0, 0.1;
-  const Input u{3.0, -2.0};
+  const vehicle::Input u{3.0, -2.0};
   EXPECT_EQ(make_criterion("J3", {})->value(x, u), 0.5 * make_criterion("J1", {})->value(x, u) +
                                                        0.5 * make_criterion("J2", {})->value(x, u));
 }
@@ -38,4 +38,4 @@ TEST(Criteria, AnUnknownNameIsRefusedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -7,16 +7,16 @@
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using Side = CurvatureLimit::Side;
 
 TEST(CurvatureLimit, IsNearZeroWhereThePathBendsByJustTheLimit) {
-  const VehicleParameters vehicle;
-  const double limit_per_m = curvature_per_m(0.5, vehicle);
-  const StateVector left = to_vector({{}, 0.8, 0.5});
-  const StateVector right = to_vector({{}, 0.8, -0.5});
+  const vehicle::VehicleParameters vehicle;
+  const double limit_per_m = vehicle::curvature_per_m(0.5, vehicle);
+  const vehicle::StateVector left = vehicle::to_vector({{}, 0.8, 0.5});
+  const vehicle::StateVector right = vehicle::to_vector({{}, 0.8, -0.5});
   EXPECT_NEAR(CurvatureLimit(Side::kLeft, limit_per_m, vehicle).value(left, {}), 0.0, 1e-3);
   EXPECT_NEAR(CurvatureLimit(Side::kRight, limit_per_m, vehicle).value(right, {}), 0.0, 1e-3);
   EXPECT_LT(CurvatureLimit(Side::kLeft, limit_per_m, vehicle).value(right, {}), -1.5);
@@ -25,8 +25,8 @@ TEST(CurvatureLimit, IsNearZeroWhereThePathBendsByJustTheLimit) {
 }
 
 TEST(CurvatureLimit, HasAnExactGradient) {
-  expect_exact_gradient(CurvatureLimit(Side::kLeft, 3.75, VehicleParameters{}), 7);
-  expect_exact_gradient(CurvatureLimit(Side::kRight, 3.75, VehicleParameters{}), 8);
+  expect_exact_gradient(CurvatureLimit(Side::kLeft, 3.75, vehicle::VehicleParameters{}), 7);
+  expect_exact_gradient(CurvatureLimit(Side::kRight, 3.75, vehicle::VehicleParameters{}), 8);
 }
 
 AutomatonConfiguration lab() {
@@ -35,17 +35,19 @@ AutomatonConfiguration lab() {
 
 TEST(CurvatureLimit, IsKeptByEveryManeuverOfTheLabsAutomatonAndBindsInSome) {
   const AutomatonConfiguration configuration = lab();
-  const UniversalAutomaton automaton = build_automaton(configuration);
+  const automaton::UniversalAutomaton automaton = build_automaton(configuration);
   double largest_share = 0.0;
-  for (const Maneuver& m : automaton.maneuvers) {
+  for (const automaton::Maneuver& m : automaton.maneuvers) {
     for (std::size_t k = 0; k < m.inputs.size(); ++k) {
-      for (const State& state : {m.states[k], m.states[k + 1]}) {
-        EXPECT_TRUE(
-            is_within_curvature(state, m.inputs[k], automaton.vehicle, configuration.limits));
-        const CourseRate rate = course_rate(to_vector(state), m.inputs[k], automaton.vehicle);
-        largest_share = std::max(
-            largest_share, std::abs(rate.value_radps) / (*configuration.limits.curvature_max_per_m *
-                                                         turning_speed(state.speed_mps).value_mps));
+      for (const vehicle::State& state : {m.states[k], m.states[k + 1]}) {
+        EXPECT_TRUE(vehicle::is_within_curvature(state, m.inputs[k], automaton.vehicle,
+                                                 configuration.limits));
+        const vehicle::CourseRate rate =
+            vehicle::course_rate(vehicle::to_vector(state), m.inputs[k], automaton.vehicle);
+        largest_share =
+            std::max(largest_share, std::abs(rate.value_radps) /
+                                        (*configuration.limits.curvature_max_per_m *
+                                         vehicle::turning_speed(state.speed_mps).value_mps));
       }
     }
   }
@@ -72,4 +74,4 @@ TEST(CurvatureLimit, RefusesATrimBeyondIt) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
@@ -118,4 +118,4 @@ TEST(KneePoint, IsTheOneFarthestFromTheLineBetweenTheEnds) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

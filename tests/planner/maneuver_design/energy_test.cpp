@@ -7,10 +7,10 @@
 #include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
-double energy_of(double speed_mps, const std::vector<Input>& inputs) {
+double energy_of(double speed_mps, const std::vector<vehicle::Input>& inputs) {
   return shoot({{}, speed_mps, 0.2}, inputs, 0.2, Energy{}, {}, WithGradient::kNo).cost;
 }
 
@@ -24,7 +24,7 @@ TEST(Energy, OfBrakingIsNothingAndNothingComesBack) {
 }
 
 TEST(Energy, IsThePositivePartOfThePowerWithoutItsKink) {
-  const StateVector x = to_vector({{}, 2.0, 0.1});
+  const vehicle::StateVector x = vehicle::to_vector({{}, 2.0, 0.1});
   constexpr double kStep = 1e-9;
   for (double a = -0.01; a < 0.03; a += 0.0007) {
     SCOPED_TRACE(a);
@@ -44,4 +44,4 @@ TEST(Energy, IsThePositivePartOfThePowerWithoutItsKink) {
 TEST(Energy, HasAnExactGradient) { expect_exact_gradient(Energy{}, 105); }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -12,19 +12,20 @@
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
 using Uniform = std::uniform_real_distribution<double>;
 
 /// Inputs of three kinds in turn: any, bang-bang with random switching times, steering alone.
-std::vector<Input> random_inputs(std::uint64_t kind, std::size_t size, const VehicleLimits& limits,
-                                 std::mt19937_64& random) {
+std::vector<vehicle::Input> random_inputs(std::uint64_t kind, std::size_t size,
+                                          const vehicle::VehicleLimits& limits,
+                                          std::mt19937_64& random) {
   Uniform unit(-1.0, 1.0);
-  std::vector<Input> inputs(size);
+  std::vector<vehicle::Input> inputs(size);
   Eigen::Vector2d sign(unit(random) > 0.0 ? 1.0 : -1.0, unit(random) > 0.0 ? 1.0 : -1.0);
-  for (Input& u : inputs) {
+  for (vehicle::Input& u : inputs) {
     for (double& s : sign) {
       s = unit(random) < -0.7 ? -s : s;
     }
@@ -41,12 +42,12 @@ TEST(MultiStart, NoRandomStartFindsAnythingBetterForAnyEdgeOfThePaper) {
   constexpr std::uint64_t kSeed = 71;
   const std::uint64_t starts = test::num_costly_seeds(10);
   SCOPED_TRACE(Message() << "seed " << kSeed);
-  const AutomatonConfiguration& c = paper_configuration();
+  const AutomatonConfiguration& c = automaton::paper_configuration();
   for (const std::string criterion : {"J1", "J2", "J3"}) {
     const auto cost = make_criterion(criterion, c.vehicle);
     std::mt19937_64 random(kSeed);
     std::uint64_t found = 0;
-    for (const TrimPair& edge : paper_edges()) {
+    for (const TrimPair& edge : automaton::paper_edges()) {
       SCOPED_TRACE(Message() << criterion << ", " << edge.from.index + 1 << " -> "
                              << edge.to.index + 1);
       const ManeuverProblem problem{c.trims[edge.from.index],
@@ -74,7 +75,7 @@ TEST(MultiStart, NoRandomStartFindsAnythingBetterForAnyEdgeOfThePaper) {
 TEST(MultiStart, NoRandomStartStopsShorterByMuch) {
   constexpr std::uint64_t kSeed = 73;
   SCOPED_TRACE(Message() << "seed " << kSeed);
-  const AutomatonConfiguration& c = paper_configuration();
+  const AutomatonConfiguration& c = automaton::paper_configuration();
   const auto cost = make_criterion("stopping_distance", c.vehicle);
   std::mt19937_64 random(kSeed);
   for (std::size_t from = 2; from <= 12; ++from) {
@@ -96,21 +97,21 @@ TEST(MultiStart, NoRandomStartStopsShorterByMuch) {
 
 struct Car {
   const char* name;
-  VehicleParameters vehicle;
-  VehicleLimits limits;
+  vehicle::VehicleParameters vehicle;
+  vehicle::VehicleLimits limits;
   double duration_s;
   double friction_mps2;  ///< 0: none
 };
 
 std::vector<Car> cars() {
-  const VehicleParameters small;
-  VehicleParameters longer = small;
+  const vehicle::VehicleParameters small;
+  vehicle::VehicleParameters longer = small;
   longer.wheelbase_m = 0.2;
   longer.rear_axle_to_cg_m = 0.1;
-  VehicleParameters full_size = small;
+  vehicle::VehicleParameters full_size = small;
   full_size.wheelbase_m = 2.578;
   full_size.rear_axle_to_cg_m = 1.42;
-  const VehicleLimits usual;
+  const vehicle::VehicleLimits usual;
   return {{"small", small, usual, 0.2, 0.0},
           {"longer, wide limits", longer, {20.0, 12.0, 0.0, 3.7, 0.62}, 0.2, 0.0},
           {"small, speed and steering bounds near", small, {12.0, 6.2, 0.0, 1.0, 0.61}, 0.2, 0.0},
@@ -122,10 +123,10 @@ std::vector<Car> cars() {
 }
 
 /// A speed up to the bound, at speeds of a road with little steering; now and then exactly 0.
-Trim random_trim(const VehicleLimits& limits, std::mt19937_64& random) {
+automaton::Trim random_trim(const vehicle::VehicleLimits& limits, std::mt19937_64& random) {
   Uniform share(0.0, 1.0);
-  Trim trim{share(random) * limits.speed_max_mps,
-            (2.0 * share(random) - 1.0) * limits.steering_max_rad};
+  automaton::Trim trim{share(random) * limits.speed_max_mps,
+                       (2.0 * share(random) - 1.0) * limits.steering_max_rad};
   trim.steering_rad *= trim.speed_mps > 10.0 ? 0.05 : 1.0;
   if (share(random) < 0.15) trim.speed_mps = 0.0;
   if (share(random) < 0.25) trim.steering_rad = 0.0;
@@ -179,7 +180,7 @@ TEST(MultiStart, EveryFeasiblePairOfManyVehiclesIsSolved) {
 
 TEST(MultiStart, TheTieBreakCostsNothingThatMatters) {
   for (const auto& [from, to] : {std::pair{7U, 8U}, std::pair{12U, 11U}, std::pair{1U, 12U}}) {
-    const AutomatonConfiguration& c = paper_configuration();
+    const AutomatonConfiguration& c = automaton::paper_configuration();
     const ManeuverProblem problem{c.trims[from - 1], c.trims[to - 1], c.step_s,
                                   c.intervals,       c.vehicle,       c.limits};
     const auto cost = make_criterion("J1", c.vehicle);
@@ -191,4 +192,4 @@ TEST(MultiStart, TheTieBreakCostsNothingThatMatters) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

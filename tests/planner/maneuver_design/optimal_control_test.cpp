@@ -13,18 +13,18 @@
 #include "planner/maneuver_design/weighted_sum.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
 
-ManeuverProblem problem_between(const Trim& from, const Trim& to) {
-  const auto& c = paper_configuration();
+ManeuverProblem problem_between(const automaton::Trim& from, const automaton::Trim& to) {
+  const auto& c = automaton::paper_configuration();
   return {from, to, c.step_s, 20, c.vehicle, c.limits, std::nullopt, {}};
 }
 
 ManeuverProblem paper_problem(std::size_t from, std::size_t to) {
-  const auto& c = paper_configuration();
+  const auto& c = automaton::paper_configuration();
   return problem_between(c.trims[from - 1], c.trims[to - 1]);
 }
 
@@ -83,9 +83,9 @@ TEST(OptimalControl, ReachesTheEndPointsOfThePapersParetoFront) {
 }
 
 TEST(OptimalControl, FirstOrderConditionsHoldForAllEdgesOfThePapersCriteria) {
-  ASSERT_EQ(paper_edges().size(), 50U);
+  ASSERT_EQ(automaton::paper_edges().size(), 50U);
   for (const std::string criterion : {"J1", "J2", "J3"}) {
-    for (const TrimPair& edge : paper_edges()) {
+    for (const TrimPair& edge : automaton::paper_edges()) {
       SCOPED_TRACE(Message() << criterion << ", " << edge.from.index + 1 << " -> "
                              << edge.to.index + 1);
       const ManeuverSolution solution =
@@ -100,7 +100,7 @@ TEST(OptimalControl, FirstOrderResidualTellsAPointThatIsNoOptimum) {
   SolverOptions options;
   options.max_evaluations = 3;
   const ManeuverSolution stopped =
-      solve(paper_problem(4, 5), *make_criterion("J1", VehicleParameters{}), options);
+      solve(paper_problem(4, 5), *make_criterion("J1", vehicle::VehicleParameters{}), options);
   EXPECT_EQ(stopped.status, ManeuverStatus::kNotConverged);
   EXPECT_GT(stopped.first_order_residual, 1e-3);
 }
@@ -148,8 +148,8 @@ TEST(OptimalControl, MirroredTrimsHaveMirroredManeuversForEveryCriterion) {
       EXPECT_NEAR(left.cost, right.cost, 1e-12 * std::abs(left.cost));
       constexpr double tolerance = 1e-9;
       for (std::size_t k = 0; k < left.states.size(); ++k) {
-        const State& l = left.states[k];
-        const State& r = right.states[k];
+        const vehicle::State& l = left.states[k];
+        const vehicle::State& r = right.states[k];
         EXPECT_NEAR(l.pose.x_m, r.pose.x_m, tolerance);
         EXPECT_NEAR(l.pose.y_m, -r.pose.y_m, tolerance);
         EXPECT_NEAR(l.speed_mps, r.speed_mps, tolerance);
@@ -211,8 +211,8 @@ TEST(OptimalControl, KeepsTheFrictionCircleAndPaysForIt) {
     double largest = -1.0;
     for (std::size_t k = 0; k < solution.inputs.size(); ++k) {
       for (const std::size_t end : {k, k + 1}) {
-        largest =
-            std::max(largest, circle->value(to_vector(solution.states[end]), solution.inputs[k]));
+        largest = std::max(
+            largest, circle->value(vehicle::to_vector(solution.states[end]), solution.inputs[k]));
       }
     }
     EXPECT_NEAR(largest, 0.0, 1e-8);
@@ -246,4 +246,4 @@ TEST(OptimalControl, AFrictionCircleThatMakesAPairInfeasibleIsNamedWithTheShorte
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -7,7 +7,7 @@
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/effort.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
@@ -224,4 +224,4 @@ TEST(CostBound, IsKeptAndOneThatCannotBeIsNamed) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

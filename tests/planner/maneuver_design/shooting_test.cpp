@@ -9,12 +9,12 @@
 #include "planner/maneuver_design/distance.hpp"
 #include "planner/maneuver_design/effort.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
-std::vector<Input> random_inputs(std::mt19937& random, std::size_t size) {
+std::vector<vehicle::Input> random_inputs(std::mt19937& random, std::size_t size) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::vector<Input> inputs;
+  std::vector<vehicle::Input> inputs;
   for (std::size_t i = 0; i < size; ++i) {
     inputs.push_back({12.0 * unit(random), 6.2 * unit(random)});
   }
@@ -23,25 +23,25 @@ std::vector<Input> random_inputs(std::mt19937& random, std::size_t size) {
 
 TEST(Shooting, StatesAreThoseOfTheIntegrator) {
   std::mt19937 random(61);
-  const std::vector<Input> inputs = random_inputs(random, 20);
-  const State start{{0.1, 0.2, 0.3}, 1.0, 0.1};
-  const VehicleParameters vehicle;
+  const std::vector<vehicle::Input> inputs = random_inputs(random, 20);
+  const vehicle::State start{{0.1, 0.2, 0.3}, 1.0, 0.1};
+  const vehicle::VehicleParameters vehicle;
   const Shot shot = shoot(start, inputs, 0.2, Distance{}, vehicle, WithGradient::kNo);
   ASSERT_EQ(shot.states.size(), 21U);
   EXPECT_TRUE(shot.gradient.empty());
-  State state = start;
+  vehicle::State state = start;
   for (std::size_t k = 0; k < 20; ++k) {
-    EXPECT_LT((to_vector(shot.states[k]) - to_vector(state)).norm(), 1e-14);
-    state = integrated(state, inputs[k], 0.01, vehicle);
+    EXPECT_LT((vehicle::to_vector(shot.states[k]) - vehicle::to_vector(state)).norm(), 1e-14);
+    state = vehicle::integrated(state, inputs[k], 0.01, vehicle);
   }
 }
 
 TEST(Shooting, CostIsTheIntegralOfTheRunningCost) {
   // Straight at v = 1 m/s: J1 = -integral of t^2 = -T^3 / 3. Runge-Kutta is exact for it.
-  const std::vector<Input> none(7);
-  const State start{{}, 1.0, 0.0};
+  const std::vector<vehicle::Input> none(7);
+  const vehicle::State start{{}, 1.0, 0.0};
   EXPECT_NEAR(shoot(start, none, 0.3, Distance{}, {}, WithGradient::kNo).cost, -0.009, 1e-15);
-  const std::vector<Input> inputs{{3.0, 4.0}, {0.0, 1.0}};
+  const std::vector<vehicle::Input> inputs{{3.0, 4.0}, {0.0, 1.0}};
   EXPECT_NEAR(shoot(start, inputs, 0.2, Effort{}, {}, WithGradient::kNo).cost, 2.6, 1e-14);
 }
 
@@ -51,25 +51,25 @@ TEST(Shooting, GradientIsTheDerivativeOfTheCost) {
   std::mt19937 random(kSeed);
   const Distance distance;
   const Effort effort;
-  const VehicleParameters vehicle;
+  const vehicle::VehicleParameters vehicle;
   constexpr double kStep = 1e-4;
   for (const RunningCost* const cost :
        {static_cast<const RunningCost*>(&distance), static_cast<const RunningCost*>(&effort)}) {
     for (int run = 0; run < 10; ++run) {
-      const State start{{}, 2.0, 0.1};
-      const std::vector<Input> inputs = random_inputs(random, 20);
+      const vehicle::State start{{}, 2.0, 0.1};
+      const std::vector<vehicle::Input> inputs = random_inputs(random, 20);
       const Shot shot = shoot(start, inputs, 0.2, *cost, vehicle, WithGradient::kYes);
       double scale = 0.0;
       for (const Eigen::Vector2d& gradient : shot.gradient) {
         scale = std::max(scale, gradient.norm());
       }
-      const auto cost_of = [&](std::size_t k, const Input& input) {
-        std::vector<Input> changed = inputs;
+      const auto cost_of = [&](std::size_t k, const vehicle::Input& input) {
+        std::vector<vehicle::Input> changed = inputs;
         changed[k] = input;
         return shoot(start, changed, 0.2, *cost, vehicle, WithGradient::kNo).cost;
       };
       for (std::size_t k = 0; k < inputs.size(); ++k) {
-        const Input& u = inputs[k];
+        const vehicle::Input& u = inputs[k];
         const double by_acceleration =
             (cost_of(k, {u.acceleration_mps2 + kStep, u.steering_rate_radps}) -
              cost_of(k, {u.acceleration_mps2 - kStep, u.steering_rate_radps})) /
@@ -88,14 +88,14 @@ TEST(Shooting, DurationGradientIsTheDerivativeOfTheCostByTheDuration) {
   constexpr unsigned kSeed = 63;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   std::mt19937 random(kSeed);
-  const VehicleParameters vehicle;
+  const vehicle::VehicleParameters vehicle;
   constexpr double kStep = 1e-5;
   for (const std::string& name : criterion_names()) {
     SCOPED_TRACE(name);
     const auto cost = make_criterion(name, vehicle);
     for (int run = 0; run < 10; ++run) {
-      const State start{{}, 2.0, 0.1};
-      const std::vector<Input> inputs = random_inputs(random, 20);
+      const vehicle::State start{{}, 2.0, 0.1};
+      const std::vector<vehicle::Input> inputs = random_inputs(random, 20);
       const auto cost_of = [&](double duration_s) {
         return shoot(start, inputs, duration_s, *cost, vehicle, WithGradient::kNo).cost;
       };
@@ -108,4 +108,4 @@ TEST(Shooting, DurationGradientIsTheDerivativeOfTheCostByTheDuration) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -5,11 +5,11 @@
 #include "planner/maneuver_design/distance.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 TEST(StoppingDistance, IsTheOppositeOfDistance) {
-  StateVector x;
+  vehicle::StateVector x;
   x << 3.0, -4.0, 1.0, 2.0, 0.1;
   EXPECT_EQ(StoppingDistance{}.value(x, {}), 25.0);
   EXPECT_EQ(StoppingDistance{}.value(x, {}), -Distance{}.value(x, {}));
@@ -19,4 +19,4 @@ TEST(StoppingDistance, IsTheOppositeOfDistance) {
 TEST(StoppingDistance, HasAnExactGradient) { expect_exact_gradient(StoppingDistance{}, 102); }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

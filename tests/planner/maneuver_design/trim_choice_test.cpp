@@ -8,17 +8,17 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
-const VehicleLimits kLimits;
+const vehicle::VehicleLimits kLimits;
 
-std::vector<DriveSample> around(const std::vector<Trim>& trims, unsigned seed) {
+std::vector<DriveSample> around(const std::vector<automaton::Trim>& trims, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> noise(-0.02, 0.02);
   std::vector<DriveSample> drive;
   for (int i = 0; i < 60; ++i) {
-    for (const Trim& trim : trims) {
+    for (const automaton::Trim& trim : trims) {
       drive.push_back({trim.speed_mps + noise(random), trim.steering_rad + noise(random)});
     }
   }
@@ -27,14 +27,14 @@ std::vector<DriveSample> around(const std::vector<Trim>& trims, unsigned seed) {
 }
 
 TEST(ChooseTrims, FindsTheWaysInWhichAVehicleWasDriven) {
-  const std::vector<Trim> driven{{0.4, -0.6}, {0.8, -0.1}, {0.8, 0.1}, {0.5, 0.5}};
+  const std::vector<automaton::Trim> driven{{0.4, -0.6}, {0.8, -0.1}, {0.8, 0.1}, {0.5, 0.5}};
   for (unsigned seed = 0; seed < test::num_seeds(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::vector<DriveSample> drive = around(driven, seed);
     drive.insert(drive.end(), 80, {0.01, 0.3});  // stands, the wheels turned
     const std::vector<ChosenTrim> chosen = choose_trims(drive, 5, {}, kLimits);
     ASSERT_EQ(chosen.size(), 5U);
-    EXPECT_EQ(chosen[0].trim, Trim{});
+    EXPECT_EQ(chosen[0].trim, automaton::Trim{});
     EXPECT_NEAR(chosen[0].share, 80.0 / 320.0, 1e-12);
     for (std::size_t i = 0; i < driven.size(); ++i) {
       EXPECT_NEAR(chosen[i + 1].trim.speed_mps, driven[i].speed_mps, 0.012);
@@ -87,12 +87,12 @@ TEST(ChooseTrims, TheSameDriveInAnyOrderGivesTheSameTrims) {
 
 TEST(ChooseTrims, StaysWithinTheLimits) {
   const std::vector<DriveSample> drive{{5.0, -1.0}, {0.5, 1.0}};
-  VehicleLimits limits;
+  vehicle::VehicleLimits limits;
   limits.speed_max_mps = 3.7006;
   limits.steering_max_rad = 0.6106;
   const std::vector<ChosenTrim> chosen = choose_trims(drive, 3, {}, limits);
-  EXPECT_EQ(chosen[1].trim, (Trim{3.700, -0.610}));
-  EXPECT_EQ(chosen[2].trim, (Trim{0.5, 0.610}));
+  EXPECT_EQ(chosen[1].trim, (automaton::Trim{3.700, -0.610}));
+  EXPECT_EQ(chosen[2].trim, (automaton::Trim{0.5, 0.610}));
   limits.friction_mps2 = 8.0;
   EXPECT_THROW((void)choose_trims(drive, 3, {}, limits), std::invalid_argument);
 }
@@ -118,14 +118,15 @@ TEST(ChooseTrims, ADriveWithTooFewWaysOfMovingIsRefused) {
 }
 
 TEST(DriveSamples, AreTheSpeedAndTheSteeringOfATrim) {
-  const VehicleParameters vehicle;
-  for (const Trim& trim :
-       {Trim{0.8, 0.0}, Trim{0.4, 0.6}, Trim{0.5, -0.48}, Trim{}, Trim{-0.3, 0.2}}) {
+  const vehicle::VehicleParameters vehicle;
+  for (const automaton::Trim& trim :
+       {automaton::Trim{0.8, 0.0}, automaton::Trim{0.4, 0.6}, automaton::Trim{0.5, -0.48},
+        automaton::Trim{}, automaton::Trim{-0.3, 0.2}}) {
     std::vector<DrivePoint> points;
     for (int i = 0; i <= 50; ++i) {
       const double time_s = 0.02 * i;
-      points.push_back({time_s, trim_motion({1.0, 2.0, 3.0}, trim.speed_mps, trim.steering_rad,
-                                            time_s, vehicle)});
+      points.push_back({time_s, vehicle::trim_motion({1.0, 2.0, 3.0}, trim.speed_mps,
+                                                     trim.steering_rad, time_s, vehicle)});
     }
     const std::vector<DriveSample> samples = drive_samples(points, 0.2, vehicle);
     ASSERT_GE(samples.size(), 40U);
@@ -137,4 +138,4 @@ TEST(DriveSamples, AreTheSpeedAndTheSteeringOfATrim) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

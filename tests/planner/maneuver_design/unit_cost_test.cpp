@@ -5,12 +5,12 @@
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/shooting.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 TEST(UnitCost, OfATrimIsThereUnlessTheCriterionDependsOnThePose) {
-  const VehicleParameters vehicle;
-  const Trim trim{0.8, 0.3};
+  const vehicle::VehicleParameters vehicle;
+  const automaton::Trim trim{0.8, 0.3};
   for (const std::string& name : criterion_names()) {
     SCOPED_TRACE(name);
     const auto cost = make_criterion(name, vehicle);
@@ -22,12 +22,13 @@ TEST(UnitCost, OfATrimIsThereUnlessTheCriterionDependsOnThePose) {
 }
 
 TEST(UnitCost, CostOfAStepIsTheIntegralOverTheTrimFromItsOwnStart) {
-  const VehicleParameters vehicle;
-  for (const Trim& trim : {Trim{0.8, 0.0}, Trim{0.4, 0.6}, Trim{0.0, 0.0}, Trim{0.7, -0.2}}) {
+  const vehicle::VehicleParameters vehicle;
+  for (const automaton::Trim& trim : {automaton::Trim{0.8, 0.0}, automaton::Trim{0.4, 0.6},
+                                      automaton::Trim{0.0, 0.0}, automaton::Trim{0.7, -0.2}}) {
     for (const std::string& name : criterion_names()) {
       SCOPED_TRACE(name);
       const auto cost = make_criterion(name, vehicle);
-      const std::vector<Input> none(50);
+      const std::vector<vehicle::Input> none(50);
       const Shot shot = shoot({{}, trim.speed_mps, trim.steering_rad}, none, 0.2, *cost, vehicle,
                               WithGradient::kNo);
       EXPECT_NEAR(trim_step_cost(trim, 0.2, *cost, vehicle), shot.cost, 1e-10);
@@ -36,4 +37,4 @@ TEST(UnitCost, CostOfAStepIsTheIntegralOverTheTrimFromItsOwnStart) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

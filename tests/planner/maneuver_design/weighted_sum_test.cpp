@@ -9,7 +9,7 @@
 #include "planner/maneuver_design/effort.hpp"
 #include "tests/planner/maneuver_design/gradient_check.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 std::vector<WeightedCost> terms(double distance, double effort) {
@@ -17,7 +17,7 @@ std::vector<WeightedCost> terms(double distance, double effort) {
 }
 
 TEST(WeightedSum, AddsUpTheTermsWithTheirWeights) {
-  StateVector x;
+  vehicle::StateVector x;
   x << 3.0, -4.0, 1.0, 2.0, 0.1;
   EXPECT_EQ(WeightedSum(terms(0.5, 0.25)).value(x, {1.0, -1.0}), -12.5 + 0.5);
 }
@@ -29,14 +29,14 @@ TEST(WeightedSum, DependsOnThePoseIfATermThatCountsDoes) {
 
 TEST(WeightedSum, HasAnExactGradient) {
   auto sum = terms(0.5, 0.25);
-  sum.push_back({2.0, std::make_shared<Comfort>(VehicleParameters{})});
+  sum.push_back({2.0, std::make_shared<Comfort>(vehicle::VehicleParameters{})});
   expect_exact_gradient(WeightedSum(sum), 108);
 }
 
 TEST(NormalisedSum, CountsEachCriterionInShareOfItsRange) {
-  StateVector x = StateVector::Zero();
+  vehicle::StateVector x = vehicle::StateVector::Zero();
   x(0) = 2.0;
-  const Input u{1.0, 0.0};
+  const vehicle::Input u{1.0, 0.0};
   const WeightedSum sum = normalised_sum(terms(0.5, 0.5), {{-6.0, -2.0}, {10.0, 90.0}});
   EXPECT_EQ(sum.value(x, u), 0.5 * -4.0 / 4.0 + 0.5 * 1.0 / 80.0);
 }
@@ -52,4 +52,4 @@ TEST(NormalisedSum, RefusesARangeThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

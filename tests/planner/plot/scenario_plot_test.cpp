@@ -5,11 +5,11 @@
 
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 std::string plot_of(const std::string& scenario) {
-  const Scenario read = read_scenario(
+  const scenario::Scenario read = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + scenario + ".yaml"});
   return scenario_plot(read, map_of(read));
 }
@@ -30,7 +30,8 @@ TEST(ScenarioPlot, ShowsLanesPathsAndVehiclesWithTheirIds) {
     EXPECT_EQ(count(plot, std::string(">") + text + "<"), 1U) << text;
   }
   const std::size_t lanelets =
-      read_lanelet_map(test::source_folder() + "/launch_scripts/maps/lab_like.xml").lanelets.size();
+      road::read_lanelet_map(test::source_folder() + "/launch_scripts/maps/lab_like.xml")
+          .lanelets.size();
   EXPECT_EQ(count(plot, "<polygon fill=\"#f0f0f0\""), lanelets);
   EXPECT_EQ(count(plot, "<polyline"), 2 * lanelets + 3);
   for (const char* colour : {"#d62728", "#1f4fd8", "#2ca02c"}) {  // footprint in the path's colour
@@ -47,4 +48,4 @@ TEST(ScenarioPlot, OpenGroundHasNoLanes) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 PlotPanel panel_with_everything() {
@@ -135,4 +135,4 @@ TEST(SvgPlot, ColoursRunFromRedToBlue) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::plot

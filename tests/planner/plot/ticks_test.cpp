@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace hlc {
+namespace hlc::plot {
 namespace {
 
 using testing::Message;
@@ -50,4 +50,4 @@ TEST(LogTicks, ArePowersOfTenAndBetweenThemWhereThatAreFew) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::plot

@@ -4,28 +4,29 @@
 
 #include "tests/planner/policy/driven_controller.hpp"
 
-namespace hlc::look_ahead_rollout_test {
+namespace hlc::policy::look_ahead_rollout_test {
 namespace {
 
 using test::DrivenController;
 
 constexpr double kWay_m = 0.8 * 0.2;  // in a step at reference speed
-const BeforeStep kStays = [](Controller&) {};
+const BeforeStep kStays = [](controller::Controller&) {};
 
-LookAheadRolloutSettings of_steps(std::size_t steps, std::vector<PlanningWeight> weights = {}) {
+LookAheadRolloutSettings of_steps(std::size_t steps,
+                                  std::vector<search::PlanningWeight> weights = {}) {
   return {.steps = steps,
           .criterion_weights = std::move(weights),
           .max_expansions = 400'000,
           .most_expansions = 400'000};
 }
 
-double cost_m2(const Controller& controller, const LookAheadRolloutSettings& settings) {
+double cost_m2(const controller::Controller& controller, const LookAheadRolloutSettings& settings) {
   return rollout_cost_m2(controller, settings, kStays).value();
 }
 
 /// c_k of a step that was really driven.
-double driven_cost_m2(const Controller& controller, StepIndex now) {
-  const Plan& plan = controller.plan_in_force();
+double driven_cost_m2(const controller::Controller& controller, StepIndex now) {
+  const coordination::Plan& plan = controller.plan_in_force();
   const Pose from = plan.pose_at({now.value + 1});
   const Pose to = plan.pose_at({now.value + 2});
   return (to.position_m() - Point(from.x_m + kWay_m, 0.0)).squaredNorm();
@@ -40,7 +41,7 @@ ConvexPolygon square(double x_m, double y_m) {
 }
 
 /// Vehicle 1, which stands.
-Traffic standing(StepIndex step, const ConvexPolygon& area) {
+coordination::Traffic standing(StepIndex step, const ConvexPolygon& area) {
   return {.vehicle = {1},
           .step = step,
           .next_pose = {},
@@ -58,7 +59,7 @@ TEST(LookAheadRollout, CostsWhatIsThenReallyDriven) {
     double driven_m2 = 0.0;
     DrivenController ahead = car.clone();
     for (int i = 0; i < 5; ++i) {
-      const Report report = ahead.step();
+      const coordination::Report report = ahead.step();
       driven_m2 += driven_cost_m2(*ahead, report.step);
     }
     EXPECT_NEAR(predicted_m2, driven_m2, 1e-15) << "step " << k;
@@ -87,10 +88,10 @@ TEST(LookAheadRollout, ChangesNothing) {
   DrivenController car;
   DrivenController other;
   for (int k = 0; k < 10; ++k) {
-    const Report report = car.step();
+    const coordination::Report report = car.step();
     EXPECT_EQ(report.planned_pose, other.step().planned_pose);
-    const auto fast = prepare_subgraph(test::subgraph_of_label("fast"), 8, {});
-    static_cast<void>(rollout_cost_m2(*car, of_steps(8), [&](Controller& one) {
+    const auto fast = controller::prepare_subgraph(test::subgraph_of_label("fast"), 8, {});
+    static_cast<void>(rollout_cost_m2(*car, of_steps(8), [&](controller::Controller& one) {
       if (one.prepared_subgraph().subgraph != fast.subgraph) one.switch_to(fast);
     }));
     EXPECT_EQ(car->last_step(), report.step);
@@ -98,7 +99,7 @@ TEST(LookAheadRollout, ChangesNothing) {
   }
 }
 
-Prediction predicted(StepIndex step, const ConvexPolygon& area, bool is_new) {
+coordination::Prediction predicted(StepIndex step, const ConvexPolygon& area, bool is_new) {
   return {.vehicle = {1},
           .step = step,
           .is_new = is_new,
@@ -124,7 +125,7 @@ TEST(LookAheadRollout, APredictionThatTheControllerDidNotWaitForDoesNotCount) {
   DrivenController car;
   for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
   const StepIndex now = car.next_step();
-  const Traffic far = standing(now, square(0.0, 20.0));
+  const coordination::Traffic far = standing(now, square(0.0, 20.0));
   const double x_m = car->plan_in_force().pose_at(now).x_m;
   DrivenController without = car.clone();
   static_cast<void>(without.step({far}));
@@ -140,12 +141,12 @@ TEST(LookAheadRollout, TheNewPlanOfACoupledVehicleCounts) {
     for (int k = 0; k < 5; ++k) static_cast<void>(car.step());
     const StepIndex now = car.next_step();
     const double x_m = car->plan_in_force().pose_at(now).x_m;
-    Traffic traffic = standing(now, square(x_m + 1.2, 0.0));
+    coordination::Traffic traffic = standing(now, square(x_m + 1.2, 0.0));
     traffic.vehicle = {other};
-    Prediction away = predicted(now, square(x_m + 1.2, 1.0), true);
+    coordination::Prediction away = predicted(now, square(x_m + 1.2, 1.0), true);
     away.vehicle = {other};
     DrivenController stays = car.clone();
-    Prediction none = predicted(now, square(x_m + 1.2, 0.0), false);
+    coordination::Prediction none = predicted(now, square(x_m + 1.2, 0.0), false);
     none.vehicle = {other};
     static_cast<void>(stays.step({traffic}, {none}));
     static_cast<void>(car.step({traffic}, {away}));
@@ -164,4 +165,4 @@ TEST(LookAheadRollout, EndsWithoutACostWhenItsExpansionsDoNotSuffice) {
 }
 
 }  // namespace
-}  // namespace hlc::look_ahead_rollout_test
+}  // namespace hlc::policy::look_ahead_rollout_test

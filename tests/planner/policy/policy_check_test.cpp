@@ -5,14 +5,14 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::policy_check_test {
+namespace hlc::policy::policy_check_test {
 namespace {
 
 const SubgraphRequest kSlowLabel{.labels = {"slow"}};
 const SubgraphRequest kFastLabel{.labels = {"fast"}};
 
 std::string refusal_of(const ReconfigurationSettings& settings) {
-  static const Subgraph base =
+  static const automaton::Subgraph base =
       test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims);
   try {
     check_reconfiguration(base, settings, 8, {});
@@ -60,4 +60,4 @@ TEST(PolicyCheck, ALookAheadByACriterionThatNoManeuverHoldsIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc::policy_check_test
+}  // namespace hlc::policy::policy_check_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::prepared_choice_test {
+namespace hlc::policy::prepared_choice_test {
 namespace {
 
 constexpr std::size_t kHorizonSteps = 8;
@@ -18,13 +18,13 @@ class PreparedChoiceTest : public testing::Test {
     return {base_, request, limits_mps, kHorizonSteps, {}};
   }
 
-  PreparedSubgraph base_ =
-      prepare_subgraph(std::make_shared<const Subgraph>(
-                           test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims)),
-                       kHorizonSteps, {});
+  controller::PreparedSubgraph base_ = controller::prepare_subgraph(
+      std::make_shared<const automaton::Subgraph>(
+          test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims)),
+      kHorizonSteps, {});
 };
 
-std::optional<double> limit_of(const PreparedSubgraph& prepared) {
+std::optional<double> limit_of(const controller::PreparedSubgraph& prepared) {
   return prepared.subgraph->spec().max_speed_mps;
 }
 
@@ -47,7 +47,7 @@ TEST_F(PreparedChoiceTest, TheLowerOfTwoLimitsHolds) {
 
 TEST_F(PreparedChoiceTest, ALimitKeepsWhatElseWasAskedFor) {
   const SubgraphRequest request{.labels = {"slow"}, .trims_off = {{11}}};
-  const SubgraphSpec limited = choice(request).under(0.6).subgraph->spec();
+  const automaton::SubgraphSpec limited = choice(request).under(0.6).subgraph->spec();
   EXPECT_EQ(limited.labels, request.labels);
   EXPECT_THAT(limited.trims, testing::Not(testing::Contains(TrimId{11})));
   EXPECT_EQ(limited.max_speed_mps, 0.6);
@@ -57,7 +57,7 @@ TEST_F(PreparedChoiceTest, ALimitKeepsWhatElseWasAskedFor) {
 TEST_F(PreparedChoiceTest, UnderALimitWithWhichTheRequestCannotBeItIsTheScenariosOwn) {
   const PreparedChoice fast = choice({.labels = {"fast"}});
   EXPECT_EQ(fast.under({}).subgraph->spec().labels, (std::vector<std::string>{"fast"}));
-  const SubgraphSpec limited = fast.under(0.4).subgraph->spec();
+  const automaton::SubgraphSpec limited = fast.under(0.4).subgraph->spec();
   EXPECT_EQ(limited.labels, base_.subgraph->spec().labels);
   EXPECT_EQ(limited.max_speed_mps, 0.4);
 }
@@ -69,4 +69,4 @@ TEST_F(PreparedChoiceTest, ALimitThatCannotBeAtAllIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc::prepared_choice_test
+}  // namespace hlc::policy::prepared_choice_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc::rule_policies_test {
+namespace hlc::policy::rule_policies_test {
 namespace {
 
 const SubgraphRequest kEffort{.labels = {"J2"}};
@@ -10,7 +10,7 @@ const SubgraphRequest kAgile{.labels = {"J1"}};
 
 std::unique_ptr<Policy> made(const PolicySettings& settings) { return make_policy(settings); }
 
-Report report(StepStatus status, std::vector<VehicleId> coupled = {}) {
+coordination::Report report(coordination::StepStatus status, std::vector<VehicleId> coupled = {}) {
   return {.vehicle = {1}, .step = {}, .status = status, .coupled = std::move(coupled)};
 }
 
@@ -39,9 +39,9 @@ TEST(TimePolicy, ChangesInTheStepOfItsTimeWhateverTheRounding) {
 TEST(SituationPolicy, IsInConflictWhileCoupledOrFallenBackAndAWhileAfter) {
   const auto policy = made(
       SituationPolicySettings{.open_road = kEffort, .conflict = kAgile, .after_conflict_s = 0.4});
-  const Report open = report(StepStatus::kPlanned);
-  const Report coupled = report(StepStatus::kPlanned, {{2}});
-  const Report fallen_back = report(StepStatus::kFallback);
+  const coordination::Report open = report(coordination::StepStatus::kPlanned);
+  const coordination::Report coupled = report(coordination::StepStatus::kPlanned, {{2}});
+  const coordination::Report fallen_back = report(coordination::StepStatus::kFallback);
   EXPECT_EQ(policy->propose({.time_s = 0.0}), kEffort) << "nothing is known yet";
   EXPECT_EQ(policy->propose({.time_s = 0.2, .last = &open}), kEffort);
   EXPECT_EQ(policy->propose({.time_s = 0.4, .last = &coupled}), kAgile);
@@ -64,4 +64,4 @@ TEST(BatteryPolicy, StaysAsItWasBetweenItsBoundsAndWhereNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace hlc::rule_policies_test
+}  // namespace hlc::policy::rule_policies_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::speed_zones_test {
+namespace hlc::policy::speed_zones_test {
 namespace {
 
 SpeedZone zone(double min_x_m, double max_x_m, double max_speed_mps) {
@@ -17,7 +17,7 @@ SpeedZone zone(double min_x_m, double max_x_m, double max_speed_mps) {
           .max_speed_mps = max_speed_mps};
 }
 
-const ReferencePath kEast({{0.0, 0.0}, {10.0, 0.0}}, false);
+const road::ReferencePath kEast({{0.0, 0.0}, {10.0, 0.0}}, false);
 
 TEST(SpeedZones, HoldAsSoonAsTheWayAheadComesThroughThemAndUntilTheyAreLeft) {
   const std::vector<SpeedZone> zones{zone(2.0, 3.0, 0.4)};
@@ -44,7 +44,7 @@ TEST(SpeedZones, HoldWhereAPositionIs) {
 }
 
 TEST(SpeedZones, AClosedPathIsLookedAtBeyondItsEnd) {
-  const ReferencePath round({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {0.0, 4.0}}, true);
+  const road::ReferencePath round({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {0.0, 4.0}}, true);
   EXPECT_EQ(limit_on(std::vector{zone(0.1, 0.4, 0.4)}, round, 15.8, 0.5), 0.4);
 }
 
@@ -65,4 +65,4 @@ TEST(SpeedZones, NoPlaceInAZoneIsComeToWithoutItsLimit) {
 }
 
 }  // namespace
-}  // namespace hlc::speed_zones_test
+}  // namespace hlc::policy::speed_zones_test

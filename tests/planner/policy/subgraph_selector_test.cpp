@@ -4,7 +4,7 @@
 
 #include "tests/planner/policy/driven_controller.hpp"
 
-namespace hlc::subgraph_selector_test {
+namespace hlc::policy::subgraph_selector_test {
 namespace {
 
 using test::DrivenController;
@@ -36,7 +36,7 @@ class SubgraphSelectorTest : public testing::Test {
 
   void ask(const SubgraphRequest& request) {
     selector_->ask(std::make_shared<const PreparedChoice>(
-        selector_->base(), request, selector_->limits_mps(), 8, SearchOptions{}));
+        selector_->base(), request, selector_->limits_mps(), 8, search::SearchOptions{}));
   }
 
   DrivenController car_;
@@ -142,8 +142,8 @@ TEST_F(SubgraphSelectorTest, NoCarIsTooFastInAZone) {
   for (int k = 0; k < 75; ++k) {
     static_cast<void>(drive());
     for (const double time_s : {0.0, 0.05, 0.1, 0.15}) {
-      const State state = car_->plan_in_force().state_at({car_.next_step().value - 1}, time_s,
-                                                         car_->subgraph().automaton().vehicle);
+      const vehicle::State state = car_->plan_in_force().state_at(
+          {car_.next_step().value - 1}, time_s, car_->subgraph().automaton().vehicle);
       fastest_mps = std::max(fastest_mps, state.speed_mps);
       if (state.pose.x_m < slow.min_x_m || state.pose.x_m > slow.max_x_m) continue;
       ++in_zone;
@@ -211,4 +211,4 @@ TEST_F(SubgraphSelectorTest, WhileTheOperatorHasAskedNothingIsRolledOut) {
 }
 
 }  // namespace
-}  // namespace hlc::subgraph_selector_test
+}  // namespace hlc::policy::subgraph_selector_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 Corridor::Piece piece(double from_s_m, double to_s_m) {
@@ -66,4 +66,4 @@ TEST(Corridor, PieceIsGivenIfAndOnlyIfOneOfItsRepetitionsMeetsTheWindow) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 constexpr Pose kStart{.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.3};
@@ -42,4 +42,4 @@ TEST(CurvatureCurve, RefusesKnotsThatDoNotAscendFromZero) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

@@ -12,7 +12,7 @@
 #include "planner/road/route.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 const std::filesystem::path kSource = test::source_folder();
@@ -153,4 +153,4 @@ TEST(LabLikeMap, CentreLinesFollowTheLabsWithinEightMillimetres) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

@@ -10,7 +10,7 @@
 
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 using ::testing::AllOf;
@@ -168,4 +168,4 @@ TEST(LaneletMap, TheLabsFileIsRead) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

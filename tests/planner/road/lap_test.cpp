@@ -8,7 +8,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -132,4 +132,4 @@ TEST(Progress, IsTheUnwrappedArcLengthOfTheFoot) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

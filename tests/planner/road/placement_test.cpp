@@ -9,7 +9,7 @@
 #include "planner/road/route.hpp"
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 constexpr Footprint kFootprint{.length_m = 0.220, .width_m = 0.107};
@@ -148,4 +148,4 @@ TEST(Widening, LeavesTheRestOfTheRouteAloneAndStaysOnTheMap) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

@@ -10,7 +10,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 /// A random polyline whose neighbours are 5 to 30 cm apart.
@@ -149,4 +149,4 @@ TEST(ReferencePath, RefusesPathsWithoutLength) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

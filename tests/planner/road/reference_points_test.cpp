@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 const ReferencePath kStraight({{0.0, 0.0}, {10.0, 0.0}}, false);
@@ -44,4 +44,4 @@ TEST(ReferencePoints, WaitAtTheEndOfAnOpenPath) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

@@ -14,7 +14,7 @@
 #include "planner/road/lab_like_map.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc {
+namespace hlc::road {
 namespace {
 
 using ::testing::AllOf;
@@ -415,4 +415,4 @@ INSTANTIATE_TEST_SUITE_P(Maps, Circuit, ::testing::Values(&lab_circuits, &lab_li
                          [](const auto& map) { return map.index == 0 ? "Lab" : "LabLike"; });
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::road

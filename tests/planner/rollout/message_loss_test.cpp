@@ -15,44 +15,45 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plans_in_force.hpp"
 
-namespace hlc {
+namespace hlc::rollout {
 namespace {
 
 using test::plans_in_force_are_free;
 
-const ControllerStrategies kStrict{};
-const ControllerStrategies kAgreed{.commit = kAgreedCommit,
-                                   .coupled_obstacles = &predictions_and_standing_successors};
+const controller::ControllerStrategies kStrict{};
+const controller::ControllerStrategies kAgreed{
+    .commit = coordination::kAgreedCommit,
+    .coupled_obstacles = &controller::predictions_and_standing_successors};
 
-std::shared_ptr<const Subgraph> paper_subgraph() {
-  static const auto subgraph =
-      std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
+std::shared_ptr<const automaton::Subgraph> paper_subgraph() {
+  static const auto subgraph = std::make_shared<const automaton::Subgraph>(
+      automaton::paper_automaton(), automaton::paper_configuration().subgraphs.front());
   return subgraph;
 }
 
 /// Three cars on straight lines through one point, `distances_m` before it.
-Rollout three_cars_that_meet(const ControllerStrategies& strategies,
+Rollout three_cars_that_meet(const controller::ControllerStrategies& strategies,
                              const std::array<double, 3>& distances_m = {1.0, 1.0, 1.0}) {
-  std::vector<std::unique_ptr<Controller>> controllers;
+  std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
   for (std::uint8_t i = 0; i < 3; ++i) {
     const double direction = 2.0 * std::numbers::pi * i / 3.0 + 0.1 * i;
     const Point ahead(std::cos(direction), std::sin(direction));
     const Point position = -distances_m[i] * ahead;
     const Pose start{position.x(), position.y(), direction};
-    ReferencePath path({start.position_m(), 2.0 * ahead}, false);
-    ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)},
-                              .strategies = strategies};
+    road::ReferencePath path({start.position_m(), 2.0 * ahead}, false);
+    controller::ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)},
+                                          .strategies = strategies};
     options.search.max_expansions = 20'000;
-    controllers.push_back(
-        std::make_unique<Controller>(options, paper_subgraph(), std::move(path), Corridor{}));
+    controllers.push_back(std::make_unique<controller::Controller>(
+        options, paper_subgraph(), std::move(path), road::Corridor{}));
     starts.push_back(start);
   }
   return Rollout(std::move(controllers), starts);
 }
 
 /// Bit of a message in a pattern: 6 per kind, one for each ordered pair of the vehicles 1, 2, 3.
-unsigned bit_of(const Delivery& delivery) {
+unsigned bit_of(const controller::Delivery& delivery) {
   const unsigned from = delivery.from.value - 1U;
   const unsigned to = delivery.to.value - 1U;
   const unsigned pair = 2U * from + (to > from ? to - 1U : to);
@@ -60,7 +61,7 @@ unsigned bit_of(const Delivery& delivery) {
 }
 
 void lose_pattern(Rollout& rollout, std::uint32_t pattern, StepIndex step) {
-  rollout.lose([pattern, step](const Delivery& delivery) {
+  rollout.lose([pattern, step](const controller::Delivery& delivery) {
     return delivery.step == step && (pattern >> bit_of(delivery) & 1U) != 0U;
   });
 }
@@ -81,8 +82,8 @@ TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
     Rollout rollout = before.clone();
     lose_pattern(rollout, pattern, rollout.next_step());
     std::string outcome;
-    for (const Report& report : rollout.step()) {
-      outcome += report.status == StepStatus::kPlanned ? 'n' : 'o';
+    for (const coordination::Report& report : rollout.step()) {
+      outcome += report.status == coordination::StepStatus::kPlanned ? 'n' : 'o';
     }
     ++outcomes[outcome];
     ASSERT_TRUE(plans_in_force_are_free(rollout)) << "pattern " << pattern;
@@ -100,7 +101,7 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
     std::mt19937 random(seed);
     std::bernoulli_distribution is_lost(0.02 + 0.02 * (seed % 20));
     Rollout rollout = three_cars_that_meet(kStrict);
-    rollout.lose([&](const Delivery&) { return is_lost(random); });
+    rollout.lose([&](const controller::Delivery&) { return is_lost(random); });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
       ASSERT_TRUE(plans_in_force_are_free(rollout)) << "step " << i;
@@ -117,7 +118,7 @@ TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
     std::uniform_real_distribution<double> distance(0.6, 1.4);
     const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
     Rollout rollout = three_cars_that_meet(kStrict, distances);
-    rollout.lose([](const Delivery&) { return true; });
+    rollout.lose([](const controller::Delivery&) { return true; });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
       ASSERT_TRUE(plans_in_force_are_free(rollout)) << "step " << i;
@@ -132,7 +133,7 @@ TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
     for (std::uint64_t from = 2; from < 8; ++from) {
       SCOPED_TRACE("vehicle " + std::to_string(mute) + " mute from step " + std::to_string(from));
       Rollout rollout = three_cars_that_meet(kStrict);
-      rollout.lose([&](const Delivery& delivery) {
+      rollout.lose([&](const controller::Delivery& delivery) {
         return delivery.from.value == mute && delivery.step.value >= from;
       });
       for (int i = 0; i < 60; ++i) {
@@ -146,10 +147,10 @@ TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
 TEST(Loss, WithoutLossTheStrictRuleNeverFallsBack) {
   Rollout rollout = three_cars_that_meet(kStrict);
   for (int i = 0; i < 40; ++i) {
-    for (const Report& report : rollout.step()) {
-      ASSERT_EQ(report.status, StepStatus::kPlanned)
+    for (const coordination::Report& report : rollout.step()) {
+      ASSERT_EQ(report.status, coordination::StepStatus::kPlanned)
           << "step " << i << ", vehicle " << int{report.vehicle.value} << ", "
-          << to_string(report.reason);
+          << coordination::to_string(report.reason);
     }
   }
 }
@@ -164,8 +165,8 @@ TEST(Loss, TheAgreedRuleLetsPlansMeetIfOutcomesAreLost) {
     const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
     std::bernoulli_distribution is_lost(0.2);
     Rollout rollout = three_cars_that_meet(kAgreed, distances);
-    rollout.lose([&](const Delivery& delivery) {
-      return delivery.kind == MessageKind::kOutcome && is_lost(random);
+    rollout.lose([&](const controller::Delivery& delivery) {
+      return delivery.kind == controller::MessageKind::kOutcome && is_lost(random);
     });
     for (int step = 0; step < 20 && !met; ++step) {
       static_cast<void>(rollout.step());
@@ -176,4 +177,4 @@ TEST(Loss, TheAgreedRuleLetsPlansMeetIfOutcomesAreLost) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::rollout

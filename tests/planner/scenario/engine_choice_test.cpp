@@ -7,15 +7,17 @@
 
 #include "planner/search/ompl/ompl_engine.hpp"
 
-namespace hlc {
+namespace hlc::scenario {
 namespace {
 
 TEST(EngineChoice, EveryNameChoosesAnEngineThatSaysIt) {
-  for (const Engine engine : {Engine::kBranchAndBound, Engine::kBestFirst}) {
-    for (const EngineFactory factory : {EngineFactory{nullptr}, EngineFactory{make_ompl_engine}}) {
+  for (const search::Engine engine :
+       {search::Engine::kBranchAndBound, search::Engine::kBestFirst}) {
+    for (const search::EngineFactory factory :
+         {search::EngineFactory{nullptr}, search::EngineFactory{search::make_ompl_engine}}) {
       const std::string name = engine_name({.engine = engine, .factory = factory});
       EXPECT_NE(std::string(kEngineChoices).find(name), std::string::npos);
-      SearchOptions chosen;
+      search::SearchOptions chosen;
       choose_engine(name, chosen);
       EXPECT_EQ(chosen.engine, engine);
       EXPECT_EQ(chosen.factory, factory);
@@ -26,11 +28,11 @@ TEST(EngineChoice, EveryNameChoosesAnEngineThatSaysIt) {
 TEST(EngineChoice, RefusesOtherNames) {
   for (const char* name :
        {"", "ompl", "ompl_", "fast", "branch_and_bound_ompl", "ompl_ompl_best_first"}) {
-    SearchOptions untouched;
+    search::SearchOptions untouched;
     EXPECT_THROW(choose_engine(name, untouched), std::invalid_argument) << name;
     EXPECT_EQ(engine_name(untouched), engine_name({}));
   }
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::scenario

@@ -14,7 +14,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc::lab_test {
+namespace hlc::scenario::lab_test {
 namespace {
 
 using testing::AllOf;
@@ -31,7 +31,7 @@ std::string content_of(const std::string& path) {
 
 /// A file in the folder with the shipped text but for one change; its references go to the shipped
 /// files.
-std::string changed_file(const TemporaryFolder& folder, const std::string& source,
+std::string changed_file(const test::TemporaryFolder& folder, const std::string& source,
                          const std::string& from, const std::string& to) {
   std::string text = content_of(source);
   text = std::regex_replace(text, std::regex(R"(\.\./)"), kFolder);
@@ -60,7 +60,7 @@ const Scenario& lab_scenario() {
 }
 
 TEST(LabFile, HoldsTheLimitsOfTheLabsVehicle) {
-  const LabLimits lab = read_lab(kLabFile, 0.2);
+  const vehicle::LabLimits lab = read_lab(kLabFile, 0.2);
   EXPECT_EQ(lab.curvature_min_per_m, -3.960);
   EXPECT_EQ(lab.curvature_max_per_m, 4.316);
   EXPECT_EQ(lab.acceleration_max_mps2, 20.0);
@@ -70,17 +70,17 @@ TEST(LabFile, HoldsTheLimitsOfTheLabsVehicle) {
 
 // The steering s = -1 ... 1 of the identified vehicle, solved for the curvature.
 TEST(LabFile, ItsCurvaturesAreThoseOfTheIdentifiedVehicleAtFullSteering) {
-  const LabLimits lab = read_lab(kLabFile, 0.2);
-  const IdentifiedVehicle vehicle;
-  EXPECT_NEAR(steady_steering(lab.curvature_max_per_m, vehicle), 1.0 + vehicle.steering_offset,
-              1e-3);
-  EXPECT_NEAR(steady_steering(lab.curvature_min_per_m, vehicle), -1.0 + vehicle.steering_offset,
-              1e-3);
+  const vehicle::LabLimits lab = read_lab(kLabFile, 0.2);
+  const vehicle::IdentifiedVehicle vehicle;
+  EXPECT_NEAR(vehicle::steady_steering(lab.curvature_max_per_m, vehicle),
+              1.0 + vehicle.steering_offset, 1e-3);
+  EXPECT_NEAR(vehicle::steady_steering(lab.curvature_min_per_m, vehicle),
+              -1.0 + vehicle.steering_offset, 1e-3);
 }
 
 TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
   const auto error_text = [](const std::string& from, const std::string& to) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const std::string file = changed_file(folder, kLabFile, from, to);
     return error_of([&] { static_cast<void>(read_lab(file, 0.2)); });
   };
@@ -95,7 +95,7 @@ TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
 }
 
 TEST(Lab, ThePapersAutomatonIsRefusedWithTheTrimThatIsTooTight) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string file = changed_file(folder, kFolder + "scenarios/lab_three_cars.yaml",
                                         "automata/lab.yaml", "automata/paper.yaml");
   const std::string error_text =
@@ -108,7 +108,7 @@ TEST(Lab, ThePapersAutomatonIsRefusedWithTheTrimThatIsTooTight) {
 }
 
 TEST(Lab, AnAutomatonIsRefusedForAManeuverWhoseTrimsCanBeDriven) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string automaton =
       changed_file(folder, kFolder + "automata/lab.yaml", "curvature_max_per_m: 3.75",
                    "curvature_max_per_m: 9.0");
@@ -119,90 +119,92 @@ TEST(Lab, AnAutomatonIsRefusedForAManeuverWhoseTrimsCanBeDriven) {
 }
 
 TEST(Lab, EachBoundCountsForAutomata) {
-  const Subgraph& subgraph = *lab_scenario().subgraph;
-  const LabLimits lab = *lab_scenario().lab;
-  EXPECT_EQ(validate_for_lab(subgraph, lab), "");
-  LabLimits left = lab;
+  const automaton::Subgraph& subgraph = *lab_scenario().subgraph;
+  const vehicle::LabLimits lab = *lab_scenario().lab;
+  EXPECT_EQ(automaton::validate_for_lab(subgraph, lab), "");
+  vehicle::LabLimits left = lab;
   left.curvature_max_per_m = 3.0;
-  EXPECT_THAT(validate_for_lab(subgraph, left), HasSubstr("trim 11: curvature = 3.0"));
-  LabLimits right = lab;
+  EXPECT_THAT(automaton::validate_for_lab(subgraph, left), HasSubstr("trim 11: curvature = 3.0"));
+  vehicle::LabLimits right = lab;
   right.curvature_min_per_m = -3.0;
-  EXPECT_THAT(validate_for_lab(subgraph, right), HasSubstr("trim 2: curvature = -3.5"));
-  LabLimits slow = lab;
+  EXPECT_THAT(automaton::validate_for_lab(subgraph, right), HasSubstr("trim 2: curvature = -3.5"));
+  vehicle::LabLimits slow = lab;
   slow.acceleration_max_mps2 = 3.9;
-  EXPECT_THAT(validate_for_lab(subgraph, slow), HasSubstr("acceleration = "));
-  LabLimits exact = lab;
+  EXPECT_THAT(automaton::validate_for_lab(subgraph, slow), HasSubstr("acceleration = "));
+  vehicle::LabLimits exact = lab;
   exact.velocity_mismatch_max_mps = 1e-5;
-  EXPECT_THAT(validate_for_lab(subgraph, exact), HasSubstr("differ by "));
+  EXPECT_THAT(automaton::validate_for_lab(subgraph, exact), HasSubstr("differ by "));
 }
 
 /// A plan from somewhere, of random edges, standing at the end.
-Plan random_plan(const Subgraph& subgraph, std::mt19937_64& random, std::size_t steps) {
+coordination::Plan random_plan(const automaton::Subgraph& subgraph, std::mt19937_64& random,
+                               std::size_t steps) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const TrimId standstill = subgraph.standstill();
-  const Maneuver& stand = *subgraph.automaton().find(standstill, standstill, kSelfLoopLabel);
-  std::vector<const Maneuver*> maneuvers;
+  const automaton::Maneuver& stand =
+      *subgraph.automaton().find(standstill, standstill, automaton::kSelfLoopLabel);
+  std::vector<const automaton::Maneuver*> maneuvers;
   TrimId at = standstill;
   for (std::size_t left = steps; left > 0; --left) {
     const auto edges = subgraph.successors(at, left);
-    const Edge& edge = edges[random() % edges.size()];
+    const automaton::Edge& edge = edges[random() % edges.size()];
     maneuvers.push_back(edge.maneuver);
     at = edge.to;
   }
   const Pose start{2.25 + 0.5 * unit(random), 2.0 + 0.5 * unit(random), 3.0 * unit(random)};
-  return Plan({100}, start, stand).continued({101}, maneuvers);
+  return coordination::Plan({100}, start, stand).continued({101}, maneuvers);
 }
 
 // So the check of a command finds only faults of the program.
 TEST(Lab, NoPlanOnAnAutomatonThatIsAcceptedHasAFault) {
-  const Subgraph& subgraph = *lab_scenario().subgraph;
-  LabLimits lab = *lab_scenario().lab;
+  const automaton::Subgraph& subgraph = *lab_scenario().subgraph;
+  vehicle::LabLimits lab = *lab_scenario().lab;
   lab.x_min_m = lab.y_min_m = -10.0;
   lab.x_max_m = lab.y_max_m = 10.0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    const Plan plan = random_plan(subgraph, random, 8);
+    const coordination::Plan plan = random_plan(subgraph, random, 8);
     for (std::uint64_t step = 100; step < 110; ++step) {
-      const auto fault =
-          trajectory_fault(sample_trajectory(plan, {step}, lab.point_interval_s, 2.25, 0.2,
-                                             subgraph.automaton().vehicle),
-                           lab);
-      ASSERT_FALSE(fault) << to_text(*fault, lab) << " at " << fault->time_s << " s";
+      const auto fault = vehicle::trajectory_fault(
+          controller::sample_trajectory(plan, {step}, lab.point_interval_s, 2.25, 0.2,
+                                        subgraph.automaton().vehicle),
+          lab);
+      ASSERT_FALSE(fault) << vehicle::to_text(*fault, lab) << " at " << fault->time_s << " s";
     }
   }
 }
 
-Observation seen_at(StepIndex step, const Pose& pose) {
+controller::Observation seen_at(StepIndex step, const Pose& pose) {
   return {.step = step,
           .active = {{1}},
           .states = {{.vehicle = {1}, .pose = pose, .speed_mps = 0.0, .age_s = 0.0}},
           .present = {{1}}};
 }
 
-Report first_step(const Scenario& scenario) {
+coordination::Report first_step(const Scenario& scenario) {
   const auto controller = make_controller(scenario, {1});
   const Pose pose = measured_start(scenario, scenario.vehicles.front());
   static_cast<void>(controller->stand_by(seen_at({10}, pose)));
   static_cast<void>(controller->observe(seen_at({11}, pose)));
   controller->couple({});
-  const Prediction prediction = controller->plan({});
-  const Report report = controller->commit({}, {});
-  EXPECT_EQ(prediction.is_new, report.status == StepStatus::kPlanned)
+  const coordination::Prediction prediction = controller->plan({});
+  const coordination::Report report = controller->commit({}, {});
+  EXPECT_EQ(prediction.is_new, report.status == coordination::StepStatus::kPlanned)
       << "a plan that is not driven is not announced";
   return report;
 }
 
 TEST(Lab, APlanThatLeavesTheAreaDoesNotComeIntoForceAndTheReportSaysSo) {
-  EXPECT_EQ(first_step(lab_scenario()).status, StepStatus::kPlanned);
+  EXPECT_EQ(first_step(lab_scenario()).status, coordination::StepStatus::kPlanned);
   Scenario narrow = lab_scenario();
   const Point start = narrow.vehicles.front().start.position_m();
   narrow.lab->x_min_m = start.x() - 0.01;
   narrow.lab->x_max_m = start.x() + 0.01;
-  const Report report = first_step(narrow);
-  EXPECT_EQ(report.status, StepStatus::kFallback);
-  EXPECT_EQ(report.reason, FallbackReason::kUndrivable);
+  const coordination::Report report = first_step(narrow);
+  EXPECT_EQ(report.status, coordination::StepStatus::kFallback);
+  EXPECT_EQ(report.reason, coordination::FallbackReason::kUndrivable);
 }
 
 }  // namespace
-}  // namespace hlc::lab_test
+}  // namespace hlc::scenario::lab_test

@@ -17,7 +17,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plans_in_force.hpp"
 
-namespace hlc::paper_scenarios_test {
+namespace hlc::scenario::paper_scenarios_test {
 namespace {
 
 const std::string kFolder = test::source_folder() + "/launch_scripts/scenarios/";
@@ -34,10 +34,10 @@ struct Course {
 
 /// All steps of the scenario; `look` sees each.
 template <class Look>
-Rollout drive_on(const Scenario& scenario, Look look) {
-  Rollout rollout = make_rollout(scenario);
+rollout::Rollout drive_on(const Scenario& scenario, Look look) {
+  rollout::Rollout rollout = rollout::make_rollout(scenario);
   for (std::size_t step = 0; step < scenario.steps; ++step) {
-    const std::vector<Report> reports = rollout.step();
+    const std::vector<coordination::Report> reports = rollout.step();
     look(rollout, reports);
   }
   return rollout;
@@ -71,22 +71,22 @@ void place_at_random(Scenario& scenario, std::mt19937& random) {
 
 /// Drives `scenario` and looks at its first vehicle.
 Course drive(const Scenario& scenario) {
-  Rollout rollout = make_rollout(scenario);
-  const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
-  const auto alone = make_search_engine(*scenario.subgraph, reachable, scenario.search);
+  rollout::Rollout rollout = rollout::make_rollout(scenario);
+  const automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
+  const auto alone = search::make_search_engine(*scenario.subgraph, reachable, scenario.search);
   std::vector<Point> positions_m;
   std::vector<double> times_s;
   Course course;
   for (std::size_t step = 0; step < scenario.steps; ++step) {
     bool is_changed = false;
-    const std::vector<Report> reports = rollout.step();
+    const std::vector<coordination::Report> reports = rollout.step();
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      if (reports[i].status != StepStatus::kPlanned) {
+      if (reports[i].status != coordination::StepStatus::kPlanned) {
         ++course.fallbacks;
         continue;
       }
       if (reports[i].coupled.empty()) continue;
-      HorizonProblem problem = rollout.controllers()[i]->problems().back();
+      search::HorizonProblem problem = rollout.controllers()[i]->problems().back();
       problem.obstacles_m.clear();
       is_changed |= i > 0 && alone->search(problem).cost < reports[i].cost_m2 - 1e-9;
     }
@@ -95,9 +95,9 @@ Course drive(const Scenario& scenario) {
     times_s.push_back(scenario.subgraph->automaton().step_s * static_cast<double>(step));
     course.max_generated = std::max(course.max_generated, reports.front().generated);
   }
-  const ReferencePath& path = scenario.vehicles.front().path;
-  const Progress progress = progress_along(path, positions_m);
-  course.lap_s = lap_s(path, progress, times_s, kFirstStepDriven);
+  const road::ReferencePath& path = scenario.vehicles.front().path;
+  const road::Progress progress = road::progress_along(path, positions_m);
+  course.lap_s = road::lap_s(path, progress, times_s, road::kFirstStepDriven);
   for (const double distance_m : progress.distance_m) {
     course.mean_error_mm += 1e3 * distance_m / static_cast<double>(scenario.steps);
   }
@@ -153,12 +153,15 @@ TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
     std::mt19937 random(seed);
     Scenario scenario = shipped;
     place_at_random(scenario, random);
-    const Rollout rollout =
-        drive_on(scenario, [&](const Rollout& now, const std::vector<Report>& reports) {
+    const rollout::Rollout rollout = drive_on(
+        scenario,
+        [&](const rollout::Rollout& now, const std::vector<coordination::Report>& reports) {
           ASSERT_TRUE(test::plans_in_force_are_free(now));
           steps += reports.size();
-          fallbacks += static_cast<std::size_t>(std::ranges::count_if(
-              reports, [](const Report& one) { return one.status != StepStatus::kPlanned; }));
+          fallbacks += static_cast<std::size_t>(
+              std::ranges::count_if(reports, [](const coordination::Report& one) {
+                return one.status != coordination::StepStatus::kPlanned;
+              }));
         });
   }
   EXPECT_LE(fallbacks, steps / 50) << "of " << steps;
@@ -191,20 +194,20 @@ TEST(Subgraphs, AllFourDriveARoundWithThePapersRules) {
 TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
   const Scenario b = read_scenario({.file = kFolder + "paper_red_alone.yaml", .subgraph = "B"});
   const Scenario c = read_scenario({.file = kFolder + "paper_red_alone.yaml", .subgraph = "C"});
-  const ReachableSets reachable_b(*b.subgraph, b.horizon_steps);
-  const ReachableSets reachable_c(*c.subgraph, c.horizon_steps);
-  const auto engine_b = make_search_engine(*b.subgraph, reachable_b, {});
-  const auto engine_c = make_search_engine(*c.subgraph, reachable_c, {});
+  const automaton::ReachableSets reachable_b(*b.subgraph, b.horizon_steps);
+  const automaton::ReachableSets reachable_c(*c.subgraph, c.horizon_steps);
+  const auto engine_b = search::make_search_engine(*b.subgraph, reachable_b, {});
+  const auto engine_c = search::make_search_engine(*c.subgraph, reachable_c, {});
   constexpr double kApart_m = 2e-4;  // a sum of squares of distances moves by 2 sum d_j * this
-  Rollout rollout = make_rollout(b);
+  rollout::Rollout rollout = rollout::make_rollout(b);
   std::size_t same = 0;
   for (std::size_t step = 0; step < b.steps; ++step) {
     static_cast<void>(rollout.step());
-    const HorizonProblem& problem = rollout.controllers().front()->problems().back();
-    const SearchResult of_b = engine_b->search(problem);
-    const SearchResult of_c = engine_c->search(problem);
-    ASSERT_EQ(of_b.status, SearchStatus::kOptimal);
-    ASSERT_EQ(of_c.status, SearchStatus::kOptimal);
+    const search::HorizonProblem& problem = rollout.controllers().front()->problems().back();
+    const search::SearchResult of_b = engine_b->search(problem);
+    const search::SearchResult of_c = engine_c->search(problem);
+    ASSERT_EQ(of_b.status, search::SearchStatus::kOptimal);
+    ASSERT_EQ(of_c.status, search::SearchStatus::kOptimal);
     const double n = static_cast<double>(b.horizon_steps);
     EXPECT_NEAR(of_b.cost, of_c.cost,
                 2.0 * kApart_m * std::sqrt(n * of_b.cost) + n * kApart_m * kApart_m);
@@ -234,13 +237,13 @@ TEST(Fallback, ACarThatCameToStandInACornerOfItsLanesIsLedOut) {
   Scenario scenario = read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/reconfiguration.yaml",
        .subgraph = "union",
-       .policy = kNoPolicy});
+       .policy = policy::kNoPolicy});
   scenario.vehicles.erase(scenario.vehicles.begin() + 1, scenario.vehicles.end());
   scenario.search.max_expansions = 2000;
   for (std::size_t start = 5; start <= 85; ++start) {
     SCOPED_TRACE(testing::Message() << "driven out from step " << start);
-    Rollout rollout = make_rollout(scenario);
-    Controller& controller = *rollout.controllers().front();
+    rollout::Rollout rollout = rollout::make_rollout(scenario);
+    controller::Controller& controller = *rollout.controllers().front();
     const auto steps = [&](std::size_t count) {
       const Point from_m = controller.plan_in_force().pose_at(rollout.next_step()).position_m();
       for (std::size_t k = 0; k < count; ++k) static_cast<void>(rollout.step());
@@ -257,4 +260,4 @@ TEST(Fallback, ACarThatCameToStandInACornerOfItsLanesIsLedOut) {
 }
 
 }  // namespace
-}  // namespace hlc::paper_scenarios_test
+}  // namespace hlc::scenario::paper_scenarios_test

@@ -11,13 +11,13 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::policy_file_test {
+namespace hlc::scenario::policy_file_test {
 namespace {
 
 using testing::HasSubstr;
 
-std::map<std::string, ReconfigurationSettings> read(const std::string& text) {
-  static const Subgraph base =
+std::map<std::string, policy::ReconfigurationSettings> read(const std::string& text) {
+  static const automaton::Subgraph base =
       test::make_test_subgraph({test::kSlow, test::kFast}, test::kAllTrims);
   const Node node = Node::parse_yaml(text, "test.yaml");
   auto policies = read_policies(node);
@@ -48,27 +48,28 @@ policies:
       - look_ahead: {candidates: [{labels: [slow]}, {}], steps: 5, least_gain: 0.1, max_expansions: 4000}
 )");
   ASSERT_EQ(policies.size(), 2U);
-  const ReconfigurationSettings zone{
+  const policy::ReconfigurationSettings zone{
       .zones =
           {{.min_x_m = 1.0, .max_x_m = 2.0, .min_y_m = -1.0, .max_y_m = 3.5, .max_speed_mps = 0.5}},
       .policies = {},
       .min_stay_s = 1.0};
   EXPECT_EQ(policies.at("zone"), zone);
   const SubgraphRequest slow{.labels = {"slow"}};
-  const ReconfigurationSettings rules{
+  const policy::ReconfigurationSettings rules{
       .zones = {},
-      .policies = {TimePolicySettings{.changes = {{0.0, slow}, {2.5, {}}}},
-                   BatteryPolicySettings{.below_v = 7.0,
-                                         .back_above_v = 7.4,
-                                         .request = {.max_speed_mps = 0.6, .trims_off = {{11}}}},
-                   SituationPolicySettings{.open_road = slow,
-                                           .conflict = {.labels = {"slow", "fast"}},
-                                           .after_conflict_s = 0.0},
-                   LookAheadSettings{.candidates = {slow, {}},
-                                     .steps = 5,
-                                     .criterion_weights = {},
-                                     .least_gain = 0.1,
-                                     .max_expansions = 4000}},
+      .policies = {policy::TimePolicySettings{.changes = {{0.0, slow}, {2.5, {}}}},
+                   policy::BatteryPolicySettings{
+                       .below_v = 7.0,
+                       .back_above_v = 7.4,
+                       .request = {.max_speed_mps = 0.6, .trims_off = {{11}}}},
+                   policy::SituationPolicySettings{.open_road = slow,
+                                                   .conflict = {.labels = {"slow", "fast"}},
+                                                   .after_conflict_s = 0.0},
+                   policy::LookAheadSettings{.candidates = {slow, {}},
+                                             .steps = 5,
+                                             .criterion_weights = {},
+                                             .least_gain = 0.1,
+                                             .max_expansions = 4000}},
       .min_stay_s = 0.4};
   EXPECT_EQ(policies.at("rules"), rules);
   EXPECT_TRUE(read("name: none").empty());
@@ -121,7 +122,7 @@ TEST(PolicyFile, TheScenariosPolicyHoldsUnlessAnotherIsChosen) {
   const Scenario zone = read_scenario({.file = file, .policy = "zone"});
   EXPECT_EQ(zone.reconfiguration, mixed.policies.at("zone"));
   EXPECT_EQ(read_scenario({.file = file, .policy = "none"}).reconfiguration,
-            ReconfigurationSettings{});
+            policy::ReconfigurationSettings{});
   try {
     static_cast<void>(read_scenario({.file = file, .policy = "zones"}));
     FAIL();
@@ -140,8 +141,8 @@ TEST(PolicyFile, OnAnotherSubgraphOnlyThePolicyThatIsDrivenMustFit) {
   for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;) {
     text.replace(at, 3, folder);
   }
-  const TemporaryFolder own;
-  put(own / "s.yaml", text + R"(
+  const test::TemporaryFolder own;
+  test::put(own / "s.yaml", text + R"(
 policies:
   without_3: {rules: [{time: [{from_s: 0, request: {trims_off: [3]}}]}]}
   slow: {rules: [{time: [{from_s: 0, request: {max_speed_mps: 0.7}}]}]}
@@ -168,7 +169,7 @@ TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
   };
   replace_all("../", folder);
   replace_all("x_m: [1.9, 2.7]", "x_m: [10.9, 12.7]");
-  const TemporaryFolder temporary;
+  const test::TemporaryFolder temporary;
   const std::string file = temporary / "zone_beside_all_routes.yaml";
   std::ofstream(file) << text;
   try {
@@ -181,4 +182,4 @@ TEST(PolicyFile, AZoneThatNoRouteComesThroughIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc::policy_file_test
+}  // namespace hlc::scenario::policy_file_test

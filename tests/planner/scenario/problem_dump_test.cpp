@@ -13,7 +13,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc::problem_dump_test {
+namespace hlc::scenario::problem_dump_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,19 +22,20 @@ const std::string kFolder = test::source_folder() + "/launch_scripts/scenarios/"
 
 /// What one step of a vehicle came to.
 struct Decision {
-  Report report;
+  coordination::Report report;
   std::vector<TrimId> trims;  ///< after each step; empty unless the new plan is in force
 };
 
-SearchResult solved(const ProblemFile& file, const ReachableSets& reachable, Engine engine) {
-  SearchOptions options = file.search;
+search::SearchResult solved(const ProblemFile& file, const automaton::ReachableSets& reachable,
+                            search::Engine engine) {
+  search::SearchOptions options = file.search;
   options.engine = engine;
-  return make_search_engine(*file.subgraph, reachable, options)->search(file.problem);
+  return search::make_search_engine(*file.subgraph, reachable, options)->search(file.problem);
 }
 
-std::vector<TrimId> trims_of(const SearchResult& result) {
+std::vector<TrimId> trims_of(const search::SearchResult& result) {
   std::vector<TrimId> trims;
-  for (const Maneuver* maneuver : result.maneuvers) trims.push_back(maneuver->to);
+  for (const automaton::Maneuver* maneuver : result.maneuvers) trims.push_back(maneuver->to);
   return trims;
 }
 
@@ -43,40 +44,40 @@ struct Drive {
   ScenarioChoices choices;
   /// Below 0: every plan's areas are those of its predicted drive, so that some meet what the
   /// search kept clear of, and a second search follows.
-  double tolerated_drift_share{DeviationRules{}.tolerated_drift_share};
+  double tolerated_drift_share{controller::DeviationRules{}.tolerated_drift_share};
 };
 void PrintTo(const Drive& one, std::ostream* out) { *out << one.name; }
 
 class ProblemDumpTest : public testing::TestWithParam<Drive> {
  protected:
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
   const Scenario scenario = read_scenario(GetParam().choices);
   const ProblemDump dump(folder_ / "made" / "on_the_way", scenario.automaton_file,
                          scenario.subgraph->spec());
-  std::vector<std::unique_ptr<Controller>> controllers;
+  std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
   for (const ScenarioVehicle& vehicle : scenario.vehicles) {
-    ControllerOptions options = make_controller(scenario, vehicle.id)->options();
+    controller::ControllerOptions options = make_controller(scenario, vehicle.id)->options();
     options.deviation.tolerated_drift_share = GetParam().tolerated_drift_share;
-    controllers.push_back(
-        std::make_unique<Controller>(options, scenario.subgraph, vehicle.path, vehicle.corridor));
+    controllers.push_back(std::make_unique<controller::Controller>(options, scenario.subgraph,
+                                                                   vehicle.path, vehicle.corridor));
     starts.push_back(vehicle.start);
   }
-  Rollout rollout(std::move(controllers), starts);
+  rollout::Rollout rollout(std::move(controllers), starts);
   std::map<std::string, Decision> decisions;  // by the begin of the file's name
   std::size_t num_lane_entries = 0;
   for (std::size_t i = 0; i < scenario.steps; ++i) {
-    for (const Report& report : rollout.step()) {
+    for (const coordination::Report& report : rollout.step()) {
       Decision decision{.report = report, .trims = {}};
       for (const auto& controller : rollout.controllers()) {
         if (controller->options().vehicle != report.vehicle) continue;
         dump.write(*controller);
         num_lane_entries += controller->entry_problems().size();
         for (std::size_t j = 0; j < scenario.horizon_steps; ++j) {
-          if (report.status != StepStatus::kPlanned) break;
+          if (report.status != coordination::StepStatus::kPlanned) break;
           decision.trims.push_back(
               controller->plan_in_force().trim_at({report.step.value + 2 + j}));
         }
@@ -88,7 +89,7 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
     }
   }
 
-  const ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
+  const automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> counts;
   std::size_t with_incumbent = 0;
   std::size_t num_searches = 0;
@@ -97,25 +98,27 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
     SCOPED_TRACE(path.filename());
     const ProblemFile file = read_problem_file(path, scenario.subgraph);
     if (path.stem().string().find("_lane_entry_") != std::string::npos) {
-      EXPECT_NE(solved(file, reachable, file.search.engine).status, SearchStatus::kFallback);
+      EXPECT_NE(solved(file, reachable, file.search.engine).status,
+                search::SearchStatus::kFallback);
       continue;
     }
     ++num_searches;
     if (!file.problem.incumbent.empty()) ++with_incumbent;
     const std::string step = path.stem().string().substr(0, path.stem().string().find("_search"));
     const Decision& decision = decisions.at(step);
-    const SearchResult again = solved(file, reachable, file.search.engine);
+    const search::SearchResult again = solved(file, reachable, file.search.engine);
     counts[step].first += again.generated;
     counts[step].second += again.expanded;
     const bool is_last = !files.contains(path.parent_path() / (step + "_search_2.json")) ||
                          path.stem().string().ends_with("_2");
-    if (decision.report.status == StepStatus::kPlanned && is_last) {
+    if (decision.report.status == coordination::StepStatus::kPlanned && is_last) {
       EXPECT_EQ(again.cost, decision.report.cost_m2);
       EXPECT_EQ(trims_of(again), decision.trims);
     }
-    if (file.search.cost_to_go != CostToGo::kReachable) continue;
-    for (const Engine engine : {Engine::kBestFirst, Engine::kBranchAndBound}) {
-      const SearchResult other = solved(file, reachable, engine);
+    if (file.search.cost_to_go != search::CostToGo::kReachable) continue;
+    for (const search::Engine engine :
+         {search::Engine::kBestFirst, search::Engine::kBranchAndBound}) {
+      const search::SearchResult other = solved(file, reachable, engine);
       EXPECT_EQ(other.status, again.status);
       EXPECT_NEAR(other.cost, again.cost, 1e-9);
     }
@@ -147,15 +150,15 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ProblemDumpErrors, AProblemOnASubgraphThatWasAskedForIsNotWritten) {
   const Scenario scenario = read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
-  const TemporaryFolder temporary;
+  const test::TemporaryFolder temporary;
   const fs::path folder = temporary / "problems";
   const ProblemDump dump(folder, scenario.automaton_file, scenario.subgraph->spec());
-  Rollout rollout = make_rollout(scenario);
+  rollout::Rollout rollout = rollout::make_rollout(scenario);
   static_cast<void>(rollout.step());
-  Controller& controller = *rollout.controllers().front();
+  controller::Controller& controller = *rollout.controllers().front();
   EXPECT_NO_THROW(dump.write(controller));
-  controller.switch_to(
-      requested_subgraph(*scenario.subgraph, {.max_speed_mps = 0.6}, scenario.horizon_steps));
+  controller.switch_to(automaton::requested_subgraph(*scenario.subgraph, {.max_speed_mps = 0.6},
+                                                     scenario.horizon_steps));
   EXPECT_THROW(dump.write(controller), std::runtime_error);
 }
 
@@ -171,4 +174,4 @@ TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
 }
 
 }  // namespace
-}  // namespace hlc::problem_dump_test
+}  // namespace hlc::scenario::problem_dump_test

@@ -17,7 +17,7 @@
 #include "tests/support/random_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc::problem_file_test {
+namespace hlc::scenario::problem_file_test {
 namespace {
 
 using testing::AllOf;
@@ -27,7 +27,7 @@ using testing::Not;
 
 const std::string kAutomaton = test::source_folder() + "/launch_scripts/automata/paper.yaml";
 
-std::shared_ptr<const Subgraph> subgraph_b() {
+std::shared_ptr<const automaton::Subgraph> subgraph_b() {
   static const auto result = read_subgraph(
       kAutomaton, [](const auto& offered) -> const auto& { return *find_subgraph(offered, "B"); });
   return result;
@@ -77,7 +77,7 @@ class ProblemFileTest : public testing::Test {
     return error_of(with(from, to));
   }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_ / "problem.json";
 };
 
@@ -88,7 +88,7 @@ bool same_bits(const Point& a, const Point& b) {
   return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y());
 }
 
-void expect_same(const HorizonProblem& a, const HorizonProblem& b) {
+void expect_same(const search::HorizonProblem& a, const search::HorizonProblem& b) {
   EXPECT_TRUE(same_bits(a.start.x_m, b.start.x_m));
   EXPECT_TRUE(same_bits(a.start.y_m, b.start.y_m));
   EXPECT_TRUE(same_bits(a.start.heading_rad, b.start.heading_rad));
@@ -112,20 +112,21 @@ void expect_same(const HorizonProblem& a, const HorizonProblem& b) {
 
 TEST_F(ProblemFileTest, WrittenProblemsReadBackToTheSameBits) {
   const auto subgraph = subgraph_b();
-  const ReachableSets reachable(*subgraph, 8);
-  const auto engine = make_search_engine(*subgraph, reachable, {});
+  const automaton::ReachableSets reachable(*subgraph, 8);
+  const auto engine = search::make_search_engine(*subgraph, reachable, {});
   std::size_t with_incumbent = 0;
   for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     ProblemFile file{.automaton_file = folder_ / "paper.yaml", .subgraph = subgraph};
     file.problem = test::random_problem(*subgraph, 1 + test::pick(random, 8), random);
-    file.problem.incumbent = engine->search(file.problem, never_stop).maneuvers;
+    file.problem.incumbent = engine->search(file.problem, search::never_stop).maneuvers;
     if (!file.problem.incumbent.empty()) ++with_incumbent;
     file.problem.avoids_steering_limit = test::pick(random, 2) == 0;
     file.problem.start.x_m = std::array{-0.0, 5e-324, 1e9, 0.1, -7.0}.at(test::pick(random, 5));
-    file.search.engine = test::pick(random, 2) == 0 ? Engine::kBestFirst : Engine::kBranchAndBound;
-    file.search.factory = test::pick(random, 2) == 0 ? make_ompl_engine : nullptr;
+    file.search.engine =
+        test::pick(random, 2) == 0 ? search::Engine::kBestFirst : search::Engine::kBranchAndBound;
+    file.search.factory = test::pick(random, 2) == 0 ? search::make_ompl_engine : nullptr;
     file.search.max_expansions = 1 + test::pick(random, 1'000'000);
     if (seed % 2 == 0) file.search.criterion_weights = {{"J1", 0.1 / 3.0}, {"J2", 5e-324}};
     write_problem_file(file, file_);
@@ -151,7 +152,7 @@ TEST_F(ProblemFileTest, AHandWrittenFileIsGoodAndItsAutomatonLiesBesideIt) {
   EXPECT_EQ(file.problem.start_trim, TrimId{6});
   EXPECT_EQ(file.problem.reference_speed_mps, (std::vector{1.0, 0.8, 0.8}));
   EXPECT_EQ(file.problem.boundary_m.size(), 1U);
-  EXPECT_EQ(file.search.max_expansions, SearchOptions{}.max_expansions);
+  EXPECT_EQ(file.search.max_expansions, search::SearchOptions{}.max_expansions);
 }
 
 TEST_F(ProblemFileTest, AClockwisePolygonIsTakenCounterClockwise) {
@@ -406,4 +407,4 @@ TEST_F(ProblemFileTest, TheCostToGoOf2022NeedsReferenceSpeeds) {
 }
 
 }  // namespace
-}  // namespace hlc::problem_file_test
+}  // namespace hlc::scenario::problem_file_test

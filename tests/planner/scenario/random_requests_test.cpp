@@ -13,7 +13,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plans_in_force.hpp"
 
-namespace hlc::random_requests_test {
+namespace hlc::scenario::random_requests_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -39,13 +39,15 @@ SubgraphRequest random_request(Random& random) {
 }
 
 /// One that is not refused. Half of them are of another automaton object, as for new weights.
-std::shared_ptr<const Subgraph> random_subgraph(const Subgraph& base, std::size_t horizon_steps,
-                                                Random& random) {
-  std::shared_ptr<const UniversalAutomaton> automaton = base.shared_automaton();
-  if (draw(random, 1) == 0) automaton = std::make_shared<const UniversalAutomaton>(*automaton);
+std::shared_ptr<const automaton::Subgraph> random_subgraph(const automaton::Subgraph& base,
+                                                           std::size_t horizon_steps,
+                                                           Random& random) {
+  std::shared_ptr<const automaton::UniversalAutomaton> automaton = base.shared_automaton();
+  if (draw(random, 1) == 0)
+    automaton = std::make_shared<const automaton::UniversalAutomaton>(*automaton);
   while (true) {
     try {
-      return requested_subgraph(base, random_request(random), horizon_steps, automaton);
+      return automaton::requested_subgraph(base, random_request(random), horizon_steps, automaton);
     } catch (const std::invalid_argument&) {
       continue;
     }
@@ -54,7 +56,7 @@ std::shared_ptr<const Subgraph> random_subgraph(const Subgraph& base, std::size_
 
 /// The same cars, of which none was asked.
 struct Counterpart {
-  Rollout without;
+  rollout::Rollout without;
   std::size_t asked;
   std::size_t steps_left;
 };
@@ -68,9 +70,9 @@ struct Drive {
 
 void drive(const Scenario& three_cars, std::uint64_t seed, Drive& sums) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
-  const Subgraph& base = *three_cars.subgraph;
+  const automaton::Subgraph& base = *three_cars.subgraph;
   Random random(seed);
-  Rollout rollout = make_rollout(with_random_starts(three_cars, seed));
+  rollout::Rollout rollout = rollout::make_rollout(with_random_starts(three_cars, seed));
   std::vector<Counterpart> counterparts;
   for (std::size_t k = 0; k < 150; ++k) {
     if (k > 2 && draw(random, 2) == 0) {
@@ -80,22 +82,23 @@ void drive(const Scenario& three_cars, std::uint64_t seed, Drive& sums) {
           random_subgraph(base, three_cars.horizon_steps, random));
       ++sums.requests;
     }
-    const std::vector<Report> reports = rollout.step();
+    const std::vector<coordination::Report> reports = rollout.step();
     ASSERT_TRUE(test::plans_in_force_are_free(rollout)) << "step " << k;
     for (std::size_t i = 0; i < reports.size(); ++i) {
-      const Report& report = reports[i];
-      sums.planned += report.status == StepStatus::kPlanned ? 1U : 0U;
-      EXPECT_NE(report.quality, PlanQuality::kBudget) << "step " << k;
+      const coordination::Report& report = reports[i];
+      sums.planned += report.status == coordination::StepStatus::kPlanned ? 1U : 0U;
+      EXPECT_NE(report.quality, coordination::PlanQuality::kBudget) << "step " << k;
       EXPECT_LE(report.expanded, three_cars.search.max_expansions);
-      const Controller& controller = *rollout.controllers()[i];
-      const Plan& plan = controller.plan_in_force();
+      const controller::Controller& controller = *rollout.controllers()[i];
+      const coordination::Plan& plan = controller.plan_in_force();
       EXPECT_TRUE(base.automaton().trims[plan.trim_at(plan.end()).index].is_equilibrium());
     }
     for (Counterpart& counterpart : counterparts) {
-      const std::vector<Report> otherwise = counterpart.without.step();
+      const std::vector<coordination::Report> otherwise = counterpart.without.step();
       --counterpart.steps_left;
-      const bool is_infeasible = reports[counterpart.asked].reason == FallbackReason::kInfeasible &&
-                                 otherwise[counterpart.asked].reason != FallbackReason::kInfeasible;
+      const bool is_infeasible =
+          reports[counterpart.asked].reason == coordination::FallbackReason::kInfeasible &&
+          otherwise[counterpart.asked].reason != coordination::FallbackReason::kInfeasible;
       const bool is_switch = counterpart.steps_left == three_cars.horizon_steps;
       (is_switch ? sums.infeasible_by_switch : sums.infeasible_later) += is_infeasible ? 1U : 0U;
     }
@@ -131,4 +134,4 @@ TEST(RandomRequests, TheFormerSubgraphStaysUntilAPlanOnTheNewOneHolds) {
 }
 
 }  // namespace
-}  // namespace hlc::random_requests_test
+}  // namespace hlc::scenario::random_requests_test

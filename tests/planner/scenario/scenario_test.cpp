@@ -11,7 +11,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc::scenario_test {
+namespace hlc::scenario::scenario_test {
 namespace {
 
 const std::string kFolder = test::source_folder() + "/launch_scripts/";
@@ -28,7 +28,7 @@ class ScenarioErrors : public testing::Test {
     for (std::size_t place = 0; (place = text.find("../", place)) != std::string::npos;) {
       text.replace(place, 3, kFolder);
     }
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const std::string file = folder / "scenario.yaml";
     std::ofstream(file) << text;
     try {
@@ -140,9 +140,9 @@ TEST_F(ScenarioErrors, AStartMayBeBesideThePathAndTurned) {
 }
 
 /// A controller that sees its vehicle standing there.
-std::unique_ptr<Controller> controller_at(const Scenario& scenario, VehicleId id,
-                                          const Pose& measured) {
-  std::unique_ptr<Controller> controller = make_controller(scenario, id);
+std::unique_ptr<controller::Controller> controller_at(const Scenario& scenario, VehicleId id,
+                                                      const Pose& measured) {
+  std::unique_ptr<controller::Controller> controller = make_controller(scenario, id);
   static_cast<void>(controller->stand_by(
       {.step = {1}, .active = {id}, .states = {{.vehicle = id, .pose = measured}}, .present = {}}));
   return controller;
@@ -157,8 +157,9 @@ TEST(Scenario, AVehicleTakesItsOwnRouteAndOneThatIsNotNamedTheRouteThatItFits) {
     EXPECT_TRUE(controller_at(scenario, vehicle.id, pose)->fits_route());
     const auto guest = controller_at(scenario, {17}, pose);
     EXPECT_TRUE(guest->fits_route());
-    EXPECT_LE(placement_cost_m(*guest->placement()),
-              placement_cost_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
+    EXPECT_LE(
+        road::placement_cost_m(*guest->placement()),
+        road::placement_cost_m(*controller_at(scenario, vehicle.id, pose)->placement()) + 1e-12);
     EXPECT_EQ(guest->routes().size(), 3U);
   }
   const Pose green = measured_start(scenario, scenario.vehicles[2]);
@@ -179,24 +180,26 @@ ScenarioChoices three_cars(const std::string& profile, std::optional<std::string
 }
 
 TEST(ScenarioSearch, TheProfileSaysWhatSearchesUnlessTheCommandLineDoes) {
-  EXPECT_EQ(read_scenario(three_cars("default")).search.engine, Engine::kBranchAndBound);
-  EXPECT_EQ(read_scenario(three_cars("default", "best_first")).search.engine, Engine::kBestFirst);
-  const SearchOptions through_ompl = read_scenario(three_cars("2022", "ompl_best_first")).search;
+  EXPECT_EQ(read_scenario(three_cars("default")).search.engine, search::Engine::kBranchAndBound);
+  EXPECT_EQ(read_scenario(three_cars("default", "best_first")).search.engine,
+            search::Engine::kBestFirst);
+  const search::SearchOptions through_ompl =
+      read_scenario(three_cars("2022", "ompl_best_first")).search;
   EXPECT_EQ(engine_name(through_ompl), "ompl_best_first");
   const Scenario of_2022 = read_scenario(three_cars("2022"));
-  EXPECT_EQ(of_2022.search.engine, Engine::kBestFirst);
-  EXPECT_EQ(of_2022.search.cost_to_go, CostToGo::kReferenceSpeed);
+  EXPECT_EQ(of_2022.search.engine, search::Engine::kBestFirst);
+  EXPECT_EQ(of_2022.search.cost_to_go, search::CostToGo::kReferenceSpeed);
 }
 
 TEST(ScenarioSearch, TheProfileSaysByWhichRulesControllersPlanAndAgree) {
   const auto strategies = [](const std::string& profile) {
     return make_controller(read_scenario(three_cars(profile)), {1})->options().strategies;
   };
-  EXPECT_EQ(strategies("default"), ControllerStrategies{});
-  const ControllerStrategies of_2022 = strategies("2022");
-  EXPECT_EQ(of_2022.commit, kAgreedCommit);
-  EXPECT_EQ(of_2022.coupled_obstacles, &predictions_and_standing_successors);
-  EXPECT_EQ(of_2022.incumbent, &no_incumbent) << "its counts are to be the paper's";
+  EXPECT_EQ(strategies("default"), controller::ControllerStrategies{});
+  const controller::ControllerStrategies of_2022 = strategies("2022");
+  EXPECT_EQ(of_2022.commit, coordination::kAgreedCommit);
+  EXPECT_EQ(of_2022.coupled_obstacles, &controller::predictions_and_standing_successors);
+  EXPECT_EQ(of_2022.incumbent, &controller::no_incumbent) << "its counts are to be the paper's";
   EXPECT_EQ(of_2022.standstill_timeout, nullptr) << "its drives are to be the paper's";
 }
 
@@ -215,4 +218,4 @@ TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc::scenario_test
+}  // namespace hlc::scenario::scenario_test

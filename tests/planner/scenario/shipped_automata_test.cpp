@@ -10,7 +10,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/plans_in_force.hpp"
 
-namespace hlc::shipped_automata_test {
+namespace hlc::scenario::shipped_automata_test {
 namespace {
 
 const std::string kScenarios = test::source_folder() + "/launch_scripts/scenarios/";
@@ -28,10 +28,10 @@ class ShippedAutomaton : public testing::TestWithParam<Shipped> {};
 TEST_P(ShippedAutomaton, Drives) {
   const Scenario scenario = read_scenario(
       {.file = kScenarios + GetParam().scenario + ".yaml", .subgraph = GetParam().subgraph});
-  for (const Maneuver& maneuver : scenario.subgraph->automaton().maneuvers) {
-    ASSERT_EQ(validate(maneuver, scenario.subgraph->automaton()), "");
+  for (const automaton::Maneuver& maneuver : scenario.subgraph->automaton().maneuvers) {
+    ASSERT_EQ(automaton::validate(maneuver, scenario.subgraph->automaton()), "");
   }
-  std::vector<std::unique_ptr<Controller>> controllers;
+  std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
   for (const ScenarioVehicle& vehicle : scenario.vehicles) {
     controllers.push_back(make_controller(scenario, vehicle.id));
@@ -40,10 +40,11 @@ TEST_P(ShippedAutomaton, Drives) {
   std::vector<Point> last;
   for (const Pose& start : starts) last.push_back(start.position_m());
   std::vector<double> driven_m(starts.size());
-  Rollout rollout(std::move(controllers), starts);
+  rollout::Rollout rollout(std::move(controllers), starts);
   for (std::size_t step = 0; step < GetParam().steps; ++step) {
-    for (const Report& report : rollout.step()) {
-      ASSERT_EQ(report.status, StepStatus::kPlanned) << to_string(report.reason);
+    for (const coordination::Report& report : rollout.step()) {
+      ASSERT_EQ(report.status, coordination::StepStatus::kPlanned)
+          << coordination::to_string(report.reason);
       const std::size_t i = report.vehicle.value - 1U;
       driven_m[i] += (report.planned_pose.position_m() - last[i]).norm();
       last[i] = report.planned_pose.position_m();
@@ -61,4 +62,4 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedAutomaton,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace hlc::shipped_automata_test
+}  // namespace hlc::scenario::shipped_automata_test

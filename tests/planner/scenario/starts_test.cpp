@@ -4,7 +4,7 @@
 
 #include "tests/support/folders.hpp"
 
-namespace hlc::starts_test {
+namespace hlc::scenario::starts_test {
 namespace {
 
 const std::string kScenarios = test::source_folder() + "/launch_scripts/scenarios/";
@@ -40,4 +40,4 @@ TEST(Starts, OpenPathsHaveNoRandomOnes) {
 }
 
 }  // namespace
-}  // namespace hlc::starts_test
+}  // namespace hlc::scenario::starts_test

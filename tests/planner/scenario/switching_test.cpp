@@ -12,7 +12,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::switching_test {
+namespace hlc::scenario::switching_test {
 namespace {
 
 const std::string kFolder = test::source_folder() + "/launch_scripts/";
@@ -21,15 +21,15 @@ const std::string kFolder = test::source_folder() + "/launch_scripts/";
 class Switching : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const AutomatonConfiguration configuration =
-        read_automaton_configuration(kFolder + "automata/paper.yaml");
-    automaton_ = build_shared_automaton(configuration);
+    const maneuver_design::AutomatonConfiguration configuration =
+        maneuver_design::read_automaton_configuration(kFolder + "automata/paper.yaml");
+    automaton_ = maneuver_design::build_shared_automaton(configuration);
     specs_ = configuration.subgraphs;
-    SubgraphSpec slow = specs_.at(1);
+    automaton::SubgraphSpec slow = specs_.at(1);
     slow.name = "slow";
     slow.max_speed_mps = 0.5;
     specs_.push_back(slow);
-    SubgraphSpec stuck = specs_.at(1);
+    automaton::SubgraphSpec stuck = specs_.at(1);
     stuck.name = "stuck";
     stuck.trims = {{0}};
     for (std::size_t from = 1; from < 12; ++from) {
@@ -46,33 +46,34 @@ class Switching : public testing::Test {
         {.file = kFolder + "scenarios/paper_red_alone.yaml", .profile = "2022", .subgraph = "B"},
         automaton_, specs_);
     scenario.vehicles.front().corridor = {};
-    std::vector<std::unique_ptr<Controller>> controllers;
+    std::vector<std::unique_ptr<controller::Controller>> controllers;
     controllers.push_back(make_controller(scenario, scenario.vehicles.front().id));
-    rollout_ = std::make_unique<Rollout>(std::move(controllers),
-                                         std::vector<Pose>{scenario.vehicles.front().start});
-    for (const SubgraphSpec& spec : specs_) {
-      subgraphs_[spec.name] = std::make_shared<const Subgraph>(automaton_, spec);
+    rollout_ = std::make_unique<rollout::Rollout>(
+        std::move(controllers), std::vector<Pose>{scenario.vehicles.front().start});
+    for (const automaton::SubgraphSpec& spec : specs_) {
+      subgraphs_[spec.name] = std::make_shared<const automaton::Subgraph>(automaton_, spec);
     }
   }
 
-  Controller& controller() { return *rollout_->controllers().front(); }
+  controller::Controller& controller() { return *rollout_->controllers().front(); }
   void switch_to(const std::string& name) {
     const auto& subgraph = subgraphs_.at(name);
     // Half of the times with tables that are there already.
     if (switches_++ % 2 == 0) {
-      controller().switch_to(prepare_subgraph(subgraph, 8, controller().options().search));
+      controller().switch_to(
+          controller::prepare_subgraph(subgraph, 8, controller().options().search));
     } else {
       controller().switch_to(subgraph);
     }
   }
 
   /// One step; the plan in force must go on where the former one was and end standing.
-  Report step() {
+  coordination::Report step() {
     const StepIndex now = rollout_->next_step();
     const bool had_plan = controller().has_plan();
     const Pose expected = had_plan ? controller().plan_in_force().pose_at(now) : Pose{};
-    Report report = rollout_->step().front();
-    const Plan& plan = controller().plan_in_force();
+    coordination::Report report = rollout_->step().front();
+    const coordination::Plan& plan = controller().plan_in_force();
     if (had_plan) {
       EXPECT_EQ(report.planned_pose, expected);
     }
@@ -84,15 +85,15 @@ class Switching : public testing::Test {
     return report;
   }
 
-  static std::shared_ptr<const UniversalAutomaton> automaton_;
-  static std::vector<SubgraphSpec> specs_;
-  std::unique_ptr<Rollout> rollout_;
+  static std::shared_ptr<const automaton::UniversalAutomaton> automaton_;
+  static std::vector<automaton::SubgraphSpec> specs_;
+  std::unique_ptr<rollout::Rollout> rollout_;
   int switches_{0};
-  std::map<std::string, std::shared_ptr<const Subgraph>> subgraphs_;
+  std::map<std::string, std::shared_ptr<const automaton::Subgraph>> subgraphs_;
 };
 
-std::shared_ptr<const UniversalAutomaton> Switching::automaton_;
-std::vector<SubgraphSpec> Switching::specs_;
+std::shared_ptr<const automaton::UniversalAutomaton> Switching::automaton_;
+std::vector<automaton::SubgraphSpec> Switching::specs_;
 
 TEST_F(Switching, BetweenAllFourSubgraphsEveryStepFindsAPlanAndTheCarDrivesOn) {
   const std::vector<std::string> order{"B", "A", "D", "C", "A", "slow", "D", "B"};
@@ -103,19 +104,19 @@ TEST_F(Switching, BetweenAllFourSubgraphsEveryStepFindsAPlanAndTheCarDrivesOn) {
   for (std::size_t k = 0; k < 120; ++k) {
     const std::string& name = order[(k / 3) % order.size()];
     if (k % 3 == 0) switch_to(name);
-    const Report report = step();
+    const coordination::Report report = step();
     SCOPED_TRACE(testing::Message() << "step " << k << " on " << name);
-    ASSERT_EQ(report.status, StepStatus::kPlanned);
+    ASSERT_EQ(report.status, coordination::StepStatus::kPlanned);
     driven_m += (report.planned_pose.position_m() - last).norm();
     last = report.planned_pose.position_m();
     ++driven_with[controller().plan_in_force().maneuver_during(report.step).label];
     // What has been planned in this step is made of this subgraph.
     TrimId trim = controller().plan_in_force().trim_at({report.step.value + 1});
     for (std::size_t j = 1; j <= 8; ++j) {
-      const Maneuver& maneuver =
+      const automaton::Maneuver& maneuver =
           controller().plan_in_force().maneuver_during({report.step.value + j});
       bool is_edge = false;
-      for (const Edge& edge : subgraphs_.at(name)->successors(trim)) {
+      for (const automaton::Edge& edge : subgraphs_.at(name)->successors(trim)) {
         is_edge = is_edge || edge.maneuver == &maneuver;
       }
       ASSERT_TRUE(is_edge);
@@ -133,9 +134,10 @@ TEST_F(Switching, ToASpeedLimitSlowsDownAtOnce) {
   static_cast<void>(step());  // planned from the next step on
   static_cast<void>(step());  // leaves the trim that is off
   for (int k = 0; k < 20; ++k) {
-    const Report report = step();
-    EXPECT_EQ(report.status, StepStatus::kPlanned);
-    EXPECT_LE(top_speed_mps(controller().plan_in_force().maneuver_during(report.step)), 0.5);
+    const coordination::Report report = step();
+    EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);
+    EXPECT_LE(automaton::top_speed_mps(controller().plan_in_force().maneuver_during(report.step)),
+              0.5);
   }
 }
 
@@ -145,36 +147,37 @@ class SwitchingAutomata : public Switching {
   /// Plans on it for a step.
   void SetUp() override {
     for (int k = 0; k < 10; ++k) static_cast<void>(step());
-    auto other = std::make_shared<UniversalAutomaton>(*automaton_);
+    auto other = std::make_shared<automaton::UniversalAutomaton>(*automaton_);
     first_ = &other->maneuvers.front();
     last_ = &other->maneuvers.back();
     watched_ = other;
-    controller().switch_to(std::make_shared<const Subgraph>(std::move(other), specs_.at(1)));
-    EXPECT_EQ(step().status, StepStatus::kPlanned);
+    controller().switch_to(
+        std::make_shared<const automaton::Subgraph>(std::move(other), specs_.at(1)));
+    EXPECT_EQ(step().status, coordination::StepStatus::kPlanned);
     EXPECT_TRUE(drives_other(rollout_->next_step()));
     EXPECT_TRUE(drives_other(controller().plan_in_force().end()));
   }
   [[nodiscard]] bool drives_other(StepIndex step) {
-    const Maneuver* const maneuver = &controller().plan_in_force().maneuver_during(step);
+    const automaton::Maneuver* const maneuver = &controller().plan_in_force().maneuver_during(step);
     return !std::less<>()(maneuver, first_) && !std::less<>()(last_, maneuver);
   }
 
-  const Maneuver* first_{};
-  const Maneuver* last_{};
-  std::weak_ptr<const UniversalAutomaton> watched_;
+  const automaton::Maneuver* first_{};
+  const automaton::Maneuver* last_{};
+  std::weak_ptr<const automaton::UniversalAutomaton> watched_;
 };
 
 TEST_F(SwitchingAutomata, TheOneBeforeStaysAsLongAsAPlanThatMayBeDrivenHasManeuversOfIt) {
   switch_to("B");
   for (int k = 0; k < 2; ++k) {
-    const Report report = step();
-    EXPECT_EQ(report.status, StepStatus::kPlanned);
+    const coordination::Report report = step();
+    EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);
     EXPECT_EQ(drives_other(report.step), k == 0);
     EXPECT_FALSE(drives_other({report.step.value + 1}));
     EXPECT_FALSE(watched_.expired()) << "it is driven, or was a step ago";
   }
   // Its commands may have been received last (replaced_plans.hpp).
-  for (std::uint64_t k = 1; k < ReplacedPlans::kDrivableSteps; ++k) {
+  for (std::uint64_t k = 1; k < controller::ReplacedPlans::kDrivableSteps; ++k) {
     static_cast<void>(step());
     EXPECT_FALSE(watched_.expired());
   }
@@ -192,9 +195,10 @@ TEST_F(SwitchingAutomata, APlanThatIsDrivenToItsEndStandsOnItsOwn) {
   switch_to("B");
   for (int k = 0; k < 3; ++k) {
     EXPECT_FALSE(watched_.expired());
-    EXPECT_EQ(step().status, StepStatus::kPlanned);
+    EXPECT_EQ(step().status, coordination::StepStatus::kPlanned);
   }
-  for (std::uint64_t k = 0; k < ReplacedPlans::kDrivableSteps; ++k) static_cast<void>(step());
+  for (std::uint64_t k = 0; k < controller::ReplacedPlans::kDrivableSteps; ++k)
+    static_cast<void>(step());
   EXPECT_TRUE(watched_.expired());
 }
 
@@ -202,14 +206,14 @@ TEST_F(Switching, WhereNothingCanBePlannedTheFallbackIsDrivenToStandstill) {
   for (int k = 0; k < 13; ++k) static_cast<void>(step());
   switch_to("stuck");
   const StepIndex end = controller().plan_in_force().end();
-  Report report = step();
-  EXPECT_EQ(report.status, StepStatus::kFallback);
-  EXPECT_EQ(report.reason, FallbackReason::kInfeasible);
+  coordination::Report report = step();
+  EXPECT_EQ(report.status, coordination::StepStatus::kFallback);
+  EXPECT_EQ(report.reason, coordination::FallbackReason::kInfeasible);
   for (int k = 0; k < 9; ++k) report = step();
   EXPECT_EQ(automaton_->trims[report.planned_trim.index].speed_mps, 0.0);
   EXPECT_LE(end.value, report.step.value);
-  EXPECT_EQ(report.status, StepStatus::kPlanned);  // standing can be planned again
+  EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);  // standing can be planned again
 }
 
 }  // namespace
-}  // namespace hlc::switching_test
+}  // namespace hlc::scenario::switching_test

@@ -8,14 +8,14 @@
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 constexpr std::size_t kHorizonSteps = 8;
 
 class CollisionCheckTest : public testing::Test {
  protected:
-  [[nodiscard]] const Maneuver& self_loop(TrimId trim) const {
+  [[nodiscard]] const automaton::Maneuver& self_loop(TrimId trim) const {
     return *subgraph_.automaton().find(trim, trim, test::kTestLabel);
   }
 
@@ -28,8 +28,8 @@ class CollisionCheckTest : public testing::Test {
     return problem;
   }
 
-  Subgraph subgraph_{test::make_test_subgraph(4.0)};
-  ReachableSets reachable_{subgraph_, kHorizonSteps};
+  automaton::Subgraph subgraph_{test::make_test_subgraph(4.0)};
+  automaton::ReachableSets reachable_{subgraph_, kHorizonSteps};
   CollisionCheck check_{subgraph_, reachable_};
   const TrimId straight_{6};
 };
@@ -49,8 +49,8 @@ TEST_F(CollisionCheckTest, AgreesWithPolygonByPolygonOnEveryEdgeOfRandomWalks) {
     Pose pose = problem.start;
     TrimId trim = problem.start_trim;
     for (std::size_t step = 1; step <= kHorizonSteps; ++step) {
-      std::vector<Edge> permitted;
-      for (const Edge& edge : subgraph_.successors(trim)) {
+      std::vector<automaton::Edge> permitted;
+      for (const automaton::Edge& edge : subgraph_.successors(trim)) {
         if (subgraph_.distance_to_standstill(edge.to) > kHorizonSteps - step) {
           continue;
         }
@@ -61,7 +61,7 @@ TEST_F(CollisionCheckTest, AgreesWithPolygonByPolygonOnEveryEdgeOfRandomWalks) {
         collisions += is_free ? 0U : 1U;
         ++edges;
       }
-      const Edge& chosen = permitted[test::pick(random, permitted.size())];
+      const automaton::Edge& chosen = permitted[test::pick(random, permitted.size())];
       pose = compose(pose, chosen.maneuver->displacement);
       trim = chosen.to;
     }
@@ -72,10 +72,11 @@ TEST_F(CollisionCheckTest, AgreesWithPolygonByPolygonOnEveryEdgeOfRandomWalks) {
 
 TEST_F(CollisionCheckTest, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
   // A check that leaves out what is farther than 0.99 of the reach would miss it.
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kHorizonSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kHorizonSteps);
   CollisionCheck check(subgraph, reachable);
-  const Maneuver& ahead = *subgraph.automaton().find(straight_, straight_, test::kTestLabel);
+  const automaton::Maneuver& ahead =
+      *subgraph.automaton().find(straight_, straight_, test::kTestLabel);
   const double front_m = bounding_box(ahead.swept_area_m).max_m.x();
   const double lane_front_m = bounding_box(ahead.lane_area_m).max_m.x();
 
@@ -115,7 +116,7 @@ TEST_F(CollisionCheckTest, AnObstacleCountsInItsOwnStepOnly) {
 
 TEST_F(CollisionCheckTest, TheMarginKeepsObstaclesAwayButNotTheBoundary) {
   // The margin of 10 mm begins at half the width, 53.5 mm.
-  const Maneuver& standing = self_loop(subgraph_.standstill());
+  const automaton::Maneuver& standing = self_loop(subgraph_.standstill());
   const auto is_free_beside = [&](double y_m, bool as_obstacle) {
     HorizonProblem problem = problem_from({}, subgraph_.standstill());
     if (as_obstacle) {
@@ -144,7 +145,7 @@ TEST_F(CollisionCheckTest, AllocatesNothingPerCheck) {
   const std::size_t before = test::num_allocations();
   std::size_t free = 0;
   for (const TrimId trim : subgraph_.spec().trims) {
-    for (const Edge& edge : subgraph_.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph_.successors(trim)) {
       if (check_.is_free(*edge.maneuver, 1, start)) {
         ++free;
       }
@@ -156,4 +157,4 @@ TEST_F(CollisionCheckTest, AllocatesNothingPerCheck) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

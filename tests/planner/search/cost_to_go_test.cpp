@@ -13,7 +13,7 @@
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using test::kAllTrims;
@@ -39,7 +39,7 @@ struct VertexCase {
   }
 };
 
-VertexCase random_vertex(const Subgraph& subgraph, std::mt19937_64& random) {
+VertexCase random_vertex(const automaton::Subgraph& subgraph, std::mt19937_64& random) {
   const std::size_t steps_left = 1 + test::pick(random, 4);
   const std::size_t depth = test::pick(random, kMaxSteps - steps_left + 1);
   return {test::random_free_problem(subgraph, depth + steps_left, random), depth};
@@ -76,19 +76,20 @@ VertexCase far_reference_vertex(TrimId trim, double angle_rad, std::mt19937_64& 
   return vertex;
 }
 
-double cost_to_go(const Subgraph& subgraph, const ReachableSets& reachable,
+double cost_to_go(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable,
                   const VertexCase& vertex, CostToGo kind) {
   const CostToGoFunction function(subgraph, reachable, vertex.problem, kind);
   return function(vertex.problem.start_trim, vertex.depth, to_frame(vertex.problem.start));
 }
 
 /// The bound with every reach scaled by `factor`: inadmissible if the factor is below 1.
-double scaled_cost_to_go(const ReachableSets& reachable, const VertexCase& vertex, double factor) {
+double scaled_cost_to_go(const automaton::ReachableSets& reachable, const VertexCase& vertex,
+                         double factor) {
   const HorizonProblem rest = vertex.rest();
   const std::size_t n = rest.horizon_steps();
   double h = 0.0;
   for (std::size_t i = 1; i <= n; ++i) {
-    Reach reach = reachable.reach(rest.start_trim, i, n - i);
+    automaton::Reach reach = reachable.reach(rest.start_trim, i, n - i);
     reach.max_distance_m *= factor;
     for (double& support_m : reach.support_m) support_m *= factor;
     const Point& reference_m = rest.reference_m[i - 1];
@@ -98,7 +99,7 @@ double scaled_cost_to_go(const ReachableSets& reachable, const VertexCase& verte
   return h;
 }
 
-double true_cost_to_go(const Subgraph& subgraph, const VertexCase& vertex) {
+double true_cost_to_go(const automaton::Subgraph& subgraph, const VertexCase& vertex) {
   return test::exhaustive_search(subgraph, vertex.rest()).cost;
 }
 
@@ -144,9 +145,9 @@ class CostToGoTest : public testing::TestWithParam<Automaton> {
     }
   }
 
-  Subgraph subgraph_{
+  automaton::Subgraph subgraph_{
       test::make_test_subgraph(GetParam().labels, GetParam().trims, GetParam().max_speed_mps)};
-  ReachableSets reachable_{subgraph_, kMaxSteps};
+  automaton::ReachableSets reachable_{subgraph_, kMaxSteps};
 };
 
 TEST_P(CostToGoTest, NeverExceedsTheTrueCost) {
@@ -205,8 +206,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 // In each of the sixteen directions, and for each trim, the support is what one step reaches.
 TEST(CostToGo, IsTheTrueCostOfOneStepTowardsAFarReference) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   for (std::size_t number = 1; number <= 12; ++number) {
     for (std::size_t direction = 0; direction < 16; ++direction) {
       std::mt19937_64 random(16 * number + direction);
@@ -223,8 +224,8 @@ TEST(CostToGo, IsTheTrueCostOfOneStepTowardsAFarReference) {
 }
 
 TEST(CostToGo, IsTheTrueCostAtFullSpeedTowardsAFarReference) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     std::mt19937_64 random(seed);
     const VertexCase vertex = full_speed_vertex(TrimId{6}, random);
@@ -235,13 +236,13 @@ TEST(CostToGo, IsTheTrueCostAtFullSpeedTowardsAFarReference) {
 }
 
 TEST(StraightLineCostToGo, GoesAsFarAsTheLongestManeuverInEveryStep) {
-  const Subgraph subgraph = test::make_test_subgraph({kSlow, kFast}, {1, 2, 6, 7});
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph({kSlow, kFast}, {1, 2, 6, 7});
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   double longest_m = 0.0;
-  for (const Maneuver& maneuver : subgraph.automaton().maneuvers) {
+  for (const automaton::Maneuver& maneuver : subgraph.automaton().maneuvers) {
     const auto edges = subgraph.successors(maneuver.from);
     if (std::any_of(edges.begin(), edges.end(),
-                    [&](const Edge& edge) { return edge.maneuver == &maneuver; })) {
+                    [&](const automaton::Edge& edge) { return edge.maneuver == &maneuver; })) {
       longest_m = std::max(longest_m, maneuver.displacement.position_m().norm());
     }
   }
@@ -254,7 +255,7 @@ TEST(StraightLineCostToGo, GoesAsFarAsTheLongestManeuverInEveryStep) {
 }
 
 TEST(DistanceBeyond, IsThatOfTheNearestHalfPlaneOrCircle) {
-  Reach box{.max_distance_m = 3.0, .support_m = {}};
+  automaton::Reach box{.max_distance_m = 3.0, .support_m = {}};
   box.support_m.fill(9.0);
   box.support_m[0] = box.support_m[8] = 1.0;
   box.support_m[4] = box.support_m[12] = 2.0;
@@ -267,8 +268,8 @@ TEST(DistanceBeyond, IsThatOfTheNearestHalfPlaneOrCircle) {
 }
 
 TEST(CostToGo, IsZeroAtTheEndOfTheHorizon) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   HorizonProblem problem;
   problem.reference_m = {{1.0, 0.0}, {9.0, 9.0}};
   problem.reference_speed_mps = {0.8, 0.4};
@@ -280,8 +281,8 @@ TEST(CostToGo, IsZeroAtTheEndOfTheHorizon) {
 }
 
 TEST(CostToGo2022, MarchesAtTheReferenceSpeedOfEachRemainingStep) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   HorizonProblem problem;
   problem.reference_m = {{5.0, 5.0}, {1.0, 0.0}, {0.0, 2.0}};
   problem.reference_speed_mps = {7.0, 0.8, 0.4};
@@ -291,8 +292,8 @@ TEST(CostToGo2022, MarchesAtTheReferenceSpeedOfEachRemainingStep) {
 }
 
 TEST(CostToGo2022, IsInadmissibleWhereTheReferenceIsNear) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   VertexCase standing;
   standing.problem.start_trim = subgraph.standstill();
   standing.problem.reference_m.assign(3, Point::Zero());
@@ -303,4 +304,4 @@ TEST(CostToGo2022, IsInadmissibleWhereTheReferenceIsNear) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

@@ -16,7 +16,7 @@
 #include "tests/support/same_result.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 constexpr std::size_t kMaxSteps = 6;
@@ -26,13 +26,14 @@ double uniform(std::mt19937_64& random, double low, double high) {
 }
 
 /// Two labels, and of every maneuver a criterion of either sign and one from 0.
-Subgraph make_subgraph(std::mt19937_64& random) {
+automaton::Subgraph make_subgraph(std::mt19937_64& random) {
   const auto automaton = test::make_test_automaton(test::paper_trims(), {test::kSlow, test::kFast});
-  for (Maneuver& maneuver : automaton->maneuvers) {
+  for (automaton::Maneuver& maneuver : automaton->maneuvers) {
     maneuver.criteria = {{"progress", uniform(random, -1.0, 0.5)},
                          {"effort", uniform(random, 0.0, 3.0)}};
   }
-  SubgraphSpec spec{.name = "test", .labels = {test::kSlow.label, test::kFast.label}, .trims = {}};
+  automaton::SubgraphSpec spec{
+      .name = "test", .labels = {test::kSlow.label, test::kFast.label}, .trims = {}};
   for (const std::size_t number : test::kAllTrims) spec.trims.push_back({number - 1});
   return {automaton, spec};
 }
@@ -48,8 +49,8 @@ TEST(EdgeCosts, PlansOfAllEnginesCostLeastWithTheManeuversOwnCriteria) {
   for (std::uint64_t seed = 0; seed < problems; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    const Subgraph subgraph = make_subgraph(random);
-    const ReachableSets reachable(subgraph, kMaxSteps);
+    const automaton::Subgraph subgraph = make_subgraph(random);
+    const automaton::ReachableSets reachable(subgraph, kMaxSteps);
     const SearchOptions options{.criterion_weights = random_weights(random)};
     BranchAndBound fast(subgraph, reachable, options);
     BranchAndBound portable(subgraph, reachable, options, BranchAndBound::Instructions::kPortable);
@@ -82,8 +83,8 @@ TEST(EdgeCosts, AtTheBudgetTheBoundIsNoMoreThanTheBestPlansCost) {
   for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    const Subgraph subgraph = make_subgraph(random);
-    const ReachableSets reachable(subgraph, kMaxSteps);
+    const automaton::Subgraph subgraph = make_subgraph(random);
+    const automaton::ReachableSets reachable(subgraph, kMaxSteps);
     SearchOptions options{.criterion_weights = random_weights(random)};
     const HorizonProblem problem = test::random_problem(subgraph, kMaxSteps, random);
     BranchAndBound whole(subgraph, reachable, options);
@@ -104,14 +105,15 @@ TEST(EdgeCosts, AtTheBudgetTheBoundIsNoMoreThanTheBestPlansCost) {
 }
 
 /// The least sum over all paths that end in an equilibrium.
-double least_sum(const EdgeCosts& costs, const Subgraph& subgraph, TrimId trim, std::size_t steps) {
+double least_sum(const EdgeCosts& costs, const automaton::Subgraph& subgraph, TrimId trim,
+                 std::size_t steps) {
   if (steps == 0) {
     return subgraph.automaton().trims[trim.index].is_equilibrium()
                ? 0.0
                : std::numeric_limits<double>::infinity();
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const Edge& edge : subgraph.successors(trim)) {
+  for (const automaton::Edge& edge : subgraph.successors(trim)) {
     least = std::min(
         least, costs.reduced_cost(*edge.maneuver) + least_sum(costs, subgraph, edge.to, steps - 1));
   }
@@ -122,7 +124,7 @@ TEST(EdgeCosts, WhatTheRestCostsAtLeastIsExactAndNeverTooMuch) {
   for (std::uint64_t seed = 0; seed < test::num_seeds(5); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    const Subgraph subgraph = make_subgraph(random);
+    const automaton::Subgraph subgraph = make_subgraph(random);
     const EdgeCosts costs(subgraph, random_weights(random), kMaxSteps);
     for (const TrimId trim : subgraph.start_trims()) {
       for (std::size_t steps = subgraph.distance_to_standstill(trim); steps <= 3; ++steps) {
@@ -130,7 +132,7 @@ TEST(EdgeCosts, WhatTheRestCostsAtLeastIsExactAndNeverTooMuch) {
         EXPECT_LE(costs.to_go(trim, steps), truth);
         EXPECT_NEAR(costs.to_go(trim, steps), truth, 1e-9);
       }
-      for (const Edge& edge : subgraph.successors(trim)) {
+      for (const automaton::Edge& edge : subgraph.successors(trim)) {
         EXPECT_GE(costs.reduced_cost(*edge.maneuver), 0.0);
       }
     }
@@ -139,7 +141,7 @@ TEST(EdgeCosts, WhatTheRestCostsAtLeastIsExactAndNeverTooMuch) {
 
 TEST(EdgeCosts, WithoutWeightsEverythingIsZero) {
   std::mt19937_64 random(1);
-  const Subgraph subgraph = make_subgraph(random);
+  const automaton::Subgraph subgraph = make_subgraph(random);
   const EdgeCosts costs(subgraph, {}, kMaxSteps);
   EXPECT_TRUE(costs.is_zero());
   EXPECT_EQ(costs.least(), 0.0);
@@ -148,7 +150,7 @@ TEST(EdgeCosts, WithoutWeightsEverythingIsZero) {
 
 std::string refusal_of(const std::vector<PlanningWeight>& weights) {
   std::mt19937_64 random(1);
-  const Subgraph subgraph = make_subgraph(random);
+  const automaton::Subgraph subgraph = make_subgraph(random);
   try {
     static_cast<void>(EdgeCosts(subgraph, weights, kMaxSteps));
   } catch (const std::invalid_argument& error) {
@@ -167,4 +169,4 @@ TEST(EdgeCosts, RefusesUnknownCriteriaAndWeightsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

@@ -11,7 +11,7 @@
 #include "tests/support/random_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 constexpr std::size_t kMaxSteps = 8;
@@ -41,13 +41,13 @@ class SearchBudget : public testing::TestWithParam<Kind> {
   }
 
   /// Some free path that ends in standstill: the best one towards another reference.
-  [[nodiscard]] std::vector<const Maneuver*> some_path(HorizonProblem problem,
-                                                       std::mt19937_64& random) const {
+  [[nodiscard]] std::vector<const automaton::Maneuver*> some_path(HorizonProblem problem,
+                                                                  std::mt19937_64& random) const {
     problem.reference_m = test::random_reference_m(problem.start, problem.horizon_steps(), random);
     return engine()->search(problem, never_stop).maneuvers;
   }
 
-  [[nodiscard]] double cost_of(const std::vector<const Maneuver*>& path,
+  [[nodiscard]] double cost_of(const std::vector<const automaton::Maneuver*>& path,
                                const HorizonProblem& problem) const {
     double cost = 0.0;
     Pose pose = problem.start;
@@ -58,8 +58,8 @@ class SearchBudget : public testing::TestWithParam<Kind> {
     return cost;
   }
 
-  Subgraph subgraph_{test::make_test_subgraph()};
-  ReachableSets reachable_{subgraph_, kMaxSteps};
+  automaton::Subgraph subgraph_{test::make_test_subgraph()};
+  automaton::ReachableSets reachable_{subgraph_, kMaxSteps};
 };
 
 // From 0 expansions on: a path if one is claimed, and bounds on both sides of the optimum.
@@ -173,7 +173,7 @@ TEST_P(SearchBudget, AnIncumbentThatIsNoPathOfTheProblemIsLeftOut) {
   HorizonProblem problem = test::random_free_problem(subgraph_, 5, random);
   problem.start_trim = TrimId{6};
   const auto good = some_path(problem, random);
-  const auto answer_with = [&](std::vector<const Maneuver*> incumbent) {
+  const auto answer_with = [&](std::vector<const automaton::Maneuver*> incumbent) {
     problem.incumbent = std::move(incumbent);
     return engine(0)->search(problem, never_stop);
   };
@@ -187,8 +187,10 @@ TEST_P(SearchBudget, AnIncumbentThatIsNoPathOfTheProblemIsLeftOut) {
   const auto other = test::make_test_subgraph();
   foreign[0] = other.automaton().find(good[0]->from, good[0]->to, test::kTestLabel);
   ASSERT_NE(foreign[0], nullptr);
-  const Maneuver* const straight = subgraph_.automaton().find({6}, {6}, test::kTestLabel);
-  const std::vector<const Maneuver*> driving_on(5, straight);  // does not stand at the end
+  const automaton::Maneuver* const straight =
+      subgraph_.automaton().find({6}, {6}, test::kTestLabel);
+  const std::vector<const automaton::Maneuver*> driving_on(5,
+                                                           straight);  // does not stand at the end
   auto out_of_order = good;
   out_of_order[0] = subgraph_.automaton().find({0}, good[0]->to, test::kTestLabel);
   for (const auto& incumbent : {shorter, broken, foreign, driving_on, out_of_order}) {
@@ -212,8 +214,8 @@ TEST_P(SearchBudget, AnIncumbentThatIsNoPathOfTheProblemIsLeftOut) {
   const auto step = [&](std::size_t from, std::size_t to) {
     return subgraph_.automaton().find({from - 1}, {to - 1}, test::kTestLabel);
   };
-  const std::vector<const Maneuver*> locked{step(7, 1), step(1, 12), step(12, 12), step(12, 1),
-                                            step(1, 1)};
+  const std::vector<const automaton::Maneuver*> locked{step(7, 1), step(1, 12), step(12, 12),
+                                                       step(12, 1), step(1, 1)};
   EXPECT_EQ(answer_with(locked).maneuvers, locked);
   problem.avoids_steering_limit = true;
   EXPECT_EQ(answer_with(locked).reason, NoPath::kBudget);
@@ -227,4 +229,4 @@ INSTANTIATE_TEST_SUITE_P(Engines, SearchBudget,
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using testing::HasSubstr;
@@ -46,4 +46,4 @@ TEST(SearchOptions, BranchAndBoundSearchesWithTheReachableCostToGoOnly) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

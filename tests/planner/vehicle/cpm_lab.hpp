@@ -2,7 +2,7 @@
 
 #include "planner/vehicle/lab_limits.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 
 /// The limits of launch_scripts/labs/cpm_lab.yaml, with points twice as far apart.
 inline constexpr LabLimits kCpmLab{.curvature_min_per_m = -3.960,
@@ -15,4 +15,4 @@ inline constexpr LabLimits kCpmLab{.curvature_min_per_m = -3.960,
                                    .y_max_m = 4.0,
                                    .point_interval_s = 0.05};
 
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -4,7 +4,7 @@
 
 #include "planner/vehicle/single_track.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 namespace {
 
 /// Curvature of the path of the identified model in steady state: yaw rate over path speed.
@@ -53,4 +53,4 @@ TEST(IdentifiedVehicle, SlipStaysWhereThePathIsTooSharp) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -11,7 +11,7 @@
 
 #include "tests/planner/vehicle/cpm_lab.hpp"
 
-namespace hlc {
+namespace hlc::vehicle {
 namespace {
 
 using Points = std::vector<TimedPoint>;
@@ -175,4 +175,4 @@ TEST(LabLimits, AFaultIsToldWithValueAndBound) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace hlc {
+namespace hlc::vehicle {
 namespace {
 
 const VehicleParameters kVehicle;
@@ -53,4 +53,4 @@ TEST(PathCurvature, LimitHoldsToBothSidesAndIsWiderOnlyNearStandstill) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::vehicle

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace hlc {
+namespace hlc::vehicle {
 namespace {
 
 /// Speed and steering of the paper's Table 1.
@@ -167,4 +167,4 @@ TEST(SingleTrack, AShiftBeforeTheMotionEqualsTheSameShiftAfterIt) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::vehicle

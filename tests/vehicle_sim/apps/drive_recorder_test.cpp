@@ -9,7 +9,7 @@
 #include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 std::string lines_of(const std::filesystem::path& file) {
@@ -19,7 +19,7 @@ std::string lines_of(const std::filesystem::path& file) {
 
 class DriveRecorderTest : public testing::Test {
  protected:
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(DriveRecorderTest, RowsAreOnTheDiskAtOnceWithAllDigits) {
@@ -42,7 +42,7 @@ TEST_F(DriveRecorderTest, WhatIsWrittenIsReadBackBitForBit) {
   DriveRecorder recorder(file);
   const Pose pose{.x_m = 1.0 / 3.0, .y_m = -0.1, .heading_rad = 1e-17};
   recorder.write({.t = 20'000'000, .pose = pose, .speed_mps = 0.7, .steering = -0.2});
-  const Drive drive = read_drive(file);
+  const result::Drive drive = record::read_drive(file);
   ASSERT_EQ(drive.size(), 1U);
   EXPECT_EQ(drive[0].t, 20'000'000U);
   EXPECT_EQ(drive[0].pose, pose);
@@ -65,13 +65,13 @@ TEST_F(DriveRecorderTest, OfACarThatIsStartedAgainTheWholeDriveIsThere) {
   { std::ofstream(file, std::ios::app) << "40000000,0.1,0"; }  // killed in the middle of a row
   DriveRecorder(file, true).write({.t = 60'000'000});
   DriveRecorder(file, true).write({.t = 80'000'000});
-  const Drive drive = read_drive(file);
+  const result::Drive drive = record::read_drive(file);
   ASSERT_EQ(drive.size(), 3U);
   EXPECT_EQ(drive[1].t, 60'000'000U);
   DriveRecorder(folder_ / "new.csv", true).write({.t = 20'000'000});
-  EXPECT_EQ(read_drive(folder_ / "new.csv").size(), 1U);
+  EXPECT_EQ(record::read_drive(folder_ / "new.csv").size(), 1U);
   DriveRecorder(file).write({.t = 20'000'000});
-  EXPECT_EQ(read_drive(file).size(), 1U);
+  EXPECT_EQ(record::read_drive(file).size(), 1U);
 }
 
 // Otherwise a full disk would truncate a drive silently.
@@ -88,4 +88,4 @@ TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsAnError) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -10,7 +10,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 test::Outcome run_simulator(const std::string& flags) {
@@ -59,7 +59,7 @@ TEST(FaultSimulator, SaysWhatManyRunsCameTo) {
 }
 
 TEST(FaultSimulator, AReplayPrintsItsFaultsAndWritesATrace) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string trace = (folder.path() / "trace.txt").string();
   const auto [exit_code, output] = run_simulator("--cars 3 --replay 4 --trace " + trace);
   EXPECT_EQ(exit_code, 0) << output;
@@ -69,4 +69,4 @@ TEST(FaultSimulator, AReplayPrintsItsFaultsAndWritesATrace) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

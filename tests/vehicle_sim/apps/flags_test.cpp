@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 test::Outcome run(const std::string& flags) { return test::run_program("vehicle_sim " + flags); }
@@ -54,4 +54,4 @@ TEST(VehicleSimFlags, HelpIsGoodAndNamesTheExitCodes) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -9,7 +9,7 @@
 #include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using testing::HasSubstr;
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 constexpr char kHeading[] = R"({"seed":1,"files":["a"]})";
 
 TEST(RunLog, OfAnAppendThatFailedNothingStays) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     RunLog log(folder / "out", kHeading);
     log.append(0, R"({"run":0})");
@@ -37,7 +37,7 @@ TEST(RunLog, OfAnAppendThatFailedNothingStays) {
 }
 
 TEST(RunLog, SaysInWhatAnotherCampaignDiffers) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   { const RunLog log(folder / "out", kHeading); }
   try {
     const RunLog other(folder / "out", R"({"seed":1,"files":["b"],"steps":3})");
@@ -48,7 +48,7 @@ TEST(RunLog, SaysInWhatAnotherCampaignDiffers) {
 }
 
 TEST(RunLog, AFolderHasOneWriterAtATime) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     const RunLog log(folder / "out", kHeading);
     EXPECT_THROW(RunLog(folder / "out", kHeading), std::invalid_argument);
@@ -57,7 +57,7 @@ TEST(RunLog, AFolderHasOneWriterAtATime) {
 }
 
 TEST(RunLog, RefusesWhatIsInTheWay) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "out" / "runs.jsonl");
   EXPECT_THROW(RunLog(folder / "out", kHeading), std::invalid_argument);
   const RunLog log(folder / "other", kHeading);
@@ -67,4 +67,4 @@ TEST(RunLog, RefusesWhatIsInTheWay) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

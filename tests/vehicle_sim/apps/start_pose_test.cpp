@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 TEST(StartPose, VehiclesWithAStartOfTheirOwnStandInTheLabClearOfEachOther) {
@@ -38,4 +38,4 @@ TEST(StartPose, NumbersThatMakeNoPoseAreRefused) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

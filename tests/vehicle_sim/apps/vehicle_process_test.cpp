@@ -14,7 +14,7 @@
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "tests/support/domain_reservation.hpp"
 
-namespace hlc {
+namespace hlc::apps {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -25,12 +25,12 @@ constexpr Nanoseconds kPeriod = 200 * kMillisecond;
 constexpr std::uint8_t kId = 3;
 const Pose kStart{.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.0};
 
-ParticipantOptions participant(const std::string& name, int domain) {
+dds::ParticipantOptions participant(const std::string& name, int domain) {
   return {.name = name,
           .domain_id = domain,
-          .role = DomainRole::kLab,
-          .transport = Transport::kLoopback,
-          .lease = kLogicalTime.lease,
+          .role = dds::DomainRole::kLab,
+          .transport = dds::Transport::kLoopback,
+          .lease = machine::kLogicalTime.lease,
           .discovery_server = std::nullopt};
 }
 
@@ -60,19 +60,20 @@ class Lab {
   explicit Lab(int domain)
       : lab_control_(participant(kLabControlName, domain), [this] { signal_.notify(); }),
         middleware_(participant(middleware_name(kId), domain), [this] { signal_.notify(); }),
-        trigger_writer_(lab_control_, topics::system_trigger()),
-        parameter_writer_(lab_control_, topics::parameter()),
-        command_writer_(middleware_, topics::vehicle_command(kId)),
-        request_reader_(lab_control_, topics::parameter_request(),
+        trigger_writer_(lab_control_, dds::topics::system_trigger()),
+        parameter_writer_(lab_control_, dds::topics::parameter()),
+        command_writer_(middleware_, dds::topics::vehicle_command(kId)),
+        request_reader_(lab_control_, dds::topics::parameter_request(),
                         [this](const ParameterRequest& request) {
                           signal_.post([&] { requests_.push_back(request.name); });
                         }),
         ready_reader_(
-            lab_control_, topics::ready_status(),
+            lab_control_, dds::topics::ready_status(),
             [this](const ReadyStatus& status) { signal_.post([&] { ready_ = status; }); }),
-        state_reader_(middleware_, topics::vehicle_state(kId), [this](const VehicleState& state) {
-          signal_.post([&] { states_.push_back(state); });
-        }) {}
+        state_reader_(middleware_, dds::topics::vehicle_state(kId),
+                      [this](const VehicleState& state) {
+                        signal_.post([&] { states_.push_back(state); });
+                      }) {}
 
   /// Answers what the vehicle asks until it asks for its first tick; false if that does not come.
   [[nodiscard]] bool answer_until_ready(const std::vector<std::int32_t>& active_ids) {
@@ -126,29 +127,29 @@ class Lab {
   }
 
  private:
-  Signal signal_;
+  time::Signal signal_;
   bool is_closed_{};
   std::vector<std::string> requests_;
   std::optional<ReadyStatus> ready_;
   std::vector<VehicleState> states_;
 
-  Participant lab_control_;
-  Participant middleware_;
-  Writer<SystemTrigger> trigger_writer_;
-  Writer<Parameter> parameter_writer_;
-  Writer<TrajectoryCommand> command_writer_;
-  Reader<ParameterRequest> request_reader_;
-  Reader<ReadyStatus> ready_reader_;
-  Reader<VehicleState> state_reader_;
+  dds::Participant lab_control_;
+  dds::Participant middleware_;
+  dds::Writer<SystemTrigger> trigger_writer_;
+  dds::Writer<Parameter> parameter_writer_;
+  dds::Writer<TrajectoryCommand> command_writer_;
+  dds::Reader<ParameterRequest> request_reader_;
+  dds::Reader<ReadyStatus> ready_reader_;
+  dds::Reader<VehicleState> state_reader_;
 };
 
 class VehicleProcessTest : public testing::Test {
  protected:
   [[nodiscard]] VehicleProcessOptions options() const {
     return {.vehicle = {.vehicle_id = kId, .start = kStart},
-            .transport = Transport::kLoopback,
+            .transport = dds::Transport::kLoopback,
             .lab_domain = domain_.first(),
-            .time = kLogicalTime,
+            .time = machine::kLogicalTime,
             .rules = machine::logical_rules(),
             .startup_timeout = seconds(60)};
   }
@@ -173,7 +174,7 @@ class VehicleProcessTest : public testing::Test {
     return exit_code_.get();
   }
 
-  const DomainReservation domain_{1};
+  const test::DomainReservation domain_{1};
   std::unique_ptr<VehicleProcess> process_;
   std::future<int> exit_code_;
 };
@@ -197,8 +198,9 @@ TEST_F(VehicleProcessTest, DrivesInLogicalTimeUntilTheStopAndBrakesForOneSecond)
     ASSERT_EQ(lab.states(ticks).size(), ticks);
   }
   lab.stop();
-  for (int i = 1; i <= SimulatedVehicle::kBrakingTicks; ++i, t += kVehiclePeriod) {
-    ASSERT_TRUE(lab.release_tick(t, i == SimulatedVehicle::kBrakingTicks)) << t;
+  for (int i = 1; i <= simulated_vehicle::SimulatedVehicle::kBrakingTicks;
+       ++i, t += kVehiclePeriod) {
+    ASSERT_TRUE(lab.release_tick(t, i == simulated_vehicle::SimulatedVehicle::kBrakingTicks)) << t;
   }
   EXPECT_EQ(exit_code(), kExitGood);
 
@@ -276,7 +278,7 @@ TEST_F(VehicleProcessTest, StopEndsItWhereverItWaits) {
 TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
   Lab lab(domain_.first());
   VehicleProcessOptions real = options();
-  real.time = kRealTime;
+  real.time = machine::kRealTime;
   real.rules = machine::real_rules(kVehicleStays);
   start(real);
   const std::vector<VehicleState> states = lab.states(10);
@@ -291,4 +293,4 @@ TEST_F(VehicleProcessTest, InRealTimeItPublishesWithoutAnybodyElse) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::apps

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace hlc::distribution_test {
+namespace hlc::campaign::distribution_test {
 namespace {
 
 TEST(Distribution, ExceedanceIsTheShareThatIsAtLeastAsLarge) {
@@ -35,4 +35,4 @@ TEST(Distribution, HistogramHasTenBinsADecadeAndPercentages) {
 }
 
 }  // namespace
-}  // namespace hlc::distribution_test
+}  // namespace hlc::campaign::distribution_test

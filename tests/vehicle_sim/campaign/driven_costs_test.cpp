@@ -4,7 +4,7 @@
 
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc::driven_costs_test {
+namespace hlc::campaign::driven_costs_test {
 namespace {
 
 constexpr Nanoseconds kPeriod = 200'000'000;
@@ -17,7 +17,7 @@ class DrivenCostsTest : public testing::Test {
  protected:
   void SetUp() override {
     double cost = 1.0;
-    for (Maneuver& maneuver : automaton_->maneuvers) {
+    for (automaton::Maneuver& maneuver : automaton_->maneuvers) {
       maneuver.criteria = {{"J2", cost}, {"comfort", 1000.0 * cost}};
       cost += 1.0;
     }
@@ -27,12 +27,12 @@ class DrivenCostsTest : public testing::Test {
   void add_vehicle(std::uint8_t id) {
     constexpr std::size_t kTrims[] = {0, 6, 6, 7};
     for (std::size_t k = 0; k < std::size(kTrims); ++k) {
-      StepRecord row{.step = k, .record = {}, .driven = {}};
-      Report& report = row.record.report;
+      result::StepRecord row{.step = k, .record = {}, .driven = {}};
+      coordination::Report& report = row.record.report;
       report.vehicle = VehicleId{id};
       report.step = StepIndex{kFirstStep + k};
       report.planned_trim = TrimId{kTrims[k]};
-      report.maneuver = k == 1 ? kSelfLoopLabel : test::kTestLabel;
+      report.maneuver = k == 1 ? automaton::kSelfLoopLabel : test::kTestLabel;
       rows_.push_back(row);
     }
     // Also before the start and after the end.
@@ -48,11 +48,11 @@ class DrivenCostsTest : public testing::Test {
     return driven_costs(rows_, drives_, facts_, *automaton_);
   }
 
-  std::shared_ptr<UniversalAutomaton> automaton_{
+  std::shared_ptr<automaton::UniversalAutomaton> automaton_{
       test::make_test_automaton(test::paper_trims(), {{test::kTestLabel, 0.0}})};
-  std::vector<StepRecord> rows_;
-  Drives drives_;
-  RunFacts facts_{.period = kPeriod, .steps = 4, .first_step = kFirstStep};
+  std::vector<result::StepRecord> rows_;
+  result::Drives drives_;
+  result::RunFacts facts_{.period = kPeriod, .steps = 4, .first_step = kFirstStep};
 };
 
 TEST_F(DrivenCostsTest, AreThoseOfTheManeuversPerMetreOfAllVehicles) {
@@ -71,7 +71,7 @@ TEST_F(DrivenCostsTest, AreNotKnownIfTheAutomatonDoesNotHoldAManeuver) {
 }
 
 TEST_F(DrivenCostsTest, AreNotKnownIfAManeuverHasNoValueOfTheCriterion) {
-  for (Maneuver& maneuver : automaton_->maneuvers) {
+  for (automaton::Maneuver& maneuver : automaton_->maneuvers) {
     if (maneuver.to == TrimId{7}) maneuver.criteria = {{"J2", 1.0}};
   }
   EXPECT_NE(costs().effort_per_m, std::nullopt);
@@ -80,10 +80,10 @@ TEST_F(DrivenCostsTest, AreNotKnownIfAManeuverHasNoValueOfTheCriterion) {
 
 TEST_F(DrivenCostsTest, AreNotKnownIfNobodyMoves) {
   for (auto& [id, drive] : drives_) {
-    for (DrivenSample& sample : drive) sample.pose = {};
+    for (result::DrivenSample& sample : drive) sample.pose = {};
   }
   EXPECT_EQ(costs().effort_per_m, std::nullopt);
 }
 
 }  // namespace
-}  // namespace hlc::driven_costs_test
+}  // namespace hlc::campaign::driven_costs_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc::evaluation_table_test {
+namespace hlc::campaign::evaluation_table_test {
 namespace {
 
 using testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST(EvaluationTable, APolicyHasAColumnOfItsOwnAndNoneOfThePaper) {
 }
 
 }  // namespace
-}  // namespace hlc::evaluation_table_test
+}  // namespace hlc::campaign::evaluation_table_test

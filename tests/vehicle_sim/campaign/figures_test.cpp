@@ -6,7 +6,7 @@
 #include "planner/plot/scenario_plot.hpp"
 #include "tests/support/folders.hpp"
 
-namespace hlc::figures_test {
+namespace hlc::campaign::figures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -44,7 +44,7 @@ void expect_finite(const std::string& svg) {
 
 TEST(Figures, PathsShowEverySubgraphAndTheLaneAndAPartEnlarged) {
   const std::vector<DrivenRun> runs = runs_of("paper_red_alone", {"B", "D"});
-  const std::string svg = paths_figure(runs, map_of(runs.front().scenario));
+  const std::string svg = paths_figure(runs, plot::map_of(runs.front().scenario));
   for (const char* text : {"subgraph B", "subgraph D", "centre of the lane", "x [m]", "y [m]"}) {
     EXPECT_THAT(svg, HasSubstr(std::string(">") + text + "<"));
   }
@@ -65,8 +65,8 @@ TEST(Figures, ThePartEnlargedIsWhereTwoDifferThoughAThirdStands) {
   };
   const std::string of_two = ticks(paths_figure(runs, std::nullopt));
   DrivenRun standing = runs.front();
-  Drive& drive = standing.experiment.drives.begin()->second;
-  for (DrivenSample& sample : drive) sample.pose = drive.front().pose;
+  result::Drive& drive = standing.experiment.drives.begin()->second;
+  for (result::DrivenSample& sample : drive) sample.pose = drive.front().pose;
   runs.push_back(standing);
   EXPECT_EQ(ticks(paths_figure(runs, std::nullopt)), of_two);
 }
@@ -133,7 +133,7 @@ TEST(Figures, SubgraphsHaveABandPerStretchWithTheSpeedAndTheZone) {
   }
   EXPECT_THAT(of_policy, Not(HasSubstr("subgraph J2")));  // fixed: nothing to see
   EXPECT_EQ(count(of_policy, "<polygon"), 3U + 1U + 1U);
-  EXPECT_EQ(count(of_policy, "<polygon fill=\"" + series_colour(1) + "\""), 1U);
+  EXPECT_EQ(count(of_policy, "<polygon fill=\"" + plot::series_colour(1) + "\""), 1U);
   EXPECT_EQ(count(of_policy, "<polyline"), 3U);
   EXPECT_THAT(of_policy, Not(HasSubstr("zone")));
   expect_finite(of_policy);
@@ -155,4 +155,4 @@ TEST(Figures, SubgraphsShadeTheTimeInZones) {
 }
 
 }  // namespace
-}  // namespace hlc::figures_test
+}  // namespace hlc::campaign::figures_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace hlc::interval_test {
+namespace hlc::campaign::interval_test {
 namespace {
 
 TEST(Interval, IsStudents) {
@@ -54,4 +54,4 @@ TEST(Interval, HoldsTheTrueMeanIn95OfAHundredSamples) {
 }
 
 }  // namespace
-}  // namespace hlc::interval_test
+}  // namespace hlc::campaign::interval_test

@@ -12,22 +12,23 @@
 #include "tests/vehicle_sim/vehicle/closed_loop.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc::lab_tracking_test {
+namespace hlc::campaign::lab_tracking_test {
 namespace {
 
 constexpr double kMean_m = 0.010;
 constexpr double kMax_m = 0.020;
 
-RunSummary driven(const std::string& name, std::uint64_t steps,
-                  std::optional<std::uint64_t> noise_seed) {
-  const Scenario scenario = read_scenario(
+result::RunSummary driven(const std::string& name, std::uint64_t steps,
+                          std::optional<std::uint64_t> noise_seed) {
+  const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
-  const Experiment experiment =
-      drive_experiment(scenario, {.steps = steps, .noise_seed = noise_seed});
+  const closed_loop::Experiment experiment =
+      closed_loop::drive_experiment(scenario, {.steps = steps, .noise_seed = noise_seed});
   EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
-  const std::vector<StepRecord> rows =
-      step_records(experiment.reports, experiment.drives, experiment.facts);
-  return summarize(describe(scenario, noise_seed), experiment.facts, rows, experiment.drives);
+  const std::vector<result::StepRecord> rows =
+      result::step_records(experiment.reports, experiment.drives, experiment.facts);
+  return result::summarize(result::describe(scenario, noise_seed), experiment.facts, rows,
+                           experiment.drives);
 }
 
 void expect_tracked(const std::string& name, std::uint64_t steps) {
@@ -35,9 +36,9 @@ void expect_tracked(const std::string& name, std::uint64_t steps) {
        {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1),
         std::optional<std::uint64_t>(1000)}) {
     SCOPED_TRACE(name + (noise_seed ? ", noise seed " + std::to_string(*noise_seed) : ""));
-    const RunSummary summary = driven(name, steps, noise_seed);
+    const result::RunSummary summary = driven(name, steps, noise_seed);
     EXPECT_EQ(summary.collisions, 0U);
-    for (const VehicleSummary& vehicle : summary.vehicles) {
+    for (const result::VehicleSummary& vehicle : summary.vehicles) {
       ASSERT_TRUE(vehicle.tracking_error_m);
       EXPECT_LE(vehicle.tracking_error_m->mean, kMean_m) << vehicle.name;
       EXPECT_LE(vehicle.tracking_error_m->max, kMax_m) << vehicle.name;
@@ -58,7 +59,7 @@ TEST(LabTracking, TheCarsOfTheRedRouteAndThoseItMeetsKeepToTheirCommands) {
 TEST(LabTracking, TheCarsOnTheCircleKeepToTheirCommands) { expect_tracked("lab_circle", 60); }
 
 /// The lab's circle of 1 m, at a trim's speed, points as our commands have them.
-driven_vehicle::Mission circle(double speed_mps, Nanoseconds interval) {
+simulated_vehicle::driven_vehicle::Mission circle(double speed_mps, Nanoseconds interval) {
   const auto at = [speed_mps](Nanoseconds t) {
     const double angle =
         speed_mps * std::max(0.0, 1e-9 * static_cast<double>(t) - 1.0);  // stands for 1 s
@@ -70,10 +71,11 @@ driven_vehicle::Mission circle(double speed_mps, Nanoseconds interval) {
   };
   return {.points =
               [at, interval](std::uint64_t step) {
-                const Nanoseconds begin = step * driven_vehicle::kPeriod;
+                const Nanoseconds begin = step * simulated_vehicle::driven_vehicle::kPeriod;
                 std::vector<TrajectoryPoint> points;
                 for (Nanoseconds t = begin < interval ? 0 : begin - interval;
-                     t <= begin + 2'200 * driven_vehicle::kMillisecond; t += interval) {
+                     t <= begin + 2'200 * simulated_vehicle::driven_vehicle::kMillisecond;
+                     t += interval) {
                   points.push_back(at(t));
                 }
                 return points;
@@ -86,23 +88,24 @@ TEST(LabTracking, TheLabsCircleIsKeptToAtEveryTrimsSpeed) {
   for (const double speed_mps : {0.4, 0.5, 0.6, 0.7, 0.8}) {
     for (const std::optional<std::uint64_t> noise_seed :
          {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1)}) {
-      SimulatedVehicle vehicle({.vehicle_id = 1,
-                                .start = {1.0, 0.0, 0.5 * std::numbers::pi},
-                                .noise_seed = noise_seed,
-                                .gains = {},
-                                .vehicle = {}});
-      const auto samples =
-          driven_vehicle::drive(vehicle, circle(speed_mps, 25 * driven_vehicle::kMillisecond),
-                                30'000 * driven_vehicle::kMillisecond);
-      const driven_vehicle::TrackingError error =
-          driven_vehicle::tracking_error(samples, 2'000 * driven_vehicle::kMillisecond);
+      simulated_vehicle::SimulatedVehicle vehicle({.vehicle_id = 1,
+                                                   .start = {1.0, 0.0, 0.5 * std::numbers::pi},
+                                                   .noise_seed = noise_seed,
+                                                   .gains = {},
+                                                   .vehicle = {}});
+      const auto samples = simulated_vehicle::driven_vehicle::drive(
+          vehicle, circle(speed_mps, 25 * simulated_vehicle::driven_vehicle::kMillisecond),
+          30'000 * simulated_vehicle::driven_vehicle::kMillisecond);
+      const simulated_vehicle::driven_vehicle::TrackingError error =
+          simulated_vehicle::driven_vehicle::tracking_error(
+              samples, 2'000 * simulated_vehicle::driven_vehicle::kMillisecond);
       EXPECT_LE(error.mean_m, kMean_m) << speed_mps;
       EXPECT_LE(error.max_m, kMax_m) << speed_mps;
       std::cout << "circle at " << speed_mps << " m/s" << (noise_seed ? ", noise" : "") << ": "
-                << driven_vehicle::to_string(error) << '\n';
+                << simulated_vehicle::driven_vehicle::to_string(error) << '\n';
     }
   }
 }
 
 }  // namespace
-}  // namespace hlc::lab_tracking_test
+}  // namespace hlc::campaign::lab_tracking_test

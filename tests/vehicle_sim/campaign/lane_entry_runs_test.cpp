@@ -18,7 +18,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc::lane_entry_runs_test {
+namespace hlc::campaign::lane_entry_runs_test {
 namespace {
 
 /// Where cars stand: everywhere where one is to be driven (placement.hpp), and some way beyond.
@@ -33,31 +33,31 @@ constexpr double kSpread_m = 0.015;
 /// What a vehicle may be beside its plan: the safety margin.
 constexpr double kMostBeyond_m = 0.010;
 
-const Scenario& shipped(const std::string& name) {
-  static std::map<std::string, Scenario> scenarios;
+const scenario::Scenario& shipped(const std::string& name) {
+  static std::map<std::string, scenario::Scenario> scenarios;
   if (!scenarios.contains(name)) {
-    scenarios[name] = read_scenario(
+    scenarios[name] = scenario::read_scenario(
         {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
   }
   return scenarios[name];
 }
 
-const Scenario& three_cars() { return shipped("paper_three_cars"); }
+const scenario::Scenario& three_cars() { return shipped("paper_three_cars"); }
 
-Scenario only(Scenario scenario, std::size_t vehicle) {
+scenario::Scenario only(scenario::Scenario scenario, std::size_t vehicle) {
   scenario.vehicles = {scenario.vehicles[vehicle]};
   return scenario;
 }
 
-DrivableRoute route_of(const ScenarioVehicle& vehicle) {
+road::DrivableRoute route_of(const scenario::ScenarioVehicle& vehicle) {
   return {.name = vehicle.name, .path = vehicle.path, .corridor = vehicle.corridor};
 }
 
 /// Two cars that start side by side where their lanes run together may stop each other for good,
 /// wherever in the lanes they stand; that is not the subject here.
-bool are_apart(const Scenario& scenario) {
-  for (const ScenarioVehicle& a : scenario.vehicles) {
-    for (const ScenarioVehicle& b : scenario.vehicles) {
+bool are_apart(const scenario::Scenario& scenario) {
+  for (const scenario::ScenarioVehicle& a : scenario.vehicles) {
+    for (const scenario::ScenarioVehicle& b : scenario.vehicles) {
       const double distance_m = (a.start.position_m() - b.start.position_m()).norm();
       if (a.id != b.id && distance_m < kApart_m) return false;
     }
@@ -66,18 +66,18 @@ bool are_apart(const Scenario& scenario) {
 }
 
 /// Every car on its route, somewhere, beside the centre line and turned, so that it just fits.
-Scenario with_offsets(const Scenario& scenario, std::uint64_t seed) {
+scenario::Scenario with_offsets(const scenario::Scenario& scenario, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> beside(-kMostBeside_m, kMostBeside_m);
   std::uniform_real_distribution<double> turned(-kMostTurned_rad, kMostTurned_rad);
   const Footprint& footprint = scenario.subgraph->automaton().vehicle.footprint;
   while (true) {
-    Scenario result = with_random_starts(scenario, random());
+    scenario::Scenario result = scenario::with_random_starts(scenario, random());
     bool are_good = true;
-    for (ScenarioVehicle& vehicle : result.vehicles) {
+    for (scenario::ScenarioVehicle& vehicle : result.vehicles) {
       vehicle.start = compose(vehicle.start, {0.0, beside(random), turned(random)});
-      const DrivableRoute route = route_of(vehicle);
-      are_good = are_good && fits(placement_on(route, vehicle.start, footprint), route);
+      const road::DrivableRoute route = route_of(vehicle);
+      are_good = are_good && road::fits(road::placement_on(route, vehicle.start, footprint), route);
     }
     if (are_good && are_apart(result)) return result;
   }
@@ -95,36 +95,39 @@ struct Joined {
 };
 
 /// Drives, and looks at every tick of every car.
-std::map<VehicleId, Joined> drive(const Scenario& scenario, RunSummary& summary,
+std::map<VehicleId, Joined> drive(const scenario::Scenario& scenario, result::RunSummary& summary,
                                   std::uint64_t steps = kSteps) {
-  std::map<std::pair<VehicleId, std::uint64_t>, DrivableRoute> areas;
+  std::map<std::pair<VehicleId, std::uint64_t>, road::DrivableRoute> areas;
   std::map<VehicleId, Joined> result;
-  JointStepRules rules;
-  rules.on_traffic = [&](const Controller& controller, const Traffic& traffic) {
-    DrivableRoute route = controller.route();
+  controller::JointStepRules rules;
+  rules.on_traffic = [&](const controller::Controller& controller,
+                         const coordination::Traffic& traffic) {
+    road::DrivableRoute route = controller.route();
     if (const auto& area = controller.entry_area()) {
       route.corridor = *area;
       result[traffic.vehicle].widened_steps += 1;
     }
     areas.emplace(std::pair{traffic.vehicle, traffic.step.value}, route);
   };
-  const Experiment experiment = drive_experiment(scenario, {.steps = steps, .rules = rules});
+  const closed_loop::Experiment experiment =
+      closed_loop::drive_experiment(scenario, {.steps = steps, .rules = rules});
   EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
-  const std::vector<StepRecord> rows =
-      step_records(experiment.reports, experiment.drives, experiment.facts);
-  summary = summarize(describe(scenario, {}), experiment.facts, rows, experiment.drives);
+  const std::vector<result::StepRecord> rows =
+      result::step_records(experiment.reports, experiment.drives, experiment.facts);
+  summary =
+      result::summarize(result::describe(scenario, {}), experiment.facts, rows, experiment.drives);
 
-  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
-  for (const StepRecord& row : rows) {
-    const Report& report = row.record.report;
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  for (const result::StepRecord& row : rows) {
+    const coordination::Report& report = row.record.report;
     Joined& joined = result[report.vehicle];
-    joined.without_plan += report.status != StepStatus::kPlanned ? 1U : 0U;
-    joined.off_route += report.reason == FallbackReason::kOffRoute ? 1U : 0U;
+    joined.without_plan += report.status != coordination::StepStatus::kPlanned ? 1U : 0U;
+    joined.off_route += report.reason == coordination::FallbackReason::kOffRoute ? 1U : 0U;
   }
-  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+  for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     Joined& joined = result[vehicle.id];
     std::optional<Point> last;
-    for (const DrivenSample& sample : experiment.drives.at(vehicle.id.value)) {
+    for (const result::DrivenSample& sample : experiment.drives.at(vehicle.id.value)) {
       const std::uint64_t step = sample.t / experiment.facts.period;
       const Point position = sample.pose.position_m();
       const double error_m = vehicle.path.project(position).distance_m;
@@ -138,9 +141,10 @@ std::map<VehicleId, Joined> drive(const Scenario& scenario, RunSummary& summary,
       const auto area = areas.find({vehicle.id, step});
       // In its first step a car stands where it was placed, and no area holds yet.
       if (area == areas.end() || step < *experiment.facts.first_step + 1) continue;
-      const Pose pose = pose_of_measured(sample.pose, 0.0, automaton.vehicle, automaton.identified);
+      const Pose pose =
+          automaton::pose_of_measured(sample.pose, 0.0, automaton.vehicle, automaton.identified);
       const double beyond_m =
-          placement_on(area->second, pose, automaton.vehicle.footprint).beyond_m();
+          road::placement_on(area->second, pose, automaton.vehicle.footprint).beyond_m();
       joined.beyond_area_m = std::max(joined.beyond_area_m, beyond_m);
     }
   }
@@ -148,11 +152,11 @@ std::map<VehicleId, Joined> drive(const Scenario& scenario, RunSummary& summary,
 }
 
 /// What a car that starts on its centre line does: its largest and its mean error, over starts.
-std::pair<double, double> usual_error_m(const Scenario& cars, std::size_t vehicle) {
+std::pair<double, double> usual_error_m(const scenario::Scenario& cars, std::size_t vehicle) {
   std::pair<double, double> usual_m{};
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    RunSummary summary;
-    const Scenario scenario = with_random_starts(only(cars, vehicle), seed);
+    result::RunSummary summary;
+    const scenario::Scenario scenario = scenario::with_random_starts(only(cars, vehicle), seed);
     const Joined joined = drive(scenario, summary, 80).at(scenario.vehicles.front().id);
     usual_m.first = std::max(usual_m.first, joined.last_error_m);
     usual_m.second = std::max(usual_m.second, summary.vehicles.front().reference_error_m->mean);
@@ -169,7 +173,7 @@ bool stands_off_route(const Joined& joined) {
 class LaneEntry : public testing::TestWithParam<std::string> {};
 
 TEST_P(LaneEntry, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) {
-  const Scenario& cars = shipped(GetParam());
+  const scenario::Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   Joined all;
   double most_m = 0.0;
@@ -179,8 +183,8 @@ TEST_P(LaneEntry, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) 
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const std::size_t vehicle = seed % 3;
     SCOPED_TRACE("seed " + std::to_string(seed) + ", vehicle " + std::to_string(vehicle + 1));
-    const Scenario scenario = with_offsets(only(cars, vehicle), seed);
-    RunSummary summary;
+    const scenario::Scenario scenario = with_offsets(only(cars, vehicle), seed);
+    result::RunSummary summary;
     const Joined joined = drive(scenario, summary).at(scenario.vehicles.front().id);
     if (stands_off_route(joined)) {
       ++cannot;
@@ -209,14 +213,14 @@ TEST_P(LaneEntry, ACarAloneComesOntoItsReferenceFromBesideItOrSaysThatItCannot) 
 }
 
 TEST_P(LaneEntry, ThreeCarsComeOntoTheirReferencesFromBesideThem) {
-  const Scenario& cars = shipped(GetParam());
+  const scenario::Scenario& cars = shipped(GetParam());
   const std::array usual_m{usual_error_m(cars, 0), usual_error_m(cars, 1), usual_error_m(cars, 2)};
   std::size_t cannot = 0;
   const std::uint64_t seeds = test::num_costly_seeds(10);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Scenario scenario = with_offsets(cars, seed);
-    RunSummary summary;
+    const scenario::Scenario scenario = with_offsets(cars, seed);
+    result::RunSummary summary;
     for (const auto& [id, joined] : drive(scenario, summary)) {
       SCOPED_TRACE("vehicle " + std::to_string(id.value));
       if (stands_off_route(joined)) {
@@ -236,16 +240,16 @@ INSTANTIATE_TEST_SUITE_P(All, LaneEntry, testing::Values("paper_three_cars", "la
                          [](const auto& one) { return one.param; });
 
 TEST(Fitting, ACarThatFitsNoRouteHoldsUpTheStartAndSaysSo) {
-  Scenario scenario = only(three_cars(), 0);
+  scenario::Scenario scenario = only(three_cars(), 0);
   scenario.vehicles[0].start = compose(scenario.vehicles[0].start, {0.0, 0.0, 2.0});
-  const Experiment experiment = drive_experiment(scenario, {.steps = 10});
+  const closed_loop::Experiment experiment = closed_loop::drive_experiment(scenario, {.steps = 10});
   EXPECT_EQ(experiment.facts.exit_code, 3);
   ASSERT_FALSE(experiment.reports.empty());
-  EXPECT_EQ(experiment.reports.back().report.status, StepStatus::kStandby);
-  EXPECT_EQ(experiment.reports.back().report.reason, FallbackReason::kOffRoute);
-  const Drive& drive = experiment.drives.at(scenario.vehicles[0].id.value);
+  EXPECT_EQ(experiment.reports.back().report.status, coordination::StepStatus::kStandby);
+  EXPECT_EQ(experiment.reports.back().report.reason, coordination::FallbackReason::kOffRoute);
+  const result::Drive& drive = experiment.drives.at(scenario.vehicles[0].id.value);
   EXPECT_EQ(drive.back().pose, drive.front().pose);
 }
 
 }  // namespace
-}  // namespace hlc::lane_entry_runs_test
+}  // namespace hlc::campaign::lane_entry_runs_test

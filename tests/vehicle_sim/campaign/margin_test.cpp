@@ -13,17 +13,17 @@
 #include "tests/vehicle_sim/vehicle/closed_loop.hpp"
 #include "tests/vehicle_sim/vehicle/controlled_loop.hpp"
 
-namespace hlc::margin_test {
+namespace hlc::campaign::margin_test {
 namespace {
 
-using driven_vehicle::kMillisecond;
-using driven_vehicle::Sample;
-using driven_vehicle::TrimWalk;
+using simulated_vehicle::driven_vehicle::kMillisecond;
+using simulated_vehicle::driven_vehicle::Sample;
+using simulated_vehicle::driven_vehicle::TrimWalk;
 using Trims = std::vector<std::size_t>;
 
 const Pose kStart{.x_m = 2.25, .y_m = 2.0, .heading_rad = 0.4};
 
-double margin_m() { return paper_automaton()->vehicle.safety_margin_m; }
+double margin_m() { return automaton::paper_automaton()->vehicle.safety_margin_m; }
 
 /// Largest deviations from the plan over one walk.
 struct Largest {
@@ -40,23 +40,23 @@ struct Largest {
 
 Largest walked(const Trims& trims, std::uint64_t seed,
                std::optional<std::uint64_t> noise_seed = {}) {
-  const UniversalAutomaton& automaton = *paper_automaton();
+  const automaton::UniversalAutomaton& automaton = *automaton::paper_automaton();
   const auto mapped = [&](Pose pose, double steering_rad) {
     pose.heading_rad +=
-        yaw_minus_heading_rad(steering_rad, automaton.vehicle, automaton.identified);
+        automaton::yaw_minus_heading_rad(steering_rad, automaton.vehicle, automaton.identified);
     return pose;
   };
   const TrimWalk walk(kStart, trims, seed);
-  SimulatedVehicle vehicle(
+  simulated_vehicle::SimulatedVehicle vehicle(
       {.vehicle_id = 1, .start = mapped(kStart, 0.0), .noise_seed = noise_seed});
   Largest largest;
-  for (const Sample& sample :
-       driven_vehicle::drive(vehicle, walk.mission(), walk.end() + 1'000 * kMillisecond)) {
-    const State planned = walk.state_at(sample.t);
+  for (const Sample& sample : simulated_vehicle::driven_vehicle::drive(
+           vehicle, walk.mission(), walk.end() + 1'000 * kMillisecond)) {
+    const vehicle::State planned = walk.state_at(sample.t);
     const Pose& driven = sample.tick.driven.pose;
     const double yaw_rad = mapped(planned.pose, planned.steering_rad).heading_rad;
-    largest.add({.footprint_m = footprint_deviation_m(driven, planned, automaton.vehicle,
-                                                      automaton.identified),
+    largest.add({.footprint_m = automaton::footprint_deviation_m(driven, planned, automaton.vehicle,
+                                                                 automaton.identified),
                  .position_m = sample.error_m(),
                  .yaw_rad = std::abs(wrap_angle(driven.heading_rad - yaw_rad))});
   }
@@ -174,12 +174,13 @@ std::vector<Point> winding_path(std::mt19937_64& random, double max_curvature_pe
 }
 
 /// One drive along a random path, some with a start askew, with bursts of steps without a new plan.
-controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise, double late_rate) {
-  static const auto subgraph =
-      std::make_shared<const Subgraph>(paper_automaton(), paper_configuration().subgraphs.front());
+simulated_vehicle::controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise,
+                                                      double late_rate) {
+  static const auto subgraph = std::make_shared<const automaton::Subgraph>(
+      automaton::paper_automaton(), automaton::paper_configuration().subgraphs.front());
   std::mt19937_64 random(seed);
   const double max_curvature_per_m = 3.0 + 2.0 * static_cast<double>(seed % 3);
-  const ReferencePath path(winding_path(random, max_curvature_per_m), false);
+  const road::ReferencePath path(winding_path(random, max_curvature_per_m), false);
   std::uniform_real_distribution<double> turn(-1.2, 1.2);
   const Pose start{0.0, 0.0, seed % 2 == 0 ? 0.0 : turn(random)};
   std::bernoulli_distribution begins(late_rate);
@@ -190,8 +191,8 @@ controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise, double l
     --burst;
     return true;
   };
-  const Profile profile = profile_from_name("default");
-  const Scenario scenario{
+  const scenario::Profile profile = scenario::profile_from_name("default");
+  const scenario::Scenario scenario{
       .name = "winding path",
       .steps = 70,
       .horizon_steps = 8,
@@ -202,21 +203,23 @@ controlled_loop::Stray drive_along(std::uint64_t seed, bool with_noise, double l
                  .max_expansions = 3'000},
       .subgraph = subgraph,
       .vehicles = {{.id = {1}, .name = "car", .start = start, .path = path, .corridor = {}}}};
-  return controlled_loop::drive(scenario, with_noise ? std::optional(seed) : std::nullopt, is_late);
+  return simulated_vehicle::controlled_loop::drive(
+      scenario, with_noise ? std::optional(seed) : std::nullopt, is_late);
 }
 
 // Paths sharper than the vehicle can turn, so that full lock is used often; plans driven to their
 // end without a new one, so that nothing helps that is not in the plan.
 TEST(Margin, TheAreasThatAControllerTellsHoldItsVehicleAtEveryTick) {
   const std::uint64_t seeds = test::num_costly_seeds(30);
-  controlled_loop::Stray all;
+  simulated_vehicle::controlled_loop::Stray all;
   double largest_without_limit_m = 0.0;
   for (const bool with_noise : {false, true}) {
     for (const double late_rate : {0.0, 0.05, 0.3}) {
       for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed) + (with_noise ? ", noise" : "") +
                      ", late at a rate of " + std::to_string(late_rate));
-        const controlled_loop::Stray stray = drive_along(seed, with_noise, late_rate);
+        const simulated_vehicle::controlled_loop::Stray stray =
+            drive_along(seed, with_noise, late_rate);
         EXPECT_LE(stray.outside_m, 1e-6) << "tick " << stray.outside_tick;
         EXPECT_LE(stray.beyond_reach_m, 2e-5);
         all.steps_at_limit += stray.steps_at_limit;
@@ -240,4 +243,4 @@ TEST(Margin, TheAreasThatAControllerTellsHoldItsVehicleAtEveryTick) {
 }
 
 }  // namespace
-}  // namespace hlc::margin_test
+}  // namespace hlc::campaign::margin_test

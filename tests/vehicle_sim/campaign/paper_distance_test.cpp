@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hlc::paper_distance_test {
+namespace hlc::campaign::paper_distance_test {
 namespace {
 
 /// The paper's lab column of subgraph D.
@@ -85,4 +85,4 @@ TEST(PaperDistance, OtherScenariosHaveNone) {
 }
 
 }  // namespace
-}  // namespace hlc::paper_distance_test
+}  // namespace hlc::campaign::paper_distance_test

@@ -5,7 +5,7 @@
 #include "tests/support/folders.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
-namespace hlc::policies_test {
+namespace hlc::campaign::policies_test {
 namespace {
 
 using testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST(Policies, WhatTheScenarioDoesNotHaveIsRefusedWithWhatItHas) {
 }
 
 }  // namespace
-}  // namespace hlc::policies_test
+}  // namespace hlc::campaign::policies_test

@@ -4,20 +4,20 @@
 
 #include <vector>
 
-namespace hlc::subgraph_use_test {
+namespace hlc::campaign::subgraph_use_test {
 namespace {
 
-StepRecord row(std::uint64_t step, std::uint8_t vehicle, const std::string& subgraph) {
-  StepRecord row{.step = step, .record = {}, .driven = {}};
+result::StepRecord row(std::uint64_t step, std::uint8_t vehicle, const std::string& subgraph) {
+  result::StepRecord row{.step = step, .record = {}, .driven = {}};
   row.record.report.vehicle = VehicleId{vehicle};
   row.record.report.subgraph = subgraph;
   return row;
 }
 
 TEST(SubgraphUse, CountsEachVehiclesOwnSwitches) {
-  const std::vector<StepRecord> rows{row(0, 1, "A"), row(0, 2, "B"), row(1, 1, "A"),
-                                     row(1, 2, "A"), row(2, 1, "B"), row(2, 2, "A"),
-                                     row(3, 1, "A"), row(3, 2, "A")};
+  const std::vector<result::StepRecord> rows{row(0, 1, "A"), row(0, 2, "B"), row(1, 1, "A"),
+                                             row(1, 2, "A"), row(2, 1, "B"), row(2, 2, "A"),
+                                             row(3, 1, "A"), row(3, 2, "A")};
   const SubgraphUse use = subgraph_use(rows);
   EXPECT_EQ(use.switches, 3U);
   EXPECT_EQ(use.shares, (std::map<std::string, double>{{"A", 0.75}, {"B", 0.25}}));
@@ -29,4 +29,4 @@ TEST(SubgraphUse, OfNoStepsIsNothing) {
 }
 
 }  // namespace
-}  // namespace hlc::subgraph_use_test
+}  // namespace hlc::campaign::subgraph_use_test

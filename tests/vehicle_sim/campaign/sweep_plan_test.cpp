@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
-namespace hlc::sweep_plan_test {
+namespace hlc::campaign::sweep_plan_test {
 namespace {
 
 using testing::HasSubstr;
@@ -23,8 +23,8 @@ std::string file_with(const std::string& settings, const std::string& more = "")
 }
 
 SweepPlan plan_of(const std::string& text) {
-  const TemporaryFolder folder;
-  put(folder / "sweep.yaml", text);
+  const test::TemporaryFolder folder;
+  test::put(folder / "sweep.yaml", text);
   return read_sweep(folder / "sweep.yaml");
 }
 
@@ -170,4 +170,4 @@ TEST(SweepPlan, BadFilesAreRefusedInOneLineWithPlaceValueAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace hlc::sweep_plan_test
+}  // namespace hlc::campaign::sweep_plan_test

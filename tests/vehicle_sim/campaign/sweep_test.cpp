@@ -14,7 +14,7 @@
 #include "vehicle_sim/campaign/sweep_tables.hpp"
 #include "vehicle_sim/campaign/trims_front.hpp"
 
-namespace hlc::sweep_test {
+namespace hlc::campaign::sweep_test {
 namespace {
 
 using testing::HasSubstr;
@@ -24,8 +24,8 @@ const std::string kScenario =
     test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml";
 
 Sweep built_sweep(const std::string& rest) {
-  const TemporaryFolder folder;
-  put(folder / "sweep.yaml", "scenarios: [" + kScenario + "]\n" + rest);
+  const test::TemporaryFolder folder;
+  test::put(folder / "sweep.yaml", "scenarios: [" + kScenario + "]\n" + rest);
   Sweep sweep(read_sweep(folder / "sweep.yaml"));
   for (std::size_t i = 0; i < sweep.num_automata(); ++i) sweep.build(i);
   return sweep;
@@ -47,15 +47,15 @@ RunFigures papers_run(RunFigures run) {
 }
 
 TEST(Sweep, TwoScenariosOfOneNameAreRefused) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::ifstream stream(kScenario);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;) {
     text.replace(at, 3, test::source_folder() + "/launch_scripts/");
   }
-  put(folder / "copy.yaml", text);
-  put(folder / "sweep.yaml", "scenarios: [" + kScenario + ", copy.yaml]\nsubgraphs: [B]\n" +
-                                 "settings: {lap: [standing]}");
+  test::put(folder / "copy.yaml", text);
+  test::put(folder / "sweep.yaml", "scenarios: [" + kScenario + ", copy.yaml]\nsubgraphs: [B]\n" +
+                                       "settings: {lap: [standing]}");
   try {
     const Sweep sweep(read_sweep(folder / "sweep.yaml"));
     ADD_FAILURE() << "accepted";
@@ -78,7 +78,7 @@ TEST(Sweep, OfTheFilesOwnSettingsDrivesAsThePlainCampaign) {
   ASSERT_EQ(sweep.runs().size(), campaign.runs().size());
   for (std::size_t i = 0; i < sweep.runs().size(); ++i) {
     const SweepResult one = sweep.drive(i);
-    const RunSummary other = campaign.result_of(campaign.drive(i, {})).summary;
+    const result::RunSummary other = campaign.result_of(campaign.drive(i, {})).summary;
     EXPECT_EQ(one.figures.failure, "");
     EXPECT_EQ(one.trace_sha256, other.trace_sha256);
     EXPECT_EQ(one.figures.error_mean_mm, 1e3 * other.vehicles[0].reference_error_m->mean);
@@ -93,16 +93,16 @@ TEST(Sweep, EverySettingReachesTheScenario) {
       "[0.2], acceleration_mps2: [14], steering_rate_radps: [8], width_m: [0.1], "
       "safety_margin_m: [0.02], trims: [[2, 7, 12]]}");
   ASSERT_EQ(sweep.runs().size(), 1U);
-  const Scenario scenario = sweep.scenario_of(0);
+  const scenario::Scenario scenario = sweep.scenario_of(0);
   EXPECT_EQ(scenario.steps, 30U);
   EXPECT_EQ(scenario.reference_speed_mps, 0.7);
-  EXPECT_EQ(scenario.profile.reference_rule, half_speed_last);
-  EXPECT_EQ(scenario.profile.strategies.commit, kStrictCommit);
-  EXPECT_EQ(scenario.profile.strategies.incumbent, &no_incumbent);
-  EXPECT_EQ(scenario.search.engine, Engine::kBestFirst);
-  EXPECT_EQ(scenario.search.cost_to_go, CostToGo::kReferenceSpeed);
+  EXPECT_EQ(scenario.profile.reference_rule, road::half_speed_last);
+  EXPECT_EQ(scenario.profile.strategies.commit, coordination::kStrictCommit);
+  EXPECT_EQ(scenario.profile.strategies.incumbent, &controller::no_incumbent);
+  EXPECT_EQ(scenario.search.engine, search::Engine::kBestFirst);
+  EXPECT_EQ(scenario.search.cost_to_go, search::CostToGo::kReferenceSpeed);
   EXPECT_TRUE(scenario.vehicles[0].corridor.pieces().empty());
-  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   EXPECT_EQ(automaton.limits.acceleration_mps2, 14.0);
   EXPECT_EQ(automaton.limits.steering_rate_radps, 8.0);
   EXPECT_EQ(automaton.vehicle.wheelbase_m, 0.2);
@@ -140,8 +140,8 @@ TEST(Sweep, FlyingLapLeavesTheStartOut) {
   const Sweep sweep =
       built_sweep("subgraphs: [B]\nsteps: 120\nsettings: {lap: [standing, flying]}");
   const DrivenRun run = drive_run(sweep.scenario_of(0), {});
-  const RunSummary whole = result_of(run, std::nullopt).summary;
-  const RunSummary flying = result_of(run, std::nullopt, kFlyingStep).summary;
+  const result::RunSummary whole = result_of(run, std::nullopt).summary;
+  const result::RunSummary flying = result_of(run, std::nullopt, kFlyingStep).summary;
   EXPECT_EQ(whole.vehicles[0].steps, 120U);
   EXPECT_EQ(flying.vehicles[0].steps, 120U - kFlyingStep);
   EXPECT_EQ(sweep.drive(0).trace_sha256, whole.trace_sha256);
@@ -157,11 +157,11 @@ TEST(Sweep, FlyingLapIsNotFaultedForWhatWasBefore) {
   const Nanoseconds begin = run.experiment.facts.first_step.value() * run.experiment.facts.period;
   const auto touch = [&](std::uint64_t step) {
     DrivenRun touched = run;
-    ScenarioVehicle other = run.scenario.vehicles.front();
+    scenario::ScenarioVehicle other = run.scenario.vehicles.front();
     other.id = VehicleId{9};
     touched.scenario.vehicles.push_back(other);
-    Drive far = run.experiment.drives.begin()->second;
-    for (DrivenSample& sample : far) {
+    result::Drive far = run.experiment.drives.begin()->second;
+    for (result::DrivenSample& sample : far) {
       if (sample.t / run.experiment.facts.period != begin / run.experiment.facts.period + step) {
         sample.pose.x_m += 50.0;
       }
@@ -373,4 +373,4 @@ TEST(TrimsFront, NamesTheSmallestChoiceWithoutLossAndThePlaceOfD) {
 }
 
 }  // namespace
-}  // namespace hlc::sweep_test
+}  // namespace hlc::campaign::sweep_test

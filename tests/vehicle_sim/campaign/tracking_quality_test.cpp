@@ -10,30 +10,32 @@
 
 #include "tests/vehicle_sim/vehicle/closed_loop.hpp"
 
-namespace hlc::tracking_quality_test {
+namespace hlc::campaign::tracking_quality_test {
 namespace {
 
-using driven_vehicle::drive;
-using driven_vehicle::kMillisecond;
-using driven_vehicle::Mission;
-using driven_vehicle::Sample;
-using driven_vehicle::tracking_error;
-using driven_vehicle::TrackingError;
-using driven_vehicle::TrimWalk;
+using simulated_vehicle::driven_vehicle::drive;
+using simulated_vehicle::driven_vehicle::kMillisecond;
+using simulated_vehicle::driven_vehicle::Mission;
+using simulated_vehicle::driven_vehicle::Sample;
+using simulated_vehicle::driven_vehicle::tracking_error;
+using simulated_vehicle::driven_vehicle::TrackingError;
+using simulated_vehicle::driven_vehicle::TrimWalk;
 
 const Pose kStart{.x_m = 2.25, .y_m = 2.0, .heading_rad = 0.4};
 
-SimulatedVehicle vehicle_at(const Pose& start, std::optional<std::uint64_t> noise_seed = {}) {
-  return SimulatedVehicle({.vehicle_id = 1, .start = start, .noise_seed = noise_seed});
+simulated_vehicle::SimulatedVehicle vehicle_at(const Pose& start,
+                                               std::optional<std::uint64_t> noise_seed = {}) {
+  return simulated_vehicle::SimulatedVehicle(
+      {.vehicle_id = 1, .start = start, .noise_seed = noise_seed});
 }
 
 TrackingError walked(const std::vector<std::size_t>& trims, std::uint64_t seed,
                      std::optional<std::uint64_t> noise_seed = {}) {
   const TrimWalk walk(kStart, trims, seed);
-  SimulatedVehicle vehicle = vehicle_at(kStart, noise_seed);
+  simulated_vehicle::SimulatedVehicle vehicle = vehicle_at(kStart, noise_seed);
   const std::vector<Sample> samples =
       drive(vehicle, walk.mission(), walk.end() + 1'000 * kMillisecond);
-  return tracking_error(samples, TrimWalk::kFirstStep * driven_vehicle::kPeriod);
+  return tracking_error(samples, TrimWalk::kFirstStep * simulated_vehicle::driven_vehicle::kPeriod);
 }
 
 /// The lab's test: a circle of 1 m at 1 m/s, points every `interval`, from a standing start.
@@ -48,7 +50,8 @@ Mission lab_circle(Nanoseconds interval) {
   };
   return {.points =
               [at, interval](std::uint64_t step) {
-                const Nanoseconds begin = step * driven_vehicle::kPeriod / interval * interval;
+                const Nanoseconds begin =
+                    step * simulated_vehicle::driven_vehicle::kPeriod / interval * interval;
                 std::vector<TrajectoryPoint> points;
                 for (Nanoseconds t = begin; t <= begin + 3'000 * kMillisecond; t += interval) {
                   points.push_back(at(t));
@@ -59,7 +62,8 @@ Mission lab_circle(Nanoseconds interval) {
 }
 
 TEST(TrackingQuality, LabTestCircleIsDrivenWithinOneCentimetre) {
-  SimulatedVehicle vehicle = vehicle_at({.x_m = 1.0, .heading_rad = std::numbers::pi / 2.0});
+  simulated_vehicle::SimulatedVehicle vehicle =
+      vehicle_at({.x_m = 1.0, .heading_rad = std::numbers::pi / 2.0});
   const Mission mission = lab_circle(100 * kMillisecond);
   double smallest_m = 1e9;
   double largest_m = 0.0;
@@ -75,14 +79,14 @@ TEST(TrackingQuality, LabTestCircleIsDrivenWithinOneCentimetre) {
   EXPECT_LE(largest_m, 1.01);
   const TrackingError error = tracking_error(samples, 4'000 * kMillisecond);
   EXPECT_LE(error.max_m, 0.010);
-  std::cout << "radius " << smallest_m << " ... " << largest_m << " m, " << to_string(error)
-            << '\n';
+  std::cout << "radius " << smallest_m << " ... " << largest_m << " m, "
+            << simulated_vehicle::driven_vehicle::to_string(error) << '\n';
 }
 
 TEST(TrackingQuality, StartsAndStopsAtFourMetresPerSquareSecond) {
   const TrackingError error = walked({1, 7, 7, 7, 7, 1, 1, 7, 1, 7, 7, 1}, 1);
-  EXPECT_LE(error.max_m, 0.005) << to_string(error);
-  std::cout << "start and stop: " << to_string(error) << '\n';
+  EXPECT_LE(error.max_m, 0.005) << simulated_vehicle::driven_vehicle::to_string(error);
+  std::cout << "start and stop: " << simulated_vehicle::driven_vehicle::to_string(error) << '\n';
 }
 
 TEST(TrackingQuality, EveryTrimThatTheVehicleCanDriveIsHeld) {
@@ -97,8 +101,10 @@ TEST(TrackingQuality, EveryTrimThatTheVehicleCanDriveIsHeld) {
     trims.insert(trims.end(), way.rbegin(), way.rend());
     const TrackingError error = walked(trims, target);
     EXPECT_LE(error.mean_m, 0.010) << target;
-    EXPECT_LE(error.max_m, 0.020) << target << ": " << to_string(error);
-    std::cout << "trim " << target << ": " << to_string(error) << '\n';
+    EXPECT_LE(error.max_m, 0.020) << target << ": "
+                                  << simulated_vehicle::driven_vehicle::to_string(error);
+    std::cout << "trim " << target << ": " << simulated_vehicle::driven_vehicle::to_string(error)
+              << '\n';
   }
 }
 
@@ -157,14 +163,16 @@ TEST(TrackingQuality, RandomWalksThroughTheTrimsStayWithinTheBounds) {
   const auto [error, worst_seed] = over_random_walks(40, false);
   EXPECT_LE(error.mean_m, 0.001);
   EXPECT_LE(error.max_m, 0.005) << "seed " << worst_seed;
-  std::cout << "exact measurement: " << to_string(error) << ", seed " << worst_seed << '\n';
+  std::cout << "exact measurement: " << simulated_vehicle::driven_vehicle::to_string(error)
+            << ", seed " << worst_seed << '\n';
 }
 
 TEST(TrackingQuality, NoiseOfTheLabStaysWithinTheBounds) {
   const auto [error, worst_seed] = over_random_walks(40, true);
   EXPECT_LE(error.mean_m, 0.002);
   EXPECT_LE(error.max_m, 0.010) << "seed " << worst_seed;
-  std::cout << "with noise: " << to_string(error) << ", seed " << worst_seed << '\n';
+  std::cout << "with noise: " << simulated_vehicle::driven_vehicle::to_string(error) << ", seed "
+            << worst_seed << '\n';
 }
 
 TEST(TrackingQuality, TightestRightTurnLeavesTheReferenceSlowly) {
@@ -182,7 +190,8 @@ TEST(TrackingQuality, TightestRightTurnLeavesTheReferenceSlowly) {
       EXPECT_LE(error.max_m, bounds_m[steps]) << steps;
     }
     EXPECT_LE(error.max_m, 0.060) << steps;
-    std::cout << "right turn at -0.60 rad for " << steps << " steps: " << to_string(error) << '\n';
+    std::cout << "right turn at -0.60 rad for " << steps
+              << " steps: " << simulated_vehicle::driven_vehicle::to_string(error) << '\n';
   }
 }
 
@@ -196,8 +205,8 @@ TEST(TrackingQuality, StartStraightIntoFullLockLeavesTheReferenceSlowly) {
       trims.push_back(1);
       const TrackingError error = walked(trims, steps);
       EXPECT_LE(error.max_m, lock == 12 ? 0.030 : 0.050) << steps;
-      std::cout << "start into trim " << lock << " for " << steps << " steps: " << to_string(error)
-                << '\n';
+      std::cout << "start into trim " << lock << " for " << steps
+                << " steps: " << simulated_vehicle::driven_vehicle::to_string(error) << '\n';
     }
   }
 }
@@ -207,7 +216,7 @@ TEST(TrackingQuality, ReturnsToTheReferenceAfterATurnBeyondItsLimit) {
   trims.insert(trims.end(), 10, 7);
   trims.push_back(1);
   const TrimWalk walk(kStart, trims, 1);
-  SimulatedVehicle vehicle = vehicle_at(kStart);
+  simulated_vehicle::SimulatedVehicle vehicle = vehicle_at(kStart);
   const std::vector<Sample> samples = drive(vehicle, walk.mission(), walk.end());
   EXPECT_LE(tracking_error(samples, walk.end() - 400 * kMillisecond).max_m, 0.002);
 }
@@ -216,7 +225,7 @@ TEST(TrackingQuality, StandsStillAtTheEndAlsoWithNoise) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const TrimWalk walk(kStart, {1, 7, 8, 9, 10, 9, 8, 7, 1}, seed);
-    SimulatedVehicle vehicle = vehicle_at(kStart, seed);
+    simulated_vehicle::SimulatedVehicle vehicle = vehicle_at(kStart, seed);
     const std::vector<Sample> samples =
         drive(vehicle, walk.mission(), walk.end() + 10'000 * kMillisecond);
     const auto settled = std::ranges::find_if(
@@ -231,4 +240,4 @@ TEST(TrackingQuality, StandsStillAtTheEndAlsoWithNoise) {
 }
 
 }  // namespace
-}  // namespace hlc::tracking_quality_test
+}  // namespace hlc::campaign::tracking_quality_test

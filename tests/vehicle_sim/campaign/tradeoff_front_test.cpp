@@ -7,11 +7,11 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::tradeoff_front_test {
+namespace hlc::campaign::tradeoff_front_test {
 namespace {
 
 TradeoffPoint point(double x, double y, bool is_policy = false) {
-  Objectives values(2);
+  maneuver_design::Objectives values(2);
   values << x, y;
   return {.is_policy = is_policy, .values = values};
 }
@@ -19,7 +19,7 @@ TradeoffPoint point(double x, double y, bool is_policy = false) {
 TEST(TradeoffFront, APolicyCountsByWhatItAddsToAllFixedOnes) {
   const std::vector<TradeoffPoint> points{point(1.0, 3.0), point(3.0, 1.0), point(2.0, 2.0, true),
                                           point(3.0, 3.0, true), point(0.5, 4.0, true)};
-  const Objectives reference = Objectives::Constant(2, 4.0);
+  const maneuver_design::Objectives reference = maneuver_design::Objectives::Constant(2, 4.0);
   const TradeoffFront front = front_of(points, reference);
   EXPECT_EQ(front.not_dominated, (std::vector<std::size_t>{0, 1, 2, 4}));
   EXPECT_DOUBLE_EQ(front.fixed_volume, 3.0 + 3.0 - 1.0);
@@ -27,7 +27,8 @@ TEST(TradeoffFront, APolicyCountsByWhatItAddsToAllFixedOnes) {
 }
 
 TEST(TradeoffFront, TheReferencePointIsBeyondTheWorstOfEachQuantity) {
-  const Objectives reference = reference_of({point(1.0, 30.0), point(2.0, 10.0, true)});
+  const maneuver_design::Objectives reference =
+      reference_of({point(1.0, 30.0), point(2.0, 10.0, true)});
   EXPECT_DOUBLE_EQ(reference(0), 1.05 * 2.0);
   EXPECT_DOUBLE_EQ(reference(1), 1.05 * 30.0);
 }
@@ -44,7 +45,7 @@ TEST(TradeoffFront, VolumesAreNumbersOfCellsThatAreDominated) {
     for (TradeoffPoint& one : points) {
       one = point(place(random), place(random), random() % 3 == 0);
     }
-    const TradeoffFront front = front_of(points, Objectives::Constant(2, kCells));
+    const TradeoffFront front = front_of(points, maneuver_design::Objectives::Constant(2, kCells));
     /// @param with  a point beside the fixed ones
     const auto cells = [&](std::optional<std::size_t> with) {
       int count = 0;
@@ -74,4 +75,4 @@ TEST(TradeoffFront, VolumesAreNumbersOfCellsThatAreDominated) {
 }
 
 }  // namespace
-}  // namespace hlc::tradeoff_front_test
+}  // namespace hlc::campaign::tradeoff_front_test

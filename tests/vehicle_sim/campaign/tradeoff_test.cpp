@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace hlc::tradeoff_test {
+namespace hlc::campaign::tradeoff_test {
 namespace {
 
 using testing::HasSubstr;
@@ -112,4 +112,4 @@ TEST(Tradeoff, FrontsAsCommaSeparatedValues) {
 }
 
 }  // namespace
-}  // namespace hlc::tradeoff_test
+}  // namespace hlc::campaign::tradeoff_test

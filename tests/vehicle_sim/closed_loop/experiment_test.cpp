@@ -7,30 +7,31 @@
 #include "tests/support/folders.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
-namespace hlc::experiment_test {
+namespace hlc::closed_loop::experiment_test {
 namespace {
 
-Scenario scenario_of(const std::string& name) {
-  return read_scenario(
+scenario::Scenario scenario_of(const std::string& name) {
+  return scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + name + ".yaml"});
 }
 
-RunSummary summary_of(const Scenario& scenario, const ExperimentOptions& options) {
+result::RunSummary summary_of(const scenario::Scenario& scenario,
+                              const ExperimentOptions& options) {
   const Experiment experiment = drive_experiment(scenario, options);
   EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
-  const std::vector<StepRecord> rows =
-      step_records(experiment.reports, experiment.drives, experiment.facts);
-  return summarize(describe(scenario, options.noise_seed), experiment.facts, rows,
-                   experiment.drives);
+  const std::vector<result::StepRecord> rows =
+      result::step_records(experiment.reports, experiment.drives, experiment.facts);
+  return result::summarize(result::describe(scenario, options.noise_seed), experiment.facts, rows,
+                           experiment.drives);
 }
 
 TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
-  const Scenario scenario = scenario_of("paper_three_cars");
-  const RunSummary summary = summary_of(scenario, {.steps = 150});
+  const scenario::Scenario scenario = scenario_of("paper_three_cars");
+  const result::RunSummary summary = summary_of(scenario, {.steps = 150});
   EXPECT_EQ(summary.steps, 150U);
   EXPECT_EQ(summary.collisions, 0U);
   ASSERT_EQ(summary.vehicles.size(), 3U);
-  for (const VehicleSummary& vehicle : summary.vehicles) {
+  for (const result::VehicleSummary& vehicle : summary.vehicles) {
     EXPECT_EQ(vehicle.steps, 150U);
     EXPECT_EQ(vehicle.fallback_steps, 0U);
     EXPECT_EQ(vehicle.deadline_misses, 0U);
@@ -41,7 +42,7 @@ TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
 }
 
 TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
-  const Scenario scenario = scenario_of("circle");
+  const scenario::Scenario scenario = scenario_of("circle");
   const std::string trace = summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256;
   EXPECT_EQ(summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256, trace);
   EXPECT_NE(summary_of(scenario, {.steps = 30, .noise_seed = 6}).trace_sha256, trace);
@@ -49,13 +50,13 @@ TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
 }
 
 TEST(Experiment, ALateControllerFallsBackAndSaysNothingMore) {
-  const Scenario scenario = scenario_of("paper_red_alone");
+  const scenario::Scenario scenario = scenario_of("paper_red_alone");
   std::size_t asked = 0;
-  JointStepRules rules;
-  rules.is_late = [&asked](const Controller&) { return ++asked % 4 == 0; };
+  controller::JointStepRules rules;
+  rules.is_late = [&asked](const controller::Controller&) { return ++asked % 4 == 0; };
   const Experiment experiment = drive_experiment(scenario, {.steps = 20, .rules = rules});
   const auto is_late = [](const ReportRecord& record) {
-    return record.report.reason == FallbackReason::kLate;
+    return record.report.reason == coordination::FallbackReason::kLate;
   };
   EXPECT_GE(asked, 19U);
   EXPECT_EQ(std::ranges::count_if(experiment.reports, is_late),
@@ -84,7 +85,7 @@ TEST(Experiment, PlanningTimesOfTheReportsAreProcessorTime) {
   EXPECT_EQ(experiment.wall.planning_s, 0.0);
   std::size_t planned = 0;
   for (const ReportRecord& record : experiment.reports) {
-    if (record.report.status != StepStatus::kPlanned) continue;
+    if (record.report.status != coordination::StepStatus::kPlanned) continue;
     ++planned;
     EXPECT_EQ(record.planning_ns, 2 * 7U) << "what to plan on, and the plan";
   }
@@ -92,17 +93,18 @@ TEST(Experiment, PlanningTimesOfTheReportsAreProcessorTime) {
 }
 
 TEST(Experiment, WithoutTheFollowersGainsNothingMoves) {
-  const Scenario scenario = scenario_of("paper_red_alone");
-  const Experiment experiment =
-      drive_experiment(scenario, {.steps = 15, .gains = scaled(FollowerGains{}, 0.0)});
-  const Drive& drive = experiment.drives.at(scenario.vehicles.front().id.value);
+  const scenario::Scenario scenario = scenario_of("paper_red_alone");
+  const Experiment experiment = drive_experiment(
+      scenario, {.steps = 15, .gains = tracking::scaled(tracking::FollowerGains{}, 0.0)});
+  const result::Drive& drive = experiment.drives.at(scenario.vehicles.front().id.value);
   EXPECT_EQ(drive.back().pose, drive.front().pose);
   // So the cars are outside the announced areas, which is a driving fault.
-  Scenario three_cars = scenario_of("paper_three_cars");
+  scenario::Scenario three_cars = scenario_of("paper_three_cars");
   three_cars.steps = 15;
-  const DrivenRun run = drive_run(three_cars, {.gains = scaled(FollowerGains{}, 0.0)});
-  EXPECT_NE(result_of(run, std::nullopt).fault, "");
+  const campaign::DrivenRun run =
+      campaign::drive_run(three_cars, {.gains = tracking::scaled(tracking::FollowerGains{}, 0.0)});
+  EXPECT_NE(campaign::result_of(run, std::nullopt).fault, "");
 }
 
 }  // namespace
-}  // namespace hlc::experiment_test
+}  // namespace hlc::closed_loop::experiment_test

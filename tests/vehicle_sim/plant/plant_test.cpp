@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace hlc {
+namespace hlc::plant {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -18,14 +18,14 @@ Plant plant_at_origin() { return Plant(PlantOptions{}); }
 /// Radius of the circle that the plant drives in the end with this steering.
 double steady_radius_m(double steering) {
   Plant plant = plant_at_origin();
-  const ActuatorInput input{.throttle = 0.16, .steering = steering};
+  const vehicle::ActuatorInput input{.throttle = 0.16, .steering = steering};
   for (int i = 0; i < 500; ++i) {
     plant.step(input);
   }
   // The yaw turns by the same angle in every tick; the positions form a regular polygon.
-  const VehicleMotion a = plant.motion();
+  const vehicle::VehicleMotion a = plant.motion();
   plant.step(input);
-  const VehicleMotion b = plant.motion();
+  const vehicle::VehicleMotion b = plant.motion();
   const double side_m = (b.pose.position_m() - a.pose.position_m()).norm();
   const double angle_rad = b.pose.heading_rad - a.pose.heading_rad;
   return side_m / (2.0 * std::sin(angle_rad / 2.0));
@@ -79,10 +79,11 @@ TEST(Plant, InputsBeyondTheActuatorsAreClamped) {
 }
 
 TEST(Plant, InputThatIsNotFiniteBrakes) {
-  for (const ActuatorInput bad : {ActuatorInput{.throttle = kNan, .steering = 0.5},
-                                  ActuatorInput{.throttle = 1.0, .steering = kNan},
-                                  ActuatorInput{.throttle = kInfinity, .steering = 0.0},
-                                  ActuatorInput{.throttle = 0.0, .steering = -kInfinity}}) {
+  for (const vehicle::ActuatorInput bad :
+       {vehicle::ActuatorInput{.throttle = kNan, .steering = 0.5},
+        vehicle::ActuatorInput{.throttle = 1.0, .steering = kNan},
+        vehicle::ActuatorInput{.throttle = kInfinity, .steering = 0.0},
+        vehicle::ActuatorInput{.throttle = 0.0, .steering = -kInfinity}}) {
     Plant plant = plant_at_origin();
     for (int i = 0; i < 200; ++i) {
       plant.step({.throttle = 0.319});
@@ -105,8 +106,9 @@ TEST(Plant, StopLawBrakesAsMeasuredInTheLab) {
     plant.step({.throttle = 0.319});
   }
   const auto brake_for = [&plant](double duration_s) {
-    for (int i = 0; i < static_cast<int>(std::lround(duration_s / kIdentifiedStep_s)); ++i) {
-      plant.step(stop_input(plant.motion().speed_mps));
+    for (int i = 0; i < static_cast<int>(std::lround(duration_s / vehicle::kIdentifiedStep_s));
+         ++i) {
+      plant.step(vehicle::stop_input(plant.motion().speed_mps));
     }
     return plant.motion().speed_mps;
   };
@@ -132,12 +134,13 @@ TEST(Plant, InertialSensorsAndOdometerAgreeWithTheMotion) {
   for (int i = 0; i < 200; ++i) {
     plant.step({.throttle = i < 100 ? 0.3 : -0.1, .steering = i < 100 ? 0.4 : -0.4});
     const Measurement measured = plant.measure();
-    const VehicleMotion& motion = plant.motion();
-    distance_m += kIdentifiedStep_s * std::abs(speed_before_mps);
+    const vehicle::VehicleMotion& motion = plant.motion();
+    distance_m += vehicle::kIdentifiedStep_s * std::abs(speed_before_mps);
     EXPECT_NEAR(measured.odometer_m, distance_m, 1e-9);
     EXPECT_NEAR(measured.acceleration_forward_mps2,
-                (motion.speed_mps - speed_before_mps) / kIdentifiedStep_s, 1e-9);
-    const double yaw_rate_radps = (motion.pose.heading_rad - yaw_before_rad) / kIdentifiedStep_s;
+                (motion.speed_mps - speed_before_mps) / vehicle::kIdentifiedStep_s, 1e-9);
+    const double yaw_rate_radps =
+        (motion.pose.heading_rad - yaw_before_rad) / vehicle::kIdentifiedStep_s;
     EXPECT_NEAR(measured.yaw_rate_radps, yaw_rate_radps, 0.4) << "one tick apart";
     EXPECT_NEAR(measured.acceleration_left_mps2, motion.speed_mps * measured.yaw_rate_radps, 1e-9);
     yaw_before_rad = motion.pose.heading_rad;
@@ -194,7 +197,7 @@ TEST(Plant, CopyDrivesOnByItself) {
   for (int i = 0; i < 10; ++i) {
     plant.step({.throttle = 1.0});
   }
-  EXPECT_EQ(copy.motion(), VehicleMotion{});
+  EXPECT_EQ(copy.motion(), vehicle::VehicleMotion{});
   for (int i = 0; i < 10; ++i) {
     copy.step({.throttle = 1.0});
   }
@@ -208,4 +211,4 @@ TEST(Plant, StartPoseThatIsNotFiniteIsRefused) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::plant

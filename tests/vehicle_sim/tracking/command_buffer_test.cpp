@@ -7,7 +7,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::command_buffer_test {
+namespace hlc::tracking::command_buffer_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -151,4 +151,4 @@ TEST(CommandBuffer, AnswersByTheRuleForRandomArrivals) {
 }
 
 }  // namespace
-}  // namespace hlc::command_buffer_test
+}  // namespace hlc::tracking::command_buffer_test

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-namespace hlc::command_laws_test {
+namespace hlc::tracking::command_laws_test {
 namespace {
 
-const IdentifiedVehicle kVehicle;
+const vehicle::IdentifiedVehicle kVehicle;
 constexpr int kTicksPerSecond = 50;
 
 /// A circle around (0, radius), from the origin; to the left if the radius is positive.
@@ -34,9 +34,9 @@ PathTrackingCommand straight(double length_m, double y_m = 0.0) {
 
 TEST(DirectInput, IsWhatWasToldWithinTheActuatorsRange) {
   EXPECT_EQ(direct_input({.motor_throttle = 0.3, .steering_servo = -0.4}),
-            (ActuatorInput{.throttle = 0.3, .steering = -0.4}));
+            (vehicle::ActuatorInput{.throttle = 0.3, .steering = -0.4}));
   EXPECT_EQ(direct_input({.motor_throttle = -7.0, .steering_servo = 2.0}),
-            (ActuatorInput{.throttle = -1.0, .steering = 1.0}));
+            (vehicle::ActuatorInput{.throttle = -1.0, .steering = 1.0}));
 }
 
 TEST(SteeringForCurvature, IsTheLabsFigure) {
@@ -49,9 +49,10 @@ TEST(SteeringForCurvature, IsTheLabsFigure) {
 TEST(SpeedControl, ReachesTheSpeedOfTheIdentifiedVehicleForwardAndBackward) {
   for (const double wanted_mps : {0.3, 0.8, 1.2, -0.3}) {
     SpeedControl control;
-    VehicleMotion motion;
+    vehicle::VehicleMotion motion;
     for (int tick = 0; tick < 5 * kTicksPerSecond; ++tick) {
-      motion = stepped(motion, {.throttle = control.tick(wanted_mps, motion.speed_mps)}, kVehicle);
+      motion = vehicle::stepped(motion, {.throttle = control.tick(wanted_mps, motion.speed_mps)},
+                                kVehicle);
     }
     EXPECT_NEAR(motion.speed_mps, wanted_mps, 0.02) << wanted_mps;
   }
@@ -70,12 +71,12 @@ TEST(SteeringForPath, FollowsACircleOnEitherSideForManyRounds) {
   for (const double radius_m : {1.0, -1.0, 0.5, -0.5}) {
     const PathTrackingCommand command = circle(radius_m, 0.8);
     SpeedControl control;
-    VehicleMotion motion{.pose = {.x_m = 0.0, .y_m = -0.05, .heading_rad = 0.1}};
+    vehicle::VehicleMotion motion{.pose = {.x_m = 0.0, .y_m = -0.05, .heading_rad = 0.1}};
     double largest_m = 0.0;
     for (int tick = 0; tick < 60 * kTicksPerSecond; ++tick) {
       const auto steering = steering_for_path(command, motion);
       ASSERT_TRUE(steering) << tick;
-      motion = stepped(
+      motion = vehicle::stepped(
           motion,
           {.throttle = control.tick(command.speed_mps, motion.speed_mps), .steering = *steering},
           kVehicle);
@@ -88,7 +89,7 @@ TEST(SteeringForPath, FollowsACircleOnEitherSideForManyRounds) {
 }
 
 TEST(SteeringForPath, SteersTowardsAPathAtItsSide) {
-  const VehicleMotion along_x{.pose = {.x_m = 1.0}, .speed_mps = 0.5};
+  const vehicle::VehicleMotion along_x{.pose = {.x_m = 1.0}, .speed_mps = 0.5};
   EXPECT_GT(*steering_for_path(straight(3.0, 0.2), along_x), 0.1);
   EXPECT_LT(*steering_for_path(straight(3.0, -0.2), along_x), -0.1);
   EXPECT_DOUBLE_EQ(*steering_for_path(straight(3.0), along_x), 0.0);
@@ -104,4 +105,4 @@ TEST(SteeringForPath, HasNothingToFollowOnAnEmptyPathOrBehindTheEndOfAnOpenOne) 
 }
 
 }  // namespace
-}  // namespace hlc::command_laws_test
+}  // namespace hlc::tracking::command_laws_test

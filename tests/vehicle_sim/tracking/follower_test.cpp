@@ -9,12 +9,12 @@
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/tracking/trajectory.hpp"
 
-namespace hlc::follower_test {
+namespace hlc::tracking::follower_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-const IdentifiedVehicle kVehicle;
+const vehicle::IdentifiedVehicle kVehicle;
 
 Follower follower(const FollowerGains& gains = {}) { return Follower(gains, kVehicle); }
 
@@ -46,19 +46,19 @@ TEST(Follower, WithoutCommandItStops) {
   const auto [input, status] =
       follower().tick(0, {.pose = {.x_m = 1.0}, .speed_mps = 0.6}, nullptr);
   EXPECT_EQ(status, FollowerStatus::kNoCommand);
-  EXPECT_EQ(input, stop_input(0.6));
+  EXPECT_EQ(input, vehicle::stop_input(0.6));
 }
 
 TEST(Follower, WithAnEmptyCommandItStops) {
   const TrajectoryCommand empty;
   const auto [input, status] = follower().tick(0, {.speed_mps = 0.6}, &empty);
   EXPECT_EQ(status, FollowerStatus::kNotFollowable);
-  EXPECT_EQ(input, stop_input(0.6));
+  EXPECT_EQ(input, vehicle::stop_input(0.6));
 }
 
 TEST(Follower, WithACommandThatEndsTooEarlyItStops) {
   const TrajectoryCommand command = straight(0.5);
-  VehicleMotion motion{.pose = {.x_m = 0.5 * 4.66}, .speed_mps = 0.5};
+  vehicle::VehicleMotion motion{.pose = {.x_m = 0.5 * 4.66}, .speed_mps = 0.5};
   EXPECT_EQ(follower().tick(4'640 * kMillisecond, motion, &command).status,
             FollowerStatus::kFollowing);
   EXPECT_EQ(follower().tick(4'660 * kMillisecond, motion, &command).status,
@@ -72,17 +72,18 @@ TEST(Follower, FarFromTheReferenceItStops) {
   const auto [input, status] =
       follower().tick(0, {.pose = {.y_m = 0.31}, .speed_mps = 0.1}, &command);
   EXPECT_EQ(status, FollowerStatus::kTooFar);
-  EXPECT_EQ(input, stop_input(0.1));
+  EXPECT_EQ(input, vehicle::stop_input(0.1));
 }
 
 TEST(Follower, EstimateThatIsNotFiniteGivesNoThrottle) {
   const TrajectoryCommand command = straight(0.5);
-  for (const VehicleMotion& bad :
-       {VehicleMotion{.pose = {.x_m = kNan}}, VehicleMotion{.pose = {.y_m = kNan}},
-        VehicleMotion{.pose = {.heading_rad = kNan}}, VehicleMotion{.speed_mps = kNan}}) {
+  for (const vehicle::VehicleMotion& bad : {vehicle::VehicleMotion{.pose = {.x_m = kNan}},
+                                            vehicle::VehicleMotion{.pose = {.y_m = kNan}},
+                                            vehicle::VehicleMotion{.pose = {.heading_rad = kNan}},
+                                            vehicle::VehicleMotion{.speed_mps = kNan}}) {
     const auto [input, status] = follower().tick(0, bad, &command);
     EXPECT_EQ(status, FollowerStatus::kNoEstimate);
-    EXPECT_EQ(input, ActuatorInput{});
+    EXPECT_EQ(input, vehicle::ActuatorInput{});
   }
 }
 
@@ -106,15 +107,15 @@ TEST(Follower, ScaledMultipliesEveryGain) {
 
 /// Drives the model without noise; the last inputs given.
 struct Driven {
-  VehicleMotion motion;
-  ActuatorInput input;
+  vehicle::VehicleMotion motion;
+  vehicle::ActuatorInput input;
 };
-Driven drive(Follower& by, VehicleMotion motion, const TrajectoryCommand& command,
+Driven drive(Follower& by, vehicle::VehicleMotion motion, const TrajectoryCommand& command,
              Nanoseconds until_ms) {
   Driven driven{.motion = motion, .input = {}};
   for (Nanoseconds t = 0; t < until_ms * kMillisecond; t += kVehiclePeriod) {
     driven.input = by.tick(t, driven.motion, &command).input;
-    driven.motion = stepped(driven.motion, by.acted(), kVehicle);
+    driven.motion = vehicle::stepped(driven.motion, by.acted(), kVehicle);
   }
   return driven;
 }
@@ -123,10 +124,11 @@ TEST(Follower, OnASteadyCircleItGivesTheSteadyInputs) {
   for (const double kappa_per_m : {1.0, -1.0, 3.36, -3.36}) {
     Follower one = follower();
     const Driven end = drive(one, {}, circle(0.5, kappa_per_m), 8'000);
-    const double delta = steady_steering(kappa_per_m, kVehicle);
+    const double delta = vehicle::steady_steering(kappa_per_m, kVehicle);
     EXPECT_NEAR(end.input.steering + kVehicle.steering_offset, delta, 0.005) << kappa_per_m;
-    const double speed_mps = 0.5 / path_speed_ratio(end.input.steering, kVehicle);
-    EXPECT_NEAR(end.input.throttle, throttle_for_acceleration(0.0, speed_mps, kVehicle), 0.005);
+    const double speed_mps = 0.5 / vehicle::path_speed_ratio(end.input.steering, kVehicle);
+    EXPECT_NEAR(end.input.throttle, vehicle::throttle_for_acceleration(0.0, speed_mps, kVehicle),
+                0.005);
   }
 }
 
@@ -134,7 +136,7 @@ TEST(Follower, ReturnsToTheReferenceFromBesideIt) {
   for (const double offset_m : {0.05, -0.05, 0.15, -0.15}) {
     for (const double yaw_rad : {0.0, 0.3, -0.3}) {
       Follower one = follower();
-      const VehicleMotion start{.pose = {.y_m = offset_m, .heading_rad = yaw_rad}};
+      const vehicle::VehicleMotion start{.pose = {.y_m = offset_m, .heading_rad = yaw_rad}};
       const Driven end = drive(one, start, straight(0.8), 3'000);
       EXPECT_NEAR(end.motion.pose.y_m, 0.0, 0.002) << offset_m << ' ' << yaw_rad;
       EXPECT_NEAR(end.motion.pose.x_m, 0.8 * 3.0, 0.002) << offset_m << ' ' << yaw_rad;
@@ -146,17 +148,17 @@ TEST(Follower, WhereTheReferenceStandsItNeitherCreepsNorGoesBack) {
   for (const double ahead_m : {0.004, 0.0, -0.004, -0.1}) {  // of the vehicle
     Follower one = follower();
     const Driven end = drive(one, {}, straight(0.0, ahead_m), 4'000);
-    EXPECT_EQ(end.motion, VehicleMotion{}) << ahead_m;
+    EXPECT_EQ(end.motion, vehicle::VehicleMotion{}) << ahead_m;
   }
 }
 
 TEST(Follower, AheadOfASlowReferenceItWaitsForIt) {
   Follower one = follower();
   const TrajectoryCommand command = straight(0.1);
-  VehicleMotion motion{.pose = {.x_m = 0.2}};
+  vehicle::VehicleMotion motion{.pose = {.x_m = 0.2}};
   for (Nanoseconds t = 0; t < 4'000 * kMillisecond; t += kVehiclePeriod) {
     static_cast<void>(one.tick(t, motion, &command));
-    motion = stepped(motion, one.acted(), kVehicle);
+    motion = vehicle::stepped(motion, one.acted(), kVehicle);
     ASSERT_GE(motion.speed_mps, -1e-9) << t;
   }
   EXPECT_NEAR(motion.pose.x_m, 0.4, 0.002);
@@ -194,17 +196,17 @@ TEST(Follower, InputsAreAlwaysFiniteAndWithinTheActuators) {
                                 .vy_mps = size * unit(random)});
     }
     Follower one = follower();
-    VehicleMotion motion{.pose = {.x_m = size * unit(random),
-                                  .y_m = size * unit(random),
-                                  .heading_rad = 4.0 * unit(random)},
-                         .speed_mps = 4.0 * unit(random)};
+    vehicle::VehicleMotion motion{.pose = {.x_m = size * unit(random),
+                                           .y_m = size * unit(random),
+                                           .heading_rad = 4.0 * unit(random)},
+                                  .speed_mps = 4.0 * unit(random)};
     for (Nanoseconds t = 0; t < 600 * kMillisecond; t += kVehiclePeriod) {
-      const ActuatorInput input = one.tick(t, motion, &command).input;
+      const vehicle::ActuatorInput input = one.tick(t, motion, &command).input;
       ASSERT_TRUE(std::abs(input.throttle) <= 1.0 && std::abs(input.steering) <= 1.0);
-      motion = stepped(motion, one.acted(), kVehicle);
+      motion = vehicle::stepped(motion, one.acted(), kVehicle);
     }
   }
 }
 
 }  // namespace
-}  // namespace hlc::follower_test
+}  // namespace hlc::tracking::follower_test

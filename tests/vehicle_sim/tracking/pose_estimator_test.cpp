@@ -6,28 +6,30 @@
 #include <numbers>
 #include <random>
 
-namespace hlc::pose_estimator_test {
+namespace hlc::tracking::pose_estimator_test {
 namespace {
 
-const IdentifiedVehicle kVehicle;
+const vehicle::IdentifiedVehicle kVehicle;
 
 TEST(PoseEstimator, FirstMeasurementIsTakenAsItIs) {
   PoseEstimator estimator(kVehicle);
   const Pose pose{.x_m = 1.0, .y_m = 2.0, .heading_rad = 3.0};
-  const VehicleMotion estimate = estimator.update(pose, 0.5, {.throttle = 1.0, .steering = 1.0});
-  EXPECT_EQ(estimate, (VehicleMotion{.pose = pose, .speed_mps = 0.5}));
+  const vehicle::VehicleMotion estimate =
+      estimator.update(pose, 0.5, {.throttle = 1.0, .steering = 1.0});
+  EXPECT_EQ(estimate, (vehicle::VehicleMotion{.pose = pose, .speed_mps = 0.5}));
 }
 
 TEST(PoseEstimator, ExactMeasurementsStayExactBitForBit) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   PoseEstimator estimator(kVehicle);
-  VehicleMotion truth{.pose = {.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.3}, .speed_mps = 0.0};
-  ActuatorInput acted;
+  vehicle::VehicleMotion truth{.pose = {.x_m = 1.0, .y_m = 2.0, .heading_rad = 0.3},
+                               .speed_mps = 0.0};
+  vehicle::ActuatorInput acted;
   for (int i = 0; i < 2'000; ++i) {
     ASSERT_EQ(estimator.update(truth.pose, truth.speed_mps, acted), truth) << i;
     acted = {.throttle = unit(random), .steering = unit(random)};
-    truth = stepped(truth, acted, kVehicle);
+    truth = vehicle::stepped(truth, acted, kVehicle);
   }
 }
 
@@ -35,7 +37,7 @@ TEST(PoseEstimator, TakesOverThreeTenthsOfADifference) {
   PoseEstimator estimator(kVehicle);
   static_cast<void>(estimator.update({}, 0.0, {}));
   const Pose jumped{.x_m = 0.1, .y_m = -0.2, .heading_rad = 0.05};
-  const VehicleMotion estimate = estimator.update(jumped, 0.0, {});
+  const vehicle::VehicleMotion estimate = estimator.update(jumped, 0.0, {});
   EXPECT_NEAR(estimate.pose.x_m, 0.03, 1e-12);
   EXPECT_NEAR(estimate.pose.y_m, -0.06, 1e-12);
   EXPECT_NEAR(estimate.pose.heading_rad, 0.015, 1e-12);
@@ -45,7 +47,7 @@ TEST(PoseEstimator, HeadingIsCorrectedAlongTheShorterArc) {
   constexpr double kPi = std::numbers::pi;
   PoseEstimator estimator(kVehicle);
   static_cast<void>(estimator.update({.heading_rad = kPi - 0.01}, 0.0, {}));
-  const VehicleMotion estimate = estimator.update({.heading_rad = -kPi + 0.01}, 0.0, {});
+  const vehicle::VehicleMotion estimate = estimator.update({.heading_rad = -kPi + 0.01}, 0.0, {});
   EXPECT_NEAR(estimate.pose.heading_rad, kPi - 0.01 + 0.3 * 0.02, 1e-9);
 }
 
@@ -65,4 +67,4 @@ TEST(PoseEstimator, HalvesTheNoise) {
 }
 
 }  // namespace
-}  // namespace hlc::pose_estimator_test
+}  // namespace hlc::tracking::pose_estimator_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace hlc::trajectory_test {
+namespace hlc::tracking::trajectory_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -235,4 +235,4 @@ TEST(LeadRule, HugeNumbersAreRefusedWithoutHarm) {
 }
 
 }  // namespace
-}  // namespace hlc::trajectory_test
+}  // namespace hlc::tracking::trajectory_test

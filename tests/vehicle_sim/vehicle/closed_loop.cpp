@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-namespace hlc::driven_vehicle {
+namespace hlc::simulated_vehicle::driven_vehicle {
 namespace {
 
 constexpr Nanoseconds kGrid = 10 * kMillisecond;
@@ -16,20 +16,23 @@ constexpr Nanoseconds kPointInterval = 50 * kMillisecond;
 constexpr std::size_t kHorizonSteps = 8;
 
 /// Appends the maneuver from the last state's trim to `to`, which begins with that state.
-void append_maneuver(std::vector<State>& states, const Trim& from, const Trim& to) {
+void append_maneuver(std::vector<vehicle::State>& states, const Trim& from, const Trim& to) {
   const double duration_s = kGrid_s * static_cast<double>(kGridPerStep);
-  const Input input{.acceleration_mps2 = (to.speed_mps - from.speed_mps) / duration_s,
-                    .steering_rate_radps = (to.steering_rad - from.steering_rad) / duration_s};
+  const vehicle::Input input{
+      .acceleration_mps2 = (to.speed_mps - from.speed_mps) / duration_s,
+      .steering_rate_radps = (to.steering_rad - from.steering_rad) / duration_s};
   for (std::uint64_t i = 0; i < kGridPerStep; ++i) {
-    states.push_back(integrated(states.back(), input, kGrid_s, VehicleParameters{}));
+    states.push_back(
+        vehicle::integrated(states.back(), input, kGrid_s, vehicle::VehicleParameters{}));
   }
   states.back().speed_mps = to.speed_mps;  // no rounding in what a trim fixes
   states.back().steering_rad = to.steering_rad;
 }
 
-TrajectoryPoint point_of(const State& state, Nanoseconds t) {
+TrajectoryPoint point_of(const vehicle::State& state, Nanoseconds t) {
   const double course_rad =
-      state.pose.heading_rad + slip_angle_rad(state.steering_rad, VehicleParameters{});
+      state.pose.heading_rad +
+      vehicle::slip_angle_rad(state.steering_rad, vehicle::VehicleParameters{});
   return {.t = t,
           .x_m = state.pose.x_m,
           .y_m = state.pose.y_m,
@@ -96,13 +99,13 @@ const Trim& trim(std::size_t number) {
 }
 
 TrimWalk::TrimWalk(const Pose& start, std::vector<std::size_t> trims, std::uint64_t seed)
-    : trims_(std::move(trims)), states_{State{.pose = start}}, seed_(seed) {
+    : trims_(std::move(trims)), states_{vehicle::State{.pose = start}}, seed_(seed) {
   for (std::size_t i = 1; i < trims_.size(); ++i) {
     append_maneuver(states_, trim(trims_[i - 1]), trim(trims_[i]));
   }
 }
 
-State TrimWalk::state_at(Nanoseconds t) const {
+vehicle::State TrimWalk::state_at(Nanoseconds t) const {
   const Nanoseconds start = kFirstStep * kPeriod;
   const std::uint64_t index = t <= start ? 0 : (t - start) / kGrid;
   return states_[std::min<std::size_t>(index, states_.size() - 1)];
@@ -114,7 +117,7 @@ std::vector<TrajectoryPoint> TrimWalk::points(std::uint64_t step) const {
   const Nanoseconds walk_begin = kFirstStep * kPeriod;
 
   // What follows the two fixed steps: other trims, at last standstill.
-  std::vector<State> detour{state_at(fixed_until)};
+  std::vector<vehicle::State> detour{state_at(fixed_until)};
   if (fixed_until >= walk_begin) {
     std::mt19937_64 random(seed_ * 1'000 + step);
     const std::size_t index = (fixed_until - walk_begin) / kPeriod;
@@ -151,4 +154,4 @@ Mission TrimWalk::mission() const {
           .planned = [this](Nanoseconds t) { return state_at(t).pose.position_m(); }};
 }
 
-}  // namespace hlc::driven_vehicle
+}  // namespace hlc::simulated_vehicle::driven_vehicle

@@ -9,7 +9,7 @@
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 /// A simulated vehicle driven by commands as a controller sends them.
-namespace hlc::driven_vehicle {
+namespace hlc::simulated_vehicle::driven_vehicle {
 
 inline constexpr Nanoseconds kMillisecond = 1'000'000;
 inline constexpr Nanoseconds kPeriod = 200 * kMillisecond;
@@ -72,14 +72,14 @@ class TrimWalk {
   [[nodiscard]] Nanoseconds end() const { return (kFirstStep + trims_.size() - 1) * kPeriod; }
 
   /// Planned state, to the 10 ms before.
-  [[nodiscard]] State state_at(Nanoseconds t) const;
+  [[nodiscard]] vehicle::State state_at(Nanoseconds t) const;
 
  private:
   [[nodiscard]] std::vector<TrajectoryPoint> points(std::uint64_t step) const;
 
   std::vector<std::size_t> trims_;
-  std::vector<State> states_;  ///< every 10 ms from the first step on
+  std::vector<vehicle::State> states_;  ///< every 10 ms from the first step on
   std::uint64_t seed_;
 };
 
-}  // namespace hlc::driven_vehicle
+}  // namespace hlc::simulated_vehicle::driven_vehicle

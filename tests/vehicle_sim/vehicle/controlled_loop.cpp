@@ -7,7 +7,7 @@
 #include "planner/automaton/deviation.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc::controlled_loop {
+namespace hlc::simulated_vehicle::controlled_loop {
 namespace {
 
 /// How far the farthest of the points is outside the area, measured across its edges.
@@ -26,34 +26,34 @@ double outside_m(const ConvexPolygon& area, const ConvexPolygon::Vertices& point
 
 /// What a controller announced at the beginning of a step.
 struct Announced {
-  Plan plan;  ///< that the step began with
+  coordination::Plan plan;  ///< that the step began with
   ConvexPolygon area_m;
 };
 
 std::size_t steps_at_limit(const std::map<std::uint64_t, Announced>& announced,
-                           const UniversalAutomaton& automaton) {
+                           const automaton::UniversalAutomaton& automaton) {
   return static_cast<std::size_t>(std::ranges::count_if(announced, [&](const auto& one) {
     const auto& [step, what] = one;
     const auto is_at_limit = [&](TrimId trim) {
-      return is_at_steering_limit(automaton.trims[trim.index], automaton.vehicle,
-                                  automaton.identified);
+      return automaton::is_at_steering_limit(automaton.trims[trim.index], automaton.vehicle,
+                                             automaton.identified);
     };
     return is_at_limit(what.plan.trim_at({step})) || is_at_limit(what.plan.trim_at({step + 1}));
   }));
 }
 
-void compare(const Drive& drive, Nanoseconds period,
+void compare(const result::Drive& drive, Nanoseconds period,
              const std::map<std::uint64_t, Announced>& announced,
-             const UniversalAutomaton& automaton, Stray& stray) {
-  for (const DrivenSample& sample : drive) {
+             const automaton::UniversalAutomaton& automaton, Stray& stray) {
+  for (const result::DrivenSample& sample : drive) {
     const auto now = announced.find(sample.t / period);
     if (now == announced.end()) continue;
     const auto& [step, what] = *now;
     const double since_s = 1e-9 * static_cast<double>(sample.t - step * period);
-    const State planned = what.plan.state_at({step}, since_s, automaton.vehicle);
+    const vehicle::State planned = what.plan.state_at({step}, since_s, automaton.vehicle);
     stray.deviation_m = std::max(
-        stray.deviation_m,
-        footprint_deviation_m(sample.pose, planned, automaton.vehicle, automaton.identified));
+        stray.deviation_m, automaton::footprint_deviation_m(sample.pose, planned, automaton.vehicle,
+                                                            automaton.identified));
     const double outside =
         outside_m(what.area_m, footprint_area(automaton.vehicle.footprint, sample.pose).vertices_m);
     if (outside > stray.outside_m) {
@@ -65,34 +65,37 @@ void compare(const Drive& drive, Nanoseconds period,
 
 }  // namespace
 
-Stray drive(const Scenario& scenario, std::optional<std::uint64_t> noise_seed,
+Stray drive(const scenario::Scenario& scenario, std::optional<std::uint64_t> noise_seed,
             const std::function<bool()>& is_late) {
   Stray stray;
   std::map<std::uint64_t, Announced> announced;
   ConvexPolygon reachable_m;
-  JointStepRules rules;
-  rules.on_traffic = [&](const Controller& controller, const Traffic& traffic) {
+  controller::JointStepRules rules;
+  rules.on_traffic = [&](const controller::Controller& controller,
+                         const coordination::Traffic& traffic) {
     announced.emplace(traffic.step.value,
                       Announced{controller.plan_in_force(), traffic.running.during(traffic.step)});
     reachable_m = traffic.reachable_area_m;
   };
-  rules.is_late = [&](const Controller&) { return is_late(); };
-  rules.on_prediction = [&](const Controller&, const Prediction& prediction) {
+  rules.is_late = [&](const controller::Controller&) { return is_late(); };
+  rules.on_prediction = [&](const controller::Controller&,
+                            const coordination::Prediction& prediction) {
     for (std::uint64_t k = prediction.step.value + 1; k < prediction.step.value + 10; ++k) {
       stray.beyond_reach_m = std::max(
           stray.beyond_reach_m, outside_m(reachable_m, prediction.areas.during({k}).vertices_m));
     }
   };
-  const Experiment experiment = drive_experiment(
+  const closed_loop::Experiment experiment = closed_loop::drive_experiment(
       scenario, {.steps = scenario.steps, .noise_seed = noise_seed, .rules = rules});
-  const UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   compare(experiment.drives.at(scenario.vehicles.front().id.value), experiment.facts.period,
           announced, automaton, stray);
   stray.steps_at_limit = steps_at_limit(announced, automaton);
-  stray.fallback_steps = static_cast<std::size_t>(std::ranges::count_if(
-      experiment.reports,
-      [](const ReportRecord& record) { return record.report.status == StepStatus::kFallback; }));
+  stray.fallback_steps = static_cast<std::size_t>(
+      std::ranges::count_if(experiment.reports, [](const ReportRecord& record) {
+        return record.report.status == coordination::StepStatus::kFallback;
+      }));
   return stray;
 }
 
-}  // namespace hlc::controlled_loop
+}  // namespace hlc::simulated_vehicle::controlled_loop

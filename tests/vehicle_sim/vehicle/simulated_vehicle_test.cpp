@@ -8,7 +8,7 @@
 
 #include "tests/vehicle_sim/vehicle/closed_loop.hpp"
 
-namespace hlc::simulated_vehicle_test {
+namespace hlc::simulated_vehicle::simulated_vehicle_test {
 namespace {
 
 using driven_vehicle::drive;
@@ -70,8 +70,9 @@ TEST(SimulatedVehicle, EqualOptionsAndCommandsGiveEqualDrives) {
 }
 
 TEST(SimulatedVehicle, WithZeroGainsItDoesNotMove) {
-  SimulatedVehicle vehicle(
-      {.vehicle_id = 1, .start = kStart, .gains = scaled(FollowerGains{}, 0.0)});
+  SimulatedVehicle vehicle({.vehicle_id = 1,
+                            .start = kStart,
+                            .gains = tracking::scaled(tracking::FollowerGains{}, 0.0)});
   const TrimWalk walk = straight_walk(10);
   const std::vector<Sample> samples = drive(vehicle, walk.mission(), walk.end());
   EXPECT_EQ(samples.back().tick.driven.pose, kStart);
@@ -99,15 +100,16 @@ TEST(SimulatedVehicle, OfSeveralKindsOfCommandsTheFirstInTheLabsOrderCounts) {
   EXPECT_EQ(direct.driven.steering, 0.5);
   EXPECT_EQ(direct.driven.throttle, 0.2);
   EXPECT_EQ(direct.driven.command_create, 40 * kMillisecond);
-  EXPECT_EQ(direct.status, FollowerStatus::kFollowing);
+  EXPECT_EQ(direct.status, tracking::FollowerStatus::kFollowing);
   // One after the other runs out after 1 s, the path's first of all: then nothing is left.
-  EXPECT_EQ(vehicle.tick(40 * kMillisecond + kSecond).status, FollowerStatus::kNoCommand);
+  EXPECT_EQ(vehicle.tick(40 * kMillisecond + kSecond).status, tracking::FollowerStatus::kNoCommand);
   vehicle.receive(at(path, 2 * kSecond));
   vehicle.receive(at(SpeedCurvatureCommand{.speed_mps = 0.4}, 2 * kSecond + 500 * kMillisecond));
   EXPECT_GT(vehicle.tick(2 * kSecond).driven.throttle, 0.0);
   EXPECT_EQ(vehicle.tick(3 * kSecond).driven.command_create, 2 * kSecond + 500 * kMillisecond);
   vehicle.brake();
-  EXPECT_EQ(vehicle.tick(3 * kSecond + 20 * kMillisecond).status, FollowerStatus::kNoCommand);
+  EXPECT_EQ(vehicle.tick(3 * kSecond + 20 * kMillisecond).status,
+            tracking::FollowerStatus::kNoCommand);
 }
 
 TEST(SimulatedVehicle, ASpeedAndACurvatureAreDriven) {
@@ -141,7 +143,7 @@ TEST(SimulatedVehicle, DrivesItsLastPlanToTheEndWhenCommandsEnd) {
   const std::vector<TrajectoryPoint> last_plan = mission.points(mission.last_step);
   const std::vector<Sample> samples = drive(vehicle, mission, 6'000 * kMillisecond);
   const Point end_m(last_plan.back().x_m, last_plan.back().y_m);
-  const VehicleMotion& motion = vehicle.motion();
+  const vehicle::VehicleMotion& motion = vehicle.motion();
   EXPECT_LT((motion.pose.position_m() - end_m).norm(), 0.010);
   EXPECT_NEAR(motion.speed_mps, 0.0, 1e-3);
 }
@@ -167,9 +169,9 @@ TEST(SimulatedVehicle, StandsHalfASecondAfterTheLastCommandHasExpired) {
     }
     const SimulatedVehicle::Tick tick = vehicle.tick(t);
     if (t < kLast + 1'000 * kMillisecond) {
-      EXPECT_EQ(tick.status == FollowerStatus::kFollowing, t > 0) << t;
+      EXPECT_EQ(tick.status == tracking::FollowerStatus::kFollowing, t > 0) << t;
     } else {
-      EXPECT_EQ(tick.status, FollowerStatus::kNoCommand) << t;
+      EXPECT_EQ(tick.status, tracking::FollowerStatus::kNoCommand) << t;
     }
     if (t == 3'500 * kMillisecond) {
       EXPECT_NEAR(tick.driven.speed_mps, 1.0, 0.02) << "still driving";
@@ -193,12 +195,12 @@ TEST(SimulatedVehicle, AfterTheStopItBrakesForFiftyTicksAndForgetsItsCommands) {
   for (Nanoseconds t = stop; t < braked; t += kVehiclePeriod) {
     ASSERT_TRUE(vehicle.is_braking()) << t;
     for (const Sample& sample : drive(vehicle, mission, t + kVehiclePeriod, t)) {
-      EXPECT_EQ(sample.tick.status, FollowerStatus::kNoCommand);
+      EXPECT_EQ(sample.tick.status, tracking::FollowerStatus::kNoCommand);
     }
   }
   EXPECT_FALSE(vehicle.is_braking());
   EXPECT_NEAR(vehicle.motion().speed_mps, 0.0, 0.02);
-  EXPECT_EQ(vehicle.tick(braked).status, FollowerStatus::kNoCommand);
+  EXPECT_EQ(vehicle.tick(braked).status, tracking::FollowerStatus::kNoCommand);
   // Then it listens again.
   Nanoseconds t = braked + kVehiclePeriod;
   const Pose pose = vehicle.motion().pose;
@@ -207,7 +209,7 @@ TEST(SimulatedVehicle, AfterTheStopItBrakesForFiftyTicksAndForgetsItsCommands) {
       .valid_after_stamp = t,
       .points = {{.t = t, .x_m = pose.x_m, .y_m = pose.y_m},
                  {.t = t + 2'000 * kMillisecond, .x_m = pose.x_m, .y_m = pose.y_m}}});
-  EXPECT_EQ(vehicle.tick(t).status, FollowerStatus::kFollowing);
+  EXPECT_EQ(vehicle.tick(t).status, tracking::FollowerStatus::kFollowing);
 }
 
 TEST(SimulatedVehicle, GarbageOnTheWireNeverMovesIt) {
@@ -235,10 +237,10 @@ TEST(SimulatedVehicle, GarbageOnTheWireNeverMovesIt) {
     }
     vehicle.receive(command);
     const SimulatedVehicle::Tick tick = vehicle.tick(t);
-    EXPECT_NE(tick.status, FollowerStatus::kFollowing);
+    EXPECT_NE(tick.status, tracking::FollowerStatus::kFollowing);
     EXPECT_EQ(tick.driven.pose, kStart);
   }
 }
 
 }  // namespace
-}  // namespace hlc::simulated_vehicle_test
+}  // namespace hlc::simulated_vehicle::simulated_vehicle_test

@@ -9,7 +9,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 
-namespace hlc::vehicle_machine_test {
+namespace hlc::simulated_vehicle::vehicle_machine_test {
 namespace {
 
 using machine::LogLine;
@@ -260,11 +260,11 @@ TEST_F(RealVehicle, TicksByTheClockWhoeverIsThere) {
 TEST_F(RealVehicle, MakesUpForMissedTicksWithoutPublishingTheirStates) {
   static_cast<void>(advance_at(0));
   const auto actions = advance_at(5 * kTick + 1);
-  EXPECT_EQ(of<DrivenSample>(actions).size(), 5U);
+  EXPECT_EQ(of<result::DrivenSample>(actions).size(), 5U);
   const auto states = of<VehicleState>(actions);
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].create_stamp, kReal + 5 * kTick);
-  EXPECT_EQ(of<DrivenSample>(advance_at(5'000 * kTick)).size(), 501U) << "it stands anyway";
+  EXPECT_EQ(of<result::DrivenSample>(advance_at(5'000 * kTick)).size(), 501U) << "it stands anyway";
 }
 
 TEST_F(RealVehicle, DrivesItsPlanToTheEndBeforeItLeavesWithoutTheLabControl) {
@@ -322,4 +322,4 @@ TEST_F(RealVehicle, LogsOnceWhyItStops) {
 }
 
 }  // namespace
-}  // namespace hlc::vehicle_machine_test
+}  // namespace hlc::simulated_vehicle::vehicle_machine_test

@@ -6,7 +6,7 @@
 
 #include "planner/maneuver_design/solver/first_order.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
@@ -106,4 +106,4 @@ TEST(ActiveSetQp, AConcaveProblemEndsInACorner) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

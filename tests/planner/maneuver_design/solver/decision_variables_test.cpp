@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
@@ -63,4 +63,4 @@ TEST(DecisionVariables, ASmallErrorIsRepairedToTheLastBits) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using Eigen::MatrixXd;
@@ -77,4 +77,4 @@ TEST(FirstOrder, EqualsTheBestOfAllChoicesOfActiveConstraints) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

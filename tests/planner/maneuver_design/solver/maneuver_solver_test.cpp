@@ -10,19 +10,19 @@
 #include "planner/maneuver_design/shooting.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
 
 ManeuverProblem paper_problem(TrimId from, TrimId to) {
-  const auto& c = paper_configuration();
+  const auto& c = automaton::paper_configuration();
   return {c.trims[from.index], c.trims[to.index], c.step_s, c.intervals, c.vehicle, c.limits};
 }
 
 /// As in the reference values: L = 0.2 m.
 ManeuverProblem reference_problem(std::size_t from, std::size_t to) {
-  ManeuverProblem problem = paper_problem(pi(from), pi(to));
+  ManeuverProblem problem = paper_problem(automaton::pi(from), automaton::pi(to));
   problem.vehicle.wheelbase_m = 0.2;
   problem.vehicle.rear_axle_to_cg_m = 0.1;
   return problem;
@@ -45,7 +45,7 @@ TEST(ManeuverSolver, FindsTheClosedFormOfJ2ForAllPairsOfTrimsFromBothGuesses) {
         continue;
       }
       SCOPED_TRACE(Message() << from << " -> " << to);
-      const ManeuverProblem problem = paper_problem(pi(from), pi(to));
+      const ManeuverProblem problem = paper_problem(automaton::pi(from), automaton::pi(to));
       const double dv = problem.to.speed_mps - problem.from.speed_mps;
       const double ddelta = problem.to.steering_rad - problem.from.steering_rad;
       const double T = problem.duration_s;
@@ -108,10 +108,10 @@ TEST(ManeuverSolver, KeepsBoundsOnStatesThatTheFreeOptimumViolates) {
   const Distance distance;
   SolverOptions options;
   options.guess = Guess::kBangBang;
-  ManeuverProblem problem = paper_problem(pi(7), pi(8));
+  ManeuverProblem problem = paper_problem(automaton::pi(7), automaton::pi(8));
   const auto fastest = [](const ManeuverSolution& solution) {
     double speed = 0.0;
-    for (const State& state : solution.states) {
+    for (const vehicle::State& state : solution.states) {
       speed = std::max(speed, state.speed_mps);
     }
     return speed;
@@ -130,10 +130,12 @@ TEST(ManeuverSolver, KeepsBoundsOnStatesThatTheFreeOptimumViolates) {
 /// Stays near the start: brakes as hard as it may.
 class NearnessCost final : public RunningCost {
  public:
-  [[nodiscard]] double value(const StateVector& x, const Input& u) const override {
+  [[nodiscard]] double value(const vehicle::StateVector& x,
+                             const vehicle::Input& u) const override {
     return -distance_.value(x, u);
   }
-  [[nodiscard]] CostGradient gradient(const StateVector& x, const Input& u) const override {
+  [[nodiscard]] CostGradient gradient(const vehicle::StateVector& x,
+                                      const vehicle::Input& u) const override {
     CostGradient gradient = distance_.gradient(x, u);
     gradient.state *= -1.0;
     return gradient;
@@ -144,14 +146,14 @@ class NearnessCost final : public RunningCost {
 };
 
 TEST(ManeuverSolver, KeepsTheLowerBoundOnTheSpeedAndBothBoundsOnSteering) {
-  ManeuverProblem problem = paper_problem(pi(7), pi(8));
+  ManeuverProblem problem = paper_problem(automaton::pi(7), automaton::pi(8));
   problem.limits.speed_min_mps = 0.3;
   problem.limits.steering_max_rad = 0.2;
   const ManeuverSolution slow = solve(problem, NearnessCost{});
   ASSERT_EQ(slow.status, ManeuverStatus::kOptimal) << slow.reason;
   expect_no_residuals(slow.residuals);
   double slowest = problem.from.speed_mps;
-  for (const State& state : slow.states) {
+  for (const vehicle::State& state : slow.states) {
     slowest = std::min(slowest, state.speed_mps);
   }
   EXPECT_NEAR(slowest, 0.3, 1e-8);
@@ -170,7 +172,7 @@ TEST(ManeuverSolver, KeepsTheLowerBoundOnTheSpeedAndBothBoundsOnSteering) {
 
 TEST(ManeuverSolver, NamesTheBoundThatMakesAPairInfeasibleAndTheShortestDuration) {
   const Effort effort;
-  ManeuverProblem problem = paper_problem(pi(1), pi(7));
+  ManeuverProblem problem = paper_problem(automaton::pi(1), automaton::pi(7));
   problem.to = {2.3, 0.62};
   problem.limits.acceleration_mps2 = 10.0;
   ManeuverSolution solution = solve(problem, effort);
@@ -200,7 +202,7 @@ TEST(ManeuverSolver, NamesTheBoundThatMakesAPairInfeasibleAndTheShortestDuration
 }
 
 TEST(ManeuverSolver, SolvesAPairThatIsJustFeasible) {
-  ManeuverProblem problem = paper_problem(pi(1), pi(7));
+  ManeuverProblem problem = paper_problem(automaton::pi(1), automaton::pi(7));
   problem.to = {2.3, 0.62};
   problem.limits.acceleration_mps2 = 11.5;
   problem.limits.steering_rate_radps = 3.1;
@@ -214,7 +216,8 @@ TEST(ManeuverSolver, SaysSoWhenItDoesNotConverge) {
   SolverOptions options;
   options.guess = Guess::kBangBang;
   options.max_evaluations = 3;
-  const ManeuverSolution solution = solve(paper_problem(pi(7), pi(8)), Distance{}, options);
+  const ManeuverSolution solution =
+      solve(paper_problem(automaton::pi(7), automaton::pi(8)), Distance{}, options);
   EXPECT_EQ(solution.status, ManeuverStatus::kNotConverged);
   EXPECT_EQ(solution.reason, "not converged after 3 evaluations");
 }
@@ -222,15 +225,15 @@ TEST(ManeuverSolver, SaysSoWhenItDoesNotConverge) {
 TEST(ManeuverSolver, MirroredTrimsHaveMirroredManeuvers) {
   const Effort effort;
   for (const auto& [from, to] : {std::pair{8U, 9U}, std::pair{1U, 12U}, std::pair{12U, 1U}}) {
-    ManeuverProblem problem = paper_problem(pi(from), pi(to));
+    ManeuverProblem problem = paper_problem(automaton::pi(from), automaton::pi(to));
     const ManeuverSolution left = solve(problem, effort);
     problem.from.steering_rad *= -1.0;
     problem.to.steering_rad *= -1.0;
     const ManeuverSolution right = solve(problem, effort);
     ASSERT_EQ(left.states.size(), right.states.size());
     for (std::size_t k = 0; k < left.states.size(); ++k) {
-      const State& l = left.states[k];
-      const State& r = right.states[k];
+      const vehicle::State& l = left.states[k];
+      const vehicle::State& r = right.states[k];
       EXPECT_NEAR(l.pose.x_m, r.pose.x_m, 1e-12);
       EXPECT_NEAR(l.pose.y_m, -r.pose.y_m, 1e-12);
       EXPECT_NEAR(l.pose.heading_rad, -r.pose.heading_rad, 1e-12);
@@ -241,4 +244,4 @@ TEST(ManeuverSolver, MirroredTrimsHaveMirroredManeuvers) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

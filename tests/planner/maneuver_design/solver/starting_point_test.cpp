@@ -9,12 +9,13 @@
 #include "planner/maneuver_design/shooting.hpp"
 #include "planner/maneuver_design/stopping_distance.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
 
-ConstraintResiduals residuals(const ManeuverProblem& problem, const std::vector<Input>& inputs) {
+ConstraintResiduals residuals(const ManeuverProblem& problem,
+                              const std::vector<vehicle::Input>& inputs) {
   const Shot shot = shoot(start_state(problem), inputs, problem.duration_s, Distance{},
                           problem.vehicle, WithGradient::kNo);
   return residuals_of(problem, inputs, shot.states, problem.duration_s);
@@ -52,15 +53,15 @@ TEST(StartingPoint, ForDistanceItIsFullAccelerationUpToTheBoundAndLateBraking) {
 }
 
 TEST(StartingPoint, InputsOnAnotherNumberOfIntervalsKeepTheirMeanOverEveryTime) {
-  std::vector<Input> inputs(6);
+  std::vector<vehicle::Input> inputs(6);
   for (std::size_t k = 0; k < 6; ++k) {
     inputs[k] = {static_cast<double>(k), -2.0 * static_cast<double>(k)};
   }
-  const std::vector<Input> fine = resampled(inputs, 12);
+  const std::vector<vehicle::Input> fine = resampled(inputs, 12);
   for (std::size_t k = 0; k < 12; ++k) {
     EXPECT_NEAR(fine[k].acceleration_mps2, inputs[k / 2].acceleration_mps2, 1e-15);
   }
-  const std::vector<Input> other = resampled(inputs, 4);
+  const std::vector<vehicle::Input> other = resampled(inputs, 4);
   ASSERT_EQ(other.size(), 4U);
   EXPECT_NEAR(other[0].acceleration_mps2, (0.0 + 0.5 * 1.0) / 1.5, 1e-15);
   EXPECT_NEAR(other[1].steering_rate_radps, -2.0 * (0.5 * 1.0 + 2.0) / 1.5, 1e-15);
@@ -68,4 +69,4 @@ TEST(StartingPoint, InputsOnAnotherNumberOfIntervalsKeepTheirMeanOverEveryTime) 
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -9,7 +9,7 @@
 #include "planner/maneuver_design/effort.hpp"
 #include "planner/maneuver_design/friction_circle.hpp"
 
-namespace hlc {
+namespace hlc::maneuver_design {
 namespace {
 
 using testing::Message;
@@ -98,4 +98,4 @@ TEST(Transcription, SecondDerivativesAreThoseOfTheGradient) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::maneuver_design

@@ -12,7 +12,7 @@
 #include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using test::box;
@@ -24,7 +24,7 @@ using test::straight_problem;
 
 constexpr std::size_t kMaxSteps = 8;
 
-HorizonProblem standing_problem(const Subgraph& subgraph, std::size_t horizon_steps) {
+HorizonProblem standing_problem(const automaton::Subgraph& subgraph, std::size_t horizon_steps) {
   HorizonProblem problem = straight_problem(horizon_steps);
   problem.start_trim = subgraph.standstill();
   return problem;
@@ -32,7 +32,7 @@ HorizonProblem standing_problem(const Subgraph& subgraph, std::size_t horizon_st
 
 /// A subgraph, what it can reach, and a search on it.
 struct Searcher {
-  explicit Searcher(Subgraph enabled, SearchOptions options = {})
+  explicit Searcher(automaton::Subgraph enabled, SearchOptions options = {})
       : subgraph(std::move(enabled)),
         reachable(subgraph, kMaxSteps),
         engine(subgraph, reachable, options) {}
@@ -41,8 +41,8 @@ struct Searcher {
     return engine.search(problem, never_stop);
   }
 
-  Subgraph subgraph;
-  ReachableSets reachable;
+  automaton::Subgraph subgraph;
+  automaton::ReachableSets reachable;
   BestFirstSearch engine;
 };
 
@@ -106,11 +106,13 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(BestFirstSearch, OfTwoLabelsTheBetterIsTakenInEachStep) {
   OptimalityCase both{"Both", {kSlow, kFast}, kAllTrims, 6, 0};
   Searcher searcher(test::make_test_subgraph(both.labels, both.trims));
-  SubgraphSpec one = searcher.subgraph.spec();
+  automaton::SubgraphSpec one = searcher.subgraph.spec();
   one.labels = {"slow"};
-  Searcher slow(Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));
+  Searcher slow(
+      automaton::Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));
   one.labels = {"fast"};
-  Searcher fast(Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));
+  Searcher fast(
+      automaton::Subgraph(test::make_test_automaton(test::paper_trims(), both.labels), one));
   std::size_t better = 0;
   const std::uint64_t problems = test::num_seeds(40);
   for (std::uint64_t seed = 0; seed < problems; ++seed) {
@@ -129,10 +131,10 @@ TEST(BestFirstSearch, OfTwoLabelsTheBetterIsTakenInEachStep) {
 // From a trim that is off, plans leave along its exit edges: the same as trying every path.
 TEST(BestFirstSearch, FromATrimThatIsOffItAgreesWithTryingEveryPath) {
   const auto automaton = test::make_test_automaton(test::paper_trims(), {kSlow, kFast});
-  SubgraphSpec spec{.name = "D", .labels = {"slow"}, .trims = {}};
+  automaton::SubgraphSpec spec{.name = "D", .labels = {"slow"}, .trims = {}};
   for (const std::size_t number : {1U, 2U, 4U, 6U, 8U, 10U, 12U})
     spec.trims.push_back({number - 1});
-  Searcher searcher(Subgraph(automaton, spec));
+  Searcher searcher(automaton::Subgraph(automaton, spec));
   std::size_t feasible = 0;
   for (std::uint64_t seed = 0; seed < test::num_seeds(60); ++seed) {
     SCOPED_TRACE(seed);
@@ -153,11 +155,11 @@ TEST(BestFirstSearch, FromATrimThatIsOffItAgreesWithTryingEveryPath) {
 
 TEST(BestFirstSearch, FromATrimWithoutAWayOutThereIsNoPath) {
   const auto automaton = test::make_test_automaton(test::paper_trims(), {kSlow});
-  SubgraphSpec spec{.name = "stand", .labels = {"slow"}, .trims = {{0}}};
+  automaton::SubgraphSpec spec{.name = "stand", .labels = {"slow"}, .trims = {{0}}};
   for (std::size_t to = 0; to < 12; ++to) {
     if (to != 6) spec.off.push_back({{{6}, {to}}, std::nullopt});
   }
-  Searcher searcher(Subgraph(automaton, spec));
+  Searcher searcher(automaton::Subgraph(automaton, spec));
   EXPECT_EQ(searcher.search(straight_problem(8)).reason, NoPath::kInfeasible);
 }
 
@@ -202,11 +204,12 @@ TEST(BestFirstSearch, OfTwoVerticesOfEqualEstimateTheDeeperIsTakenFirst) {
   };
   // Right turn, slower, stop. The first reference point lies as near to the left turn; the others
   // are on the path, and within reach of the left turn.
-  const std::vector<const Maneuver*> path{maneuver(1, 6), maneuver(6, 3), maneuver(3, 1)};
+  const std::vector<const automaton::Maneuver*> path{maneuver(1, 6), maneuver(6, 3),
+                                                     maneuver(3, 1)};
   HorizonProblem problem;
   problem.start_trim = searcher.subgraph.standstill();
   Frame frame = to_frame(problem.start);
-  for (const Maneuver* step : path) {
+  for (const automaton::Maneuver* step : path) {
     frame = compose(frame, to_frame(step->displacement));
     problem.reference_m.push_back(frame.origin_m);
   }
@@ -252,7 +255,7 @@ TEST(BestFirstSearch, ExpandsFewVerticesOnAStraightReference) {
 }
 
 TEST(BestFirstSearch, GivesUpAtItsBudget) {
-  const Subgraph subgraph = test::make_test_subgraph();
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
   Searcher unlimited(subgraph);
   const HorizonProblem problem = straight_problem(8);
   const SearchResult full = unlimited.search(problem);
@@ -338,7 +341,7 @@ TEST(BestFirstSearch, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
 }
 
 TEST(BestFirstSearch, The2022CostToGoFindsAValidPathThatMayCostMore) {
-  const Subgraph subgraph = test::make_test_subgraph();
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
   Searcher exact(subgraph);
   Searcher authors(subgraph, {.cost_to_go = CostToGo::kReferenceSpeed});
   std::size_t suboptimal = 0;
@@ -381,4 +384,4 @@ TEST(BestFirstSearchDeathTest, SizesThatDoNotMatchAreMistakes) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

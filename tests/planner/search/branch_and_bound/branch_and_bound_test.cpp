@@ -18,7 +18,7 @@
 #include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using test::box;
@@ -44,13 +44,14 @@ struct Case {
 
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
-Subgraph make_subgraph(const Case& param) {
+automaton::Subgraph make_subgraph(const Case& param) {
   return test::make_test_subgraph(param.labels, param.trims, param.max_speed_mps);
 }
 
 /// A subgraph, what it can reach, and all engines on it.
 struct Engines {
-  explicit Engines(Subgraph enabled, SearchOptions options = {}, std::size_t max_steps = kMaxSteps)
+  explicit Engines(automaton::Subgraph enabled, SearchOptions options = {},
+                   std::size_t max_steps = kMaxSteps)
       : subgraph(std::move(enabled)),
         reachable(subgraph, max_steps),
         fast(subgraph, reachable, options),
@@ -58,15 +59,16 @@ struct Engines {
         portable(subgraph, reachable, options, Instructions::kPortable),
         plain(subgraph, reachable, options) {}
 
-  Subgraph subgraph;
-  ReachableSets reachable;
+  automaton::Subgraph subgraph;
+  automaton::ReachableSets reachable;
   BranchAndBound fast;
   BranchAndBound avx2;
   BranchAndBound portable;
   BestFirstSearch plain;
 };
 
-HorizonProblem problem_of(const Case& param, const Subgraph& subgraph, std::uint64_t seed) {
+HorizonProblem problem_of(const Case& param, const automaton::Subgraph& subgraph,
+                          std::uint64_t seed) {
   std::mt19937_64 random(seed);
   HorizonProblem problem = test::random_problem(subgraph, param.horizon_steps, random);
   problem.avoids_steering_limit = seed % 4 == 0;
@@ -152,8 +154,8 @@ TEST(BranchAndBound, AgreesWithBestFirstOnLongHorizons) {
 
 /// Searches problems of these horizons, the longest last, with all engines. Returns how many
 /// best-first solved within its budget: those are compared.
-std::size_t compare_horizons(const Subgraph& subgraph, const std::vector<std::size_t>& horizons,
-                             std::uint64_t problems) {
+std::size_t compare_horizons(const automaton::Subgraph& subgraph,
+                             const std::vector<std::size_t>& horizons, std::uint64_t problems) {
   Engines engines(subgraph, {}, horizons.back());
   BestFirstSearch limited(engines.subgraph, engines.reachable, {.max_expansions = 5'000});
   std::size_t solved = 0;
@@ -207,26 +209,28 @@ TEST(BranchAndBound, IsGuidedByFarReferencesAsByNearOnes) {
 // Horizons of more than two rows of eight steps, and those whose reference points may be too far
 // for whole numbers.
 TEST(BranchAndBound, AgreesWithBestFirstOnHorizonsOfManyRows) {
-  const Subgraph few = test::make_test_subgraph({kSlow}, {1, 6, 7, 8});
+  const automaton::Subgraph few = test::make_test_subgraph({kSlow}, {1, 6, 7, 8});
   EXPECT_GE(compare_horizons(few, {17, 18, 24, 33, 39, 40, 64}, test::num_seeds(120)), 30U);
 }
 
 TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
-  std::vector<Trim> trims{{0.0, 0.0}};
+  std::vector<automaton::Trim> trims{{0.0, 0.0}};
   for (const double speed_mps : {0.3, 0.6, 0.9}) {
     for (int i = -5; i <= 5; ++i) trims.push_back({speed_mps, 0.08 * i});
   }
-  SubgraphSpec spec{
-      .name = "grid", .labels = {kSlow.label}, .trims = {}, .rule = EdgeRule::kReachable};
+  automaton::SubgraphSpec spec{.name = "grid",
+                               .labels = {kSlow.label},
+                               .trims = {},
+                               .rule = automaton::EdgeRule::kReachable};
   for (std::size_t i = 0; i < trims.size(); ++i) spec.trims.push_back({i});
-  const Subgraph grid(test::make_test_automaton(trims, {kSlow}), spec);
+  const automaton::Subgraph grid(test::make_test_automaton(trims, {kSlow}), spec);
   EXPECT_GE(compare_horizons(grid, {6, 8, 10}, test::num_seeds(30)), 8U);
 }
 
 // Also where a search ends early: its lower bound shows every bit of the children's bounds.
 TEST(BranchAndBound, AllKernelsGiveTheSameBits) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kManySteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kManySteps);
   std::size_t cut = 0;
   for (const std::size_t budget : {1U, 5U, 20U}) {
     BranchAndBound best(subgraph, reachable, {.max_expansions = budget});
@@ -296,8 +300,8 @@ TEST(BranchAndBound, WithoutHorizonStandingIsAPlanAndDrivingIsNot) {
 }
 
 TEST(BranchAndBound, RefusesBoundsThatItDoesNotHave) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   for (const CostToGo kind : {CostToGo::kStraightLine, CostToGo::kReferenceSpeed}) {
     EXPECT_THROW(static_cast<void>(make_search_engine(subgraph, reachable, {.cost_to_go = kind})),
                  std::invalid_argument);
@@ -353,4 +357,4 @@ TEST(BranchAndBound, WhatWasSearchedBeforeMakesNoDifference) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

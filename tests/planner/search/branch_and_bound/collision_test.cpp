@@ -14,7 +14,7 @@
 #include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 static void PrintTo(BranchAndBound::Instructions instructions, std::ostream* out) {
   constexpr std::array kNames{"Portable", "Avx2", "Avx512"};
@@ -32,16 +32,16 @@ using Instructions = BranchAndBound::Instructions;
 class BranchAndBoundCollision : public testing::TestWithParam<Instructions> {
  protected:
   void SetUp() override {
-    const Subgraph subgraph = test::make_test_subgraph();
-    const ReachableSets reachable(subgraph, 1);
+    const automaton::Subgraph subgraph = test::make_test_subgraph();
+    const automaton::ReachableSets reachable(subgraph, 1);
     const BranchAndBound engine(subgraph, reachable, {}, GetParam());
     if (engine.instructions() != GetParam()) GTEST_SKIP() << "this processor does not have them";
   }
 };
 
 TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWalks) {
-  const Subgraph subgraph = test::make_test_subgraph(4.0);
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph(4.0);
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   std::size_t collisions = 0;
@@ -56,7 +56,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWa
     TrimId trim = problem.start_trim;
     for (std::size_t step = 1; step <= kMaxSteps; ++step) {
       const auto permitted = subgraph.successors(trim, kMaxSteps - step + 1);
-      for (const Edge& edge : permitted) {
+      for (const automaton::Edge& edge : permitted) {
         const bool is_free = check.is_free(*edge.maneuver, step, frame);
         ASSERT_EQ(engine.is_free(*edge.maneuver, step, frame), is_free)
             << "seed " << seed << ", step " << step;
@@ -64,7 +64,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWa
         ++edges;
         most_corners = std::max(most_corners, edge.maneuver->swept_area_m.vertices_m.size());
       }
-      const Edge& chosen = permitted[test::pick(random, permitted.size())];
+      const automaton::Edge& chosen = permitted[test::pick(random, permitted.size())];
       frame = compose(frame, to_frame(chosen.maneuver->displacement));
       trim = chosen.to;
     }
@@ -75,11 +75,11 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckOnEveryEdgeOfRandomWa
 }
 
 /// Walks so many random steps, always able to stop at the horizon; returns the trim it ends in.
-TrimId walk(const Subgraph& subgraph, TrimId trim, std::size_t steps, std::mt19937_64& random,
-            Frame& frame) {
+TrimId walk(const automaton::Subgraph& subgraph, TrimId trim, std::size_t steps,
+            std::mt19937_64& random, Frame& frame) {
   for (std::size_t step = 1; step <= steps; ++step) {
     const auto permitted = subgraph.successors(trim, kMaxSteps - step + 1);
-    const Edge& chosen = permitted[test::pick(random, permitted.size())];
+    const automaton::Edge& chosen = permitted[test::pick(random, permitted.size())];
     frame = compose(frame, to_frame(chosen.maneuver->displacement));
     trim = chosen.to;
   }
@@ -109,8 +109,8 @@ void put_far_away(HorizonProblem& problem, std::mt19937_64& random) {
 // After some steps, exactly beside the vehicle, a little in, a little out: the same answers to the
 // last bit, also where single precision knows less because something is 100 m long.
 TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckWhereAreasOnlyJustTouch) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   std::array<std::size_t, 2> answers{};
@@ -126,7 +126,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckWhereAreasOnlyJustTou
     Frame frame = to_frame(problem.start);
     const TrimId trim = walk(subgraph, problem.start_trim, step - 1, random, frame);
     const auto edges = subgraph.successors(trim, kMaxSteps - step + 1);
-    const Maneuver& maneuver = *edges[test::pick(random, edges.size())].maneuver;
+    const automaton::Maneuver& maneuver = *edges[test::pick(random, edges.size())].maneuver;
     const bool is_lane = seed % 3 == 0;
     const auto& corners = (is_lane ? maneuver.lane_area_m : maneuver.swept_area_m).vertices_m;
     const std::size_t i = test::pick(random, corners.size());
@@ -171,12 +171,12 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckWhereAreasOnlyJustTou
 
 TEST_P(BranchAndBoundCollision, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
   // A preparation that leaves out what is farther than 0.99 of the reach would miss it.
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   for (std::size_t number = 1; number <= 12; ++number) {
     const TrimId trim{number - 1};
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       // Driven along this edge and then straight on, the farthest corner in each direction.
       const Pose start{1.0, 2.0, 0.7 * static_cast<double>(number)};
       HorizonProblem problem;
@@ -185,7 +185,7 @@ TEST_P(BranchAndBoundCollision, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
       problem.reference_m.assign(kMaxSteps, start.position_m());
       problem.obstacles_m.resize(kMaxSteps);
       Pose pose = start;
-      const Maneuver* maneuver = edge.maneuver;
+      const automaton::Maneuver* maneuver = edge.maneuver;
       for (std::size_t step = 1; step < kMaxSteps; ++step) {
         for (const Point& corner_m : maneuver->swept_area_m.vertices_m) {
           const Point inner_m = transformed(Point(0.999 * corner_m), pose);
@@ -204,8 +204,8 @@ TEST_P(BranchAndBoundCollision, SeesAnObstacleAtTheEdgeOfWhatCanBeReached) {
 }
 
 TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   std::array<std::size_t, 2> answers{};
@@ -233,7 +233,7 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
       check.prepare(problem);
       engine.prepare(problem);
       const Frame start = to_frame(problem.start);
-      for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+      for (const automaton::Edge& edge : subgraph.successors(problem.start_trim)) {
         const bool is_free = check.is_free(*edge.maneuver, 1, start);
         ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free)
             << corners << " corners, seed " << seed;
@@ -247,8 +247,8 @@ TEST_P(BranchAndBoundCollision, ObstaclesMayHaveAnyNumberOfCorners) {
 
 // Equal obstacles in a row are one; these share two corners of three.
 TEST_P(BranchAndBoundCollision, ObstaclesThatBeginAlikeAreTwo) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   HorizonProblem problem;
   problem.start_trim = subgraph.standstill();
@@ -260,8 +260,8 @@ TEST_P(BranchAndBoundCollision, ObstaclesThatBeginAlikeAreTwo) {
   const ConvexPolygon across{{first, second, Point{0.3, -0.3}}};
   problem.obstacles_m[0] = {beside, beside};
   engine.prepare(problem);
-  const Maneuver& standing =
-      *subgraph.automaton().find(subgraph.standstill(), subgraph.standstill(), kSelfLoopLabel);
+  const automaton::Maneuver& standing = *subgraph.automaton().find(
+      subgraph.standstill(), subgraph.standstill(), automaton::kSelfLoopLabel);
   EXPECT_TRUE(engine.is_free(standing, 1, to_frame(Pose{})));
   problem.obstacles_m[0] = {beside, across};
   engine.prepare(problem);
@@ -270,8 +270,8 @@ TEST_P(BranchAndBoundCollision, ObstaclesThatBeginAlikeAreTwo) {
 
 // A tolerance that large reaches where the padding of obstacles stands.
 TEST_P(BranchAndBoundCollision, AnObstacleOfAnySizeIsTheOnlyOneThatIsLookedAt) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   for (const double size_m : {1e3, 1e9, 1e15, 1e21, 1e27, 1e300}) {
     BranchAndBound engine(subgraph, reachable, {}, GetParam());  // with no memory of others
@@ -282,7 +282,7 @@ TEST_P(BranchAndBoundCollision, AnObstacleOfAnySizeIsTheOnlyOneThatIsLookedAt) {
     problem.obstacles_m[0] = {{{Point{0.05, 0.0}, Point{size_m, 0.0}, Point{0.05, 1.0}}}};
     check.prepare(problem);
     engine.prepare(problem);
-    for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(problem.start_trim)) {
       ASSERT_EQ(engine.is_free(*edge.maneuver, 1, to_frame(Pose{})),
                 check.is_free(*edge.maneuver, 1, to_frame(Pose{})))
           << "size " << size_m;
@@ -292,12 +292,13 @@ TEST_P(BranchAndBoundCollision, AnObstacleOfAnySizeIsTheOnlyOneThatIsLookedAt) {
 
 // Its edges are too short to have directions; what it meets the exact test knows.
 TEST_P(BranchAndBoundCollision, AVehicleWithNextToNoSizeIsSeen) {
-  const auto automaton = std::make_shared<UniversalAutomaton>(*test::make_test_automaton());
-  for (Maneuver& maneuver : automaton->maneuvers) {
+  const auto automaton =
+      std::make_shared<automaton::UniversalAutomaton>(*test::make_test_automaton());
+  for (automaton::Maneuver& maneuver : automaton->maneuvers) {
     for (Point& corner_m : maneuver.swept_area_m.vertices_m) corner_m *= 1e-8;
   }
-  const Subgraph subgraph = test::make_test_subgraph(automaton, test::kAllTrims);
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph(automaton, test::kAllTrims);
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   HorizonProblem problem;
@@ -308,7 +309,7 @@ TEST_P(BranchAndBoundCollision, AVehicleWithNextToNoSizeIsSeen) {
       {{Point{-0.1, -0.1}, Point{0.1, -0.1}, Point{0.1, 0.1}, Point{-0.1, 0.1}}}};
   check.prepare(problem);
   engine.prepare(problem);
-  for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+  for (const automaton::Edge& edge : subgraph.successors(problem.start_trim)) {
     ASSERT_FALSE(check.is_free(*edge.maneuver, 1, to_frame(Pose{})));
     ASSERT_FALSE(engine.is_free(*edge.maneuver, 1, to_frame(Pose{})));
   }
@@ -316,12 +317,13 @@ TEST_P(BranchAndBoundCollision, AVehicleWithNextToNoSizeIsSeen) {
 
 // An obstacle around a vertex stops only areas that cover the vertex. Here they lie ahead of it.
 TEST_P(BranchAndBoundCollision, AnObstacleAroundAVertexIsNotMetByAreasBesideIt) {
-  const auto automaton = std::make_shared<UniversalAutomaton>(*test::make_test_automaton());
-  for (Maneuver& maneuver : automaton->maneuvers) {
+  const auto automaton =
+      std::make_shared<automaton::UniversalAutomaton>(*test::make_test_automaton());
+  for (automaton::Maneuver& maneuver : automaton->maneuvers) {
     for (Point& corner_m : maneuver.swept_area_m.vertices_m) corner_m += Point{0.3, 0.0};
   }
-  const Subgraph subgraph = test::make_test_subgraph(automaton, test::kAllTrims);
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph(automaton, test::kAllTrims);
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   std::array<std::size_t, 2> answers{};
@@ -340,7 +342,7 @@ TEST_P(BranchAndBoundCollision, AnObstacleAroundAVertexIsNotMetByAreasBesideIt) 
     problem.obstacles_m[0] = {convex_hull(std::move(corners_m))};
     check.prepare(problem);
     engine.prepare(problem);
-    for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(problem.start_trim)) {
       const bool is_free = check.is_free(*edge.maneuver, 1, to_frame(Pose{}));
       ASSERT_EQ(engine.is_free(*edge.maneuver, 1, to_frame(Pose{})), is_free) << "seed " << seed;
       ++answers[is_free ? 1 : 0];
@@ -353,8 +355,8 @@ TEST_P(BranchAndBoundCollision, AnObstacleAroundAVertexIsNotMetByAreasBesideIt) 
 // From a thousandth of a millimetre to kilometres, anywhere on a large map, with corners that come
 // twice: single precision must know where it is not sure.
 TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   CollisionCheck check(subgraph, reachable);
   BranchAndBound engine(subgraph, reachable, {}, GetParam());
   std::array<std::size_t, 2> answers{};
@@ -396,7 +398,7 @@ TEST_P(BranchAndBoundCollision, AgreesWithTheCollisionCheckAtAnyScale) {
     check.prepare(problem);
     engine.prepare(problem);
     const Frame start = to_frame(problem.start);
-    for (const Edge& edge : subgraph.successors(problem.start_trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(problem.start_trim)) {
       const bool is_free = check.is_free(*edge.maneuver, 1, start);
       ASSERT_EQ(engine.is_free(*edge.maneuver, 1, start), is_free) << "size " << size_m;
       ++answers[is_free ? 1 : 0];
@@ -412,4 +414,4 @@ INSTANTIATE_TEST_SUITE_P(AllKernels, BranchAndBoundCollision,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

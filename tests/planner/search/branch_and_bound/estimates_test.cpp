@@ -18,7 +18,7 @@
 // The bounds of BranchAndBound as its kernel sees them, compared with what the best path through
 // each child really costs.
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 using test::kAllTrims;
@@ -59,7 +59,7 @@ Point seen_from(const Pose& start, const Point& point_m) {
 
 /// Near the reference, all points in one place along an axis, or each anywhere; with obstacles and
 /// a boundary near the start, or without.
-HorizonProblem random_case(const Subgraph& subgraph, std::size_t horizon_steps,
+HorizonProblem random_case(const automaton::Subgraph& subgraph, std::size_t horizon_steps,
                            std::mt19937_64& random) {
   HorizonProblem problem = test::pick(random, 2) == 0
                                ? test::random_problem(subgraph, horizon_steps, random)
@@ -80,11 +80,13 @@ HorizonProblem random_case(const Subgraph& subgraph, std::size_t horizon_steps,
 }
 
 /// The best path that begins with `edge`, found by trying every path; infinite if there is none.
-double cost_through(const Edge& edge, const Subgraph& subgraph, const HorizonProblem& problem) {
-  const UniversalAutomaton& automaton = subgraph.automaton();
+double cost_through(const automaton::Edge& edge, const automaton::Subgraph& subgraph,
+                    const HorizonProblem& problem) {
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
   const bool is_forbidden =
       problem.avoids_steering_limit &&
-      is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle, automaton.identified);
+      automaton::is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
+                                      automaton.identified);
   if (is_forbidden || !test::is_free(*edge.maneuver, problem.start, 1, problem)) {
     return std::numeric_limits<double>::infinity();
   }
@@ -101,9 +103,9 @@ double cost_through(const Edge& edge, const Subgraph& subgraph, const HorizonPro
 
 class BranchAndBoundEstimates : public testing::TestWithParam<Case> {
  protected:
-  Subgraph subgraph_{
+  automaton::Subgraph subgraph_{
       test::make_test_subgraph(GetParam().labels, GetParam().trims, GetParam().max_speed_mps)};
-  ReachableSets reachable_{subgraph_, kMaxSteps};
+  automaton::ReachableSets reachable_{subgraph_, kMaxSteps};
   BranchAndBound engine_{subgraph_, reachable_, {}};
 };
 
@@ -126,7 +128,7 @@ TEST_P(BranchAndBoundEstimates, AreNoMoreThanTheBestPathThroughEachChildCosts) {
 
 // A controller has tables for one step more than a replay of its decisions.
 TEST_P(BranchAndBoundEstimates, AreTheSameWhateverNumberOfStepsThereAreTablesFor) {
-  const ReachableSets longer(subgraph_, kMaxSteps + 1);
+  const automaton::ReachableSets longer(subgraph_, kMaxSteps + 1);
   BranchAndBound other(subgraph_, longer, {});
   for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
     std::mt19937_64 random(seed);
@@ -223,12 +225,12 @@ INSTANTIATE_TEST_SUITE_P(Automata, BranchAndBoundEstimates,
 // place and interval to whole numbers (two units) and in single precision (1e-5 m, and 2^-17 of the
 // distance).
 TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
-  const Subgraph subgraph = test::make_test_subgraph();
-  const ReachableSets reachable(subgraph, 2);
+  const automaton::Subgraph subgraph = test::make_test_subgraph();
+  const automaton::ReachableSets reachable(subgraph, 2);
   BranchAndBound engine(subgraph, reachable, {});
   double longest_m = 0.0;
   for (const TrimId trim : subgraph.trims()) {
-    for (const Edge& edge : subgraph.successors(trim)) {
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
       longest_m = std::max(longest_m, edge.maneuver->displacement.position_m().norm());
     }
   }
@@ -242,9 +244,9 @@ TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
     problem.start_trim = test::random_trim(subgraph, random);
     const auto edges = subgraph.successors(problem.start_trim);
     const std::size_t i = test::pick(random, edges.size());
-    const Maneuver* const last = subgraph.automaton().find(
+    const automaton::Maneuver* const last = subgraph.automaton().find(
         edges[i].to, subgraph.standstill(),
-        edges[i].to == subgraph.standstill() ? kSelfLoopLabel : test::kTestLabel);
+        edges[i].to == subgraph.standstill() ? automaton::kSelfLoopLabel : test::kTestLabel);
     ASSERT_NE(last, nullptr);
     const Pose seen = compose(edges[i].maneuver->displacement, last->displacement);
     const double distance_m = std::pow(10.0, test::uniform(random, -3.0, 2.6));
@@ -262,8 +264,8 @@ TEST(BranchAndBoundEstimate, IsTheCostWhereAChildHasOnePlaceToStop) {
 
 // The second row of projections begins at horizon 10.
 TEST(BranchAndBoundEstimate, IsTheSameToTheLastBitInAllKernels) {
-  const Subgraph subgraph = test::make_test_subgraph({kSlow, kFast}, kAllTrims);
-  const ReachableSets reachable(subgraph, kMaxSteps);
+  const automaton::Subgraph subgraph = test::make_test_subgraph({kSlow, kFast}, kAllTrims);
+  const automaton::ReachableSets reachable(subgraph, kMaxSteps);
   BranchAndBound best(subgraph, reachable, {});
   using Instructions = BranchAndBound::Instructions;
   BranchAndBound avx2(subgraph, reachable, {}, Instructions::kAvx2);
@@ -288,4 +290,4 @@ TEST(BranchAndBoundEstimate, IsTheSameToTheLastBitInAllKernels) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

@@ -15,21 +15,21 @@
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 constexpr std::size_t kSteps = 5;
 
 class OmplControlTest : public testing::Test {
  protected:
-  Subgraph subgraph_{test::make_test_subgraph()};
-  ReachableSets reachable_{subgraph_, kSteps};
+  automaton::Subgraph subgraph_{test::make_test_subgraph()};
+  automaton::ReachableSets reachable_{subgraph_, kSteps};
 };
 
 /// What the path of controls means for the automaton: that each of its steps is an edge that a
 /// plan may take and that is free.
 void expect_plan(const oc::PathControl& path, const HorizonProblem& problem,
-                 const Subgraph& subgraph, const ReachableSets& reachable) {
+                 const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable) {
   CollisionCheck collision(subgraph, reachable);
   collision.prepare(problem);
   ASSERT_EQ(path.getStateCount(), problem.horizon_steps() + 1);
@@ -39,7 +39,8 @@ void expect_plan(const oc::PathControl& path, const HorizonProblem& problem,
     EXPECT_EQ(from.step, j);
     EXPECT_EQ(to.step, j + 1);
     bool is_edge = false;
-    for (const Edge& edge : subgraph.successors(from.trim, problem.horizon_steps() - from.step)) {
+    for (const automaton::Edge& edge :
+         subgraph.successors(from.trim, problem.horizon_steps() - from.step)) {
       const Pose end = compose(from.pose, edge.maneuver->displacement);
       is_edge = is_edge ||
                 (edge.to == to.trim && (end.position_m() - to.pose.position_m()).norm() < 1e-9 &&
@@ -132,4 +133,4 @@ TEST_F(OmplControlTest, AnEdgeIntoAnObstacleAndAStepBeyondTheHorizonLeadToNoVali
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

@@ -9,7 +9,7 @@
 #include "tests/support/simple_problem.hpp"
 #include "tests/support/test_automaton.hpp"
 
-namespace hlc {
+namespace hlc::search {
 
 static void PrintTo(Engine engine, std::ostream* out) {
   *out << (engine == Engine::kBranchAndBound ? "BranchAndBound" : "BestFirst");
@@ -31,8 +31,8 @@ class OmplEngineTest : public testing::TestWithParam<Engine> {
     return engine(options);
   }
 
-  Subgraph subgraph_{test::make_test_subgraph()};
-  ReachableSets reachable_{subgraph_, kMaxSteps};
+  automaton::Subgraph subgraph_{test::make_test_subgraph()};
+  automaton::ReachableSets reachable_{subgraph_, kMaxSteps};
 };
 
 void expect_same(const SearchResult& one, const SearchResult& other) {
@@ -73,4 +73,4 @@ INSTANTIATE_TEST_SUITE_P(Engines, OmplEngineTest,
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search

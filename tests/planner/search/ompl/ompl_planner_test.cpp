@@ -16,7 +16,7 @@
 
 namespace ob = ompl::base;
 
-namespace hlc {
+namespace hlc::search {
 namespace {
 
 constexpr std::size_t kMaxSteps = 8;
@@ -42,8 +42,8 @@ class OmplPlannerTest : public testing::Test {
     return std::make_shared<HorizonProblemDefinition>(si_, subgraph_, problem);
   }
 
-  Subgraph subgraph_{test::make_test_subgraph()};
-  ReachableSets reachable_{subgraph_, kMaxSteps};
+  automaton::Subgraph subgraph_{test::make_test_subgraph()};
+  automaton::ReachableSets reachable_{subgraph_, kMaxSteps};
   ob::SpaceInformationPtr si_{make_space_information(subgraph_, kMaxSteps)};
 };
 
@@ -344,4 +344,4 @@ TEST_F(OmplPlannerTest, OmplIsSilent) {
 }
 
 }  // namespace
-}  // namespace hlc
+}  // namespace hlc::search
