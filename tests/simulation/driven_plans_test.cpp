@@ -25,7 +25,7 @@ class Driven : public testing::Test {
     publish(vehicle, step);
     agreed_m_[vehicle] = x_m;
     driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
-    driven_.commanded(command(vehicle, step));
+    driven_.commanded(command(vehicle, step), step * kDrivenPeriod + 1);
     const coordination::Plan plan({step}, {.x_m = x_m}, standstill_);
     driven_.reported(
         {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);

@@ -10,14 +10,21 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, copy included
+/// More than the pause between a command and its copy.
+constexpr Nanoseconds kCopyPause = 10 * kNanosecondsPerMillisecond;
 
 }  // namespace
 
-void DrivenPlans::commanded(const TrajectoryCommand& command) {
+void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
   Car& car = cars_[{command.vehicle_id}];
   car.is_commanded_to_stand = command.points.empty();
-  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) return;  // the copy
-  car.sent.push_back({.create = command.create_stamp, .plan = nullptr});
+  const Nanoseconds usable_until = command.valid_after_stamp + kCommandLifetime;
+  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) {  // the copy
+    car.sent.back().usable_until = usable_until;
+    return;
+  }
+  car.sent.push_back(
+      {.create = command.create_stamp, .at = at, .usable_until = usable_until, .plan = nullptr});
   if (car.sent.size() > kKeptCommands) car.sent.pop_front();
 }
 
@@ -69,13 +76,26 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
       report.status == coordination::StepStatus::kStandby) {
     car.is_mistaken = false;
   }
-  if (report.reason == coordination::FallbackReason::kDeviation && car.changed_over_late != 0 &&
-      report.step.value * period_ <= car.changed_over_late + 2 * period_) {
-    car.out_of_reach_until = report.step.value * period_ + kAfterwards;
-  }
+  note_sight(car, report);
   for (Sent& sent : car.sent) {
     if (!sent.plan) sent.plan = car.agreed;
   }
+}
+
+/// What the controller sees after the vehicle has changed over late.
+void DrivenPlans::note_sight(Car& car, const coordination::Report& report) const {
+  const Nanoseconds at = report.step.value * period_;
+  if (at <= car.changed_over_late) return;
+  if (report.reason == coordination::FallbackReason::kDeviation && car.changed_over_late != 0 &&
+      (car.is_unseen_since || at <= car.changed_over_late + 2 * period_)) {
+    car.out_of_reach_until = at + kAfterwards;
+  }
+  car.is_unseen_since = false;
+}
+
+void DrivenPlans::note_late_change(Car& car, Nanoseconds tick) {
+  car.changed_over_late = tick;
+  car.is_unseen_since = true;
 }
 
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
@@ -124,7 +144,29 @@ bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
   if (car.follows != 0 || car.is_commanded_to_stand || !newest || !newest->areas) return false;
   const bool has_run_out =
       tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
-  return !has_run_out && tick >= car.newest_valid + kCommandLifetime;
+  return !has_run_out && tick >= car.usable_until;
+}
+
+bool DrivenPlans::has_all_that_was_sent(const Car& car) {
+  const Sent& newest = car.sent.back();
+  const bool has_copy = newest.usable_until > newest.create + kCommandLifetime;
+  const bool was_stopped_before_copy = !has_copy && car.controller_stopped >= newest.at &&
+                                       car.controller_stopped <= newest.at + kCopyPause;
+  return newest.create == car.newest_valid && newest.usable_until <= car.usable_until &&
+         !was_stopped_before_copy;
+}
+
+void DrivenPlans::judge_drop(VehicleId vehicle, Car& car, Nanoseconds tick,
+                             Violations& violations) {
+  if (!has_dropped_plan(car, tick)) return;
+  if (!has_all_that_was_sent(car)) {
+    car.out_of_reach_until = tick + kAfterwards;
+  } else if (!is_out_of_reach(vehicle, tick) && disobeyed_.insert(vehicle).second) {
+    violations.push_back({.at = tick,
+                          .check = "commands",
+                          .text = "vehicle " + std::to_string(vehicle.value) +
+                                  " drops its plan, and its controller has sent nothing more"});
+  }
 }
 
 bool DrivenPlans::is_out_of_reach(VehicleId vehicle, Nanoseconds at) const {
@@ -143,19 +185,27 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   std::erase_if(car.received, [&](const std::pair<Nanoseconds, Nanoseconds>& command) {
     const auto& [valid_after, create] = command;
     if (valid_after > tick) return false;
+    if (create > car.newest_valid) car.usable_until = 0;
     car.newest_valid = std::max(car.newest_valid, create);
+    if (create == car.newest_valid) {
+      car.usable_until = std::max(car.usable_until, valid_after + kCommandLifetime);
+    }
     return true;
   });
   const bool changes = follows != car.follows;
   car.follows = follows;
   if (has_newest_plan(car)) car.is_mistaken = false;
   const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
-  if (is_lost || has_dropped_plan(car, tick)) car.out_of_reach_until = tick + kAfterwards;
+  if (is_lost) car.out_of_reach_until = tick + kAfterwards;
+  if (car.is_unseen_since && tick < car.changed_over_late + kAfterwards) {
+    car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
+  }
+  judge_drop(vehicle, car, tick, violations);
   judge_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
-  if (is_change_late(car, plan, tick)) car.changed_over_late = tick;
+  if (is_change_late(car, plan, tick)) note_late_change(car, tick);
   car.driven = plan;
   car.stands.reset();
   judge_pairs(vehicle, tick, violations);
@@ -166,7 +216,7 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
 bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanoseconds tick) {
   if (!car.driven || plan->is_anchored || tick < plan->begin + kVehiclePeriod) return false;
   return std::ranges::any_of(
-      car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.create < plan->begin; });
+      car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.at < plan->begin; });
 }
 
 void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,

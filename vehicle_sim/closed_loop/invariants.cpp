@@ -96,6 +96,14 @@ bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
   return !has_run_out && (plan.is_received || !is_silent);
 }
 
+/// A vehicle that stands elsewhere than its plan says: it has been anchored there, and may agree to
+/// a new plan in the same step.
+void PlansCheck::published(const coordination::Traffic& traffic) {
+  const auto found = in_force_.find(traffic.vehicle);
+  if (found == in_force_.end() || !traffic.running.areas_m.empty()) return;
+  if (traffic.running.final_area_m != found->second.areas.final_area_m) in_force_.erase(found);
+}
+
 void PlansCheck::reported(const coordination::Report& report, const coordination::Plan* in_force,
                           Nanoseconds at, Violations& violations) {
   const VehicleId vehicle = report.vehicle;

@@ -100,6 +100,7 @@ class PlansCheck {
   void predicted(const coordination::Prediction& prediction) {
     predicted_[prediction.vehicle] = prediction;
   }
+  void published(const coordination::Traffic& traffic);
   void reported(const coordination::Report& report, const coordination::Plan* in_force,
                 Nanoseconds at, Violations& violations);
   /// Whether the vehicle has received its plan in force.
