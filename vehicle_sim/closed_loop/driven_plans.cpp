@@ -29,7 +29,7 @@ void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
 }
 
 bool DrivenPlans::has_newest_plan(const Car& car) {
-  const AgreedPlan newest = plan_of(car, car.newest_valid);
+  const AgreedPlan newest = plan_of(car, car.received.newest());
   return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
 }
 
@@ -85,17 +85,12 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
 /// What the controller sees after the vehicle has changed over late.
 void DrivenPlans::note_sight(Car& car, const coordination::Report& report) const {
   const Nanoseconds at = report.step.value * period_;
-  if (at <= car.changed_over_late) return;
-  if (report.reason == coordination::FallbackReason::kDeviation && car.changed_over_late != 0 &&
-      (car.is_unseen_since || at <= car.changed_over_late + 2 * period_)) {
+  if (at <= car.late_change.at) return;
+  if (report.reason == coordination::FallbackReason::kDeviation && car.late_change.at != 0 &&
+      (car.late_change.is_unseen_since || at <= car.late_change.at + 2 * period_)) {
     car.out_of_reach_until = at + kAfterwards;
   }
-  car.is_unseen_since = false;
-}
-
-void DrivenPlans::note_late_change(Car& car, Nanoseconds tick) {
-  car.changed_over_late = tick;
-  car.is_unseen_since = true;
+  car.late_change.is_unseen_since = false;
 }
 
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
@@ -110,7 +105,7 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const coordinatio
   if (is_same(car.agreed)) return car.agreed;
   const auto found = std::ranges::find_if(car.sent, is_same, &Sent::plan);
   if (found != car.sent.end()) return found->plan;
-  const AgreedPlan received = plan_of(car, car.newest_valid);
+  const AgreedPlan received = plan_of(car, car.received.newest());
   Agreed anchored{.number = received ? received->number : car.num_agreed,
                   .end = in_force.end(),
                   .last_pose = last_pose,
@@ -123,7 +118,7 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const coordinatio
 
 void DrivenPlans::received(const TrajectoryCommand& command) {
   Car& car = cars_[{command.vehicle_id}];
-  car.received.emplace_back(command.valid_after_stamp, command.create_stamp);
+  car.received.add(command);
 }
 
 void DrivenPlans::died(VehicleId vehicle, Nanoseconds at) {
@@ -131,7 +126,7 @@ void DrivenPlans::died(VehicleId vehicle, Nanoseconds at) {
   car.out_of_reach_until = at + kAfterwards;
   car.driven = nullptr;
   car.follows = 0;
-  car.received.clear();
+  car.received.drop_waiting();
 }
 
 DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create) {
@@ -140,11 +135,11 @@ DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create)
 }
 
 bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
-  const AgreedPlan newest = plan_of(car, car.newest_valid);
+  const AgreedPlan newest = plan_of(car, car.received.newest());
   if (car.follows != 0 || car.is_commanded_to_stand || !newest || !newest->areas) return false;
   const bool has_run_out =
       tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
-  return !has_run_out && tick >= car.usable_until;
+  return !has_run_out && tick >= car.received.usable_until();
 }
 
 bool DrivenPlans::has_all_that_was_sent(const Car& car) {
@@ -152,8 +147,8 @@ bool DrivenPlans::has_all_that_was_sent(const Car& car) {
   const bool has_copy = newest.usable_until > newest.create + kCommandLifetime;
   const bool was_stopped_before_copy = !has_copy && car.controller_stopped >= newest.at &&
                                        car.controller_stopped <= newest.at + kCopyPause;
-  return newest.create == car.newest_valid && newest.usable_until <= car.usable_until &&
-         !was_stopped_before_copy;
+  return newest.create == car.received.newest() &&
+         newest.usable_until <= car.received.usable_until() && !was_stopped_before_copy;
 }
 
 void DrivenPlans::judge_drop(VehicleId vehicle, Car& car, Nanoseconds tick,
@@ -182,22 +177,13 @@ bool DrivenPlans::is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick)
 void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows,
                          Violations& violations) {
   Car& car = cars_[vehicle];
-  std::erase_if(car.received, [&](const std::pair<Nanoseconds, Nanoseconds>& command) {
-    const auto& [valid_after, create] = command;
-    if (valid_after > tick) return false;
-    if (create > car.newest_valid) car.usable_until = 0;
-    car.newest_valid = std::max(car.newest_valid, create);
-    if (create == car.newest_valid) {
-      car.usable_until = std::max(car.usable_until, valid_after + kCommandLifetime);
-    }
-    return true;
-  });
+  car.received.take_valid(tick);
   const bool changes = follows != car.follows;
   car.follows = follows;
   if (has_newest_plan(car)) car.is_mistaken = false;
   const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
   if (is_lost) car.out_of_reach_until = tick + kAfterwards;
-  if (car.is_unseen_since && tick < car.changed_over_late + kAfterwards) {
+  if (car.late_change.is_unseen_since && tick < car.late_change.at + kAfterwards) {
     car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
   }
   judge_drop(vehicle, car, tick, violations);
@@ -205,7 +191,7 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
-  if (is_change_late(car, plan, tick)) note_late_change(car, tick);
+  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick, .is_unseen_since = true};
   car.driven = plan;
   car.stands.reset();
   judge_pairs(vehicle, tick, violations);
@@ -222,7 +208,7 @@ bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanosec
 void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
                               Violations& violations) {
   if (car.follows == 0) return;
-  if (car.follows >= car.newest_valid || !disobeyed_.insert(vehicle).second) return;
+  if (car.follows >= car.received.newest() || !disobeyed_.insert(vehicle).second) return;
   violations.push_back({.at = tick,
                         .check = "commands",
                         .text = "vehicle " + std::to_string(vehicle.value) +

@@ -13,6 +13,7 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/plan.hpp"
 #include "planner/coordination/report.hpp"
+#include "vehicle_sim/closed_loop/received_commands.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
 
 namespace hlc::closed_loop {
@@ -88,6 +89,10 @@ class DrivenPlans {
     Nanoseconds usable_until{};  ///< with its copy, if that has been sent
     AgreedPlan plan;
   };
+  struct LateChange {
+    Nanoseconds at{};        ///< tick of the last one; 0: none
+    bool is_unseen_since{};  ///< the controller has made no step since then
+  };
   struct Car {
     std::optional<coordination::Prediction> predicted;
     std::optional<coordination::OccupiedAreas> announced;  ///< in its last traffic
@@ -98,15 +103,11 @@ class DrivenPlans {
     bool is_mistaken{};
     std::deque<Sent> sent;  ///< the newest last
     bool is_commanded_to_stand{};
-    /// Valid from, create; not yet valid
-    std::vector<std::pair<Nanoseconds, Nanoseconds>> received;
-    Nanoseconds newest_valid{};  ///< create, of those received
-    Nanoseconds usable_until{};  ///< of that one
+    ReceivedCommands received;
     Nanoseconds controller_stopped{};
     Nanoseconds follows{};
     AgreedPlan driven;
-    Nanoseconds changed_over_late{};  ///< the last time
-    bool is_unseen_since{};           ///< its controller has made no step since then
+    LateChange late_change;
     Nanoseconds out_of_reach_until{};
   };
 
@@ -117,7 +118,6 @@ class DrivenPlans {
                                             const coordination::Plan& in_force);
   [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
                                            Nanoseconds tick);
-  static void note_late_change(Car& car, Nanoseconds tick);
   void note_sight(Car& car, const coordination::Report& report) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] static bool has_all_that_was_sent(const Car& car);
