@@ -23,8 +23,8 @@ constexpr Nanoseconds kLastFaultOnCircle = 7 * kNanosecondsPerSecond;
 constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
 
 FaultStyle any_style(SeededRandom& random) {
-  constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst, FaultStyle::kLossy,
-                               FaultStyle::kRestart, FaultStyle::kBorder};
+  constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst,  FaultStyle::kLossy,
+                               FaultStyle::kRestart,   FaultStyle::kBorder, FaultStyle::kDeaf};
   return kStyles[random.below(kStyles.size())];
 }
 
