@@ -19,7 +19,7 @@ void ControlStep::begin(const VehicleStateList& list, const controller::Observat
                         const Instant& now, HlcActions& actions) {
   list_ = {.t_now = list.t_now, .period_ms = list.period_ms};
   record_ = {};
-  is_warm_ = false;
+  is_warm_ = !warms_up_;
   phase_ends_ = now.wall + kMessageTimeout;
   num_awaited_ = 0;
   actions.add(*loop_.begin(observation).traffic);

@@ -41,7 +41,7 @@ HlcMachine::HlcMachine(const HlcSettings& settings,
       core_(std::move(controller)),
       life_(core_.controller().options().vehicle, rules_, settings.startup_timeout),
       start_(core_.controller().options().vehicle, rules_.start, step_ns(core_.controller())),
-      step_(core_.controller(), rules_.deadlines, cpu_time_),
+      step_(core_.controller(), rules_, cpu_time_),
       copies_(rules_.copy),
       subgraphs_(core_.controller(), settings.reconfiguration) {
   check_plan_fits_commands(core_.controller());

@@ -59,6 +59,8 @@ struct HlcRules {
   Nanoseconds duplicate_patience{};
   Nanoseconds middleware_patience{};   ///< for a middleware that is lost; 0: none
   Nanoseconds preparation_patience{};  ///< of a step for requested subgraphs; 0: none
+  /// While it waits for the others' traffic it warms up (Controller::warm_up): for speed only.
+  bool warms_up{true};
 };
 
 /// @param keeps_commands  the middleware keeps all commands until it reads them (loopback); false:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -95,7 +96,18 @@ void print_failure(const FaultCampaign& campaign, std::uint64_t seed, const std:
              kept);
 }
 
+thread_local std::uint64_t seed_at_work = 0;
+
+/// An assertion of the code under test failed, in the thread that runs this seed.
+void report_abort(int /*signal*/) {
+  char text[64];
+  const int size = std::snprintf(text, sizeof text, "seed %llu fails: abort: --replay it\n",
+                                 static_cast<unsigned long long>(seed_at_work));
+  if (write(STDOUT_FILENO, text, static_cast<std::size_t>(size)) < 0) return;
+}
+
 int campaign(const Choices& choices, const std::string& flags) {
+  static_cast<void>(std::signal(SIGABRT, report_abort));
   const FaultCampaign campaign(choices.campaign);
   hlc::closed_loop::FaultTotals totals;
   std::vector<std::uint64_t> failed;
@@ -107,6 +119,7 @@ int campaign(const Choices& choices, const std::string& flags) {
         choices.runs, choices.jobs,
         [&](std::size_t i) {
           const std::uint64_t seed = choices.seed + i;
+          seed_at_work = seed;
           FaultRunResult result = campaign.run(campaign.draw(seed));
           // Some seeds run twice: the same seed must give the same hash.
           if (i % kTwice == 0 && campaign.run(campaign.draw(seed)).hash != result.hash) {
