@@ -84,7 +84,7 @@ TEST(FoundFault, Seed101734AVehicleThatChangesOverLateIsOutOfReach) {
   EXPECT_GT(result.unreachable, 0U);
 }
 
-/// A vehicle that stands beside its plan is anchored there and plans anew in the same step. The
+/// A vehicle that stands beside its plan is anchored there and plans again in the same step. The
 /// others keep clear of where it stands, not of where it was to stand.
 TEST(FoundFault, Seed101508AVehicleThatStandsBesideItsPlanIsWhereItsControllerSays) {
   run(circle(7), {.seed = 101508, .transport = Transport::kLab},

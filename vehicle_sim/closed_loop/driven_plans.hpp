@@ -21,7 +21,7 @@ namespace hlc::closed_loop {
 /// Which plan each vehicle truly drives: the one whose command it follows. What is judged:
 ///
 /// * **driven**: whenever a vehicle changes over to another agreed plan, it is free of what the
-///   others drive from then on, until both stand. A plan that is anchored anew where a vehicle
+///   others drive from then on, until both stand. A plan that is re-anchored where a vehicle
 ///   stands has been agreed by nobody: of that the footprints are judged. Once the plan of a
 ///   vehicle has run out, the vehicle stands where its controller announces.
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid; and

@@ -24,7 +24,7 @@ constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
 
 FaultStyle any_style(SeededRandom& random) {
   constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst,  FaultStyle::kLossy,
-                               FaultStyle::kRestart,   FaultStyle::kBorder, FaultStyle::kDeaf};
+                               FaultStyle::kRestart,   FaultStyle::kBorder, FaultStyle::kSilence};
   return kStyles[random.below(kStyles.size())];
 }
 

@@ -96,7 +96,7 @@ bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
   return !has_run_out && (plan.is_received || !is_silent);
 }
 
-/// A vehicle that stands elsewhere than its plan says: it has been anchored there, and may agree to
+/// A vehicle that stands elsewhere than in its plan: it has been anchored there, and may agree to
 /// a new plan in the same step.
 void PlansCheck::published(const coordination::Traffic& traffic) {
   const auto found = in_force_.find(traffic.vehicle);
