@@ -20,7 +20,7 @@ scenario::Scenario circle(std::size_t cars) {
 scenario::Scenario paper(std::size_t cars, std::uint64_t starts) {
   const std::string file =
       test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
-  return scenario::with_random_starts(crowded(scenario::read_scenario({.file = file}), cars),
+  return scenario::with_random_starts(with_cars(scenario::read_scenario({.file = file}), cars),
                                       starts);
 }
 

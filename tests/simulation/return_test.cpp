@@ -37,8 +37,13 @@ class Return {
   /// all have noticed, restarts the process, and waits until the car has driven on.
   /// @param noticed  the controller logs it, beside the lab control
   void kill_and_start_again(const std::string& process, const std::string& noticed = "") {
-    ASSERT_TRUE(
-        run.comes_to([&] { return test::planned_steps(run.reports(), kVictim) >= 20; }, kPatience));
+    // Without the copy of its last command the car would drop its plan.
+    ASSERT_TRUE(run.comes_to(
+        [&] {
+          return test::planned_steps(run.reports(), kVictim) >= 20 &&
+                 test::is_newest_sent_whole(run.commands(), kVictim.value);
+        },
+        kPatience));
     run.kill(process);
     killed = run.now();
     ASSERT_TRUE(run.comes_to(
