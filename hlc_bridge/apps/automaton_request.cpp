@@ -227,11 +227,9 @@ class Asker {
   /// Controllers that are matched in both directions. Without --vehicle: all that are matched one
   /// second after the first one.
   bool find_controllers() {
-    const auto is_matched = [this](int id) {
-      const std::string name = hlc::controller_name(static_cast<std::uint8_t>(id));
-      return writer_.matched_names().contains(name) && reader_.matched_names().contains(name);
+    const auto all_matched = [this] {
+      return stop_ || std::ranges::all_of(asked_, [this](int id) { return is_matched(id); });
     };
-    const auto all_matched = [&] { return stop_ || std::ranges::all_of(asked_, is_matched); };
     const auto any_matched = [&] { return stop_ || writer_.matched() > 0; };
     const auto deadline = Clock::now() + seconds(flags_.timeout_s);
     const bool is_open = asked_.empty();
@@ -245,6 +243,16 @@ class Asker {
       }
     }
     if (found && !asked_.empty()) return true;
+    report_missing();
+    return false;
+  }
+
+  [[nodiscard]] bool is_matched(int id) const {
+    const std::string name = hlc::controller_name(static_cast<std::uint8_t>(id));
+    return writer_.matched_names().contains(name) && reader_.matched_names().contains(name);
+  }
+
+  void report_missing() const {
     std::vector<std::string> missing;
     for (const int id : asked_) {
       if (!is_matched(id)) missing.push_back(hlc::controller_name(static_cast<std::uint8_t>(id)));
@@ -253,7 +261,6 @@ class Asker {
     std::cerr << fmt::format(
         "automaton_request: missing on domain {}: {} (see --dds_domain and --transport)\n",
         participant_.options().domain_id, fmt::join(missing, ", "));
-    return false;
   }
 
   void ask() {

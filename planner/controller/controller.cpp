@@ -33,7 +33,7 @@ bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
 
 }  // namespace
 
-Controller::Controller(ControllerOptions options,
+Controller::Controller(const ControllerOptions& options,
                        std::shared_ptr<const automaton::Subgraph> subgraph,
                        std::vector<road::DrivableRoute> routes)
     : Controller(options,

@@ -47,7 +47,7 @@ class Controller {
  public:
   /// @param routes  the permitted ones, at least one
   /// @throws std::invalid_argument as prepare_subgraph and make_search_engine
-  Controller(ControllerOptions options, std::shared_ptr<const automaton::Subgraph> subgraph,
+  Controller(const ControllerOptions& options, std::shared_ptr<const automaton::Subgraph> subgraph,
              std::vector<road::DrivableRoute> routes);
   /// The same on a subgraph that was prepared for this horizon and search.
   Controller(ControllerOptions options, PreparedSubgraph on,

@@ -28,7 +28,7 @@ Cost make_j3(const vehicle::VehicleParameters& /*vehicle*/) {
       {0.5, std::make_shared<Distance>()}, {0.5, std::make_shared<Effort>()}});
 }
 
-const std::array<Criterion, 7> kCriteria{{
+const auto kCriteria = std::to_array<Criterion>({
     {"J1", [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<Distance>(); }},
     {"J2", [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<Effort>(); }},
     {"J3", make_j3},
@@ -42,7 +42,7 @@ const std::array<Criterion, 7> kCriteria{{
      }},
     {"travel_time",
      [](const vehicle::VehicleParameters&) -> Cost { return std::make_unique<TravelTime>(); }},
-}};
+});
 
 }  // namespace
 

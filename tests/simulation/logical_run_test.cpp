@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <set>
 
@@ -85,6 +87,18 @@ std::vector<std::tuple<std::uint8_t, std::uint64_t, coordination::StepStatus>> s
   return steps;
 }
 
+/// Standby before step `first`, a new plan in each of the others before step `end`.
+std::vector<std::tuple<std::uint8_t, std::uint64_t, coordination::StepStatus>> steps_of(
+    std::uint8_t id, std::uint64_t first, std::uint64_t end) {
+  std::vector<std::tuple<std::uint8_t, std::uint64_t, coordination::StepStatus>> steps;
+  for (std::uint64_t step = 0; step < end; ++step) {
+    steps.emplace_back(
+        id, step,
+        step < first ? coordination::StepStatus::kStandby : coordination::StepStatus::kPlanned);
+  }
+  return steps;
+}
+
 // Steps 6 ... 15 after standby, one period more, and a second of braking.
 TEST(LogicalRun, ReleasesEveryTickInOrderWhateverTheOrderOfEvents) {
   constexpr std::uint64_t kSteps = 10;
@@ -108,11 +122,7 @@ TEST(LogicalRun, ReleasesEveryTickInOrderWhateverTheOrderOfEvents) {
       std::vector<Nanoseconds> ticks;
       for (const result::DrivenSample& sample : drive) ticks.push_back(sample.t);
       EXPECT_EQ(ticks, expected) << "vehicle " << int{id};
-      for (std::uint64_t step = 0; step < kEnd; ++step) {
-        steps.emplace_back(id, step,
-                           step < kFirst ? coordination::StepStatus::kStandby
-                                         : coordination::StepStatus::kPlanned);
-      }
+      std::ranges::copy(steps_of(id, kFirst, kEnd), std::back_inserter(steps));
     }
     EXPECT_EQ(steps_of(one.run), steps);
   }

@@ -77,7 +77,7 @@ int replay(const Choices& choices) {
       });
   print_violations(result);
   if (file.is_open() && !file.flush()) {
-    throw std::runtime_error(choices.trace.string() + ": cannot be written");
+    throw std::invalid_argument("--trace = " + choices.trace.string() + ", cannot be written");
   }
   std::printf("hash %016llx, %llu car-steps, %zu violations\n",
               static_cast<unsigned long long>(result.hash),

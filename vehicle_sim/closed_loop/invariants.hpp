@@ -135,8 +135,8 @@ class ReasonsCheck {
   /// One tick of a vehicle.
   void driven(const std::string& vehicle, bool follows, Nanoseconds at);
   void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
-  /// To be called between two iterations, so that lines of an iteration are known when its ticks are
-  /// checked.
+  /// To be called between two iterations, so that lines of an iteration are known when its ticks
+  /// are checked.
   void check(Nanoseconds at, Violations& violations);
 
  private:

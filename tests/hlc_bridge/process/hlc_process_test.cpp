@@ -33,15 +33,15 @@ constexpr Nanoseconds kPeriod = 200'000'000;
 constexpr std::chrono::milliseconds kBetweenLists{50};
 
 const scenario::Scenario& red_alone() {
-  static const scenario::Scenario scenario = scenario::read_scenario(
+  static const scenario::Scenario kScenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
-  return scenario;
+  return kScenario;
 }
 
 const Pose& start_pose() {
-  static const Pose pose =
+  static const Pose kPose =
       scenario::measured_start(red_alone(), scenario::vehicle_of(red_alone(), {1}));
-  return pose;
+  return kPose;
 }
 
 /// A list of now, of vehicle 1 standing at its start.
