@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
@@ -170,7 +172,14 @@ TEST(LastingFault, OfAVehicleHurtsNobodyAndIsNamed) {
 
 TEST(LastingFault, OfTheLabControlLetsAllStandBeforeTheyLeave) {
   FaultyRun one("paper_three_cars", Transport::kLoopback, 1);
-  ASSERT_TRUE(one.drives_near_another({2}));
+  ASSERT_TRUE(one.run.comes_to(
+      [&] {
+        return one.run.drives().size() == 3 &&
+               std::ranges::all_of(one.run.drives(), [](const auto& drive) {
+                 return drive.second.back().speed_mps > 0.5;
+               });
+      },
+      kPatience));
   one.strike(kLabControlName, true);
   EXPECT_TRUE(one.run.comes_to([&] { return one.run.have_all_ended(kLabControlName); }, kPatience));
   EXPECT_THAT(one.run.exit_codes(), testing::Each(testing::Pair(testing::_, kExitDied)));
